@@ -1,0 +1,9 @@
+"""The errors that a user can cause."""
+
+
+class PlannerError(Exception):
+    """One sentence that names the file, line, flag or value, and the way out. The command line exits with 2."""
+
+
+class GateError(PlannerError):
+    """A figure fell short of its threshold. The command line exits with 1."""

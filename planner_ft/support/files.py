@@ -1,0 +1,131 @@
+"""Reading and writing files: atomic writes, JSON Lines with line numbers in errors, digests."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import os
+import secrets
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import IO, Any
+
+from planner_ft.support.errors import PlannerError
+
+
+def compact_json(value: Any) -> str:
+    """JSON without spaces, keys in insertion order, no NaN: the form in which plans are trained and compared."""
+    return json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+
+
+@contextlib.contextmanager
+def atomic_writer(path: Path | str, mode: str = "w") -> Iterator[IO[Any]]:
+    """Open a temporary file beside `path` that replaces it when the block ends without an exception.
+
+    Raises PlannerError when the folder cannot be written or the disk is full; `path` is then as it was.
+    """
+    path = Path(path)
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.{secrets.token_hex(3)}.tmp")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with open(temporary, mode, encoding=None if "b" in mode else "utf-8") as stream:
+            yield stream
+            stream.flush()
+            os.fsync(stream.fileno())
+        os.replace(temporary, path)
+    except OSError as error:
+        raise PlannerError(f"{path}: cannot be written ({error.strerror or error}); choose another folder or free some space") from error
+    finally:
+        with contextlib.suppress(OSError):
+            temporary.unlink(missing_ok=True)
+
+
+def write_text(path: Path | str, text: str) -> None:
+    """Write `text` to `path` atomically."""
+    with atomic_writer(path) as stream:
+        stream.write(text)
+
+
+def write_json(path: Path | str, value: Any) -> None:
+    """Write `value` as indented JSON, atomically."""
+    write_text(path, json.dumps(value, ensure_ascii=False, indent=2, allow_nan=False) + "\n")
+
+
+def write_jsonl(path: Path | str, records: Iterable[Any]) -> None:
+    """Write one compact JSON object per line, atomically."""
+    with atomic_writer(path) as stream:
+        for record in records:
+            stream.write(compact_json(record) + "\n")
+
+
+def read_text(path: Path | str) -> str:
+    """The UTF-8 text of a file. Raises PlannerError when it is missing, unreadable or not UTF-8."""
+    path = Path(path)
+    try:
+        return path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise PlannerError(f"{path}: no such file") from None
+    except UnicodeDecodeError as error:
+        raise PlannerError(f"{path}: not UTF-8 text (byte {error.start}); convert it to UTF-8") from None
+    except OSError as error:
+        raise PlannerError(f"{path}: cannot be read ({error.strerror})") from None
+
+
+def read_json(path: Path | str) -> Any:
+    """The value of a JSON file. Raises PlannerError that names file, line and column when it does not parse."""
+    try:
+        return json.loads(read_text(path))
+    except json.JSONDecodeError as error:
+        raise PlannerError(f"{path}:{error.lineno}: not JSON ({error.msg} at column {error.colno})") from None
+
+
+def iterate_jsonl(path: Path | str) -> Iterator[tuple[int, Any | None, str | None]]:
+    """Yield (line number, value, None) or (line number, None, what is wrong) for every non-blank line.
+
+    Raises PlannerError when the file is missing, unreadable or not UTF-8.
+    """
+    # Split on "\n" alone: str.splitlines would also cut at U+2028, which JSON allows inside a string.
+    for number, line in enumerate(read_text(path).split("\n"), 1):
+        if not line.strip():
+            continue
+        try:
+            yield number, json.loads(line), None
+        except json.JSONDecodeError as error:
+            yield number, None, f"not JSON ({error.msg} at column {error.colno})"
+
+
+def read_jsonl(path: Path | str) -> list[dict[str, Any]]:
+    """The objects of a JSON Lines file. Raises PlannerError at the first bad line, or when there is no object."""
+    records = []
+    for number, value, problem in iterate_jsonl(path):
+        if problem is not None:
+            raise PlannerError(f"{path}:{number}: {problem}")
+        if not isinstance(value, dict):
+            raise PlannerError(f"{path}:{number}: a JSON object is expected, not {type(value).__name__}")
+        records.append(value)
+    if not records:
+        raise PlannerError(f"{path}: holds no records")
+    return records
+
+
+def sha256_file(path: Path | str) -> str:
+    """Hexadecimal SHA-256 of a file's bytes."""
+    try:
+        with open(path, "rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError as error:
+        raise PlannerError(f"{path}: cannot be read ({error.strerror})") from None
+
+
+def sha256_text(text: str) -> str:
+    """Hexadecimal SHA-256 of a text's UTF-8 bytes."""
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def sha256_tree(folder: Path | str, patterns: tuple[str, ...] = ("*",)) -> str:
+    """One SHA-256 over the names and bytes of the files directly in `folder` that match any of `patterns`."""
+    digest = hashlib.sha256()
+    for path in sorted({path for pattern in patterns for path in Path(folder).glob(pattern) if path.is_file()}):
+        digest.update(f"{path.name}\0{sha256_file(path)}\n".encode())
+    return digest.hexdigest()

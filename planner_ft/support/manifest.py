@@ -1,0 +1,79 @@
+"""The run manifest: what a result depended on (schemas/manifest.schema.json)."""
+
+from __future__ import annotations
+
+import functools
+import importlib.metadata
+import os
+import platform
+import subprocess
+import sys
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import planner_ft
+from planner_ft.support.files import sha256_file
+
+LIBRARIES = ("torch", "transformers", "peft", "bitsandbytes", "accelerate", "datasets", "tokenizers", "safetensors", "jsonschema")
+
+
+def library_versions() -> dict[str, str | None]:
+    """Installed versions of the libraries that results depend on, without importing them."""
+    versions: dict[str, str | None] = {}
+    for name in LIBRARIES:
+        try:
+            versions[name] = importlib.metadata.version(name)
+        except importlib.metadata.PackageNotFoundError:
+            versions[name] = None
+    return versions
+
+
+@functools.cache
+def source_commit() -> dict[str, Any]:
+    """Commit of the source tree that the package runs from and whether it has uncommitted changes; None when installed."""
+    root = Path(planner_ft.__file__).resolve().parent.parent
+    if not (root / ".git").exists():
+        return {"commit": None, "dirty": None}
+
+    def git(*arguments: str) -> str:
+        return subprocess.run(["git", "-C", str(root), *arguments], capture_output=True, text=True, check=True).stdout.strip()
+
+    try:
+        return {"commit": git("rev-parse", "HEAD"), "dirty": bool(git("status", "--porcelain", "--untracked-files=no"))}
+    except (OSError, subprocess.CalledProcessError):
+        return {"commit": None, "dirty": None}
+
+
+def hardware() -> dict[str, Any]:
+    """Machine description: platform, processor, cores, memory in bytes."""
+    try:
+        memory: int | None = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (ValueError, OSError):
+        memory = None
+    return {
+        "platform": platform.platform(),
+        "processor": platform.machine(),
+        "cores": len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count(),
+        "memory_bytes": memory,
+    }
+
+
+def build_manifest(kind: str, *, seed: int | None, configuration: dict[str, Any], inputs: dict[str, Path | str] | None = None, **more: Any) -> dict[str, Any]:
+    """A manifest of `kind` ("data", "train", "bench", ...) with seed, configuration and the SHA-256 of every input file.
+
+    `inputs` maps a role to a file; `more` adds fields of that kind of run (outputs, time, tokens, device, ...).
+    """
+    return {
+        "kind": kind,
+        "planner_ft": planner_ft.__version__,
+        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "seed": seed,
+        "configuration": configuration,
+        "inputs": {role: {"path": str(path), "sha256": sha256_file(path)} for role, path in (inputs or {}).items()},
+        "versions": {"python": sys.version.split()[0], **library_versions()},
+        **source_commit(),
+        "hardware": hardware(),
+        "command": " ".join([Path(sys.argv[0]).name, *sys.argv[1:]]),
+        **more,
+    }
