@@ -1,0 +1,43 @@
+# make demo   data, a mission adapter for the embedded candidate and its benchmark table, from nothing
+# make test   lint, types, tests and the CI gate
+#
+# VENV=DIR          use (or make) another virtual environment
+# CONSTRAINTS=FILE  other pinned versions; CONSTRAINTS=/dev/null keeps what is installed (a CUDA build of torch, say)
+
+PYTHON ?= python3
+VENV ?= .venv
+CONSTRAINTS ?= constraints.txt
+BIN := $(VENV)/bin
+INSTALLED := $(VENV)/.planner_ft-installed
+export HF_HUB_OFFLINE ?= 1
+export TOKENIZERS_PARALLELISM ?= false
+
+.PHONY: demo test install lint types gate clean
+
+install: $(INSTALLED)
+
+$(INSTALLED): pyproject.toml $(wildcard $(CONSTRAINTS))
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	@# torch first and by its pin: an open range would take the newest build, whatever its size.
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c $(CONSTRAINTS) torch
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c $(CONSTRAINTS) -e ".[dev]"
+	touch $@
+
+demo: install
+	$(BIN)/plannerft gen-data --level all --out build/demo/data --overwrite
+	$(BIN)/plannerft train --level mission --candidate embedded --data-dir build/demo/data/mission --output build/demo/adapter --overwrite
+	$(BIN)/plannerft bench --level mission --candidates embedded --configurations base,lora --adapter build/demo/adapter --data build/demo/data/mission/test.jsonl --out build/demo/bench --overwrite
+
+test: lint types
+	$(BIN)/python -m pytest -n 2
+	$(BIN)/plannerft bench --gate eval/gates/ci.toml
+
+lint: install
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: install
+	$(BIN)/mypy
+
+clean:
+	rm -rf build $(VENV)

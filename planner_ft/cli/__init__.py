@@ -1,0 +1,27 @@
+"""The command line: `plannerft`. Commands parse, call one function of the library and print."""
+
+from __future__ import annotations
+
+import sys
+
+from planner_ft.support.errors import GateError, PlannerError
+
+
+def main() -> None:
+    """Entry point. A user's mistake prints one sentence and exits with 2; `--debug` shows the traceback instead."""
+    from planner_ft.cli.app import app
+
+    debug = "--debug" in sys.argv
+    if debug:
+        sys.argv.remove("--debug")
+    try:
+        app()
+    except PlannerError as error:
+        if debug:
+            raise
+        print(f"plannerft: {error}", file=sys.stderr)
+        sys.exit(1 if isinstance(error, GateError) else 2)
+    except BrokenPipeError:
+        # The reader (head, less) closed the pipe: nothing is wrong.
+        sys.stderr.close()
+        sys.exit(0)

@@ -1,0 +1,109 @@
+"""Make the embedded candidate again: tokenizer, corpus, pretraining, export.
+
+    python scripts/pretrain_embedded.py --work /tmp/embedded --tokens 30000000
+    python scripts/pretrain_embedded.py --work /tmp/embedded --export planner_ft/candidates/embedded
+
+The first command can be killed and started again at any time. The second writes the newest checkpoint as a model folder.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import json
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+from planner_ft.pretraining.loop import PretrainSettings
+from planner_ft.support.files import write_json
+from planner_ft.vocabulary import load_vocabulary
+
+
+def tokenizer_of(work: Path, arguments: argparse.Namespace) -> Any:
+    """The tokenizer in `work`, trained first where there is none."""
+    from transformers import PreTrainedTokenizerFast
+
+    from planner_ft.pretraining.corpus import tokenizer_texts
+    from planner_ft.pretraining.tokenizer import train_tokenizer
+
+    folder = work / "tokenizer"
+    if not (folder / "tokenizer.json").is_file():
+        vocabulary = load_vocabulary()
+        texts = tokenizer_texts(vocabulary, 999, arguments.tokenizer_samples, arguments.mission_share)
+        train_tokenizer(texts, vocabulary, size=arguments.vocabulary_size).save_pretrained(folder)
+    return PreTrainedTokenizerFast.from_pretrained(folder)
+
+
+def make_shard(job: tuple[Path, Path, int, int, float, int]) -> dict[str, int]:
+    """Write one shard of the corpus (worker process)."""
+    from transformers import PreTrainedTokenizerFast
+
+    from planner_ft.pretraining.corpus import encode_shard
+
+    path, tokenizer, seed, count, share, longest = job
+    return encode_shard(path, PreTrainedTokenizerFast.from_pretrained(tokenizer), load_vocabulary(), seed=seed, count=count, mission_share=share, longest=longest)
+
+
+def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSettings) -> list[Path]:
+    """The corpus as shard files, those that are missing written first."""
+    paths = [work / "corpus" / f"shard-{index:03d}.npz" for index in range(arguments.shards)]
+    jobs = [
+        (path, work / "tokenizer", arguments.corpus_seed + index, arguments.shard_samples, arguments.mission_share, settings.wide)
+        for index, path in enumerate(paths)
+        if not path.is_file()
+    ]
+    with ProcessPoolExecutor(2) as pool:
+        for job, counts in zip(jobs, pool.map(make_shard, jobs), strict=True):
+            print(f"{job[0].name}: {counts}", flush=True)
+            write_json(job[0].with_suffix(".json"), counts)
+    return paths
+
+
+def export(work: Path, folder: Path, tokenizer: Any, model: Any, settings: PretrainSettings) -> None:
+    """Write the newest checkpoint as a bf16 model folder."""
+    import torch
+
+    saved = torch.load(work / "checkpoint.pt", weights_only=True)
+    model.load_state_dict(saved["model"])
+    model.to(torch.bfloat16).save_pretrained(folder)
+    tokenizer.save_pretrained(folder)
+    write_json(folder / "pretraining.json", {"state": saved["state"], "settings": dataclasses.asdict(settings), "corpus": corpus_summary(work)})
+
+
+def corpus_summary(work: Path) -> dict[str, int]:
+    """Samples and tokens of the corpus in all."""
+    parts = [json.loads(path.read_text()) for path in sorted((work / "corpus").glob("*.json"))]
+    return {key: sum(part[key] for part in parts) for key in ("samples", "tokens", "left_out")}
+
+
+def main() -> None:
+    """Parse the command line and run the step that it asks for."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--work", type=Path, required=True, help="folder for tokenizer, corpus, checkpoint and log")
+    parser.add_argument("--export", type=Path, help="write the newest checkpoint as a model folder here and stop")
+    parser.add_argument("--shards", type=int, default=20)
+    parser.add_argument("--shard-samples", type=int, default=12_000)
+    parser.add_argument("--mission-share", type=float, default=0.6)
+    parser.add_argument("--corpus-seed", type=int, default=1000)
+    parser.add_argument("--tokenizer-samples", type=int, default=20_000)
+    parser.add_argument("--vocabulary-size", type=int, default=4096)
+    for field in dataclasses.fields(PretrainSettings):
+        kind = type(field.default)
+        parser.add_argument(f"--{field.name.replace('_', '-')}", type=(lambda text: text == "true") if kind is bool else kind, default=field.default)
+    arguments = parser.parse_args()
+    settings = PretrainSettings(**{field.name: getattr(arguments, field.name) for field in dataclasses.fields(PretrainSettings)})
+
+    from planner_ft.pretraining.loop import new_model, pretrain
+
+    tokenizer = tokenizer_of(arguments.work, arguments)
+    special = {"bos": tokenizer.bos_token_id, "eos": tokenizer.eos_token_id, "pad": tokenizer.pad_token_id}
+    model: Any = new_model(settings, len(tokenizer), special)
+    if arguments.export:
+        export(arguments.work, arguments.export, tokenizer, model, settings)
+        return
+    print(pretrain(model, shards_of(arguments.work, arguments, settings), settings, pad=special["pad"], folder=arguments.work), flush=True)
+
+
+if __name__ == "__main__":
+    main()
