@@ -34,15 +34,14 @@ def pre_token_pattern(vocabulary: Vocabulary) -> str:
     for owner in (*vocabulary.tasks, *vocabulary.skills):
         keys.update(owner.by_name)
     alternatives = "|".join(sorted(keys, key=lambda key: (-len(key), key)))
-    instructions = "|".join(re.escape(system_text(level, vocabulary, with_vocabulary=False)) for level in LEVELS)
     unresolved = re.escape(",".join(f"{value:g}" for value in vocabulary.unresolved))
-    structure = rf'[{{}}\[\]",:]*"(?:{alternatives})":[{{\["]*(?:[\]}}",{{]*"(?:{alternatives})":[{{\["]*)*'
-    return rf"{instructions}|{unresolved}|{structure}|\d| ?[A-Za-z]+|[{{}}\[\]\",:]+| ?[^\sA-Za-z\d]+|\s+"
+    structure = rf'(?:[{{}}\[\]",]*"(?:{alternatives})":)+[{{\[]*"?'
+    return rf'{unresolved}|{structure}| ?\d| ?[A-Za-z]+| ?[{{}}\[\]",:]+| ?[^\sA-Za-z\d{{}}\[\]",:]+|\s+'
 
 
 def train_tokenizer(texts: Iterable[str], vocabulary: Vocabulary, *, size: int = 4096) -> PreTrainedTokenizerFast:
     """Train the tokenizer on `texts` (prompts and completions). Deterministic for the same texts in the same order."""
-    from tokenizers import Regex, Tokenizer, decoders, models, pre_tokenizers, trainers
+    from tokenizers import AddedToken, Regex, Tokenizer, decoders, models, pre_tokenizers, trainers
     from transformers import PreTrainedTokenizerFast
 
     tokenizer = Tokenizer(models.BPE())
@@ -54,6 +53,8 @@ def train_tokenizer(texts: Iterable[str], vocabulary: Vocabulary, *, size: int =
         vocab_size=size, special_tokens=list(SPECIAL_TOKENS), initial_alphabet=pre_tokenizers.ByteLevel.alphabet(), show_progress=False, max_token_length=120
     )
     tokenizer.train_from_iterator(texts, trainer)
+    instructions = [system_text(level, vocabulary, with_vocabulary=False) for level in LEVELS]
+    tokenizer.add_tokens([AddedToken(text, normalized=False, special=False) for text in instructions])
     fast = PreTrainedTokenizerFast(
         tokenizer_object=tokenizer, bos_token="<|begin|>", eos_token="<|end|>", pad_token="<|pad|>", clean_up_tokenization_spaces=False, model_max_length=4096
     )
