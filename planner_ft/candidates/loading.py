@@ -1,0 +1,198 @@
+"""Loading a candidate: tokenizer and model, 4-bit or 16-bit, on CPU or CUDA, with or without an adapter.
+
+Only local safetensors files are read, no remote code runs and nothing is downloaded.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from planner_ft.candidates.adapters import check_adapter
+from planner_ft.candidates.location import MODELS_VARIABLE, check_folder
+from planner_ft.candidates.registry import Candidate, Quantization
+from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import Level
+
+if TYPE_CHECKING:
+    import torch
+    from transformers import PreTrainedModel, PreTrainedTokenizerBase
+
+PAD_TOKENS = ("<|finetune_right_pad_id|>", "<|endoftext|>", "<pad>", "<|pad|>")
+"""Special tokens that stand for padding in the published tokenizers that name none (Llama 3)."""
+
+
+def quiet_libraries() -> None:
+    """Silence notices of the libraries that say nothing about the user's run. Call it before importing peft."""
+    # bitsandbytes warns on import that an optional package with kernels from the hub is not installed.
+    logging.getLogger("bitsandbytes.backends.cpu.ops").setLevel(logging.ERROR)
+
+
+def resolve_device(device: str = "auto") -> torch.device:
+    """The torch device of "auto" (CUDA if there is one, else the CPU), "cpu", "cuda" or "cuda:N"."""
+    import torch
+
+    if device == "auto":
+        return torch.device("cuda", torch.cuda.current_device()) if torch.cuda.is_available() else torch.device("cpu")
+    try:
+        chosen = torch.device(device)
+    except RuntimeError:
+        raise PlannerError(f"--device {device}: no such device; give auto, cpu, cuda or cuda:N") from None
+    if chosen.type not in ("cpu", "cuda"):
+        raise PlannerError(f"--device {device}: only cpu and cuda are supported")
+    if chosen.type == "cuda" and not torch.cuda.is_available():
+        raise PlannerError(f"--device {device}: torch {torch.__version__} finds no CUDA device; use --device cpu, or see `plannerft doctor`")
+    if chosen.type == "cuda" and (chosen.index or 0) >= torch.cuda.device_count():
+        raise PlannerError(f"--device {device}: there are {torch.cuda.device_count()} CUDA devices, numbered from 0")
+    return chosen
+
+
+def compute_dtype(device: torch.device) -> torch.dtype:
+    """The dtype that layers compute in: bfloat16 where the hardware multiplies it, else float16 on CUDA, float32 on a CPU."""
+    import torch
+
+    if device.type == "cuda":
+        return torch.bfloat16 if torch.cuda.get_device_capability(device) >= (8, 0) else torch.float16
+    capabilities = torch.cpu.get_capabilities() if hasattr(torch.cpu, "get_capabilities") else {}
+    return torch.bfloat16 if capabilities.get("avx512_bf16") or capabilities.get("amx_bf16") or capabilities.get("bf16") else torch.float32
+
+
+def require_folder(candidate: Candidate) -> Path:
+    """The candidate's folder, checked. Raises PlannerError that says how to get the model when it is not here."""
+    if candidate.folder is None:
+        raise PlannerError(f"{candidate.name} is not on this machine: {how_to_get(candidate)}")
+    check_folder(candidate.folder)
+    return candidate.folder
+
+
+def how_to_get(candidate: Candidate) -> str:
+    """What to do to have the candidate on this machine."""
+    if candidate.repo is None:
+        return f"this installation lacks its weights; install the package again, or put them in a folder {candidate.name} of the folder that {MODELS_VARIABLE} names"
+    licence = f"accept its licence at https://huggingface.co/{candidate.repo}, run `hf auth login`, then " if candidate.gated else ""
+    revision = f" --revision {candidate.revision}" if candidate.revision else ""
+    # The Llama repositories hold the weights a second time, pickled, in original/.
+    return f'{licence}run `hf download {candidate.repo}{revision} --exclude "original/*"` (on a machine without network: copy the folder and set {MODELS_VARIABLE})'
+
+
+def load_tokenizer(candidate: Candidate) -> PreTrainedTokenizerBase:
+    """The candidate's tokenizer, with a padding token and padding on the left, as batched generation needs it."""
+    folder = require_folder(candidate)
+    from transformers import AutoTokenizer
+
+    try:
+        tokenizer = AutoTokenizer.from_pretrained(str(folder), local_files_only=True, trust_remote_code=False)
+    except Exception as error:  # the tokenizers library raises bare Exception for a corrupt tokenizer.json
+        raise PlannerError(f"{folder}: the tokenizer cannot be loaded ({_first_line(error)}); download its files again") from error
+    if tokenizer.pad_token is None:
+        vocabulary = tokenizer.get_vocab()
+        tokenizer.pad_token = next((token for token in PAD_TOKENS if token in vocabulary), tokenizer.eos_token)
+    tokenizer.padding_side = "left"
+    return tokenizer
+
+
+def load_model(
+    candidate: Candidate,
+    *,
+    device: str = "auto",
+    quantization: Quantization = "nf4",
+    adapter: Path | None = None,
+    trainable: bool = False,
+    level: Level | None = None,
+    vocabulary: Vocabulary | None = None,
+) -> PreTrainedModel:
+    """The candidate's model in eval mode, ready to generate or, with `trainable`, to get an adapter (or train `adapter` on).
+
+    "nf4" stores linear layers as 4-bit NormalFloat with double quantisation; embeddings, output head and norms stay in
+    the compute dtype. "none" keeps everything in the compute dtype. With `adapter` the result is a PeftModel, and the
+    adapter is checked first, against `level` and `vocabulary` too where they are given. With `trainable` the 4-bit layers
+    never pack (see `packing`), so that evaluation between training steps leaves gradients whole.
+    Raises PlannerError, one sentence, when anything is missing, unsafe, corrupt, of another base or too large.
+    """
+    target = resolve_device(device)
+    folder = require_folder(candidate)
+    if adapter is not None:
+        check_adapter(adapter, candidate, level=level, vocabulary=vocabulary)
+    quiet_libraries()
+    with _loading_errors(candidate, folder, target):
+        model = _load_base(folder, target, quantization)
+        if adapter is not None:
+            from peft import PeftModel
+
+            model = PeftModel.from_pretrained(model, str(adapter), is_trainable=trainable, use_safetensors=True)
+    if quantization == "nf4":
+        from planner_ft.candidates.packing import set_packing
+
+        set_packing(model, allowed=not trainable)
+    return model.eval()
+
+
+def _load_base(folder: Path, device: torch.device, quantization: Quantization) -> Any:
+    from transformers import AutoModelForCausalLM, BitsAndBytesConfig
+
+    dtype = compute_dtype(device)
+    settings: dict[str, Any] = {}
+    if quantization == "nf4":
+        settings["quantization_config"] = BitsAndBytesConfig(
+            load_in_4bit=True, bnb_4bit_quant_type="nf4", bnb_4bit_use_double_quant=True, bnb_4bit_compute_dtype=dtype
+        )
+    with _progress_bars(folder):
+        model, report = AutoModelForCausalLM.from_pretrained(
+            str(folder), dtype=dtype, device_map={"": device}, local_files_only=True, trust_remote_code=False,
+            use_safetensors=True, output_loading_info=True, **settings,
+        )  # fmt: skip
+    # transformers fills missing tensors with random numbers and only warns.
+    if report["missing_keys"]:
+        raise PlannerError(f"{folder}: the weights lack {len(report['missing_keys'])} tensors ({min(report['missing_keys'])}, ...); download them again")
+    return model
+
+
+LARGE = 2**30
+
+
+@contextlib.contextmanager
+def _progress_bars(folder: Path) -> Iterator[None]:
+    """Let transformers draw its loading bars only for models that take a while to load."""
+    from transformers.utils import logging as bars
+
+    if sum(path.stat().st_size for path in folder.glob("*.safetensors")) >= LARGE or not bars.is_progress_bar_enabled():
+        yield
+        return
+    bars.disable_progress_bar()
+    try:
+        yield
+    finally:
+        bars.enable_progress_bar()
+
+
+@contextlib.contextmanager
+def _loading_errors(candidate: Candidate, folder: Path, device: torch.device) -> Iterator[None]:
+    """Turn what the libraries raise for a bad model, a missing library or too little memory into one sentence."""
+    import torch
+
+    try:
+        yield
+    except PlannerError:
+        raise
+    except (torch.cuda.OutOfMemoryError, MemoryError) as error:
+        raise PlannerError(out_of_memory(candidate, device)) from error
+    except ImportError as error:
+        raise PlannerError(f"{candidate.name}: a library is missing ({_first_line(error)}); see `plannerft doctor`") from error
+    except (RuntimeError, ValueError, OSError, KeyError, TypeError) as error:
+        if "allocate memory" in str(error) or "out of memory" in str(error):
+            raise PlannerError(out_of_memory(candidate, device)) from error
+        raise PlannerError(f"{folder}: the model cannot be loaded ({_first_line(error)}); check its config.json against its weights, or download it again") from error
+
+
+def out_of_memory(candidate: Candidate, device: torch.device) -> str:
+    """The sentence for a model that does not fit."""
+    return f"{candidate.name} does not fit the memory of {device}; close other programs, take a smaller candidate (`plannerft candidates` estimates their memory) or another --device"
+
+
+def _first_line(error: BaseException) -> str:
+    text = str(error).strip()
+    return (text.splitlines()[0] if text else type(error).__name__)[:200]

@@ -1,0 +1,226 @@
+"""The registry of candidates: the published ones, the embedded one, and any local folder or hub id."""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import re
+import tomllib
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any, Literal
+
+from planner_ft.candidates.location import Source, find_folder, read_config
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import read_text
+from planner_ft.vocabulary import Vocabulary, load_vocabulary
+from planner_ft.vocabulary.plans import Level
+
+Chat = Literal["llama3", "chatml", "plain", "other"]
+Quantization = Literal["nf4", "none"]
+
+REGISTRY = Path(__file__).parent / "registry.toml"
+HUB_ID = re.compile(r"(?P<repo>[A-Za-z0-9][\w.-]*/[A-Za-z0-9][\w.-]*)(@(?P<revision>[\w./-]+))?")
+STANDIN_KEY = "planner_ft_standin"
+"""In the config.json of a stand-in: true, so that no result made with one passes for the real candidate's."""
+
+
+@dataclass(frozen=True)
+class Dimensions:
+    """The sizes of a decoder-only transformer with grouped-query attention and a gated MLP, as in its config.json."""
+
+    hidden: int
+    intermediate: int
+    layers: int
+    heads: int
+    kv_heads: int
+    head_dim: int
+    vocabulary: int
+    tied: bool
+    context: int
+    attention_bias: bool = False
+    """Biases on the query, key and value projections (Qwen2)."""
+
+    @classmethod
+    def from_config(cls, config: dict[str, Any]) -> Dimensions | None:
+        """The dimensions in a config.json, or None when it is of an architecture that has no such fields."""
+        try:
+            heads, hidden = int(config["num_attention_heads"]), int(config["hidden_size"])
+            return cls(
+                hidden=hidden, intermediate=int(config["intermediate_size"]), layers=int(config["num_hidden_layers"]),
+                heads=heads, kv_heads=int(config.get("num_key_value_heads") or heads),
+                head_dim=int(config.get("head_dim") or hidden // heads), vocabulary=int(config["vocab_size"]),
+                tied=bool(config.get("tie_word_embeddings", False)), context=int(config["max_position_embeddings"]),
+                attention_bias=bool(config.get("attention_bias", config.get("model_type") == "qwen2")),
+            )  # fmt: skip
+        except (KeyError, TypeError, ValueError, ZeroDivisionError):
+            return None
+
+    @property
+    def linear_shapes(self) -> tuple[tuple[int, int], ...]:
+        """(in, out) of the seven linear layers of one block: query, key, value, output, gate, up, down."""
+        query, key = self.heads * self.head_dim, self.kv_heads * self.head_dim
+        return (
+            (self.hidden, query), (self.hidden, key), (self.hidden, key), (query, self.hidden),
+            (self.hidden, self.intermediate), (self.hidden, self.intermediate), (self.intermediate, self.hidden),
+        )  # fmt: skip
+
+    @property
+    def linear_parameters(self) -> int:
+        """Weights of the blocks' linear layers: what 4-bit quantisation stores in 4 bits."""
+        return self.layers * sum(rows * columns for rows, columns in self.linear_shapes)
+
+    @property
+    def other_parameters(self) -> int:
+        """Weights that stay in 16 bits: embeddings, output head where it is not tied, norms and biases."""
+        biases = (self.heads + 2 * self.kv_heads) * self.head_dim if self.attention_bias else 0
+        embeddings = self.vocabulary * self.hidden * (1 if self.tied else 2)
+        return embeddings + self.layers * (2 * self.hidden + biases) + self.hidden
+
+    @property
+    def parameters(self) -> int:
+        return self.linear_parameters + self.other_parameters
+
+
+@dataclass(frozen=True)
+class AdapterDefaults:
+    """Adapter settings of one level that differ from the published ones; None where they do not."""
+
+    rank: int | None = None
+    alpha: int | None = None
+    dropout: float | None = None
+    learning_rate: float | None = None
+    epochs: float | None = None
+    batch_size: int | None = None
+    quantization: Quantization | None = None
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A language model that can be prompted, fine-tuned and benchmarked, and where on this machine it lies.
+
+    `folder` is None when it is not here. `vocabulary` names the vocabulary that it was pretrained on.
+    """
+
+    name: str
+    repo: str | None = None
+    revision: str | None = None
+    published: str | None = None
+    chat: Chat = "other"
+    licence: str = "see its model card"
+    gated: bool = False
+    vocabulary: str | None = None
+    dimensions: Dimensions | None = None
+    adapter: dict[Level, AdapterDefaults] = field(default_factory=dict)
+    folder: Path | None = None
+    source: Source | None = None
+    is_standin: bool = False
+
+    @property
+    def parameters(self) -> int | None:
+        """Number of weights, or None while neither the registry nor a config.json tells the dimensions."""
+        return self.dimensions.parameters if self.dimensions else None
+
+    @property
+    def row_name(self) -> str:
+        """Its name in tables: the published one, and marked when the weights are a stand-in's."""
+        return f"{self.published or self.name}{' (stand-in)' if self.is_standin else ''}"
+
+    @property
+    def slug(self) -> str:
+        """Its name as a folder name."""
+        return self.name.replace("/", "--")
+
+    @property
+    def reference(self) -> str:
+        """What plain transformers and PEFT load it by: the hub id of a model from the hub, else its folder."""
+        return self.repo if self.repo and self.source in (None, "hub cache") else str(self.folder or self.name)
+
+    def adapter_defaults(self, level: Level) -> AdapterDefaults:
+        """Its deviations from the published adapter settings at `level`."""
+        return self.adapter.get(level, AdapterDefaults())
+
+    def knows(self, vocabulary: Vocabulary) -> bool:
+        """Whether it was pretrained on exactly this vocabulary and so need not be told it in the prompt."""
+        return self.vocabulary == vocabulary.name and load_vocabulary(self.vocabulary).sha256 == vocabulary.sha256
+
+
+def all_candidates() -> list[Candidate]:
+    """Every registered candidate, in the order of the published tables, located on this machine."""
+    return [_locate(candidate) for candidate in _registered()]
+
+
+def resolve_candidate(name_or_path: str | Path) -> Candidate:
+    """The candidate of a registered name, hub id ("org/name", "org/name@revision") or local folder.
+
+    Resolving loads nothing and succeeds for models that are not on this machine (`folder` is then None). Raises
+    PlannerError for a name that is none of these.
+    """
+    text = str(name_or_path).strip()
+    for candidate in _registered():
+        if text.lower() in {name.lower() for name in (candidate.name, candidate.published, candidate.repo) if name}:
+            return _locate(candidate)
+    path = Path(text).expanduser()
+    if text and path.is_dir():
+        return _from_folder(path.resolve())
+    if text.startswith((".", "/", "~")):
+        raise PlannerError(f"{text}: no such folder; give a folder with config.json, tokenizer and safetensors weights, or a name that `plannerft candidates` lists")
+    if match := HUB_ID.fullmatch(text):
+        return _from_hub(match["repo"], match["revision"])
+    raise PlannerError(_unknown(text))
+
+
+def _unknown(text: str) -> str:
+    names = [candidate.name for candidate in _registered()]
+    by_lower = {name.lower(): name for name in names}
+    close = [by_lower[name] for name in difflib.get_close_matches(text.lower(), by_lower, n=3, cutoff=0.5)]
+    hint = f"did you mean {' or '.join(close)}?" if close else f"there are {', '.join(names)}"
+    return f"unknown candidate {text!r}: {hint} A local folder (./folder) or a hub id (org/name) works, too"
+
+
+@functools.cache
+def _registered() -> tuple[Candidate, ...]:
+    return tuple(_entry(entry) for entry in tomllib.loads(read_text(REGISTRY))["candidate"])
+
+
+def _entry(entry: dict[str, Any]) -> Candidate:
+    values = dict(entry)
+    if "dimensions" in values:
+        values["dimensions"] = Dimensions(**values["dimensions"])
+    values["adapter"] = {level: AdapterDefaults(**settings) for level, settings in values.get("adapter", {}).items()}
+    return Candidate(**values)
+
+
+def _locate(candidate: Candidate) -> Candidate:
+    """The candidate with the folder it lies in; what the config.json there says overrules the registry."""
+    folder, source = find_folder(candidate.name, candidate.repo, candidate.revision)
+    if folder is None:
+        return candidate
+    config = read_config(folder)
+    dimensions = Dimensions.from_config(config) or candidate.dimensions
+    return replace(candidate, folder=folder, source=source, dimensions=dimensions, is_standin=bool(config.get(STANDIN_KEY)))
+
+
+def _from_folder(folder: Path) -> Candidate:
+    config = read_config(folder)
+    return Candidate(
+        name=folder.name, chat=_chat(folder), dimensions=Dimensions.from_config(config),
+        folder=folder, source="path", is_standin=bool(config.get(STANDIN_KEY)),
+    )  # fmt: skip
+
+
+def _from_hub(repo: str, revision: str | None) -> Candidate:
+    for candidate in _registered():
+        if candidate.repo and candidate.repo.lower() == repo.lower():
+            return _locate(replace(candidate, revision=revision))
+    located = _locate(Candidate(name=repo, repo=repo, revision=revision))
+    return replace(located, chat=_chat(located.folder)) if located.folder else located
+
+
+def _chat(folder: Path) -> Chat:
+    """The kind of chat template in a folder, told by its marks."""
+    template = folder / "chat_template.jinja"
+    text = read_text(template) if template.is_file() else str(read_config(folder, "tokenizer_config.json").get("chat_template") or "")
+    if not text:
+        return "plain"
+    return "llama3" if "<|start_header_id|>" in text else "chatml" if "<|im_start|>" in text else "other"
