@@ -124,7 +124,9 @@ def _check_shapes(folder: Path, shapes: dict[str, tuple[int, ...]], dimensions: 
 
 def _check_purpose(info: AdapterInfo, manifest: dict[str, Any], level: Level | None, vocabulary: Vocabulary | None) -> None:
     if level and info.level not in (None, level):
-        raise PlannerError(f"{info.folder}: this is an adapter of the {info.level} level, not of the {level} level; give --level {info.level} or another --adapter")
+        raise PlannerError(
+            f"{info.folder}: this is an adapter of the {info.level} level, not of the {level} level; give --level {info.level} or another --adapter"
+        )
     recorded = manifest.get("vocabulary") or {}
     if vocabulary and recorded and recorded.get("sha256") != vocabulary.sha256:
         same = recorded.get("name") == vocabulary.name

@@ -6,12 +6,12 @@ Only local safetensors files are read, no remote code runs and nothing is downlo
 from __future__ import annotations
 
 import contextlib
-import logging
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.candidates.adapters import check_adapter
+from planner_ft.candidates.libraries import quiet_bars, quiet_libraries
 from planner_ft.candidates.location import MODELS_VARIABLE, check_folder
 from planner_ft.candidates.registry import Candidate, Quantization
 from planner_ft.support.errors import PlannerError
@@ -25,11 +25,8 @@ if TYPE_CHECKING:
 PAD_TOKENS = ("<|finetune_right_pad_id|>", "<|endoftext|>", "<pad>", "<|pad|>")
 """Special tokens that stand for padding in the published tokenizers that name none (Llama 3)."""
 
-
-def quiet_libraries() -> None:
-    """Silence notices of the libraries that say nothing about the user's run. Call it before importing peft."""
-    # bitsandbytes warns on import that an optional package with kernels from the hub is not installed.
-    logging.getLogger("bitsandbytes.backends.cpu.ops").setLevel(logging.ERROR)
+LARGE = 2**30
+"""Bytes of weights from which loading takes long enough to deserve a progress bar."""
 
 
 def resolve_device(device: str = "auto") -> torch.device:
@@ -57,8 +54,16 @@ def compute_dtype(device: torch.device) -> torch.dtype:
 
     if device.type == "cuda":
         return torch.bfloat16 if torch.cuda.get_device_capability(device) >= (8, 0) else torch.float16
-    capabilities = torch.cpu.get_capabilities() if hasattr(torch.cpu, "get_capabilities") else {}
-    return torch.bfloat16 if capabilities.get("avx512_bf16") or capabilities.get("amx_bf16") or capabilities.get("bf16") else torch.float32
+    return torch.bfloat16 if _cpu_multiplies_bfloat16() else torch.float32
+
+
+def _cpu_multiplies_bfloat16() -> bool:
+    import torch
+
+    if not hasattr(torch.cpu, "get_capabilities"):  # torch < 2.11
+        return bool(torch.cpu._is_avx512_bf16_supported())
+    capabilities = torch.cpu.get_capabilities()
+    return any(capabilities.get(name) for name in ("avx512_bf16", "amx_bf16", "bf16"))
 
 
 def require_folder(candidate: Candidate) -> Path:
@@ -71,12 +76,13 @@ def require_folder(candidate: Candidate) -> Path:
 
 def how_to_get(candidate: Candidate) -> str:
     """What to do to have the candidate on this machine."""
+    copy = f"copy it into a folder {candidate.name} of the folder that {MODELS_VARIABLE} names"
     if candidate.repo is None:
-        return f"this installation lacks its weights; install the package again, or put them in a folder {candidate.name} of the folder that {MODELS_VARIABLE} names"
+        return f"this installation lacks its weights; install the package again, or {copy}"
     licence = f"accept its licence at https://huggingface.co/{candidate.repo}, run `hf auth login`, then " if candidate.gated else ""
     revision = f" --revision {candidate.revision}" if candidate.revision else ""
     # The Llama repositories hold the weights a second time, pickled, in original/.
-    return f'{licence}run `hf download {candidate.repo}{revision} --exclude "original/*"` (on a machine without network: copy the folder and set {MODELS_VARIABLE})'
+    return f'{licence}run `hf download {candidate.repo}{revision} --exclude "original/*"` (without a network: {copy})'
 
 
 def load_tokenizer(candidate: Candidate) -> PreTrainedTokenizerBase:
@@ -140,7 +146,8 @@ def _load_base(folder: Path, device: torch.device, quantization: Quantization) -
         settings["quantization_config"] = BitsAndBytesConfig(
             load_in_4bit=True, bnb_4bit_quant_type="nf4", bnb_4bit_use_double_quant=True, bnb_4bit_compute_dtype=dtype
         )
-    with _progress_bars(folder):
+    large = sum(path.stat().st_size for path in folder.glob("*.safetensors")) >= LARGE
+    with contextlib.nullcontext() if large else quiet_bars():
         model, report = AutoModelForCausalLM.from_pretrained(
             str(folder), dtype=dtype, device_map={"": device}, local_files_only=True, trust_remote_code=False,
             use_safetensors=True, output_loading_info=True, **settings,
@@ -149,24 +156,6 @@ def _load_base(folder: Path, device: torch.device, quantization: Quantization) -
     if report["missing_keys"]:
         raise PlannerError(f"{folder}: the weights lack {len(report['missing_keys'])} tensors ({min(report['missing_keys'])}, ...); download them again")
     return model
-
-
-LARGE = 2**30
-
-
-@contextlib.contextmanager
-def _progress_bars(folder: Path) -> Iterator[None]:
-    """Let transformers draw its loading bars only for models that take a while to load."""
-    from transformers.utils import logging as bars
-
-    if sum(path.stat().st_size for path in folder.glob("*.safetensors")) >= LARGE or not bars.is_progress_bar_enabled():
-        yield
-        return
-    bars.disable_progress_bar()
-    try:
-        yield
-    finally:
-        bars.enable_progress_bar()
 
 
 @contextlib.contextmanager
@@ -185,12 +174,15 @@ def _loading_errors(candidate: Candidate, folder: Path, device: torch.device) ->
     except (RuntimeError, ValueError, OSError, KeyError, TypeError) as error:
         if "allocate memory" in str(error) or "out of memory" in str(error):
             raise PlannerError(out_of_memory(candidate, device)) from error
-        raise PlannerError(f"{folder}: the model cannot be loaded ({_first_line(error)}); check its config.json against its weights, or download it again") from error
+        raise PlannerError(
+            f"{folder}: the model cannot be loaded ({_first_line(error)}); check its config.json against its weights, or download it again"
+        ) from error
 
 
 def out_of_memory(candidate: Candidate, device: torch.device) -> str:
     """The sentence for a model that does not fit."""
-    return f"{candidate.name} does not fit the memory of {device}; close other programs, take a smaller candidate (`plannerft candidates` estimates their memory) or another --device"
+    way_out = "close other programs, take a smaller candidate (`plannerft candidates` estimates their memory) or another --device"
+    return f"{candidate.name} does not fit the memory of {device}; {way_out}"
 
 
 def _first_line(error: BaseException) -> str:

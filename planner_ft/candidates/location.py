@@ -43,8 +43,8 @@ def cached_snapshot(repo: str, revision: str | None) -> Path | None:
 
 def hub_cache() -> Path:
     """The hub's cache folder, found from the environment as huggingface_hub does."""
-    home = os.environ.get("HF_HOME") or os.path.join(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "huggingface")
-    return Path(os.environ.get("HF_HUB_CACHE") or os.environ.get("HUGGINGFACE_HUB_CACHE") or os.path.join(home, "hub")).expanduser()
+    home = Path(os.environ.get("HF_HOME") or Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache") / "huggingface")
+    return Path(os.environ.get("HF_HUB_CACHE") or os.environ.get("HUGGINGFACE_HUB_CACHE") or home / "hub").expanduser()
 
 
 def read_config(folder: Path, name: str = "config.json") -> dict[str, Any]:

@@ -13,7 +13,7 @@ For decoding, packing is worth having: on one AVX512-BF16 core a 2048 x 8192 lay
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from planner_ft.support.errors import PlannerError
 
@@ -34,19 +34,20 @@ def set_packing(model: torch.nn.Module, *, allowed: bool) -> int:
     for name, layer in linear_4bit(model):
         if not allowed and is_packed(layer):
             raise PlannerError(f"layer {name} is already packed for decoding and would give wrong gradients; load the model with trainable=True")
-        layer.support_avx512bf16_for_cpu = allowed and _has_kernel() and _fits(layer)
-        allowing += layer.support_avx512bf16_for_cpu
+        may_pack = allowed and _has_kernel() and _fits(layer)
+        layer.support_avx512bf16_for_cpu = may_pack
+        allowing += may_pack
     return allowing
 
 
-def linear_4bit(model: torch.nn.Module) -> Iterator[tuple[str, torch.nn.Module]]:
+def linear_4bit(model: torch.nn.Module) -> Iterator[tuple[str, Any]]:
     """Name and module of every 4-bit linear layer."""
     from bitsandbytes.nn import Linear4bit
 
     return ((name, module) for name, module in model.named_modules() if isinstance(module, Linear4bit))
 
 
-def is_packed(layer: torch.nn.Module) -> bool:
+def is_packed(layer: Any) -> bool:
     """Whether a 4-bit layer's weights are in the layout without a backward pass."""
     return bool(getattr(getattr(layer.weight, "quant_state", None), "packing_format_for_cpu", False))
 
@@ -57,6 +58,5 @@ def _has_kernel() -> bool:
     return bool(has_avx512bf16())
 
 
-def _fits(layer: torch.nn.Module) -> bool:
-    state = layer.weight.quant_state
-    return layer.out_features % PACKING_ROWS == 0 and layer.in_features % state.blocksize == 0
+def _fits(layer: Any) -> bool:
+    return bool(layer.out_features % PACKING_ROWS == 0 and layer.in_features % layer.weight.quant_state.blocksize == 0)

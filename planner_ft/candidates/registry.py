@@ -164,7 +164,7 @@ def resolve_candidate(name_or_path: str | Path) -> Candidate:
     if text and path.is_dir():
         return _from_folder(path.resolve())
     if text.startswith((".", "/", "~")):
-        raise PlannerError(f"{text}: no such folder; give a folder with config.json, tokenizer and safetensors weights, or a name that `plannerft candidates` lists")
+        raise PlannerError(f"{text}: no such folder; give one with config.json, tokenizer and weights, or a name that `plannerft candidates` lists")
     if match := HUB_ID.fullmatch(text):
         return _from_hub(match["repo"], match["revision"])
     raise PlannerError(_unknown(text))
@@ -198,7 +198,7 @@ def _locate(candidate: Candidate) -> Candidate:
         return candidate
     config = read_config(folder)
     dimensions = Dimensions.from_config(config) or candidate.dimensions
-    return replace(candidate, folder=folder, source=source, dimensions=dimensions, is_standin=bool(config.get(STANDIN_KEY)))
+    return replace(candidate, folder=folder, source=source, chat=_chat(folder), dimensions=dimensions, is_standin=bool(config.get(STANDIN_KEY)))
 
 
 def _from_folder(folder: Path) -> Candidate:
@@ -213,8 +213,7 @@ def _from_hub(repo: str, revision: str | None) -> Candidate:
     for candidate in _registered():
         if candidate.repo and candidate.repo.lower() == repo.lower():
             return _locate(replace(candidate, revision=revision))
-    located = _locate(Candidate(name=repo, repo=repo, revision=revision))
-    return replace(located, chat=_chat(located.folder)) if located.folder else located
+    return _locate(Candidate(name=repo, repo=repo, revision=revision))
 
 
 def _chat(folder: Path) -> Chat:

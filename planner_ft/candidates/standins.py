@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from planner_ft.candidates.libraries import quiet_bars
 from planner_ft.candidates.registry import STANDIN_KEY, Candidate, all_candidates
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, write_json, write_text
@@ -25,9 +26,7 @@ HIDDEN, INTERMEDIATE, LAYERS, HEADS, KV_HEADS, HEAD_DIM = 64, 128, 2, 4, 2, 16
 VOCABULARY = 1024
 """Entries of a stand-in's byte-level BPE, special tokens apart."""
 
-LLAMA_SPLIT = (
-    r"(?i:'s|'t|'re|'ve|'m|'ll|'d)|[^\r\n\p{L}\p{N}]?\p{L}+|\p{N}{1,3}| ?[^\s\p{L}\p{N}]+[\r\n]*|\s*[\r\n]+|\s+(?!\S)|\s+"
-)
+LLAMA_SPLIT = r"(?i:'s|'t|'re|'ve|'m|'ll|'d)|[^\r\n\p{L}\p{N}]?\p{L}+|\p{N}{1,3}| ?[^\s\p{L}\p{N}]+[\r\n]*|\s*[\r\n]+|\s+(?!\S)|\s+"
 QWEN_SPLIT = LLAMA_SPLIT.replace(r"\p{N}{1,3}", r"\p{N}")
 LLAMA_SPECIAL = (
     "<|begin_of_text|>", "<|end_of_text|>", "<|reserved_special_token_0|>", "<|reserved_special_token_1|>", "<|finetune_right_pad_id|>",
@@ -45,9 +44,16 @@ LLAMA_TEMPLATE = """\
 {%- else %}
     {%- set system_message = "" %}
 {%- endif %}
+{%- if not date_string is defined %}
+    {%- if strftime_now is defined %}
+        {%- set date_string = strftime_now("%d %b %Y") %}
+    {%- else %}
+        {%- set date_string = "26 Jul 2024" %}
+    {%- endif %}
+{%- endif %}
 {{- "<|start_header_id|>system<|end_header_id|>\\n\\n" }}
 {{- "Cutting Knowledge Date: December 2023\\n" }}
-{{- "Today Date: " + (date_string if date_string is defined else "26 Jul 2024") + "\\n\\n" }}
+{{- "Today Date: " + date_string + "\\n\\n" }}
 {{- system_message }}
 {{- "<|eot_id|>" }}
 {%- for message in messages %}
@@ -181,12 +187,13 @@ def _training_text() -> list[str]:
         for task in vocabulary.tasks
     ]
     steps = [
-        {"navigation_skill": {"name": skill.name, "parameters": {name: 25 for name in skill.by_name}}, "filter_skills": [], "perception_skills": [],
+        {"navigation_skill": {"name": skill.name, "parameters": dict.fromkeys(skill.by_name, 25)}, "filter_skills": [], "perception_skills": [],
          "stop_conditions": [skill.stop], "failure_modes": [skill.failure], "expected_outputs": [skill.output]}
         for skill in vocabulary.skills
     ]  # fmt: skip
-    plans = [compact_json({"tasks": [task], "assumptions": [], "constraints": []}) for task in tasks] + [compact_json({"skill_sequence": [step]}) for step in steps]
-    return [prompt_text("mission", vocabulary), prompt_text("task", vocabulary), *plans]
+    missions = [compact_json({"tasks": [task], "assumptions": [], "constraints": []}) for task in tasks]
+    sequences = [compact_json({"skill_sequence": [step]}) for step in steps]
+    return [prompt_text("mission", vocabulary), prompt_text("task", vocabulary), *missions, *sequences]
 
 
 def _write_model(candidate: Candidate, family: Family, instruct: bool, ids: dict[str, int], folder: Path, seed: int) -> None:
@@ -212,7 +219,8 @@ def _write_model(candidate: Candidate, family: Family, instruct: bool, ids: dict
         bos_token_id=config.bos_token_id, eos_token_id=eos, pad_token_id=ids[family.pad] if family.pad else None,
         do_sample=True, temperature=0.6 if family is LLAMA else 0.7, top_p=0.9 if family is LLAMA else 0.8,
     )  # fmt: skip
-    model.save_pretrained(folder)
+    with quiet_bars():
+        model.save_pretrained(folder)
 
 
 def _architecture(candidate: Candidate, family: Family) -> dict[str, Any]:
@@ -222,6 +230,8 @@ def _architecture(candidate: Candidate, family: Family) -> dict[str, Any]:
     common = {"tie_word_embeddings": candidate.dimensions.tied, "max_position_embeddings": candidate.dimensions.context}
     if family is QWEN:
         return {**common, "rms_norm_eps": 1e-6, "rope_parameters": {"rope_type": "default", "rope_theta": 1e6}}
-    factor = 32.0 if candidate.name.startswith("Llama-3.2") else 8.0
-    scaling = {"rope_type": "llama3", "rope_theta": 5e5, "factor": factor, "low_freq_factor": 1.0, "high_freq_factor": 4.0, "original_max_position_embeddings": 8192}
+    scaling = {
+        "rope_type": "llama3", "rope_theta": 5e5, "factor": 32.0 if candidate.name.startswith("Llama-3.2") else 8.0,
+        "low_freq_factor": 1.0, "high_freq_factor": 4.0, "original_max_position_embeddings": 8192,
+    }  # fmt: skip
     return {**common, "rms_norm_eps": 1e-5, "head_dim": HEAD_DIM, "rope_parameters": scaling}

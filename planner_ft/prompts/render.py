@@ -23,6 +23,9 @@ PROMPT_VERSION = 1
 
 PROBE = "\x02probe\x03"
 
+TODAY = "26 Jul 2024"
+"""The date that Llama 3 templates write into the system message. They would take today's: another prompt every day."""
+
 
 @dataclass(frozen=True)
 class Rendered:
@@ -43,14 +46,16 @@ def render_prompt(level: Level, record: dict[str, Any], tokenizer: PreTrainedTok
     user = user_text(level, record, vocabulary)
     if tokenizer.chat_template:
         messages = [{"role": "system", "content": system}, {"role": "user", "content": user}]
-        text = str(tokenizer.apply_chat_template(messages, tokenize=False, add_generation_prompt=True))
+        text = str(tokenizer.apply_chat_template(messages, tokenize=False, add_generation_prompt=True, date_string=TODAY))
     else:
         text = f"{_bos(tokenizer)}{system}\n\n### Input\n{user}\n\n### Plan\n"
     # The template or _bos already wrote the beginning-of-text token: special tokens must not be added again.
     return list(tokenizer.encode(text, add_special_tokens=False))
 
 
-def render_sample(level: Level, record: dict[str, Any], tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, with_vocabulary: bool = False) -> Rendered:
+def render_sample(
+    level: Level, record: dict[str, Any], tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, with_vocabulary: bool = False
+) -> Rendered:
     """Ids and completion mask of a record with its `expected` plan."""
     prompt = render_prompt(level, record, tokenizer, vocabulary, with_vocabulary=with_vocabulary)
     answer = tokenizer.encode(completion_text(level, record["expected"], vocabulary), add_special_tokens=False)
@@ -72,7 +77,7 @@ def end_of_turn_ids(tokenizer: PreTrainedTokenizerBase) -> list[int]:
     messages = [{"role": "user", "content": "?"}, {"role": "assistant", "content": PROBE}]
     after = str(tokenizer.apply_chat_template(messages, tokenize=False)).split(PROBE)[-1]
     ids = tokenizer.encode(after, add_special_tokens=False)
-    if not ids or ids[0] not in tokenizer.all_special_ids and ids[0] not in tokenizer.added_tokens_decoder:
+    if not ids or (ids[0] not in tokenizer.all_special_ids and ids[0] not in tokenizer.added_tokens_decoder):
         raise PlannerError(f"the chat template ends an answer with {after!r}, which is no special token; the end of a plan cannot be learned")
     return list(dict.fromkeys([ids[0], *([eos] if isinstance(eos, int) else [])]))
 

@@ -1,0 +1,28 @@
+"""Keeping the libraries beneath quiet about what says nothing on the user's run."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+from collections.abc import Iterator
+
+
+def quiet_libraries() -> None:
+    """Silence notices on import of bitsandbytes. Call it before anything imports peft."""
+    # It warns that an optional package, with kernels from the hub, is not installed.
+    logging.getLogger("bitsandbytes.backends.cpu.ops").setLevel(logging.ERROR)
+
+
+@contextlib.contextmanager
+def quiet_bars() -> Iterator[None]:
+    """Let transformers draw no progress bars in the block."""
+    from transformers.utils import logging as bars
+
+    if not bars.is_progress_bar_enabled():
+        yield
+        return
+    bars.disable_progress_bar()
+    try:
+        yield
+    finally:
+        bars.enable_progress_bar()
