@@ -77,12 +77,20 @@ def require_folder(candidate: Candidate) -> Path:
 def how_to_get(candidate: Candidate) -> str:
     """What to do to have the candidate on this machine."""
     copy = f"copy it into a folder {candidate.name} of the folder that {MODELS_VARIABLE} names"
-    if candidate.repo is None:
+    command = download_command(candidate)
+    if command is None:
         return f"this installation lacks its weights; install the package again, or {copy}"
     licence = f"accept its licence at https://huggingface.co/{candidate.repo}, run `hf auth login`, then " if candidate.gated else ""
+    return f"{licence}run `{command}` (without a network: {copy})"
+
+
+def download_command(candidate: Candidate) -> str | None:
+    """The shell command that downloads a candidate from the hub, None for one that is not there."""
+    if candidate.repo is None:
+        return None
     revision = f" --revision {candidate.revision}" if candidate.revision else ""
     # The Llama repositories hold the weights a second time, pickled, in original/.
-    return f'{licence}run `hf download {candidate.repo}{revision} --exclude "original/*"` (without a network: {copy})'
+    return f'hf download {candidate.repo}{revision} --exclude "original/*"'
 
 
 def load_tokenizer(candidate: Candidate) -> PreTrainedTokenizerBase:
