@@ -1,0 +1,84 @@
+"""One function renders a sample for training, benchmark and planning: prompt ids, completion mask, end of turn."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from planner_ft.candidates.loading import load_tokenizer
+from planner_ft.candidates.registry import resolve_candidate
+from planner_ft.candidates.standins import make_standin
+from planner_ft.prompts.render import end_of_turn_ids, render_prompt, render_sample
+from planner_ft.prompts.text import completion_text, user_text
+from planner_ft.vocabulary import load_vocabulary
+
+VOCABULARY = load_vocabulary()
+END_OF_TURN = {
+    "Llama-3.2-1B": "<|end_of_text|>",
+    "Llama-3.2-1B-Instruct": "<|eot_id|>",
+    "Llama-3.2-3B": "<|end_of_text|>",
+    "Llama-3.2-3B-Instruct": "<|eot_id|>",
+    "Llama-3.1-8B": "<|end_of_text|>",
+    "Qwen2.5-3B": "<|im_end|>",
+    "Qwen2.5-3B-Instruct": "<|im_end|>",
+}
+MISSION: dict[str, Any] = {
+    "id": "m",
+    "prompt": "Circle the tower at [4, 5] — 12.5 m off.",
+    "expected": {
+        "tasks": [
+            {"title": "Transit", "parameters": {"target_position": [4.0, 5]}, "task_prompt": "Go to [4, 5]."},
+            {"title": "PerformOrbit", "parameters": {"radius": 12.5, "center": [4, 5]}, "task_prompt": "Circle it."},
+        ],
+        "assumptions": [],
+        "constraints": [],
+    },
+}
+
+
+@pytest.fixture(scope="module", params=sorted(END_OF_TURN))
+def tokenizer(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Any:
+    folder = Path(make_standin(request.param, tmp_path_factory.mktemp("standins")))
+    tokenizer = load_tokenizer(resolve_candidate(str(folder)))
+    tokenizer.planner_ft_name = request.param
+    return tokenizer
+
+
+def test_prompt_and_answer_join_without_a_seam(tokenizer: Any) -> None:
+    rendered = render_sample("mission", MISSION, tokenizer, VOCABULARY)
+    prompt = render_prompt("mission", MISSION, tokenizer, VOCABULARY, with_vocabulary=False)
+    assert rendered.input_ids[: rendered.prompt_length] == prompt
+    assert rendered.completion_mask == [0] * len(prompt) + [1] * (len(rendered.input_ids) - len(prompt))
+    answer = tokenizer.decode(rendered.input_ids[rendered.prompt_length : -1])
+    assert answer == completion_text("mission", MISSION["expected"], VOCABULARY)
+
+
+def test_the_end_of_turn_is_trained(tokenizer: Any) -> None:
+    rendered = render_sample("mission", MISSION, tokenizer, VOCABULARY)
+    assert tokenizer.convert_ids_to_tokens(rendered.input_ids[-1]) == END_OF_TURN[tokenizer.planner_ft_name]
+    assert rendered.completion_mask[-1] == 1
+    assert rendered.input_ids[-1] == end_of_turn_ids(tokenizer)[0]
+
+
+def test_there_is_one_beginning_of_text_at_most(tokenizer: Any) -> None:
+    prompt = render_prompt("mission", MISSION, tokenizer, VOCABULARY, with_vocabulary=True)
+    assert prompt.count(tokenizer.bos_token_id) == (1 if tokenizer.bos_token_id is not None else 0)
+
+
+def test_only_base_models_are_shown_the_vocabulary(tokenizer: Any) -> None:
+    shown = tokenizer.decode(render_prompt("mission", MISSION, tokenizer, VOCABULARY, with_vocabulary=True))
+    hidden = tokenizer.decode(render_prompt("mission", MISSION, tokenizer, VOCABULARY, with_vocabulary=False))
+    assert all(task.title in shown for task in VOCABULARY.tasks)
+    assert not any(task.title in hidden for task in VOCABULARY.tasks)
+    assert MISSION["prompt"] in shown and MISSION["prompt"] in hidden
+
+
+def test_targets_are_serialised_in_one_canonical_way() -> None:
+    text = completion_text("mission", MISSION["expected"], VOCABULARY)
+    assert '"parameters":{"target_position":[4,5]}' in text
+    assert '"parameters":{"center":[4,5],"radius":12.5}' in text
+
+
+def test_the_task_agent_gets_title_parameters_and_prompt() -> None:
+    record = {"task": "SurveyTarget", "parameters": {"radius": 3.0, "target_position": [1, 2]}, "prompt": "Look at it."}
+    assert user_text("task", record, VOCABULARY) == 'SurveyTarget\n{"target_position":[1,2],"radius":3}\nLook at it.'

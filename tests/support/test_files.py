@@ -1,0 +1,74 @@
+"""Atomic writes, and errors that name file and line."""
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import atomic_writer, compact_json, read_json, read_jsonl, sha256_tree, write_json, write_jsonl
+
+
+def test_an_interrupted_write_leaves_the_old_file(tmp_path: Path) -> None:
+    path = tmp_path / "result.json"
+    write_json(path, {"a": 1})
+    with pytest.raises(RuntimeError), atomic_writer(path) as stream:
+        stream.write("half")
+        raise RuntimeError
+    assert json.loads(path.read_text()) == {"a": 1}
+    assert os.listdir(tmp_path) == ["result.json"]
+
+
+def test_a_full_disk_is_one_sentence(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def full(*_arguments: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(PlannerError, match="No space left on device"):
+        write_json(tmp_path / "result.json", {"a": 1})
+    assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"", "holds no records"),
+        (b'{"id": 1}\n{"id"', r"data.jsonl:2: not JSON"),
+        (b'{"id": 1}\n[1]\n', r"data.jsonl:2: a JSON object is expected, not list"),
+        (b'{"id": "\xff"}\n', "not UTF-8 text \\(byte 8\\)"),
+    ],
+)
+def test_bad_jsonl_names_file_and_line(tmp_path: Path, content: bytes, message: str) -> None:
+    path = tmp_path / "data.jsonl"
+    path.write_bytes(content)
+    with pytest.raises(PlannerError, match=message):
+        read_jsonl(path)
+
+
+def test_a_line_separator_inside_a_string_is_no_new_line(tmp_path: Path) -> None:
+    write_jsonl(tmp_path / "data.jsonl", [{"id": "a\u2028b"}])
+    assert read_jsonl(tmp_path / "data.jsonl") == [{"id": "a\u2028b"}]
+
+
+def test_missing_and_broken_json_files(tmp_path: Path) -> None:
+    with pytest.raises(PlannerError, match="no such file"):
+        read_json(tmp_path / "none.json")
+    (tmp_path / "broken.json").write_text('{"a":\n}')
+    with pytest.raises(PlannerError, match=r"broken.json:2: not JSON"):
+        read_json(tmp_path / "broken.json")
+
+
+def test_compact_json_refuses_nan() -> None:
+    assert compact_json({"a": [1, "é"]}) == '{"a":[1,"é"]}'
+    with pytest.raises(ValueError):
+        compact_json(float("nan"))
+
+
+def test_a_folder_digest_changes_with_any_byte(tmp_path: Path) -> None:
+    (tmp_path / "a.safetensors").write_bytes(b"1")
+    before = sha256_tree(tmp_path, ("*.safetensors",))
+    (tmp_path / "note.txt").write_text("not covered")
+    assert sha256_tree(tmp_path, ("*.safetensors",)) == before
+    (tmp_path / "a.safetensors").write_bytes(b"2")
+    assert sha256_tree(tmp_path, ("*.safetensors",)) != before
