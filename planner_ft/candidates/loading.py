@@ -69,7 +69,8 @@ def _cpu_multiplies_bfloat16() -> bool:
 def require_folder(candidate: Candidate) -> Path:
     """The candidate's folder, checked. Raises PlannerError that says how to get the model when it is not here."""
     if candidate.folder is None:
-        raise PlannerError(f"{candidate.name} is not on this machine: {how_to_get(candidate)}")
+        nor = f", and there is no folder {candidate.name}" if candidate.name == candidate.repo else ""
+        raise PlannerError(f"{candidate.name} is not on this machine{nor}: {how_to_get(candidate)}")
     check_folder(candidate.folder)
     return candidate.folder
 

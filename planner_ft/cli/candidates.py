@@ -54,7 +54,7 @@ def _table(descriptions: list[dict[str, Any]]) -> Table:
 
     table = Table(box=SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
     table.add_column("candidate", no_wrap=True)
-    for heading in ("weights", "train\nGiB", "on GPU\nGB", "run\nGiB", "GPU\nGB"):
+    for heading in ("weights", "train\nGiB", "GPU\nGB", "run\nGiB", "GPU\nGB"):
         table.add_column(heading, justify="right", no_wrap=True)
     table.add_column("licence", overflow="fold")
     table.add_column("here", overflow="fold")

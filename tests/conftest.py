@@ -1,0 +1,28 @@
+"""Fixtures of more than one part."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+# Set before anything imports the hub's library, which reads it once: tests never touch a network.
+os.environ["HF_HUB_OFFLINE"] = "1"
+
+
+@pytest.fixture(scope="session")
+def standins(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the stand-ins of the seven published candidates, to be named by PLANNERFT_MODELS. Do not write to it."""
+    from planner_ft.candidates.standins import make_all_standins
+
+    folder = tmp_path_factory.mktemp("standins")
+    make_all_standins(folder)
+    return folder
+
+
+@pytest.fixture
+def models(standins: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The stand-ins' folder, with PLANNERFT_MODELS set: candidates resolve to their stand-ins."""
+    monkeypatch.setenv("PLANNERFT_MODELS", str(standins))
+    return standins
