@@ -1,0 +1,1 @@
+"""Mission level: curated commands and synthetic ones."""
