@@ -14,10 +14,12 @@ from planner_ft.support.files import read_text, sha256_text
 Role = Literal["navigation", "filter", "perception"]
 ParameterType = Literal["position", "polygon", "number", "integer", "text", "id", "texts"]
 Arrival = Literal["transit", "self", "none"]
+Motion = Literal["goto", "hold", "turn_to", "turn_by", "arc", "drift", "visual", "wait"]
 
 ROLES: tuple[Role, ...] = get_args(Role)
 BUNDLED = Path(__file__).parent
 DEFAULT = "usv"
+PHRASES = ".phrases.toml"
 
 
 @dataclass(frozen=True)
@@ -65,6 +67,7 @@ class Skill:
     category: str
     role: Role
     description: str
+    motion: Motion | None = None
     parameters: tuple[Parameter, ...] = ()
     require_any: tuple[str, ...] = ()
     stop: str | None = None
@@ -78,7 +81,10 @@ class Skill:
 
 @dataclass(frozen=True)
 class Vocabulary:
-    """A vehicle's tasks and skills. Positions are metres in the local frame."""
+    """A vehicle's tasks and skills. Positions are metres in the local frame.
+
+    `phrases` is the content of the companion file NAME.phrases.toml, from which the task sampler words its prompts.
+    """
 
     name: str
     title: str
@@ -91,6 +97,7 @@ class Vocabulary:
     skills: tuple[Skill, ...]
     source: str
     sha256: str
+    phrases: dict[str, Any] = field(default_factory=dict)
 
     @functools.cached_property
     def task(self) -> dict[str, Task]:
@@ -109,7 +116,7 @@ class Vocabulary:
 
 def bundled_vocabularies() -> list[str]:
     """Names of the definitions that ship with the package."""
-    return sorted(path.stem for path in BUNDLED.glob("*.toml"))
+    return sorted(path.stem for path in BUNDLED.glob("*.toml") if not path.name.endswith(PHRASES))
 
 
 @functools.lru_cache(maxsize=16)
@@ -123,12 +130,11 @@ def load_vocabulary(source: str | Path = DEFAULT) -> Vocabulary:
     if not path.is_file():
         raise PlannerError(f"--vocabulary {source}: no such file, and no bundled vocabulary of that name ({', '.join(bundled_vocabularies())})")
     text = read_text(path)
-    try:
-        raw = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise PlannerError(f"{path}: not TOML: {error}") from None
+    raw = _parse(path, text)
+    companion = path.with_name(path.name.removesuffix(".toml") + PHRASES)
+    phrases = _parse(companion, read_text(companion)) if companion.is_file() else {}
     problems: list[str] = []
-    vocabulary = _build(raw, str(source), sha256_text(text), problems)
+    vocabulary = _build(raw, phrases, str(source), sha256_text(text), problems)
     if not problems and vocabulary is not None:
         _check_references(vocabulary, problems)
     if problems or vocabulary is None:
@@ -136,7 +142,14 @@ def load_vocabulary(source: str | Path = DEFAULT) -> Vocabulary:
     return vocabulary
 
 
-def _build(raw: dict[str, Any], source: str, sha256: str, problems: list[str]) -> Vocabulary | None:
+def _parse(path: Path, text: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise PlannerError(f"{path}: not TOML: {error}") from None
+
+
+def _build(raw: dict[str, Any], phrases: dict[str, Any], source: str, sha256: str, problems: list[str]) -> Vocabulary | None:
     vehicle = raw.get("vehicle", {})
     missing = [key for key in ("name", "title", "frame", "home", "unresolved", "transit", "locate") if key not in vehicle]
     if missing:
@@ -152,7 +165,7 @@ def _build(raw: dict[str, Any], source: str, sha256: str, problems: list[str]) -
         name=vehicle["name"], title=vehicle["title"], frame=vehicle["frame"],
         home=tuple(vehicle["home"]), unresolved=tuple(vehicle["unresolved"]),
         transit=vehicle["transit"], locate=vehicle["locate"],
-        tasks=tuple(tasks), skills=tuple(skills), source=source, sha256=sha256,
+        tasks=tuple(tasks), skills=tuple(skills), source=source, sha256=sha256, phrases=phrases,
     )  # fmt: skip
 
 
@@ -203,3 +216,7 @@ def _check_references(vocabulary: Vocabulary, problems: list[str]) -> None:
                 elif vocabulary.skill[name].role != role:
                     problems.append(f"task {task.title}: skill {name!r} has the role {vocabulary.skill[name].role}, not {role}")
     problems.extend(f"skill {skill.name}: role {skill.role!r} is none of {', '.join(ROLES)}" for skill in vocabulary.skills if skill.role not in ROLES)
+    motions = get_args(Motion)
+    problems.extend(f"skill {skill.name}: motion {skill.motion!r} is none of {', '.join(motions)}" for skill in vocabulary.skills if skill.motion not in (None, *motions))
+    for kind, known in (("task", set(vocabulary.task)), ("skill", set(vocabulary.skill))):
+        problems.extend(f"the phrase file has phrases for {kind} {name!r}, which is not defined" for name in sorted(set(vocabulary.phrases.get(kind, {})) - known))

@@ -1,0 +1,1 @@
+"""The data sets of both levels: curated, sampled, audited."""

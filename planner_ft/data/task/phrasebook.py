@@ -1,0 +1,180 @@
+"""The phrases of a vocabulary, compiled, and skill calls drawn from them.
+
+A definition without phrases still works: each skill falls back on a phrase made from its name and parameter names.
+"""
+
+from __future__ import annotations
+
+import random
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from planner_ft.data.task.numbers import Value
+from planner_ft.data.task.template import Form, Template, compile_template, mark
+from planner_ft.data.task.values import Draw, value_space
+from planner_ft.data.task.words import Lexicon
+from planner_ft.vocabulary.definition import Role, Skill, Task, Vocabulary
+
+Given = frozenset[str]
+
+
+def spaced(name: str) -> str:
+    """A name as words: "RotateToHeading" -> "rotate to heading", "target_id" -> "target id"."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])|_", " ", name).lower()
+
+
+class Slots(dict[str, str]):
+    """What is said for each slot; a slot that begins with an underscore is an entry of that word list."""
+
+    def __init__(self, lexicon: Lexicon, rng: random.Random) -> None:
+        super().__init__()
+        self._lexicon, self._rng = lexicon, rng
+        self.given: set[str] = set()
+
+    def __missing__(self, key: str) -> str:
+        entry = self._lexicon.entry(key[1:], self._rng)
+        return mark(entry.removeprefix("the ") if key != "_target" else entry)
+
+    def put(self, name: str, value: Value) -> None:
+        """Say the value's wordings in the slot, set apart as values."""
+        self.given.add(name)
+        self[name], self[f"{name}!"], self[f"{name}^"] = mark(value.text), mark(value.short), mark(value.noun)
+
+    def put_words(self, name: str, text: str) -> None:
+        """Say words in the slot that refer to a value without stating it."""
+        self.given.add(name)
+        self[name] = self[f"{name}!"] = self[f"{name}^"] = text
+
+
+@dataclass
+class Saying:
+    """Phrases, any of which says the same thing with these slots."""
+
+    templates: Sequence[Template]
+    slots: Slots
+
+    def render(self, rng: random.Random, form: Form = "base") -> str:
+        """One wording."""
+        return self.templates[int(rng.random() * len(self.templates))].render(self.slots, rng, form)
+
+
+@dataclass
+class Call:
+    """A skill with its parameters and how it is said; `skill` is None for words that ask for no skill of their own."""
+
+    skill: str | None
+    parameters: dict[str, Any]
+    saying: Saying
+    with_saying: Saying | None = None
+    order: int = field(default=0)
+
+
+class SkillEntry:
+    """The phrases and parameter spaces of one skill."""
+
+    def __init__(self, skill: Skill, config: dict[str, Any], lexicon: Lexicon, *, unseen: bool) -> None:
+        self.skill = skill
+        spaces = config.get("values", {})
+        self.draws: dict[str, Draw] = {parameter.name: value_space(parameter, spaces.get(parameter.name, {}), lexicon) for parameter in skill.parameters}
+        often = config.get("often", {})
+        self.often = {parameter.name: 1.0 if parameter.required else float(often.get(parameter.name, 0.5)) for parameter in skill.parameters}
+        fallback = [_generic_phrase(skill)]
+        seen = [compile_template(text) for text in config.get("phrases", fallback)]
+        new = [compile_template(text) for text in config.get("unseen", [])] if unseen else []
+        self._layers = [layer for layer in (new, seen, [compile_template(text) for text in fallback]) if layer]
+        self._with = [compile_template(text) for text in config.get("with", [])]
+        self.during = [compile_template(text) for text in config.get("during", [])]
+        self._cache: dict[tuple[Given, bool], list[Template]] = {}
+
+    def fitting(self, given: Given, *, after_with: bool = False) -> list[Template]:
+        """Phrases that say exactly `given`; never empty except for those after "with"."""
+        key = (given, after_with)
+        if key not in self._cache:
+            layers = [self._with] if after_with else self._layers
+            found: list[Template] = next((fits for layer in layers if (fits := [t for t in layer if t.fits(given)])), [])
+            self._cache[key] = found
+        return self._cache[key]
+
+
+def _generic_phrase(skill: Skill) -> str:
+    names = [parameter.name for parameter in skill.parameters]
+    if "x" in names and "y" in names:
+        names = ["xy", *(name for name in names if name not in ("x", "y"))]
+    return f"~run {spaced(skill.name)}" + "".join(f"[ with {'position' if name == 'xy' else spaced(name)} {{{name}!}}]" for name in names)
+
+
+class Phrasebook:
+    """Everything that the sampler says, for the training families or for the unseen ones."""
+
+    def __init__(self, vocabulary: Vocabulary, *, unseen: bool) -> None:
+        self.vocabulary, self.unseen = vocabulary, unseen
+        self.raw = vocabulary.phrases
+        self.lexicon = Lexicon(self.raw.get("words", {}))
+        configs = self.raw.get("skill", {})
+        self.skills = {skill.name: SkillEntry(skill, configs.get(skill.name, {}), self.lexicon, unseen=unseen) for skill in vocabulary.skills}
+        self.tasks = {task.title: TaskEntry(task, self) for task in vocabulary.tasks}
+        self.motions: dict[str, str] = {}
+        for skill in vocabulary.skills:
+            if skill.motion:
+                self.motions.setdefault(skill.motion, skill.name)
+        self.verbs = _verbs(self.raw)
+        self.by_role: dict[Role, list[str]] = {role: [skill.name for skill in vocabulary.skills_in_role(role)] for role in ("navigation", "filter", "perception")}
+
+    def slots(self, rng: random.Random) -> Slots:
+        """Empty slots that know this vocabulary's words."""
+        return Slots(self.lexicon, rng)
+
+    def pattern(self, name: str, title: str, key: str = "phrases") -> list[Template]:
+        """Phrases of a movement of several steps: the task's own ones and the general ones."""
+        general = self.raw.get("pattern", {}).get(name, {})
+        if self.unseen and key == "phrases" and general.get("unseen"):
+            return [compile_template(text) for text in general["unseen"]]
+        own = self.raw.get("task", {}).get(title, {}).get("pattern_phrases", {}).get(name, []) if key == "phrases" else []
+        return [compile_template(text) for text in (*own, *own, *general.get(key, []))]
+
+
+class TaskEntry:
+    """The phrases, links and parameter spaces of one task."""
+
+    def __init__(self, task: Task, book: Phrasebook) -> None:
+        self.task = task
+        config = book.raw.get("task", {}).get(task.title, {})
+        spaces = config.get("values", {})
+        self.draws: dict[str, Draw] = {parameter.name: value_space(parameter, spaces.get(parameter.name, {}), book.lexicon) for parameter in task.parameters}
+        self.refer = {
+            parameter.name: [compile_template(text) for text in config.get("refer", {}).get(parameter.name, [f"the given {spaced(parameter.name)}"])]
+            for parameter in task.parameters
+        }
+        self.links: dict[str, str] = {}
+        for parameter in task.parameters:
+            for place in config.get("links", {}).get(parameter.name) or _default_links(task, parameter.name, book.vocabulary):
+                self.links.setdefault(place, parameter.name)
+        lead_key = "lead_unseen" if book.unseen and config.get("lead_unseen") else "lead"
+        self.lead = [compile_template(text) for text in config.get(lead_key, [])]
+        self.lead_skill: dict[str, str] = config.get("lead_skill", {})
+        self.phrases = [] if book.unseen else [compile_template(text) for text in config.get("phrases", [])]
+        self.phrases_for: str | None = config.get("phrases_for")
+        self.openers: list[str] = config.get("openers", [])
+        self.goto_phrases = [compile_template(text) for text in config.get("pattern_phrases", {}).get("goto", [])]
+
+
+def _verbs(phrases: Any) -> set[str]:
+    """The base forms of all verbs of the phrase file, by which a command is told from other openings of a sentence."""
+    if isinstance(phrases, str):
+        return set(re.findall(r"~([A-Za-z-]+)", phrases))
+    values = phrases.values() if isinstance(phrases, dict) else phrases if isinstance(phrases, list) else ()
+    return set().union(*(_verbs(value) for value in values)) if values else set()
+
+
+def _default_links(task: Task, name: str, vocabulary: Vocabulary) -> list[str]:
+    parameter = task.by_name[name]
+    places = []
+    for skill_name in (entry for names in task.skills.values() for entry in names):
+        skill = vocabulary.skill[skill_name]
+        if parameter.type == "position" and skill.motion == "goto":
+            places.append(f"{skill_name}.xy")
+        elif name in skill.by_name and skill.by_name[name].type == parameter.type:
+            places.append(f"{skill_name}.{name}")
+    return places

@@ -1,0 +1,231 @@
+"""The task-level data set, sampled from a vocabulary.
+
+    for record in sample_tasks(load_vocabulary(), seed=0, count=500, split="test"): ...
+
+A sample is drawn as a script (movements, filters, perception skills), said in a prompt, and its label is derived from
+the script: exactly what the prompt says. A prompt's skeleton, the prompt without its values, decides which of train,
+validation and test may hold it, so that the splits share no sample even when numbers and names are masked.
+"""
+
+from __future__ import annotations
+
+import itertools
+import random
+import zlib
+from collections.abc import Iterator, Sequence
+from typing import Any, Literal, get_args
+
+from planner_ft.data.task import phrasing, sequences
+from planner_ft.data.task.context import Context
+from planner_ft.data.task.movements import EXTRA, Movement, implied_hold, main_movement, simple
+from planner_ft.data.task.noise import noisy
+from planner_ft.data.task.phrasebook import Call, Phrasebook, Saying
+from planner_ft.data.task.phrasing import Script, Speaker
+from planner_ft.data.task.steps import expected_plan
+from planner_ft.data.task.template import close_gaps, plain, skeleton
+from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary.definition import Task, Vocabulary
+from planner_ft.vocabulary.plans import canonical_parameters, plan_problems
+
+Split = Literal["train", "validation", "test", "test_unseen"]
+SPLITS: tuple[Split, ...] = get_args(Split)
+
+EXTRA_MOVEMENTS = (0.56, 0.2, 0.13, 0.07, 0.04)  # how often a prompt has that many movements beside the main one
+PERCEPTIONS = (0.14, 0.36, 0.28, 0.15, 0.07)
+FILTERS = (0.56, 0.34, 0.1)
+LONGEST = 24  # steps; longer answers are drawn anew
+HELD_OUT = 6  # percent of the skeletons that belong to validation, and as many to test
+
+
+def sample_tasks(vocabulary: Vocabulary, seed: int, count: int | None, split: Split) -> Iterator[dict[str, Any]]:
+    """Yield `count` different records, or an endless stream when `count` is None; same seed, same records.
+
+    Record: {"id", "family", "task", "parameters", "prompt", "expected"}, canonical and strictly valid. Raises
+    PlannerError for an unknown split, or when the vocabulary has not enough different samples.
+    """
+    if split not in SPLITS:
+        raise PlannerError(f"split {split}: must be {', '.join(SPLITS)}")
+    rng = random.Random(f"{vocabulary.name}:{seed}:{split}")
+    book = Phrasebook(vocabulary, unseen=split == "test_unseen")
+    seen: set[int] = set()
+    misses = 0
+    numbers = itertools.count() if count is None else range(count)
+    for number in numbers:
+        while True:
+            drawn = draw_sample(book, rng, split)
+            key = hash_of(drawn["task"], drawn["parameters"], drawn["prompt"]) if drawn else 0
+            if drawn and key not in seen:
+                break
+            misses += 1
+            if misses > 2000 + 200 * (number + 1):
+                raise PlannerError(f"vocabulary {vocabulary.name}: split {split} has fewer than {count} different samples; ask for fewer or add phrases")
+        seen.add(key)
+        yield {"id": f"task-{split}-{number:06d}", **drawn}
+
+
+def hash_of(*parts: Any) -> int:
+    """A stable 64-bit digest of what makes a sample a duplicate."""
+    data = repr(parts).encode()
+    return zlib.crc32(data) << 32 | zlib.crc32(data[::-1])
+
+
+def split_of(text: str) -> Split:
+    """The split to which a skeleton of a training family belongs."""
+    bucket = zlib.crc32(text.lower().encode()) % 100
+    return "test" if bucket < HELD_OUT else "validation" if bucket < 2 * HELD_OUT else "train"
+
+
+def draw_sample(book: Phrasebook, rng: random.Random, split: Split) -> dict[str, Any] | None:
+    """One record without id, or None when the draw came to nothing or belongs to another split."""
+    tasks = book.vocabulary.tasks
+    task = tasks[int(rng.random() * len(tasks))]
+    context = Context(book, task, rng)
+    script = draw_script(context)
+    if script is None or sum(len(movement.steps) for movement in script.movements) > LONGEST:
+        return None
+    say = Speaker(rng, book)
+    frame, text = say_it(say, script, context)
+    text = close_gaps(text)
+    if split != "test_unseen" and split_of(f"{task.title} {skeleton(text)}") != split:
+        return None
+    prompt = plain(noisy(text, rng)) if split != "test_unseen" else plain(text)
+    expected = expected_plan(script, book.vocabulary)
+    problems = plan_problems("task", expected, book.vocabulary, strict=True)
+    if problems:
+        raise PlannerError(f"vocabulary {book.vocabulary.name}: a sample of {task.title} is not valid ({problems[0]}); correct typical ranges in the phrase file")
+    return {
+        "family": f"{'unseen-' if split == 'test_unseen' else ''}{frame}/{script.movements[0].kind}{len(script.movements)}",
+        "task": task.title,
+        "parameters": canonical_parameters(context.parameters(), task),
+        "prompt": prompt,
+        "expected": expected,
+    }
+
+
+def draw_script(context: Context) -> Script | None:
+    """Movements, filters and perception skills of one sample."""
+    rng = context.rng
+    lead = _lead(context)
+    movements = _movements(context, lead)
+    if movements is None:
+        return None
+    script = Script(movements)
+    if lead:
+        script.perceptions += lead
+    perceptions = _draw_calls(context, "perception", _count(rng, PERCEPTIONS), script)
+    filters = _draw_calls(context, "filter", _count(rng, FILTERS), script)
+    if movements[0].saying is None and not script.perceptions and not perceptions:
+        return None
+    for calls, name in ((perceptions, "perceptions"), (filters, "filters")):
+        for call in calls:
+            if len(movements) > 1 and rng.random() < 0.6:
+                getattr(movements[int(rng.random() * len(movements))], name).append(call)
+            else:
+                getattr(script, name).append(call)
+    return script
+
+
+def _count(rng: random.Random, shares: Sequence[float]) -> int:
+    roll = rng.random()
+    for number, share in enumerate(shares):
+        if roll < share:
+            return number
+        roll -= share
+    return 0
+
+
+def _movements(context: Context, lead: list[Call]) -> list[Movement] | None:
+    rng = context.rng
+    if (lead and rng.random() < 0.55) or (not lead and rng.random() < (0.35 if context.task.arrival == "none" and context.task.pattern == "hold" else 0.02)):
+        held = implied_hold(context)
+        return [held] if held else None
+    main = simple(context, context.book.motions["hold"]) if lead and rng.random() < 0.7 and "hold" in context.book.motions else main_movement(context)
+    movements = [main]
+    for _ in range(_count(rng, EXTRA_MOVEMENTS)):
+        extra = _extra(context)
+        if extra:
+            movements.insert(int(rng.random() * (len(movements) + 1)), extra)
+    return movements
+
+
+def _extra(context: Context) -> Movement | None:
+    rng = context.rng
+    roll = rng.random()
+    if roll < 0.1:
+        return EXTRA[int(rng.random() * len(EXTRA))](context)
+    names = context.task.skills["navigation"] if roll < 0.5 else context.book.by_role["navigation"]
+    return simple(context, names[int(rng.random() * len(names))])
+
+
+def _lead(context: Context) -> list[Call]:
+    """The hold in the task's own words ("search for the barge"), with the skill that it asks for."""
+    entry, rng = context.entry, context.rng
+    if not entry.lead or rng.random() < 0.2:
+        return []
+    slots = context.book.slots(rng)
+    parameters: dict[str, Any] = {}
+    for place, name in entry.links.items():
+        if place.startswith("lead."):
+            context.require(name)
+            value = context.fill(slots, name, place, refer=None if entry.lead_skill else None)
+            if name == entry.lead_skill.get("from"):
+                parameters[entry.lead_skill["parameter"]] = [value]
+    templates = [template for template in entry.lead if template.fits(frozenset(slots.given))]
+    return [Call(entry.lead_skill.get("skill"), parameters, Saying(templates, slots))] if templates else []
+
+
+def _draw_calls(context: Context, role: Literal["filter", "perception"], count: int, script: Script) -> list[Call]:
+    rng = context.rng
+    fitting = context.task.skills.get(role, ())
+    every = context.book.by_role[role]
+    calls: list[Call] = []
+    for _ in range(count):
+        names = fitting if fitting and rng.random() < (0.8 if role == "perception" else 0.9) else every
+        if not names:
+            break
+        name = names[int(rng.random() * len(names))]
+        again = [call for call in calls if call.skill == name]
+        if again and (role == "filter" or rng.random() < 0.7):
+            continue
+        call = context.call(name)
+        if not any(call.parameters == other.parameters or not call.parameters or not other.parameters for other in again):
+            calls.append(call)
+    return calls
+
+
+def say_it(say: Speaker, script: Script, context: Context) -> tuple[str, str]:
+    """The name of the frame, and the prompt with its values marked."""
+    unseen = context.book.unseen
+    if script.movements[0].saying is None and len(script.movements) == 1:
+        text = phrasing.no_movement(say, script.filters, script.perceptions)
+        if unseen:
+            text = f"Here is what is wanted: {text[0].lower()}{text[1:]}" if text[0].isalpha() else text
+        return "no_movement", opened(say, text, context)
+    if len(script.movements) == 1:
+        single = pick_weighted(phrasing.UNSEEN_SINGLE if unseen else phrasing.SINGLE, say.rng)
+        text = single(say, script.movements[0], script.filters, script.perceptions)
+        return single.__name__, opened(say, text, context)
+    sequence = pick_weighted(sequences.UNSEEN_SEQUENCES if unseen else sequences.SEQUENCES, say.rng)
+    return sequence.__name__, opened(say, sequences.say_script(say, script, sequence), context)
+
+
+def opened(say: Speaker, text: str, context: Context) -> str:
+    """The prompt, now and then with polite or official words before it, or with the task's own opener."""
+    first_word = text.split(" ", 1)[0].lower()
+    if context.book.unseen or first_word not in context.book.verbs or say.chance(0.85):
+        return text
+    openers = ["please ", "you are to ", "now ", "your task: ", "task: ", "I want you to ", "could you please "]
+    if context.entry.openers and say.chance(0.7):
+        openers = [f"{opener} " for opener in context.entry.openers]
+    opener = say.pick(*openers)
+    return phrasing.sentence(opener + text[0].lower() + text[1:])
+
+
+def pick_weighted(items: Sequence[tuple[Any, float]], rng: random.Random) -> Any:
+    """One of the items, in proportion to its weight."""
+    roll = rng.random() * sum(weight for _item, weight in items)
+    for item, weight in items:
+        if roll < weight:
+            return item
+        roll -= weight
+    return items[-1][0]

@@ -1,0 +1,155 @@
+"""The phrase language of NAME.phrases.toml: templates that expand to many wordings.
+
+    (~hold|~keep) (position|station)[ within {radius}][ for {time}]
+
+    (a|b)    one of the alternatives, which may be empty
+    [text]   optional part: stands exactly when all slots in it are given
+    {slot}   a value as it is said; {slot!} without its article, {slot^} as a noun ("a half circle")
+    ~verb    inflected: base form in commands, -ing form after "while"
+
+Values are set between VALUE_OPEN and VALUE_CLOSE, so that what surrounds them can be told apart: the skeleton of a
+prompt is the prompt without its values.
+"""
+
+from __future__ import annotations
+
+import functools
+import random
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+Form = Literal["base", "ing"]
+VALUE_OPEN, VALUE_CLOSE = "\x02", "\x03"
+
+_TOKEN = re.compile(r"~[A-Za-z-]+|\{[a-z_]+[!^]?\}|[()\[\]|]|[^~{}()\[\]|]+")
+_DOUBLING = {"cut", "get", "log", "pan", "put", "run", "stop", "let", "set", "sit", "grab", "scan", "tag", "pin", "drop", "map", "spin", "swing", "plan", "begin", "hug", "shut", "trim", "snap", "clip", "chop", "step", "jot", "skim", "fit", "rig", "ram", "zip", "spot", "dip", "flag"}  # fmt: skip
+_GERUND = {"be": "being", "lie": "lying", "tie": "tying", "see": "seeing", "flee": "fleeing"}
+
+
+def gerund(verb: str) -> str:
+    """The -ing form of an English verb: "hold" -> "holding", "take" -> "taking", "run" -> "running"."""
+    if verb in _GERUND:
+        return _GERUND[verb]
+    if verb in _DOUBLING:
+        return verb + verb[-1] + "ing"
+    return (verb[:-1] if verb.endswith("e") and not verb.endswith("ee") else verb) + "ing"
+
+
+Node = tuple[str, object]
+
+
+@dataclass(frozen=True)
+class Template:
+    """A compiled phrase: the slots that must be given, the slots that may be, and whether it has a verb to inflect."""
+
+    source: str
+    nodes: tuple[Node, ...]
+    needed: frozenset[str]
+    known: frozenset[str]
+    inflects: bool
+
+    def fits(self, given: frozenset[str]) -> bool:
+        """Whether the phrase says exactly the given slots: all that it needs, and none that it cannot say."""
+        return self.needed <= given <= self.known
+
+    def render(self, values: Mapping[str, str], rng: random.Random, form: Form = "base") -> str:
+        """A wording with `values` (slot, or slot with its mark, to text) put in."""
+        parts: list[str] = []
+        _render(self.nodes, values, rng, form == "ing", parts)
+        return "".join(parts)
+
+
+@functools.lru_cache(maxsize=16384)
+def compile_template(source: str) -> Template:
+    """Parse a phrase. Raises ValueError on unbalanced brackets."""
+    tokens = _TOKEN.findall(source)
+    if "".join(tokens) != source:
+        raise ValueError(f"phrase {source!r}: stray brace or tilde")
+    position, branches = _branches(tokens, 0)
+    if position != len(tokens) or len(branches) != 1:
+        raise ValueError(f"phrase {source!r}: unbalanced brackets")
+    nodes = branches[0]
+    needed, known = _slots(nodes)
+    return Template(source, nodes, frozenset(needed), frozenset(known), "~" in source)
+
+
+def _branches(tokens: list[str], position: int) -> tuple[int, list[tuple[Node, ...]]]:
+    branches: list[tuple[Node, ...]] = []
+    nodes: list[Node] = []
+    while position < len(tokens) and tokens[position] not in ")]":
+        token = tokens[position]
+        if token == "|":
+            branches.append(tuple(nodes))
+            nodes = []
+        elif token in "([":
+            position, inner = _branches(tokens, position + 1)
+            if position >= len(tokens) or tokens[position] != {"(": ")", "[": "]"}[token]:
+                raise ValueError(f"phrase {''.join(tokens)!r}: unbalanced brackets")
+            nodes.append(("choice", tuple(inner)) if token == "(" else ("optional", (frozenset(_slots(inner[0])[1]), inner[0])))
+        elif token[0] == "~":
+            nodes.append(("verb", (token[1:], gerund(token[1:]))))
+        elif token[0] == "{":
+            nodes.append(("slot", token[1:-1]))
+        else:
+            nodes.append(("text", token))
+        position += 1
+    branches.append(tuple(nodes))
+    return position, branches
+
+
+def _slots(nodes: tuple[Node, ...]) -> tuple[set[str], set[str]]:
+    needed: set[str] = set()
+    known: set[str] = set()
+    for kind, content in nodes:
+        if kind == "slot":
+            needed.add(str(content).rstrip("!^"))
+        elif kind == "choice":
+            for branch in content:  # type: ignore[attr-defined]
+                inner = _slots(branch)
+                needed |= inner[0]
+                known |= inner[1]
+        elif kind == "optional":
+            known |= content[0]  # type: ignore[index]
+    return needed, known | needed
+
+
+def _render(nodes: tuple[Node, ...], values: Mapping[str, str], rng: random.Random, ing: bool, parts: list[str]) -> None:
+    for kind, content in nodes:
+        if kind == "text":
+            parts.append(content)  # type: ignore[arg-type]
+        elif kind == "slot":
+            parts.append(values[content])  # type: ignore[index]
+        elif kind == "verb":
+            parts.append(content[ing])  # type: ignore[index]
+        elif kind == "choice":
+            _render(content[int(rng.random() * len(content))], values, rng, ing, parts)  # type: ignore[arg-type,index]
+        elif all(slot in values for slot in content[0]):  # type: ignore[index]
+            _render(content[1], values, rng, ing, parts)  # type: ignore[index]
+
+
+def mark(text: str) -> str:
+    """The text of a value, set apart from the wording around it."""
+    return f"{VALUE_OPEN}{text}{VALUE_CLOSE}"
+
+
+_GAPS = re.compile(r" +(?=[ .,;])")
+
+
+def close_gaps(text: str) -> str:
+    """The text without the double blanks that empty alternatives leave."""
+    return _GAPS.sub("", text)
+
+
+_VALUE = re.compile(f"{VALUE_OPEN}[^{VALUE_CLOSE}]*{VALUE_CLOSE}")
+
+
+def plain(text: str) -> str:
+    """The text without the marks."""
+    return text.replace(VALUE_OPEN, "").replace(VALUE_CLOSE, "")
+
+
+def skeleton(text: str) -> str:
+    """The text with each value replaced by an underscore."""
+    return _VALUE.sub("_", text)

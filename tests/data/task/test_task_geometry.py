@@ -1,0 +1,58 @@
+"""Waypoints against cases computed by hand."""
+
+import pytest
+
+from planner_ft.data.task import geometry as g
+
+
+def test_survey_square_starts_mid_east_and_runs_counter_clockwise():
+    assert g.survey_square((10, 20), 5) == [(15, 20), (15, 25), (10, 25), (5, 25), (5, 20), (5, 15), (10, 15), (15, 15)]
+
+
+def test_survey_square_clockwise_from_the_north_west_corner():
+    assert g.survey_square((0, 0), 8, "north-west", clockwise=True)[:4] == [(-8, 8), (0, 8), (8, 8), (8, 0)]
+
+
+def test_lawnmower_twenty_by_twenty_at_five_metres_has_ten_waypoints_from_the_south_west():
+    points = g.lawnmower((0, 0), 20, 20, 5)
+    assert points == [(-10, -10), (-10, 10), (-5, 10), (-5, -10), (0, -10), (0, 10), (5, 10), (5, -10), (10, -10), (10, 10)]
+
+
+@pytest.mark.parametrize(
+    ("corner", "axis", "expected"),
+    [
+        ("north-west", "y", [(0, 10), (0, 0), (5, 0), (5, 10), (10, 10), (10, 0)]),
+        ("south-east", "y", [(10, 0), (10, 10), (5, 10), (5, 0), (0, 0), (0, 10)]),
+        ("south-west", "x", [(0, 0), (10, 0), (10, 5), (0, 5), (0, 10), (10, 10)]),
+        ("north-east", "x", [(10, 10), (0, 10), (0, 5), (10, 5), (10, 0), (0, 0)]),
+    ],
+)
+def test_lawnmower_from_other_corners_and_along_x(corner, axis, expected):
+    assert g.lawnmower((5, 5), 10, 10, 5, corner, axis) == expected
+
+
+def test_lawnmower_width_lies_along_x():
+    points = g.lawnmower((100, 50), 12, 40, 6)
+    assert points == [(94, 30), (94, 70), (100, 70), (100, 30), (106, 30), (106, 70)]
+
+
+def test_lawnmower_refuses_a_spacing_that_does_not_fill_the_area():
+    with pytest.raises(ValueError, match="do not fill"):
+        g.lawnmower((0, 0), 20, 20, 6)
+    assert g.lane_count(20, 2.5) == 9
+
+
+def test_line_follows_the_compass():
+    assert g.straight_line((10, 0), 90, 40) == [(10, 0), (50, 0)]
+    assert g.straight_line((0, 0), 225, 100) == [(0, 0), (-70.71, -70.71)]
+    assert g.straight_line((0, 0), 30, 20) == [(0, 0), (10, 17.32)]
+
+
+def test_circle_points_from_a_bearing_on():
+    assert g.circle((0, 0), 10, 4, 90, clockwise=False) == [(10, 0), (0, 10), (-10, 0), (0, -10)]
+    assert g.circle((5, 5), 10, 4, 0, clockwise=True) == [(5, 15), (15, 5), (5, -5), (-5, 5)]
+
+
+def test_sector_headings():
+    assert g.sector_headings(6) == [0, 60, 120, 180, 240, 300]
+    assert g.sector_headings(4, 45, clockwise=False) == [45, 315, 225, 135]
