@@ -54,16 +54,29 @@ def check_adapter(folder: Path | str, candidate: Candidate, *, level: Level | No
         raise PlannerError(f"{folder}: no such adapter folder; train one with `plannerft train --candidate {candidate.name}`")
     config = _config(folder)
     shapes = check_safetensors(_weights(folder))
-    manifest = read_json(folder / MANIFEST) if (folder / MANIFEST).is_file() else {}
-    base = manifest.get("base") if isinstance(manifest, dict) else None
-    if isinstance(base, dict):
+    manifest = _manifest(folder)
+    base, trained_with = manifest.get("base", {}), manifest.get("vocabulary", {})
+    if base:
         _check_base(folder, base, candidate)
     else:
         _check_reference(folder, config.get("base_model_name_or_path"), candidate)
     _check_shapes(folder, shapes, candidate.dimensions)
-    info = AdapterInfo(folder, int(config["r"]), manifest.get("level"), (base or {}).get("name"), (manifest.get("vocabulary") or {}).get("name"))
-    _check_purpose(info, manifest, level, vocabulary)
+    info = AdapterInfo(folder, int(config["r"]), manifest.get("level"), base.get("name"), trained_with.get("name"))
+    if level and info.level not in (None, level):
+        raise PlannerError(f"{folder}: this is an adapter of the {info.level} level, not of the {level} level; give --level {info.level} or another --adapter")
+    if vocabulary and trained_with:
+        _check_vocabulary(folder, trained_with, vocabulary)
     return info
+
+
+def _manifest(folder: Path) -> dict[str, Any]:
+    """Our manifest; empty for an adapter that another program has saved."""
+    if not (folder / MANIFEST).is_file():
+        return {}
+    manifest = read_json(folder / MANIFEST)
+    if not isinstance(manifest, dict) or not all(isinstance(manifest.get(key, {}), dict) for key in ("base", "vocabulary")):
+        raise PlannerError(f"{folder / MANIFEST}: no manifest of an adapter; restore it, or remove it to load the folder as a plain PEFT adapter")
+    return manifest
 
 
 def _config(folder: Path) -> dict[str, Any]:
@@ -122,13 +135,9 @@ def _check_shapes(folder: Path, shapes: dict[str, tuple[int, ...]], dimensions: 
             raise PlannerError(f"{folder / WEIGHTS}: {name} of shape {list(shape)} does not fit the base model; the adapter belongs to another base")
 
 
-def _check_purpose(info: AdapterInfo, manifest: dict[str, Any], level: Level | None, vocabulary: Vocabulary | None) -> None:
-    if level and info.level not in (None, level):
-        raise PlannerError(
-            f"{info.folder}: this is an adapter of the {info.level} level, not of the {level} level; give --level {info.level} or another --adapter"
-        )
-    recorded = manifest.get("vocabulary") or {}
-    if vocabulary and recorded and recorded.get("sha256") != vocabulary.sha256:
-        same = recorded.get("name") == vocabulary.name
-        other = f"another version of the vocabulary {vocabulary.name}" if same else f"the vocabulary {recorded.get('name')}, not {vocabulary.name}"
-        raise PlannerError(f"{info.folder}: this adapter was trained with {other}; give that one with --vocabulary, or train again")
+def _check_vocabulary(folder: Path, recorded: dict[str, Any], vocabulary: Vocabulary) -> None:
+    if recorded.get("sha256") == vocabulary.sha256:
+        return
+    same = recorded.get("name") == vocabulary.name
+    other = f"another version of the vocabulary {vocabulary.name}" if same else f"the vocabulary {recorded.get('name')}, not {vocabulary.name}"
+    raise PlannerError(f"{folder}: this adapter was trained with {other}; give that one with --vocabulary, or train again")

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from planner_ft.candidates.adapters import check_adapter
 from planner_ft.candidates.libraries import quiet_bars, quiet_libraries
 from planner_ft.candidates.location import MODELS_VARIABLE, check_folder
+from planner_ft.candidates.packing import linear_4bit, set_packing
 from planner_ft.candidates.registry import Candidate, Quantization
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
@@ -140,8 +141,6 @@ def load_model(
 
             model = PeftModel.from_pretrained(model, str(adapter), is_trainable=trainable, use_safetensors=True)
     if quantization == "nf4":
-        from planner_ft.candidates.packing import set_packing
-
         set_packing(model, allowed=not trainable)
     return model.eval()
 
@@ -164,6 +163,12 @@ def _load_base(folder: Path, device: torch.device, quantization: Quantization) -
     # transformers fills missing tensors with random numbers and only warns.
     if report["missing_keys"]:
         raise PlannerError(f"{folder}: the weights lack {len(report['missing_keys'])} tensors ({min(report['missing_keys'])}, ...); download them again")
+    # It compares the shapes of 16-bit tensors alone.
+    for name, layer in linear_4bit(model) if quantization == "nf4" else ():
+        if (expected := (layer.out_features, layer.in_features)) != tuple(layer.weight.quant_state.shape):
+            raise PlannerError(
+                f"{folder}: {name} has the shape {list(layer.weight.quant_state.shape)}, but config.json says {list(expected)}; download both again"
+            )
     return model
 
 
