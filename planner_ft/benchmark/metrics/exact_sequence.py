@@ -1,0 +1,33 @@
+"""Exact sequence: the right names in the right order, repetitions included."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from planner_ft.vocabulary.plans import Level, list_key, plan_names, step_skills
+
+Sequence = list[tuple[str, ...]]
+
+
+def name_sequence(level: Level, plan: dict[str, Any]) -> Sequence:
+    """The names in order: one title per task, or per step the navigation skill, then filters and perception skills.
+
+    Skills of one step run at the same time, so the order within its filters and within its perception skills is
+    dropped; their roles are kept.
+    """
+    if level == "mission":
+        return [(title,) for title in plan_names(level, plan)]
+    steps = plan.get(list_key(level))
+    return [_step(step) for step in steps] if isinstance(steps, list) else []
+
+
+def exact_sequence(level: Level, plan: dict[str, Any] | None, expected: dict[str, Any]) -> bool:
+    """Whether an answer names the expected tasks, or steps with their skills, in the expected order and nothing else.
+
+    An answer that does not parse is never right, also where nothing is expected.
+    """
+    return plan is not None and name_sequence(level, plan) == name_sequence(level, expected)
+
+
+def _step(step: Any) -> tuple[str, ...]:
+    return tuple(sorted(f"{role} {skill.get('name')}" for role, skill in step_skills(step)))

@@ -1,0 +1,120 @@
+"""Test data: any JSONL of `{"id", "prompt", "expected"}` records (task level: also `task` and `parameters`)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import iterate_jsonl, sha256_file
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import Level, list_key, plan_names, step_skills
+
+SHOWN = 5
+"""Bad lines that an error lists before it only counts the rest."""
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One test sample. `family` is its phrasing family, or its id where the data has no families."""
+
+    id: str
+    family: str
+    record: dict[str, Any]
+
+    @property
+    def expected(self) -> dict[str, Any]:
+        """The expected plan; it may hold names and parameters alone."""
+        plan: dict[str, Any] = self.record["expected"]
+        return plan
+
+
+@dataclass(frozen=True)
+class BenchData:
+    """The samples of a file, of which `limit` may have kept only the first."""
+
+    path: Path
+    sha256: str
+    level: Level
+    samples: tuple[Sample, ...]
+
+    def summary(self) -> dict[str, Any]:
+        """Path, digest and number of samples, as results.json has them."""
+        return {"path": str(self.path), "sha256": self.sha256, "n": len(self.samples)}
+
+
+def load_bench_data(path: Path | str, level: Level, vocabulary: Vocabulary, limit: int | None = None) -> BenchData:
+    """Read and check test data. Raises PlannerError that names the bad lines."""
+    path = Path(path)
+    if limit is not None and limit < 1:
+        raise PlannerError(f"--limit {limit}: must be at least 1")
+    samples: dict[str, Sample] = {}
+    lines: dict[str, int] = {}
+    problems: list[str] = []
+    record: Any
+    for number, record, problem in iterate_jsonl(path):
+        problem = problem or next(record_problems(record, level, vocabulary), None)
+        if problem is None and record["id"] in lines:
+            problem = f"id {record['id']!r} stands on line {lines[record['id']]} already"
+        if problem is not None:
+            problems.append(f"{path}:{number}: {problem}")
+            continue
+        lines[record["id"]] = number
+        samples[record["id"]] = Sample(record["id"], str(record.get("family") or record["id"]), record)
+    if problems:
+        raise PlannerError(joined(problems))
+    if not samples:
+        raise PlannerError(f"{path}: holds no samples")
+    return BenchData(path, sha256_file(path), level, tuple(samples.values())[:limit])
+
+
+def joined(problems: list[str]) -> str:
+    """The first problems as one text, with the number of the others."""
+    more = f"; and {len(problems) - SHOWN} more" if len(problems) > SHOWN else ""
+    return "; ".join(problems[:SHOWN]) + more
+
+
+def record_problems(record: Any, level: Level, vocabulary: Vocabulary) -> Iterator[str]:
+    """What keeps a line from being a test sample of this level."""
+    if not isinstance(record, dict):
+        yield f"a JSON object is expected, not {type(record).__name__}"
+        return
+    for key in ("id", "prompt"):
+        if not isinstance(record.get(key), str) or not record[key].strip():
+            yield f"{key} is missing or no text"
+    expected, key = record.get("expected"), list_key(level)
+    if not isinstance(expected, dict) or not isinstance(expected.get(key), list):
+        yield f'expected must be an object with the list "{key}" (is this data of --level {level}?)'
+        return
+    if level == "task":
+        if record.get("task") not in vocabulary.task:
+            yield f"task {record.get('task')!r} is no task of the vocabulary {vocabulary.name}"
+        if not isinstance(record.get("parameters"), dict):
+            yield "parameters is missing or no object"
+    yield from _plan_problems(expected, level, vocabulary)
+
+
+def _plan_problems(expected: dict[str, Any], level: Level, vocabulary: Vocabulary) -> Iterator[str]:
+    """Entries without a readable name would be lost from the score, names outside the vocabulary can never be met."""
+    known = vocabulary.task if level == "mission" else vocabulary.skill
+    key = list_key(level)
+    for index, entry in enumerate(expected[key]):
+        entries = [entry] if level == "mission" else [skill for _role, skill in step_skills(entry)]
+        field = "title" if level == "mission" else "name"
+        if not entries or not all(isinstance(item, dict) and isinstance(item.get(field), str) for item in entries):
+            yield f"expected.{key}[{index}] has no {field}"
+        elif not all(isinstance(item.get("parameters", {}), dict) for item in entries):
+            yield f"expected.{key}[{index}]: parameters is no object"
+    for name in plan_names(level, expected):
+        if name not in known:
+            yield f"expected names {name!r}, which is not in the vocabulary {vocabulary.name}; correct it or give --vocabulary"
+
+
+def default_data(level: Level) -> Path:
+    """The test split that `plannerft gen-data` writes. Raises PlannerError when it is not there."""
+    path = Path("data") / level / "test.jsonl"
+    if not path.is_file():
+        raise PlannerError(f"{path}: no such file; write it with `plannerft gen-data --level {level}`, or give --data")
+    return path

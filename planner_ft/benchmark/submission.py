@@ -1,0 +1,80 @@
+"""Scoring predictions that somebody else made, or that a run has written: no model is needed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from planner_ft.benchmark.results import Results, System, score_system
+from planner_ft.benchmark.samples import BenchData, joined
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import iterate_jsonl
+from planner_ft.support.manifest import build_manifest
+from planner_ft.vocabulary import Vocabulary
+
+CONFIGURATION = "submitted"
+"""Configuration of predictions that name none."""
+
+Predictions = dict[tuple[str, str], dict[str, dict[str, Any]]]
+
+
+def score_predictions(path: Path, data: BenchData, vocabulary: Vocabulary, *, seed: int = 0, name: str | None = None) -> Results:
+    """Score the predictions in `path` against `data`.
+
+    A line needs `id` and `output` (text, or the plan as an object); `candidate` and `configuration` group lines, `tokens`,
+    `latency_s` and `finish_reason` are used where they are given. `name` stands for lines without `candidate`.
+    Raises PlannerError that names the lines of malformed, double and unknown predictions.
+    """
+    groups = read_predictions(path, [sample.id for sample in data.samples], name or path.stem)
+    rows, scores = [], []
+    for (candidate, configuration), predictions in groups.items():
+        system = System(candidate, configuration, label=candidate)
+        latencies = {key: float(line["latency_s"]) for key, line in predictions.items() if isinstance(line.get("latency_s"), int | float)}
+        row, of_samples = score_system(data.level, system, data.samples, predictions, vocabulary, seed=seed, latencies=latencies)
+        rows.append(row)
+        scores += of_samples
+    manifest = build_manifest(
+        "score", seed=seed, configuration={"level": data.level, "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256}},
+        inputs={"predictions": path, "data": data.path},
+    )  # fmt: skip
+    return Results(data.level, data.summary(), tuple(rows), manifest, tuple(scores))
+
+
+def read_predictions(path: Path, ids: Sequence[str], name: str) -> Predictions:
+    """Predictions by (candidate, configuration), then by sample id."""
+    known = set(ids)
+    groups: Predictions = {}
+    lines: dict[tuple[str, str, str], int] = {}
+    problems: list[str] = []
+    line: Any
+    for number, line, problem in iterate_jsonl(path):
+        problem = problem or _problem(line, known)
+        if problem is None:
+            key = (str(line.get("candidate") or name), str(line.get("configuration") or CONFIGURATION), line["id"])
+            if key in lines:
+                problem = f"id {line['id']!r} has a prediction on line {lines[key]} already"
+        if problem is not None:
+            problems.append(f"{path}:{number}: {problem}")
+            continue
+        lines[key] = number
+        groups.setdefault(key[:2], {})[line["id"]] = line
+    if problems:
+        raise PlannerError(joined(problems))
+    if not groups:
+        raise PlannerError(f"{path}: holds no predictions; one JSON object per line with id and output is expected")
+    return groups
+
+
+def _problem(line: Any, known: set[str]) -> str | None:
+    if not isinstance(line, dict):
+        return f"a JSON object is expected, not {type(line).__name__}"
+    if not isinstance(line.get("id"), str):
+        return "id is missing or no text"
+    if "output" not in line or not isinstance(line["output"], str | dict | None):
+        return "output is missing, or neither text nor object nor null"
+    if line["id"] not in known:
+        return f"id {line['id']!r} is not in the test data"
+    if line.get("tokens") is not None and not isinstance(line["tokens"], int | float):
+        return "tokens is no number"
+    return None

@@ -1,0 +1,237 @@
+"""Metrics against cases computed by hand."""
+
+from __future__ import annotations
+
+import copy
+import random
+from typing import Any
+
+import pytest
+
+from planner_ft.benchmark.metrics import exact_sequence, failure_kind, hallucinated, parameter_agreement, schema_valid, set_f1, strict_valid
+from planner_ft.benchmark.metrics.parameters import values_agree
+from planner_ft.benchmark.outputs import parse_output
+from planner_ft.vocabulary import load_vocabulary
+
+USV = load_vocabulary()
+
+
+def mission(*tasks: tuple[str, dict[str, Any]]) -> dict[str, Any]:
+    entries = [{"title": title, "parameters": dict(parameters), "task_prompt": "Do it."} for title, parameters in tasks]
+    return {"tasks": entries, "assumptions": [], "constraints": []}
+
+
+def step(navigation: tuple[str, dict[str, Any]], filters: tuple[str, ...] = (), perception: tuple[str, ...] = ()) -> dict[str, Any]:
+    return {
+        "navigation_skill": {"name": navigation[0], "parameters": navigation[1]},
+        "filter_skills": [{"name": name, "parameters": {}} for name in filters],
+        "perception_skills": [{"name": name, "parameters": {}} for name in perception],
+        "stop_conditions": [], "failure_modes": [], "expected_outputs": [],
+    }  # fmt: skip
+
+
+ORBIT = mission(
+    ("SearchAndDetect", {"target_description": "green barrel"}),
+    ("Transit", {"target_position": [-99, -99]}),
+    ("PerformOrbit", {"center": [-99, -99], "radius": 20}),
+    ("Transit", {"target_position": [0, 0]}),
+)
+
+
+@pytest.mark.parametrize(
+    ("predicted", "expected", "value"),
+    [
+        ([], [], 1.0), (["A"], [], 0.0), ([], ["A"], 0.0), (["A", "B"], ["B", "A", "A"], 1.0),
+        (["A"], ["A", "B"], 2 / 3), (["A", "X"], ["A", "B", "C"], 2 * (1 / 2) * (1 / 3) / (1 / 2 + 1 / 3)), (["X"], ["A"], 0.0),
+    ],
+)  # fmt: skip
+def test_set_f1(predicted: list[str], expected: list[str], value: float) -> None:
+    assert set_f1(predicted, expected) == pytest.approx(value)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "", "  ", "no", "[]", '"a"', "1", "{", '{"tasks": []} {"tasks": []}', '```json\n{"tasks": []}\n```', 'Here: {"tasks": []}',
+        '{"tasks": NaN}', "[" * 100_000, '{"a":' + "9" * 5000 + "}",
+    ],
+)  # fmt: skip
+def test_only_one_json_object_parses(text: str) -> None:
+    assert parse_output(text).plan is None
+    assert parse_output(text).problem
+
+
+def test_white_space_around_an_object_and_objects_themselves_parse() -> None:
+    assert parse_output(' \n{"tasks": []}\n').plan == {"tasks": []}
+    assert parse_output({"tasks": []}).plan == {"tasks": []}
+
+
+def test_hallucination_in_both_readings() -> None:
+    invented = mission(("Berthing", {}), ("Transit", {"target_position": [0, 0]}))
+    for unparsed in (True, False):
+        assert hallucinated("mission", None, USV, unparsed=unparsed) is unparsed
+        assert hallucinated("mission", invented, USV, unparsed=unparsed)
+        assert not hallucinated("mission", ORBIT, USV, unparsed=unparsed)
+    assert hallucinated("task", {"skill_sequence": [step(("StationKeep", {}), perception=("SmellWater",))]}, USV, unparsed=False)
+
+
+def test_an_invented_name_is_schema_valid_but_not_strictly_valid() -> None:
+    invented = mission(("Berthing", {}))
+    assert schema_valid("mission", invented, USV)
+    assert not strict_valid("mission", invented, USV)
+    assert schema_valid("mission", ORBIT, USV)
+    assert strict_valid("mission", ORBIT, USV)
+    assert not schema_valid("mission", {"tasks": []}, USV)
+    assert not schema_valid("mission", None, USV)
+    wrong_role = {"skill_sequence": [step(("LockHeading", {"heading": 0}))]}
+    assert schema_valid("task", wrong_role, USV)
+    assert not strict_valid("task", wrong_role, USV)
+
+
+def test_exact_sequence_minds_order_and_repetition() -> None:
+    assert exact_sequence("mission", copy.deepcopy(ORBIT), ORBIT)
+    assert not exact_sequence("mission", {**ORBIT, "tasks": ORBIT["tasks"][::-1]}, ORBIT)
+    assert not exact_sequence("mission", {**ORBIT, "tasks": ORBIT["tasks"][:3]}, ORBIT)
+    assert not exact_sequence("mission", None, mission())
+    assert exact_sequence("mission", mission(), mission())
+
+
+def test_exact_sequence_ignores_the_order_of_skills_that_run_together() -> None:
+    here = {"skill_sequence": [step(("StationKeep", {}), perception=("DetectObjects", "GetGPSLocation"))]}
+    there = {"skill_sequence": [step(("StationKeep", {}), perception=("GetGPSLocation", "DetectObjects"))]}
+    apart = {"skill_sequence": [step(("StationKeep", {}), perception=("GetGPSLocation",)), step(("StationKeep", {}), perception=("DetectObjects",))]}
+    assert exact_sequence("task", here, there)
+    assert not exact_sequence("task", apart, here)
+
+
+@pytest.mark.parametrize(
+    ("given", "stated", "agree"),
+    [
+        (100, 100.0, True), (101.9, 100, True), (102.1, 100, False), (0, 0, True), (0.004, 0, True), (0.006, 0, False), (0.12, 0.1, False),
+        ([45, 10], [45.0, 10.0], True), ([45, 10], [10, 45], False), ([45.5, 10], [45, 10], True), ([45], [45, 10], False),
+        ([-99, -99], [-99, -99], True), ([-98, -99], [-99, -99], False), ([-99, -99], [-98, -99], False),
+        ("the Green  barrel", "green barrel", True), ("red barrel", "green barrel", False), ("7", 7, False), (True, 1, False), (1, "1", False),
+        (["a", "b"], ["b", "a"], False), (["A", "the b"], ["a", "b"], True), (None, None, True),
+    ],
+)  # fmt: skip
+def test_values_agree(given: Any, stated: Any, agree: bool) -> None:
+    assert values_agree(given, stated, None, USV) is agree
+
+
+def test_identifiers_may_be_numbers_and_polygons_turn() -> None:
+    identifier = USV.task["FollowTarget"].by_name["target_id"]
+    assert values_agree(7, "7", identifier, USV)
+    assert not values_agree(7, "8", identifier, USV)
+    polygon = next(parameter for skill in USV.skills for parameter in skill.parameters if parameter.type == "polygon")
+    ring = [[0, 0], [10, 0], [10, 5], [0, 5]]
+    assert values_agree(ring[2:] + ring[:2], ring, polygon, USV)
+    assert values_agree(ring[::-1], ring, polygon, USV)
+    assert not values_agree([ring[0], ring[2], ring[1], ring[3]], ring, polygon, USV)
+    assert not values_agree("ring", ring, polygon, USV)
+
+
+def test_parameters_match_entries_of_equal_name_best_first() -> None:
+    swapped = {**ORBIT, "tasks": [ORBIT["tasks"][3], *ORBIT["tasks"][1:3], ORBIT["tasks"][0]]}
+    agreement = parameter_agreement("mission", swapped, ORBIT, USV)
+    assert (agreement.right, agreement.matched) == (4, 4)
+    changed = mission(("Transit", {"target_position": [0, 0]}), ("PerformOrbit", {"center": [-99, -99], "radius": 30}), ("Diagnostics", {}))
+    agreement = parameter_agreement("mission", changed, ORBIT, USV)
+    assert (agreement.right, agreement.matched) == (1, 2)
+    agreement = parameter_agreement("mission", None, ORBIT, USV)
+    assert (agreement.right, agreement.matched) == (0, 0)
+
+
+def test_an_invented_parameter_is_wrong_and_an_unlabelled_one_is_not_compared() -> None:
+    extra = mission(("PerformOrbit", {"center": [-99, -99], "radius": 20, "speed": 1}))
+    stated = mission(("PerformOrbit", {"center": [-99, -99], "radius": 20}))
+    assert parameter_agreement("mission", extra, stated, USV).right == 0
+    names_only = {"tasks": [{"title": "PerformOrbit"}]}
+    assert parameter_agreement("mission", extra, names_only, USV).matched == 0
+    assert failure_kind("mission", extra, names_only, USV) is None
+
+
+def changed_orbit(index: int, **parameters: Any) -> dict[str, Any]:
+    plan = copy.deepcopy(ORBIT)
+    plan["tasks"][index]["parameters"].update(parameters)
+    return plan
+
+
+def without(*indices: int) -> dict[str, Any]:
+    return {**ORBIT, "tasks": [task for index, task in enumerate(ORBIT["tasks"]) if index not in indices]}
+
+
+def inserted(index: int, title: str, **parameters: Any) -> dict[str, Any]:
+    plan = copy.deepcopy(ORBIT)
+    plan["tasks"].insert(index, {"title": title, "parameters": parameters, "task_prompt": "."})
+    return plan
+
+
+def retitled(index: int, title: str) -> dict[str, Any]:
+    plan = copy.deepcopy(ORBIT)
+    plan["tasks"][index]["title"] = title
+    return plan
+
+
+@pytest.mark.parametrize(
+    ("plan", "kind"),
+    [
+        (ORBIT, None),
+        (changed_orbit(2, radius=20.2), None),
+        (without(0), "prerequisite omission"),
+        (without(1), "prerequisite omission"),
+        (without(3), "omission"),
+        (without(0, 1), "prerequisite omission"),
+        (without(2, 3), "omission"),
+        (changed_orbit(2, radius=25), "parameter propagation"),
+        (changed_orbit(1, target_position=[20, 20]), "parameter propagation"),
+        (inserted(3, "Transit", target_position=[-99, -99]), "parameter propagation"),
+        (inserted(0, "Diagnostics"), "extra step"),
+        (retitled(2, "SurveyTarget"), "substitution"),
+        (retitled(2, "Circling"), "hallucination"),
+        ({**ORBIT, "tasks": ORBIT["tasks"][::-1]}, "wrong order"),
+        ({**ORBIT, "tasks": [ORBIT["tasks"][index] for index in (0, 3, 2, 1)]}, "parameter propagation"),
+        (None, "invalid output"),
+        ({"tasks": ORBIT["tasks"]}, "invalid output"),
+    ],
+)
+def test_failure_kinds_of_the_mission_level(plan: dict[str, Any] | None, kind: str | None) -> None:
+    assert failure_kind("mission", plan, ORBIT, USV) == kind
+
+
+def test_an_upstream_transit_without_a_later_one_is_a_prerequisite() -> None:
+    expected = mission(("Transit", {"target_position": [5, 5]}), ("KeepStation", {"position": [5, 5], "duration": 60}))
+    assert failure_kind("mission", {**expected, "tasks": expected["tasks"][1:]}, expected, USV) == "prerequisite omission"
+
+
+def test_failure_kinds_of_the_task_level() -> None:
+    expected = {"skill_sequence": [step(("GoToXY", {"x": 1, "y": 2}), perception=("DetectObjects",)), step(("StationKeep", {"time": 60}))]}
+    assert failure_kind("task", copy.deepcopy(expected), expected, USV) is None
+    moved = copy.deepcopy(expected)
+    moved["skill_sequence"][0]["navigation_skill"]["parameters"]["x"] = 3
+    assert failure_kind("task", moved, expected, USV) == "parameter propagation"
+    assert failure_kind("task", {"skill_sequence": expected["skill_sequence"][:1]}, expected, USV) == "omission"
+    assert failure_kind("task", {"skill_sequence": expected["skill_sequence"][::-1]}, expected, USV) == "wrong order"
+
+
+def test_metrics_survive_any_json() -> None:
+    rng = random.Random(0)
+    pieces: list[Any] = [None, True, 3, -1.5, "Transit", "x", [], {}]
+
+    def anything(depth: int) -> Any:
+        if depth == 0:
+            return rng.choice(pieces)
+        if rng.random() < 0.5:
+            return [anything(depth - 1) for _ in range(rng.randrange(3))]
+        keys = ["tasks", "skill_sequence", "title", "name", "parameters", "navigation_skill", "filter_skills", "perception_skills"]
+        return {rng.choice(keys): anything(depth - 1) for _ in range(rng.randrange(4))}
+
+    expected = {"mission": ORBIT, "task": {"skill_sequence": [step(("StationKeep", {}))]}}
+    for _ in range(3000):
+        plan = anything(5)
+        if isinstance(plan, dict):
+            for level in ("mission", "task"):
+                assert failure_kind(level, plan, expected[level], USV) is not None
+                parameter_agreement(level, plan, expected[level], USV)
+                hallucinated(level, plan, USV, unparsed=False)
+                strict_valid(level, plan, USV)
+                exact_sequence(level, plan, expected[level])
