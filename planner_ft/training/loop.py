@@ -1,0 +1,214 @@
+"""The training loop: optimiser steps, validation after each epoch, the best adapter, checkpoints, interruption."""
+
+from __future__ import annotations
+
+import math
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType
+
+import torch
+
+from planner_ft.support.errors import PlannerError
+from planner_ft.training.batches import Batch, collate, epoch_steps
+from planner_ft.training.checkpoint import Trainee, TrainState, adapter_tensors, save_checkpoint, set_adapter
+from planner_ft.training.model import adapter_parameters, loss_sum, validation_loss
+from planner_ft.training.report import Display, Trackers, TrainLog, peak_memory
+from planner_ft.training.samples import Sample
+from planner_ft.training.schedule import learning_rate
+from planner_ft.training.settings import TrainSettings
+
+
+class InterruptedRunError(Exception):
+    """The user stopped the run; a checkpoint holds everything up to `step` of `total`."""
+
+    def __init__(self, step: int, total: int, signal_number: int) -> None:
+        super().__init__(f"stopped at step {step} of {total}")
+        self.step, self.total, self.signal_number = step, total, signal_number
+
+
+class StopSignals:
+    """Ctrl-C and SIGTERM end the run after the step in progress; a second one ends it at once."""
+
+    def __init__(self, note: Callable[[str], None]) -> None:
+        self.note = note
+        self.received: int | None = None
+
+    def __enter__(self) -> StopSignals:
+        # Python lets only the main thread set handlers; elsewhere the caller's apply.
+        self.before = {}
+        if threading.current_thread() is threading.main_thread():
+            self.before = {number: signal.signal(number, self._handle) for number in (signal.SIGINT, signal.SIGTERM)}
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for number, handler in self.before.items():
+            signal.signal(number, handler)
+
+    def _handle(self, number: int, frame: FrameType | None) -> None:
+        if self.received is not None:
+            raise KeyboardInterrupt
+        self.received = number
+        self.note("stopping after this step and saving a checkpoint (Ctrl-C again: at once, without)")
+
+
+@dataclass
+class Run:
+    """Everything that the loop works with. `pad` is the id that fills batches, `dtype` what layers compute in."""
+
+    settings: TrainSettings
+    trainee: Trainee
+    train: list[Sample]
+    validation: list[Sample]
+    pad: int
+    device: torch.device
+    dtype: torch.dtype
+    output: Path
+    log: TrainLog
+    trackers: Trackers
+    display: Display
+
+    @property
+    def steps_per_epoch(self) -> int:
+        return math.ceil(len(self.train) / (self.settings.batch_size * self.settings.gradient_accumulation))
+
+    @property
+    def total_steps(self) -> int:
+        return total_steps(self.settings, len(self.train))
+
+
+def total_steps(settings: TrainSettings, samples: int) -> int:
+    """Optimiser steps of a whole run."""
+    steps = settings.epochs * math.ceil(samples / (settings.batch_size * settings.gradient_accumulation))
+    return min(steps, settings.max_steps or steps)
+
+
+def train_loop(run: Run, state: TrainState) -> None:
+    """Train from `state` to the end; afterwards the model holds the best adapter (the last one without validation).
+
+    Raises InterruptedRunError after Ctrl-C, and PlannerError when the loss is not finite or a file cannot be written.
+    """
+    run.trainee.model.train()
+    saved = time.monotonic()
+    with StopSignals(run.display.note) as signals:
+        for batches in _remaining_steps(run, state):
+            begun = time.monotonic()
+            _step(run, state, batches)
+            epoch_ends = state.step % run.steps_per_epoch == 0 or state.step == run.total_steps
+            if epoch_ends:
+                _end_epoch(run, state)
+            state.seconds += time.monotonic() - begun
+            stopped = signals.received is not None and state.step < run.total_steps
+            if epoch_ends or stopped or _checkpoint_due(run.settings, state.step, saved):
+                save_checkpoint(run.output, state, run.trainee)
+                saved = time.monotonic()
+            if stopped:
+                raise InterruptedRunError(state.step, run.total_steps, signals.received or signal.SIGINT)
+    if run.trainee.best is not None:
+        set_adapter(run.trainee.model, run.trainee.best)
+
+
+def _remaining_steps(run: Run, state: TrainState) -> Iterator[list[list[int]]]:
+    """The batches of every optimiser step from the state's on."""
+    lengths = [sample.length for sample in run.train]
+    for epoch in range(state.step // run.steps_per_epoch, run.settings.epochs):
+        steps = epoch_steps(lengths, run.settings.batch_size, run.settings.gradient_accumulation, run.settings.seed, epoch)
+        for step in steps[state.step % run.steps_per_epoch :]:
+            if state.step >= run.total_steps:
+                return
+            yield step
+
+
+def _step(run: Run, state: TrainState, batches: list[list[int]]) -> None:
+    """One optimiser step: the gradient is the mean over all completion tokens of its batches, however they are split."""
+    settings, trainee = run.settings, run.trainee
+    begun = time.monotonic()
+    rate = learning_rate(settings, state.step, run.total_steps)
+    for group in trainee.optimizer.param_groups:
+        group["lr"] = rate
+    collated = [collate([run.train[index] for index in indices], run.pad) for indices in batches]
+    count = sum(len(batch.targets) for batch in collated)
+    parts = []
+    for batch in collated:
+        part = loss_sum(trainee.model, batch.to(run.device), run.dtype) / count
+        torch.autograd.backward(trainee.scaler.scale(part))
+        parts.append(part.detach())
+    # Read after the backward pass was queued: waiting for a GPU in between would leave it idle.
+    losses = torch.stack(parts).tolist()
+    for value, batch in zip(losses, collated, strict=True):
+        if not math.isfinite(value):
+            raise PlannerError(_not_finite(run, state, f"loss is {value}", batch))
+    loss = sum(losses)
+    norm = _update(run, state, collated)
+    trained = sum(batch.tokens for batch in collated)
+    state.step += 1
+    state.tokens += trained
+    state.completion_tokens += count
+    state.epoch_loss += loss * count
+    state.epoch_tokens += count
+    state.loss = state.epoch_loss / state.epoch_tokens
+    _report(run, state, {"loss": loss, "lr": rate, "grad_norm": norm}, trained, time.monotonic() - begun)
+
+
+def _update(run: Run, state: TrainState, batches: list[Batch]) -> float:
+    """Clip the gradient, step the optimizer, and return the gradient's norm before clipping."""
+    trainee = run.trainee
+    trainee.scaler.unscale_(trainee.optimizer)
+    norm = float(torch.nn.utils.clip_grad_norm_(adapter_parameters(trainee.model).values(), run.settings.gradient_clip))
+    # In float16 an overflow is ordinary: the scaler leaves the step out and scales the next loss less.
+    if not math.isfinite(norm) and not trainee.scaler.is_enabled():
+        raise PlannerError(_not_finite(run, state, f"gradient norm is {norm}", batches[0]))
+    trainee.scaler.step(trainee.optimizer)
+    trainee.scaler.update()
+    trainee.optimizer.zero_grad(set_to_none=True)
+    return norm if math.isfinite(norm) else -1.0
+
+
+def _not_finite(run: Run, state: TrainState, what: str, batch: Batch) -> str:
+    return (
+        f"step {state.step + 1}, sample {', '.join(batch.ids)}: the {what}; lower --learning-rate (now {run.settings.learning_rate:g}) or --gradient-clip "
+        f"(now {run.settings.gradient_clip:g}), or look at that sample with --preview-id; the checkpoints in {run.output} are from before"
+    )
+
+
+def _report(run: Run, state: TrainState, values: dict[str, float], tokens: int, seconds: float) -> None:
+    record = {
+        "step": state.step, "epoch": round(state.step / run.steps_per_epoch, 4), **values,
+        "tokens": state.tokens, "seconds": round(state.seconds + seconds, 3), "tokens_per_s": round(tokens / seconds, 1),
+    }  # fmt: skip
+    run.log.write(record)
+    run.trackers.log(record)
+    remaining = (run.total_steps - state.step) * (state.seconds + seconds) / state.step
+    run.display.step(record, remaining, peak_memory(run.device))
+
+
+def _end_epoch(run: Run, state: TrainState) -> None:
+    """Validate, and keep the adapter if it is the best so far."""
+    epoch = round(state.step / run.steps_per_epoch, 4)
+    text = f"epoch {epoch:g}: training loss {state.loss:.4f}"
+    state.epoch_loss, state.epoch_tokens = 0.0, 0
+    if run.validation:
+        begun = time.monotonic()
+        loss = validation_loss(run.trainee.model, run.validation, run.pad, run.device, run.dtype)
+        if not math.isfinite(loss):
+            raise PlannerError(f"epoch {epoch:g}: the validation loss is {loss}; lower --learning-rate (now {run.settings.learning_rate:g})")
+        best = state.best_loss is None or loss < state.best_loss
+        if best:
+            state.best_loss, state.best_epoch = loss, epoch
+            run.trainee.best = adapter_tensors(run.trainee.model)
+        seconds = time.monotonic() - begun
+        record = {"step": state.step, "epoch": epoch, "train_loss": state.loss, "validation_loss": loss, "best": best, "seconds": round(seconds, 3)}
+        state.history.append(record)
+        run.log.write(record)
+        run.trackers.log(record)
+        text += f", validation loss {loss:.4f}{' (best)' if best else ''}"
+    run.display.note(text)
+
+
+def _checkpoint_due(settings: TrainSettings, step: int, saved: float) -> bool:
+    by_step = settings.checkpoint_steps is not None and step % settings.checkpoint_steps == 0
+    return by_step or time.monotonic() - saved > 60 * settings.checkpoint_minutes

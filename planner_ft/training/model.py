@@ -1,0 +1,136 @@
+"""The model in training: its adapter, the loss on completion tokens, evaluation, and the levers against too little memory."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import torch
+from torch import Tensor, nn
+from torch.utils.checkpoint import checkpoint
+
+from planner_ft.support.errors import PlannerError
+from planner_ft.training.batches import Batch, collate, validation_batches
+from planner_ft.training.settings import TrainSettings
+
+if TYPE_CHECKING:
+    from planner_ft.training.samples import Sample
+
+LOGIT_VALUES = 2**24
+"""Output-layer values that exist at one time: 16 million, 64 MiB in float32."""
+LARGE_MODEL = 500_000_000
+"""Weights from which gradient checkpointing `auto` is on."""
+
+
+def attach_adapter(model: Any, settings: TrainSettings, reference: str) -> Any:
+    """A PeftModel with a new LoRA adapter, weights in float32; `reference` is what the adapter names as its base.
+
+    Raises PlannerError when `target_modules` fits no layer.
+    """
+    from peft import LoraConfig, get_peft_model
+
+    config = LoraConfig(
+        r=settings.rank, lora_alpha=settings.lora_alpha, lora_dropout=settings.dropout, target_modules=settings.targets, bias="none", task_type="CAUSAL_LM"
+    )
+    model.requires_grad_(False)
+    torch.manual_seed(settings.seed)
+    try:
+        peft_model = get_peft_model(model, config)
+    except ValueError as error:
+        raise PlannerError(f"--target-modules {settings.target_modules}: {str(error).splitlines()[0]}") from None
+    peft_model.peft_config["default"].base_model_name_or_path = reference
+    if uses_gradient_checkpointing(settings, sum(value.numel() for value in model.parameters())):
+        peft_model.gradient_checkpointing_enable({"use_reentrant": False})
+    return peft_model
+
+
+def uses_gradient_checkpointing(settings: TrainSettings, parameters: int) -> bool:
+    """Whether activations are computed again in the backward pass."""
+    if settings.gradient_checkpointing == "auto":
+        return parameters >= LARGE_MODEL
+    return settings.gradient_checkpointing == "on"
+
+
+def adapter_parameters(model: Any) -> dict[str, nn.Parameter]:
+    """The trainable weights by name."""
+    return {name: value for name, value in model.named_parameters() if value.requires_grad}
+
+
+def loss_sum(model: Any, batch: Batch, dtype: torch.dtype) -> Tensor:
+    """Cross-entropy summed over the batch's completion tokens (a float32 scalar); layers compute in `dtype`.
+
+    Logits are computed for completion positions alone, and in chunks where they are many: for each chunk the backward
+    pass computes them again instead of keeping them.
+    """
+    base = model.get_base_model()
+    head = base.get_output_embeddings()
+    with torch.autocast(batch.input_ids.device.type, dtype=dtype, enabled=dtype != torch.float32):
+        hidden = base.get_decoder()(input_ids=batch.input_ids, attention_mask=batch.attention_mask, use_cache=False).last_hidden_state
+        selected = hidden[batch.rows, batch.columns]
+        size = max(1, LOGIT_VALUES // base.config.get_text_config().vocab_size)
+        if len(selected) <= size:
+            return _cross_entropy(head, selected, batch.targets)
+        parts = [
+            checkpoint(_cross_entropy, head, selected[start : start + size], batch.targets[start : start + size], use_reentrant=False)
+            for start in range(0, len(selected), size)
+        ]
+        return torch.stack(parts).sum()
+
+
+def _cross_entropy(head: nn.Module, hidden: Tensor, targets: Tensor) -> Tensor:
+    return nn.functional.cross_entropy(head(hidden).float(), targets, reduction="sum")
+
+
+@contextlib.contextmanager
+def evaluating(model: Any) -> Iterator[None]:
+    """No dropout and no gradients in the block; the model trains on afterwards."""
+    model.eval()
+    try:
+        with torch.no_grad():
+            yield
+    finally:
+        model.train()
+
+
+def validation_loss(model: Any, samples: Sequence[Sample], pad: int, device: torch.device, dtype: torch.dtype) -> float:
+    """Mean cross-entropy over all completion tokens of `samples`."""
+    total, count = 0.0, 0
+    with evaluating(model):
+        for indices in validation_batches([sample.length for sample in samples]):
+            batch = collate([samples[index] for index in indices], pad).to(device)
+            total += float(loss_sum(model, batch, dtype))
+            count += len(batch.targets)
+    return total / count
+
+
+def make_optimizer(model: Any, settings: TrainSettings) -> torch.optim.Optimizer:
+    """AdamW over the adapter, with 32-bit or 8-bit moments."""
+    parameters = list(adapter_parameters(model).values())
+    arguments: dict[str, Any] = {"lr": settings.learning_rate, "weight_decay": settings.weight_decay}
+    if settings.optimizer == "adamw":
+        return torch.optim.AdamW(parameters, **arguments)
+    import bitsandbytes
+
+    kind = bitsandbytes.optim.AdamW8bit if settings.optimizer == "adamw-8bit" else bitsandbytes.optim.PagedAdamW8bit
+    optimizer: torch.optim.Optimizer = kind(parameters, **arguments)
+    return optimizer
+
+
+def memory_levers(settings: TrainSettings, checkpointing: bool, longest: int) -> str:
+    """What to change, the next step first, when training does not fit the memory."""
+    levers = []
+    if settings.quantization == "none":
+        levers.append("store the base in 4 bits (--quantization nf4)")
+    if not checkpointing:
+        levers.append("--gradient-checkpointing on")
+    if settings.batch_size > 1:
+        half = max(1, settings.batch_size // 2)
+        levers.append(f"--batch-size {half} --gradient-accumulation {settings.gradient_accumulation * settings.batch_size // half} (same step, less memory)")
+    levers.append(f"leave out the longest samples (now up to {longest} tokens; --max-length names those above a limit)")
+    if settings.optimizer == "adamw":
+        levers.append("--optimizer adamw-8bit")
+    if settings.rank > 4:
+        levers.append(f"a smaller --rank (now {settings.rank})")
+    levers.append("a smaller --candidate")
+    return "next: " + "; then ".join(levers)
