@@ -13,7 +13,7 @@ DIAGNOSTICS = TaskPhrases(
         test the cameras and the GPS; run through your sensor checks; give your sensors a check; run your built-in test; do a BIT
         check yourself over; have a look at your own health; check that the lens is clean and the GPS is good; go through the sensor checklist
         run a diagnostic on all sensors; do a preflight check of the sensors; make sure all your kit works; check your instruments
-        execute the diagnostics; start with a systems check; do your checks; check the lens and the horizon; check that everything aboard works
+        execute the diagnostics; do a systems check; do your checks; check the lens and the horizon; check that everything aboard works
         prove the sensors; run the pre-departure sensor test; give yourself a once-over, sensors and all; make a status check of the sensors
         confirm by self-test that the sensors are fit; check the state of your sensors; do a quick sensor test
     """),
@@ -97,7 +97,7 @@ SMART_DATA_HARVEST = TaskPhrases(
 
 AUTO_GENERATE_REPORT_SUMMARY = TaskPhrases(
     imperatives=listed("""
-        report; report back; write a report; write it up; send in a report on it; give me a summary; summarise what you saw
+        report; report back; write a report; write it up; give me a summary; summarise what you saw
         summarize the findings; tell us what you found; tell me what you saw; make a report; put together a report; compile a report
         compile a summary; write up the results; draft a mission report; prepare a report; generate a report; produce a summary report
         report your findings; report what you find; let us have a report; write the whole thing up; sum it all up; give us a write-up

@@ -28,7 +28,7 @@ TRANSIT = TaskPhrases(
     noun_phrases=listed("""
         a transit to {target}; a run out to {target}; a trip to {target}; a repositioning to {target}; a move to {target}
         a passage to {target}; a hop over to {target}; a short run across to {target}; a relocation to {target}
-        the transit leg to {target}; the way out to {target}; a leg to {target}; a direct transit out to {target}; a visit to {target}
+        the transit leg to {target}; the way out to {target}; a leg to {target}; a direct transit out to {target}
         a straight run to {target}
     """),
     gerunds=listed("""
@@ -47,7 +47,7 @@ FOLLOW_TARGET = TaskPhrases(
         move along with {target}; go wherever {target} goes; sail along with {target}; hang on to {target}; keep close to {target} as it goes
         keep tabs on {target} and follow it; start tracking {target}; lock on to {target} and follow; stay glued to {target}
         keep a tail on {target}; stay astern of {target}; match the movements of {target}; pick up {target} and shadow it
-        run with {target}; keep pace with {target}; don't lose {target}, stay on it; ride along behind {target}; sit on the tail of {target}
+        run with {target}; keep pace with {target}; keep hold of {target} wherever it goes; ride along behind {target}; sit on the tail of {target}
     """),
     noun_phrases=listed("""
         a tail on {target}; a shadow on {target}; a close escort for {target}; continuous tracking of {target}; a follow on {target}
@@ -69,14 +69,14 @@ FOLLOW_TARGET = TaskPhrases(
     },
     valued_imperatives=listed("""
         get on {target_id} at {target_position} and follow; pick {target_id} up at {target_position} and tail it
-        go to work on {target_id}, last seen at {target_position}, and don't let go; intercept {target_id} at {target_position} and shadow it
+        intercept {target_id} at {target_position} and shadow it
     """),
 )
 
 KEEP_STATION = TaskPhrases(
     imperatives=listed("""
         hold position at {target}; keep station at {target}; stay at {target}; hold at {target}; wait at {target}; loiter at {target}
-        remain at {target}; stand by at {target}; stay put at {target}; sit tight at {target}; park yourself at {target}; stop at {target}
+        remain at {target}; stand by at {target}; stay put at {target}; sit tight at {target}; park yourself at {target}
         hold station off {target}; stay beside {target}; lie off {target}; hang around at {target}; hold steady at {target}
         wait next to {target}; stay close by {target}; keep position at {target}; remain on station at {target}; maintain position at {target}
         station yourself at {target}; take up station at {target}; stay alongside {target}; hover at {target}; hold next to {target}
@@ -85,7 +85,7 @@ KEEP_STATION = TaskPhrases(
         linger at {target}; pause at {target}; stay on the spot at {target}
     """),
     noun_phrases=listed("""
-        a hold at {target}; station keeping at {target}; a station hold at {target}; a wait at {target}; a stop at {target}
+        a hold at {target}; station keeping at {target}; a station hold at {target}; a wait at {target}
         a stand-by at {target}; a position hold at {target}; a stay at {target}; a loiter at {target}; a pause at {target}
         dynamic positioning at {target}; a stationary spell at {target}; position keeping at {target}
     """),
@@ -97,7 +97,7 @@ KEEP_STATION = TaskPhrases(
     adjuncts={"duration": DURATION},
     here_imperatives=listed("""
         stay where you are; hold position here; hold it right there; wait where you are; keep station on the spot; stay put
-        don't move; remain where you are; hold your present position; stop here and hold; stand by where you are; sit tight
+        remain where you are; hold your present position; stop here and hold; stand by where you are; sit tight
         stay exactly where you are; hold your ground; loiter where you are; freeze there; park it right here; keep your position
         stay on this spot; hold this position; maintain present position; wait right there
     """),

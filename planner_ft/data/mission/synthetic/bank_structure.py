@@ -14,7 +14,7 @@ PERFORM_ORBIT = TaskPhrases(
         perform an orbit around {target}; execute an orbit of {target}; steer a circle round {target}; encircle {target}
         run circular about {target}; take a spin round {target}; cruise around {target}; make an orbit round {target}
         lay an orbit around {target}; work your way round {target}; walk her round {target}; take a turn around {target}
-        ring {target}; motor round {target}; do a circular pass about {target}; start an orbit about {target}; pass round {target} in an arc
+        ring {target}; motor round {target}; do a circular pass about {target}; start an orbit about {target}
         curve round {target}; trace a circle about {target}; go circling {target}; run an orbit pattern on {target}; travel round {target}
     """),
     noun_phrases=listed("""
@@ -60,7 +60,7 @@ PERFORM_ORBIT = TaskPhrases(
         do {arc_noun} round {target}; make {arc_noun} around {target}; give me {arc_noun} round {target}; run {arc_noun} about {target}
         go {arc_noun} round {target}; fly {arc_noun} around {target}; draw {arc_noun} about {target} {radius} off
         put a {radius_compound} ring round {target}; run a {radius_compound} orbit on {target}; do a {radius_compound} circle about {target}
-        complete {arc_noun} about {target}; go round {target} keeping {radius} between you and it; give {target} {radius} and circle it
+        finish {arc_noun} about {target}; go round {target} keeping {radius} between you and it; give {target} {radius} and circle it
     """),
     valued_noun_phrases=listed("""
         {arc_noun} round {target}; {arc_noun} around {target}; {arc_noun} about {target}; {arc_noun} of the boat round {target}
@@ -143,7 +143,7 @@ DOCKING_APPROACH = TaskPhrases(
         end up alongside at {target}; bring yourself in to dock at {target}; get alongside at {target}; dock on GPS at {target}
         tuck into the dock at {target}; lay her alongside at {target}; settle into the berth at {target}; come in to moor at {target}
         approach {target} and dock; run in to {target} and berth; line up on {target} and dock; get docked at {target}; get moored at {target}
-        proceed to {target} and berth there; get yourself berthed at {target}; come home and dock at {target}; return and berth at {target}
+        get yourself berthed at {target}; come home and dock at {target}; return and berth at {target}
         head back and moor at {target}; come back in to dock at {target}; return to dock at {target}; head home to the berth at {target}
     """),
     noun_phrases=listed("""

@@ -162,7 +162,7 @@ SUBSEA_CABLE_TRACK = TaskPhrases(
     },
     valued_imperatives=listed("""
         track {max_dist} of {cable}; follow {max_dist} of {cable} by sonar; from {start} track {cable}; starting at {start}, follow {cable} by sonar
-        pick {cable} up at {start} and track it; get to {start} on {cable} and trace it with sonar; run {max_dist} along {cable} on sonar
+        pick {cable} up at {start} and track it; run {max_dist} along {cable} on sonar
     """),
     valued_noun_phrases=listed("a {max_dist_compound} track of {cable}; a sonar track over {max_dist} of {cable}; {max_dist} of cable track along {cable}"),
 )
@@ -174,11 +174,13 @@ SURVEY_TARGET = TaskPhrases(
         check {target} over; check out {target}; give {target} a thorough look; assess {target}; collect data on {target}; inspect all of {target}
         run an inspection on {target}; do a survey of {target}; perform a survey of {target}; record the state of {target}
         look {target} over for damage; see what shape {target} is in; document the condition of {target}; go over {target} closely
-        give {target} the once-over; scope out {target}; do a condition survey of {target}; study {target}; vet {target}; size up {target}
+        give {target} the once-over; scope out {target}; do a condition survey of {target}; study {target}; vet {target}
         collect inspection data at {target}; get inspection data on {target}; conduct an inspection of {target}; make a survey of {target}
         inspect {target} for damage; look into the condition of {target}; gather everything you can on {target}; have a proper look at {target}
         do a general inspection of {target}; scrutinise {target}; do a visual inspection of {target}; work up a survey of {target}
-        review the state of {target}; take stock of {target}; eyeball {target}
+        eyeball {target}; gather sensor data about {target}; do a photo survey of {target}; collect LiDAR data on {target}; do a video inspection of {target}
+        inspect the north face of {target}; survey the east side of {target}; look over the seaward wall of {target}; examine the port side of {target}
+        check the west face of {target} over for damage; gather data about the south wall of {target}; document the starboard side of {target}
     """),
     noun_phrases=listed("""
         an inspection of {target}; a survey of {target}; a close look at {target}; a condition survey of {target}; a look over {target}

@@ -10,7 +10,7 @@ THERMAL_HOTSPOT_LOCALIZER = TaskPhrases(
         find the hottest spot on {target}; locate the hottest spot of {target}; pinpoint the hottest point of {target}
         look for hot spots on {target}; find the hot spot on {target}; search {target} for hotspots; scan {target} for hot spots
         localise the hotspot on {target}; do a hotspot scan of {target}; sweep {target} for the hottest spot; run a hotspot search on {target}
-        tell me where {target} is hottest by a thermal sweep; find where {target} runs hottest; get the hottest point on {target}
+        find where {target} runs hottest; get the hottest point on {target}
         see where the heat sits on {target}; seek out the warmest spot on {target}; find the warmest part of {target}; pin down the hotspot at {target}
         thermal-sweep {target} for the hottest spot; mark the hottest spot on {target}; identify the hottest place on {target}
         track down the hot spot on {target}; establish which part of {target} is hottest; sniff out the hot spot on {target}
@@ -93,10 +93,12 @@ THERMAL_TIME_LAPSE = TaskPhrases(
     """),
     adjuncts={
         "duration": DURATION,
+        # The value stands after "every" or "each" ("every minute"), or as an attribute.
         "interval": listed("""
-            every {interval}; one every {interval}; a reading every {interval}; at intervals of {interval}; with {interval} between readings
-            one reading each {interval}; a frame every {interval}; at {interval_compound} intervals; {interval} apart; a measurement every {interval}
-            once every {interval}; interval {interval}; readings {interval} apart; sampling every {interval}; at a spacing of {interval}
+            every {interval}; one every {interval}; a reading every {interval}; one reading each {interval}
+            a frame every {interval}; at {interval_compound} intervals; a measurement every {interval}; once every {interval}
+            with a {interval_compound} interval; sampling every {interval}; one frame each {interval}; each {interval}; repeating every {interval}
+            on a {interval_compound} interval; a sample every {interval}
         """),
     },
     here_imperatives=listed("""
@@ -114,7 +116,7 @@ THERMAL_TIME_LAPSE = TaskPhrases(
     """),
     valued_imperatives=listed("""
         take thermal readings of {target} every {interval} for {duration}; take a thermal reading of {target} every {interval}
-        do {duration} of thermal readings of {target}; log thermal readings of {target} for {duration}, {interval} apart
+        do {duration} of thermal readings of {target}; log thermal readings of {target} for {duration}, one every {interval}
         take thermal readings every {interval} for {duration}; shoot a thermal frame of {target} every {interval} for {duration}
         measure {target} in thermal every {interval} over {duration}; log {duration} of thermal readings; take a thermal frame every {interval}
         watch the temperature of {target} in infrared for {duration}; do a {duration_compound} thermal time-lapse of {target}

@@ -4,7 +4,7 @@ Slots: `{target}` is a place or an object, with its article ("the green buoy at 
 "from", "round" and the like a bare coordinate fits too. Text parameters are slots of the core: `{feature_type}`,
 `{target_feature}`, `{target_description}`, `{target_list}` with their articles, `{target_id}` and `{side_id}` as bare words.
 Values come with their unit ("12 metres", "four minutes", "30 degrees", "25 percent"), `{sectors}` as a bare number.
-`{name_compound}` is the value as an attribute ("12-metre", see `compound`), `{arc_noun}` one of the adjuncts "arc_noun:DEGREES"
+`{interval}` fits after "every" ("minute"). `{name_compound}` is the value as an attribute ("12-metre"), `{arc_noun}` one of the adjuncts "arc_noun:DEGREES"
 or "arc_noun". A phrase can be used when each of its slots has something to say.
 """
 
@@ -12,8 +12,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-
-_PLURAL_UNIT = re.compile(r"^(.+?)[ -](metre|meter|kilometre|kilometer|second|minute|hour|degree)s?$")
 
 
 @dataclass(frozen=True)
@@ -48,8 +46,3 @@ def pairs(text: str) -> tuple[tuple[str, str], ...]:
     """The pairs of a block of text, one a line, their halves parted by " => "."""
     halves = (line.split(" => ") for line in text.strip().splitlines() if line.strip())
     return tuple((left.strip(), right.strip()) for left, right in halves)
-
-
-def compound(value: str) -> str:
-    """A value as an attribute: "four minutes" -> "four-minute", "12 metres" -> "12-metre"; "12 m" stays."""
-    return _PLURAL_UNIT.sub(lambda match: f"{match[1].replace(' ', '-')}-{match[2]}", value)
