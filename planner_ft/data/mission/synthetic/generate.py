@@ -1,0 +1,134 @@
+"""Synthetic mission samples: a scene, its plan by the labelling rules, and a command that says it."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from random import Random
+from typing import Any
+
+from planner_ft.data.mission.synthetic import discourse, extras, frames, lexicon, words
+from planner_ft.data.mission.synthetic.clauses import Teller
+from planner_ft.data.mission.synthetic.intents import Intent
+from planner_ft.data.mission.synthetic.labeller import label
+from planner_ft.data.mission.synthetic.numbers import Style, draw_style
+from planner_ft.data.mission.synthetic.plan_texts import assumptions, constraints, task_prompt
+from planner_ft.data.mission.synthetic.scene import Scene, draw_scene
+from planner_ft.data.mission.synthetic.surface import Register, finished
+
+Record = dict[str, Any]
+
+EMPTY_SHARE = 0.042
+FORMS = {
+    "one-sentence": 26, "sentences": 24, "numbered": 5, "telegram": 9, "but-first": 8, "after-gerund": 6, "last-first": 2, "where-first": 13, "radio": 6, "questions": 4,
+}  # fmt: skip
+TWO_NEEDED = frozenset(("but-first", "after-gerund", "last-first", "numbered"))
+
+
+def sample_missions(seed: int, count: int | None = None) -> Iterator[Record]:
+    """Synthetic mission samples, endless when `count` is None; the same seed gives the same samples.
+
+    A record is {"id", "family", "prompt", "expected", "tags"}; `family` names the form of the discourse.
+    """
+    numbers = itertools.count() if count is None else range(count)
+    for number in numbers:
+        yield draw_mission(Random(seed * 1_000_003 + number), f"synthetic-{seed}-{number}")
+
+
+def draw_mission(rng: Random, name: str) -> Record:
+    """One sample drawn from `rng`."""
+    style = draw_style(rng)
+    if rng.random() < EMPTY_SHARE:
+        return _empty(rng, style, name)
+    scene = draw_scene(rng, style)
+    form = _form(rng, scene)
+    register = Register.draw(rng, form)
+    teller = Teller(rng, style, spoken=register.spoken)
+    teller.wrong = dict(scene.wrong)
+    sentences = _sentences(rng, form, teller, scene)
+    plan = label(scene.intents)
+    limits: list[str] = []
+    sentences = _with_extras(rng, style, sentences, scene.intents, limits, form)
+    expected = {
+        "tasks": [{"title": planned.title, "parameters": planned.parameters, "task_prompt": task_prompt(planned, rng)} for planned in plan],
+        "assumptions": assumptions(plan),
+        "constraints": [*constraints(plan), *limits],
+    }
+    prompt = finished(sentences, rng, register, _values(scene))
+    return {"id": name, "family": f"synthetic-{form}", "prompt": prompt, "expected": expected, "tags": []}
+
+
+def _form(rng: Random, scene: Scene) -> str:
+    while True:
+        form = rng.choices(tuple(FORMS), tuple(FORMS.values()))[0]
+        if len(scene.intents) > 1 or form not in TWO_NEEDED:
+            return form
+
+
+def _sentences(rng: Random, form: str, teller: Teller, scene: Scene) -> list[str]:
+    intents = scene.intents
+    if form == "radio":
+        return discourse.radio(teller, intents, words.proper_name(rng) if rng.random() < 0.7 else words.code(rng))
+    tell = {
+        "one-sentence": discourse.one_sentence, "sentences": discourse.several_sentences, "numbered": discourse.numbered, "telegram": discourse.telegram, "but-first": discourse.but_first,
+        "after-gerund": discourse.after_gerund, "last-first": discourse.last_first, "where-first": discourse.where_first, "questions": discourse.questions,
+    }[form]  # fmt: skip
+    return tell(teller, intents)
+
+
+def _with_extras(rng: Random, style: Style, sentences: list[str], intents: tuple[Intent, ...], limits: list[str], form: str) -> list[str]:
+    """The sentences with what an operator says around an order; constraints for it are added to `limits`."""
+    titles = {intent.title for intent in intents}
+    told = list(sentences)
+    added = []
+    if rng.random() < 0.12:
+        drawn = extras.no_thing(rng, titles) if rng.random() < 0.35 else extras.exclusion(rng, titles, home=any(intent.home for intent in intents))
+        added += [drawn] if drawn else []
+    if rng.random() < 0.14:
+        added.append(extras.limit(rng, style))
+    if rng.random() < 0.02:
+        added.append(extras.impossible(rng))
+    for extra in added:
+        limits.append(extra.constraint)
+        told = _put(rng, told, extra.text)
+    if form in ("radio", "telegram", "numbered"):
+        return told
+    if rng.random() < 0.05:
+        told = _put(rng, told, rng.choice(frames.QUESTIONS) + ("" if rng.random() < 0.5 else "?"), last=True)
+    if rng.random() < 0.07:
+        talk = [sentence.rstrip(".") for sentence in rng.sample(lexicon.SMALL_TALK, rng.choice((1, 1, 2)))]
+        told = [*talk, *told] if rng.random() < 0.7 else [*told, *talk]
+    if rng.random() < 0.03:
+        told[0] = rng.choice(frames.PURPOSES).replace("{}", told[0])
+    return told
+
+
+def _put(rng: Random, sentences: list[str], text: str, *, last: bool = False) -> list[str]:
+    """The extra clause at the end, at the start or joined to the last sentence."""
+    roll = rng.random()
+    if last or roll < 0.5:
+        return [*sentences, text]
+    if roll < 0.72:
+        joint = rng.choice((", ", ", and ", " and ", "; ", " - ", ", but ", ", "))
+        return [*sentences[:-1], sentences[-1].rstrip(".?!") + joint + text]
+    return [text, *sentences] if roll < 0.9 else [f"{text}, {rng.choice(('but ', 'just ', '', 'and '))}{sentences[0]}", *sentences[1:]]
+
+
+def _values(scene: Scene) -> tuple[str, ...]:
+    """Text values whose words the command must hold as they are."""
+    values: list[str] = []
+    for intent in scene.intents:
+        values += [value for value in intent.parameters.values() if isinstance(value, str)]
+        values += intent.parameters.get("target_list", [])
+        if intent.target is not None:
+            values += [text for text in (intent.target.description, intent.target.identity) if text]
+    return tuple(values)
+
+
+def _empty(rng: Random, style: Style, name: str) -> Record:
+    sentences, reasons, kind = extras.empty_command(rng)
+    if kind == "impossible" and rng.random() < 0.15:
+        sentences = [*(sentence.rstrip(".") for sentence in rng.sample(lexicon.SMALL_TALK, 1)), *sentences]
+    register = Register.draw(rng, "sentences")
+    prompt = finished(sentences, rng, register, ())
+    return {"id": name, "family": f"synthetic-{kind}", "prompt": prompt, "expected": {"tasks": [], "assumptions": [], "constraints": reasons}, "tags": ["rule.empty"]}

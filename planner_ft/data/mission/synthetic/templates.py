@@ -1,0 +1,72 @@
+"""The phrase bank compiled: each phrase with its slots, ready to be filled."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import cache, cached_property
+
+from planner_ft.data.mission.synthetic.bank import BANK
+
+_SLOT = re.compile(r"\{(\w+)\}")
+# A self-going task whose phrase says "proceed to" would need a Transit of its own (rule 4).
+_GOES = re.compile(r"\b(?:proceed|get) to \{(?:start|target)\} (?:and|on)\b")
+_OF = re.compile(r"\b(?:of|on) \{target\}")
+_THERE = re.compile(r"\b(?:at|to|in|into) \{target\}")
+
+
+@dataclass(frozen=True)
+class Template:
+    """A phrase as literals and slot names in turn."""
+
+    text: str
+
+    @cached_property
+    def parts(self) -> list[str]:
+        return _SLOT.split(self.text)
+
+    @cached_property
+    def slots(self) -> frozenset[str]:
+        return frozenset(self.parts[1::2])
+
+    @cached_property
+    def there(self) -> Template:
+        """The phrase with "there" in place of "at {target}" and the like."""
+        return Template(_THERE.sub("there", self.text).replace("from {target}", "from there"))
+
+    @cached_property
+    def at_place(self) -> Template:
+        """The phrase for a bare position: what a thing has or is "of" stands "at" a position."""
+        return Template(_OF.sub("at {target}", self.text))
+
+    def fill(self, values: dict[str, str]) -> str:
+        parts = self.parts
+        return "".join(part if index % 2 == 0 else values[part] for index, part in enumerate(parts))
+
+
+@dataclass(frozen=True)
+class Forms:
+    """The phrases of one task by mood; a mood is imp, np or ger."""
+
+    full: dict[str, tuple[Template, ...]]
+    valued: dict[str, tuple[Template, ...]]
+    bare: dict[str, tuple[Template, ...]]
+    here: tuple[Template, ...]
+    adjuncts: dict[str, tuple[Template, ...]]
+
+
+@cache
+def forms(title: str) -> Forms:
+    """The compiled phrases of a task."""
+    phrases = BANK[title]
+    return Forms(
+        full={"imp": _compiled(phrases.imperatives), "np": _compiled(phrases.noun_phrases), "ger": _compiled(phrases.gerunds)},
+        valued={"imp": _compiled(phrases.valued_imperatives), "np": _compiled(phrases.valued_noun_phrases), "ger": ()},
+        bare={"imp": _compiled(phrases.bare_imperatives), "np": _compiled(phrases.bare_noun_phrases), "ger": ()},
+        here=_compiled(phrases.here_imperatives),
+        adjuncts={name: _compiled(texts) for name, texts in phrases.adjuncts.items()},
+    )
+
+
+def _compiled(texts: tuple[str, ...]) -> tuple[Template, ...]:
+    return tuple(Template(text) for text in texts if not _GOES.search(text))
