@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner_ft.candidates.adapters import check_adapter
 from planner_ft.candidates.libraries import quiet_bars, quiet_libraries
-from planner_ft.candidates.location import MODELS_VARIABLE, check_folder
+from planner_ft.candidates.location import MODELS_VARIABLE, check_folder, read_config
 from planner_ft.candidates.packing import linear_4bit, set_packing
 from planner_ft.candidates.registry import Candidate, Quantization
 from planner_ft.support.errors import PlannerError
@@ -103,7 +103,7 @@ def load_tokenizer(candidate: Candidate) -> PreTrainedTokenizerBase:
     try:
         tokenizer = AutoTokenizer.from_pretrained(str(folder), local_files_only=True, trust_remote_code=False)
     except Exception as error:  # the tokenizers library raises bare Exception for a corrupt tokenizer.json
-        raise PlannerError(f"{folder}: the tokenizer cannot be loaded ({_first_line(error)}); download its files again") from error
+        raise PlannerError(f"{folder}: the tokenizer cannot be loaded ({_one_line(error)}); download its files again") from error
     if tokenizer.pad_token is None:
         vocabulary = tokenizer.get_vocab()
         tokenizer.pad_token = next((token for token in PAD_TOKENS if token in vocabulary), tokenizer.eos_token)
@@ -146,8 +146,12 @@ def load_model(
 
 
 def _load_base(folder: Path, device: torch.device, quantization: Quantization) -> Any:
-    from transformers import AutoModelForCausalLM, BitsAndBytesConfig
+    import transformers
+    from transformers import CONFIG_MAPPING, AutoModelForCausalLM, BitsAndBytesConfig
 
+    if (kind := read_config(folder).get("model_type")) not in CONFIG_MAPPING:
+        known = f"transformers {transformers.__version__} has no model_type {kind!r}"
+        raise PlannerError(f"{folder}/config.json: {known}; update transformers, or take another model (code that comes with a model is never run)")
     dtype = compute_dtype(device)
     settings: dict[str, Any] = {}
     if quantization == "nf4":
@@ -184,12 +188,12 @@ def _loading_errors(candidate: Candidate, folder: Path, device: torch.device) ->
     except (torch.cuda.OutOfMemoryError, MemoryError) as error:
         raise PlannerError(out_of_memory(candidate, device)) from error
     except ImportError as error:
-        raise PlannerError(f"{candidate.name}: a library is missing ({_first_line(error)}); see `plannerft doctor`") from error
-    except (RuntimeError, ValueError, OSError, KeyError, TypeError) as error:
+        raise PlannerError(f"{candidate.name}: a library is missing ({_one_line(error)}); see `plannerft doctor`") from error
+    except Exception as error:  # the libraries raise anything, down to bare Exception and their own validation errors
         if "allocate memory" in str(error) or "out of memory" in str(error):
             raise PlannerError(out_of_memory(candidate, device)) from error
         raise PlannerError(
-            f"{folder}: the model cannot be loaded ({_first_line(error)}); check its config.json against its weights, or download it again"
+            f"{folder}: the model cannot be loaded ({_one_line(error)}); check its config.json against its weights, or download it again"
         ) from error
 
 
@@ -199,6 +203,5 @@ def out_of_memory(candidate: Candidate, device: torch.device) -> str:
     return f"{candidate.name} does not fit the memory of {device}; {way_out}"
 
 
-def _first_line(error: BaseException) -> str:
-    text = str(error).strip()
-    return (text.splitlines()[0] if text else type(error).__name__)[:200]
+def _one_line(error: BaseException) -> str:
+    return (" ".join(str(error).split()) or type(error).__name__)[:200]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 from pathlib import Path
@@ -105,6 +106,12 @@ def weights_sha256(folder: Path) -> str:
     """
     lines = []
     for path in [folder / "config.json", *weight_files(folder)]:
-        blob = path.resolve().name
-        lines.append(f"{path.name} {blob if len(blob) == 64 else sha256_file(path)}")
+        blob, status = path.resolve().name, path.stat()
+        lines.append(f"{path.name} {blob if len(blob) == 64 else _digest(path, status.st_size, status.st_mtime_ns)}")
     return sha256_text("\n".join(lines))
+
+
+@functools.lru_cache(maxsize=64)
+def _digest(path: Path, size: int, modified: int) -> str:
+    """SHA-256 of a file, computed once while its size and time stay the same."""
+    return sha256_file(path)

@@ -55,6 +55,7 @@ def test_gradients_are_the_same_after_an_evaluation(models: Path, name: str) -> 
 
 
 @needs_kernel
+@pytest.mark.filterwarnings("ignore:bitsandbytes..gemv_4bit")
 def test_what_is_prevented_does_happen_to_a_model_loaded_for_decoding(models: Path) -> None:
     model = with_adapter(load_model(resolve_candidate("Llama-3.2-1B"), device="cpu"))
     before = gradients(model)

@@ -12,8 +12,10 @@ import pytest
 from planner_ft.candidates import resolve_candidate
 from planner_ft.candidates.loading import load_tokenizer
 from planner_ft.candidates.standins import make_all_standins, make_standin
+from planner_ft.prompts import render_prompt
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import sha256_tree
+from planner_ft.vocabulary import load_vocabulary
 
 LLAMA = ["Llama-3.2-1B", "Llama-3.2-1B-Instruct", "Llama-3.2-3B", "Llama-3.2-3B-Instruct", "Llama-3.1-8B"]
 QWEN = ["Qwen2.5-3B", "Qwen2.5-3B-Instruct"]
@@ -79,6 +81,13 @@ def test_the_llama_instruct_template_is_the_header_format(standins: Path) -> Non
         "<|begin_of_text|><|start_header_id|>system<|end_header_id|>\n\nCutting Knowledge Date: December 2023\nToday Date: 26 Jul 2024\n\nS<|eot_id|>"
         "<|start_header_id|>user<|end_header_id|>\n\nU<|eot_id|><|start_header_id|>assistant<|end_header_id|>\n\n"
     )
+
+
+def test_prompts_do_not_change_with_the_date_that_the_template_would_write(standins: Path) -> None:
+    tokenizer = load_tokenizer(resolve_candidate(standins / "Llama-3.2-1B-Instruct"))
+    assert "26 Jul 2024" not in tokenizer.apply_chat_template(MESSAGES, tokenize=False), "left alone, it writes today's date"
+    ids = render_prompt("mission", {"prompt": "come home"}, tokenizer, load_vocabulary(), with_vocabulary=False)
+    assert "Today Date: 26 Jul 2024\n" in tokenizer.decode(ids)
 
 
 @pytest.mark.parametrize("name", QWEN)
