@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from planner_ft.vocabulary.definition import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -55,6 +57,11 @@ def documentation_page(vocabulary: Vocabulary) -> str:
     lines += ["", "## Which skills fit which task", "", "| task | navigation | filter | perception |", "|---|---|---|---|"]
     lines += [f"| `{task.title}` | " + " | ".join(", ".join(task.skills.get(role, ())) for role in ROLE_HEADINGS) + " |" for task in vocabulary.tasks]
     return "\n".join(lines) + "\n"
+
+
+def stale_page(path: Path, vocabulary: Vocabulary) -> bool:
+    """Whether the page at `path` is missing or differs from what the vocabulary gives."""
+    return not path.is_file() or path.read_text(encoding="utf-8") != documentation_page(vocabulary)
 
 
 def _cells(owner: Task | Skill) -> str:

@@ -7,9 +7,11 @@ from typing import Any
 
 from planner_ft.data.task.numbers import Value, position
 from planner_ft.data.task.phrasebook import Call, Phrasebook, Saying, Slots
+from planner_ft.data.task.template import compile_template
 from planner_ft.data.task.values import draw_point, say_number, sense_of
 from planner_ft.vocabulary.definition import Task
 
+REPEATED = 0.08  # share of calls said with an interval, which no skill has
 REFER = 0.3  # share of values that stand in the task's parameters alone
 UNRESOLVED = 0.05  # share of samples whose position is not known yet
 
@@ -29,8 +31,12 @@ class Context:
             name = task.require_any[int(rng.random() * len(task.require_any))]
             self.values[name] = self.entry.draws[name](rng)
         place = task.position_parameter
-        if place in self.values and rng.random() < UNRESOLVED:
+        if place in self.values and rng.random() < (UNRESOLVED if task.arrival == "self" else UNRESOLVED / 2):
             self.values[place] = Value(list(book.vocabulary.unresolved), "", "", "")
+
+    def slots(self) -> Slots:
+        """Empty slots that know the vehicle's words and the task's values."""
+        return Slots(self.book, self.rng, {name: value for name, value in self.values.items() if value.text})
 
     def require(self, name: str) -> Value:
         """The task parameter's value, drawn now if the task has none yet."""
@@ -52,7 +58,8 @@ class Context:
         name = self.entry.links[place]
         self.used.add(name)
         value = self.values[name]
-        if self.unresolved(value) or (self.rng.random() < REFER if refer is None else refer):
+        referred = name not in self.entry.stated and (self.rng.random() < REFER if refer is None else refer)
+        if self.unresolved(value) or referred:
             slots.put_words(slot, self.refer(name))
         else:
             slots.put(slot, value)
@@ -61,11 +68,13 @@ class Context:
     def refer(self, name: str) -> str:
         """Words for the task parameter's value."""
         templates = self.entry.refer[name]
-        return templates[int(self.rng.random() * len(templates))].render(self.book.slots(self.rng), self.rng)
+        if self.entry.unresolved and self.unresolved(self.values[name]) and self.rng.random() < 0.7:
+            templates = self.entry.unresolved
+        return templates[int(self.rng.random() * len(templates))].render(self.slots(), self.rng)
 
     def call(self, name: str) -> Call:
         """A skill with drawn parameters, as it is said."""
-        entry, rng, slots = self.book.skills[name], self.rng, self.book.slots(self.rng)
+        entry, rng, slots = self.book.skills[name], self.rng, self.slots()
         parameters: dict[str, Any] = {}
         if entry.skill.motion == "goto":
             parameters["x"], parameters["y"] = self.point(slots, f"{name}.xy")
@@ -86,8 +95,14 @@ class Context:
             templates = [template for template in self.entry.goto_phrases if template.fits(given)] or templates
         elif name == self.entry.phrases_for and rng.random() < 0.6:
             templates = [template for template in self.entry.phrases if template.fits(given)] or templates
+        if entry.repeats and rng.random() < REPEATED and self.book.sentences.get("repeat"):
+            return Call(name, parameters, Saying(templates, slots, " " + self._repeat()))
         after_with = entry.fitting(given, after_with=True)
         return Call(name, parameters, Saying(templates, slots), Saying(after_with, slots) if after_with else None)
+
+    def _repeat(self) -> str:
+        phrases = self.book.sentences["repeat"]
+        return compile_template(phrases[int(self.rng.random() * len(phrases))]).render(self.slots(), self.rng)
 
     def _linked_value(self, slots: Slots, key: str, place: str) -> Any:
         """The task parameter's value, said in the way of the skill's parameter ("an arc of 90" as "90 degrees to the right")."""
@@ -96,7 +111,7 @@ class Context:
         value = self.fill(slots, key, place)
         config = self.book.raw.get("skill", {}).get(skill_name, {}).get("values", {}).get(key, {})
         sense = sense_of(parameter, config)
-        if sense == "rotation" and "\x02" in slots[key]:
+        if sense == "rotation" and f"{key}#" in slots:
             slots.put(key, say_number(value, sense, parameter.unit, self.rng))
         return [value] if parameter.type == "texts" and isinstance(value, str) else value
 

@@ -20,17 +20,17 @@ FRACTIONS = {60: "a minute", 90: "a minute and a half", 150: "two and a half min
 
 @dataclass(frozen=True)
 class Value:
-    """A value of a plan and how it is said: in full, short (as an adjective, or without an article) and as a noun."""
+    """A value of a plan and how it is said; a wording that is None cannot be said of this value.
+
+    `text` in full; `short` as an adjective or without an article; `noun` as a thing ("a half circle to port"); `way` as a
+    direction ("left by 15 degrees", "east").
+    """
 
     value: Any
     text: str
-    short: str
-    noun: str
-
-
-def say(value: Any, text: str, short: str | None = None, noun: str | None = None) -> Value:
-    """The value with its wordings; what is not given is said as the full text."""
-    return Value(value, text, text if short is None else short, text if noun is None else noun)
+    short: str | None = None
+    noun: str | None = None
+    way: str | None = None
 
 
 def digits(value: float) -> str:
@@ -64,7 +64,7 @@ def length(value: float, rng: random.Random) -> Value:
     figure = digits(value)
     short = f"{figure}-metre" if rng.random() < 0.6 else f"{figure} m"
     if value >= 1000 and value % 100 == 0 and rng.random() < 0.5:
-        return say(value, "a kilometre" if value == 1000 and rng.random() < 0.4 else f"{digits(value / 1000)} {'km' if rng.random() < 0.6 else 'kilometres'}", short)
+        return Value(value, "a kilometre" if value == 1000 and rng.random() < 0.4 else f"{digits(value / 1000)} {'km' if rng.random() < 0.6 else 'kilometres'}", short)
     roll = rng.random()
     if roll < 0.5:
         text = f"{figure} m"
@@ -75,7 +75,7 @@ def length(value: float, rng: random.Random) -> Value:
         text = f"{spoken} metre{'' if value == 1 else 's'}"
     else:
         text = f"{figure} meter{'' if value == 1 else 's'}"
-    return say(value, text, short)
+    return Value(value, text, short)
 
 
 def duration(value: float, rng: random.Random) -> Value:
@@ -94,7 +94,7 @@ def duration(value: float, rng: random.Random) -> Value:
         text = f"{digits(value / 60)} minutes"
     else:
         text = f"{digits(value)} s" if rng.random() < 0.4 else f"{count_text(value, rng)} second{'' if value == 1 else 's'}"
-    return say(value, text, short)
+    return Value(value, text, short)
 
 
 def bearing(value: float, rng: random.Random) -> Value:
@@ -104,14 +104,14 @@ def bearing(value: float, rng: random.Random) -> Value:
     figures += " degrees" if 0.5 < roll < 0.8 else "°" if roll > 0.95 else ""
     name = COMPASS.get(int(value) if value % 45 == 0 else -1) or FINE_COMPASS.get(value)
     if name and rng.random() < 0.55:
-        return say(value, name if rng.random() < 0.85 else f"due {name}", figures)
-    return say(value, figures, figures)
+        return Value(value, name if rng.random() < 0.85 else f"due {name}", figures, way=name)
+    return Value(value, figures, figures, way=name)
 
 
 def angle(value: float, rng: random.Random) -> Value:
     """A size in degrees without direction; short: "15-degree"."""
     text = f"{count_text(value, rng)} degree{'' if value == 1 else 's'}" if rng.random() < 0.85 else f"{digits(value)}°"
-    return say(value, text, f"{digits(value)}-degree")
+    return Value(value, text, f"{digits(value)}-degree")
 
 
 _RIGHT = ("to the right", "clockwise", "to starboard", "right")
@@ -128,25 +128,24 @@ def rotation(value: float, rng: random.Random) -> Value:
     if value < 0 and rng.random() < 0.3:
         signed = f"minus {digits(size)}{unit}"
     spoken = f"{count_text(size, rng)}{unit}" if unit != "°" else f"{digits(size)}°"
-    full = f"{way} by {spoken}" if rng.random() < 0.15 else f"{spoken} {way}"
-    if rng.random() < 0.12:
-        full = signed
+    full = signed if rng.random() < 0.12 else f"{spoken} {way}"
+    by = f"{way} by {spoken}" if rng.random() < 0.6 else f"{way} {spoken}"
     noun = {360: "a full circle", 180: "a half circle", 90: "a quarter circle", 270: "three quarters of a circle", 720: "two full circles"}.get(int(size))
     if noun is None or rng.random() < 0.4:
         noun = f"an arc of {spoken}" if rng.random() < 0.7 else f"a {digits(size)}-degree arc"
-    if value > 0 and rng.random() < 0.3:
-        return say(value, full, signed, noun)
-    return say(value, full, signed, f"{noun} to the {way}" if way in ("left", "right") else f"{noun} {way}")
+    if value < 0 or rng.random() < 0.7:
+        noun = f"{noun} to the {way}" if way in ("left", "right") else f"{noun} {way}"
+    return Value(value, full, signed, noun, by)
 
 
 def temperature(value: float, rng: random.Random) -> Value:
     """Degrees Celsius."""
-    return say(value, f"{digits(value)} {rng.choice(('degrees', '°C', 'degrees Celsius', 'C', 'degC'))}".replace(" °C", " °C"))
+    return Value(value, f"{digits(value)} {rng.choice(('degrees', '°C', 'degrees Celsius', 'C', 'degC'))}".replace(" °C", " °C"))
 
 
 def percent(value: float, rng: random.Random) -> Value:
     """A share."""
-    return say(value, f"{digits(value)} {'%' if rng.random() < 0.4 else 'percent' if rng.random() < 0.7 else 'per cent'}".replace(" %", "%"))
+    return Value(value, f"{digits(value)} {'%' if rng.random() < 0.4 else 'percent' if rng.random() < 0.7 else 'per cent'}".replace(" %", "%"))
 
 
 def position(value: Point, rng: random.Random) -> Value:
@@ -164,13 +163,19 @@ def position(value: Point, rng: random.Random) -> Value:
         text = f"x {x}{',' if rng.random() < 0.5 else ''} y {y}"
     elif roll < 0.88:
         text = f"{x}, {y}".replace("-", "minus ")
-    elif roll < 0.92:
+    elif roll < 0.91:
         text = f"[{x},{y}]"
+    elif roll < 0.92 and isinstance(value[0], int) and isinstance(value[1], int) and max(map(abs, value)) < 1000:
+        text = f"{_signed_words(value[0])}, {_signed_words(value[1])}"
     elif roll < 0.96 and value[0] and value[1]:
         text = _compass_position(value, rng)
     else:
         text = f"{x} {y}" if rng.random() < 0.4 and "-" not in y else f"({x},{y})"
-    return say(list(value), text, short)
+    return Value(list(value), text, short)
+
+
+def _signed_words(value: float) -> str:
+    return ("minus " if value < 0 else "") + in_words(abs(int(value)))
 
 
 def _compass_position(value: Point, rng: random.Random) -> str:
@@ -181,13 +186,21 @@ def _compass_position(value: Point, rng: random.Random) -> str:
 
 
 def polygon(value: list[Point], rng: random.Random) -> Value:
-    """The corners, one after the other."""
+    """The corners, one after the other; noun, for a box that starts in the south-west: "the box from [0, 0] to [50, 40]"."""
     mark = "[{}, {}]" if rng.random() < 0.7 else "({}, {})"
     corners = [mark.format(digits(x), digits(y)) for x, y in value]
+    noun = None
+    if len(value) == 4 and value[0][0] < value[2][0] and value[0][1] == value[1][1] < value[2][1]:
+        noun = f"the {'box' if rng.random() < 0.6 else 'rectangle'} from {corners[0]} to {corners[2]}"
+        half = (value[2][0] - value[0][0]) / 2
+        if value[2][1] - value[0][1] == 2 * half and rng.random() < 0.8:
+            center = mark.format(digits(value[0][0] + half), digits(value[0][1] + half))
+            noun = f"a {digits(half)}{'-metre' if rng.random() < 0.7 else ' m'} square around {center}"
+    plain = [list(corner) for corner in value]
     if rng.random() < 0.2:
-        return say([list(corner) for corner in value], f"[{', '.join(corners)}]")
+        return Value(plain, f"[{', '.join(corners)}]", noun=noun)
     joint = ", " if rng.random() < 0.5 else " and "
-    return say([list(corner) for corner in value], ", ".join(corners[:-1]) + joint + corners[-1])
+    return Value(plain, ", ".join(corners[:-1]) + joint + corners[-1], noun=noun)
 
 
 SENSES: dict[str, Callable[[float, random.Random], Value]] = {
@@ -197,4 +210,4 @@ SENSES: dict[str, Callable[[float, random.Random], Value]] = {
 
 def plain_number(value: float, rng: random.Random, unit: str = "") -> Value:
     """A number with its unit as it stands, in figures or words."""
-    return say(value, f"{count_text(value, rng)}{f' {unit}' if unit else ''}")
+    return Value(value, f"{count_text(value, rng)}{f' {unit}' if unit else ''}")

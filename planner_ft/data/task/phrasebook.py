@@ -7,15 +7,15 @@ from __future__ import annotations
 
 import random
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from planner_ft.data.task.numbers import Value
 from planner_ft.data.task.template import Form, Template, compile_template, mark
-from planner_ft.data.task.values import Draw, value_space
+from planner_ft.data.task.values import Draw, number_space, value_space
 from planner_ft.data.task.words import Lexicon
-from planner_ft.vocabulary.definition import Role, Skill, Task, Vocabulary
+from planner_ft.vocabulary.definition import Parameter, Role, Skill, Task, Vocabulary
 
 Given = frozenset[str]
 
@@ -26,26 +26,35 @@ def spaced(name: str) -> str:
 
 
 class Slots(dict[str, str]):
-    """What is said for each slot; a slot that begins with an underscore is an entry of that word list."""
+    """What is said for each slot. A slot that begins with an underscore is said for the context's sake and is no value of
+    the plan: the task parameter of that name, if the task has it, else a number of [decor] or an entry of a word list."""
 
-    def __init__(self, lexicon: Lexicon, rng: random.Random) -> None:
+    def __init__(self, book: Phrasebook, rng: random.Random, task_values: Mapping[str, Value] | None = None) -> None:
         super().__init__()
-        self._lexicon, self._rng = lexicon, rng
+        self._book, self._rng, self._task_values = book, rng, task_values or {}
         self.given: set[str] = set()
 
     def __missing__(self, key: str) -> str:
-        entry = self._lexicon.entry(key[1:], self._rng)
-        return mark(entry.removeprefix("the ") if key != "_target" else entry)
+        name = key[1:]
+        if name in self._task_values:
+            return mark(self._task_values[name].text)
+        if name in self._book.decor:
+            return mark(self._book.decor[name](self._rng).text)
+        return mark(self._book.lexicon.entry(name, self._rng))
 
     def put(self, name: str, value: Value) -> None:
         """Say the value's wordings in the slot, set apart as values."""
         self.given.add(name)
-        self[name], self[f"{name}!"], self[f"{name}^"] = mark(value.text), mark(value.short), mark(value.noun)
+        self[name] = mark(value.text)
+        for sign, wording in (("#", value.text), ("!", value.short), ("^", value.noun), ("+", value.way)):
+            if wording is not None:
+                self.given.add(name + sign)
+                self[name + sign] = mark(wording)
 
     def put_words(self, name: str, text: str) -> None:
         """Say words in the slot that refer to a value without stating it."""
         self.given.add(name)
-        self[name] = self[f"{name}!"] = self[f"{name}^"] = text
+        self[name] = text
 
 
 @dataclass
@@ -54,10 +63,11 @@ class Saying:
 
     templates: Sequence[Template]
     slots: Slots
+    suffix: str = ""
 
     def render(self, rng: random.Random, form: Form = "base") -> str:
         """One wording."""
-        return self.templates[int(rng.random() * len(self.templates))].render(self.slots, rng, form)
+        return self.templates[int(rng.random() * len(self.templates))].render(self.slots, rng, form) + self.suffix
 
 
 @dataclass
@@ -86,6 +96,7 @@ class SkillEntry:
         self._layers = [layer for layer in (new, seen, [compile_template(text) for text in fallback]) if layer]
         self._with = [compile_template(text) for text in config.get("with", [])]
         self.during = [compile_template(text) for text in config.get("during", [])]
+        self.repeats = bool(config.get("repeats"))
         self._cache: dict[tuple[Given, bool], list[Template]] = {}
 
     def fitting(self, given: Given, *, after_with: bool = False) -> list[Template]:
@@ -102,7 +113,7 @@ def _generic_phrase(skill: Skill) -> str:
     names = [parameter.name for parameter in skill.parameters]
     if "x" in names and "y" in names:
         names = ["xy", *(name for name in names if name not in ("x", "y"))]
-    return f"~run {spaced(skill.name)}" + "".join(f"[ with {'position' if name == 'xy' else spaced(name)} {{{name}!}}]" for name in names)
+    return f"~run {spaced(skill.name)}" + "".join(f"[ with {'position' if name == 'xy' else spaced(name)} {{{name}}}]" for name in names)
 
 
 class Phrasebook:
@@ -115,6 +126,8 @@ class Phrasebook:
         configs = self.raw.get("skill", {})
         self.skills = {skill.name: SkillEntry(skill, configs.get(skill.name, {}), self.lexicon, unseen=unseen) for skill in vocabulary.skills}
         self.tasks = {task.title: TaskEntry(task, self) for task in vocabulary.tasks}
+        self.decor = {name: number_space(Parameter(name, "number", config.get("unit")), config) for name, config in self.raw.get("decor", {}).items()}
+        self.sentences: dict[str, list[str]] = self.raw.get("sentence", {})
         self.motions: dict[str, str] = {}
         for skill in vocabulary.skills:
             if skill.motion:
@@ -124,7 +137,11 @@ class Phrasebook:
 
     def slots(self, rng: random.Random) -> Slots:
         """Empty slots that know this vocabulary's words."""
-        return Slots(self.lexicon, rng)
+        return Slots(self, rng)
+
+    def say(self, source: str, rng: random.Random) -> str:
+        """A wording of a phrase without values."""
+        return compile_template(source).render(self.slots(rng), rng)
 
     def pattern(self, name: str, title: str, key: str = "phrases") -> list[Template]:
         """Phrases of a movement of several steps: the task's own ones and the general ones."""
@@ -153,10 +170,12 @@ class TaskEntry:
                 self.links.setdefault(place, parameter.name)
         lead_key = "lead_unseen" if book.unseen and config.get("lead_unseen") else "lead"
         self.lead = [compile_template(text) for text in config.get(lead_key, [])]
+        self.stated = frozenset(config.get("stated", ()))
         self.lead_skill: dict[str, str] = config.get("lead_skill", {})
         self.phrases = [] if book.unseen else [compile_template(text) for text in config.get("phrases", [])]
         self.phrases_for: str | None = config.get("phrases_for")
         self.openers: list[str] = config.get("openers", [])
+        self.unresolved = [compile_template(text) for text in config.get("unresolved", [])]
         self.goto_phrases = [compile_template(text) for text in config.get("pattern_phrases", {}).get("goto", [])]
 
 

@@ -17,7 +17,7 @@ from typing import Any, Literal, get_args
 
 from planner_ft.data.task import phrasing, sequences
 from planner_ft.data.task.context import Context
-from planner_ft.data.task.movements import EXTRA, Movement, implied_hold, main_movement, simple
+from planner_ft.data.task.movements import EXTRA, Movement, go_back, home, implied_hold, main_movement, simple
 from planner_ft.data.task.noise import noisy
 from planner_ft.data.task.phrasebook import Call, Phrasebook, Saying
 from planner_ft.data.task.phrasing import Script, Speaker
@@ -85,7 +85,7 @@ def draw_sample(book: Phrasebook, rng: random.Random, split: Split) -> dict[str,
         return None
     say = Speaker(rng, book)
     frame, text = say_it(say, script, context)
-    text = close_gaps(text)
+    text = close_gaps(aside(say, text, script, context))
     if split != "test_unseen" and split_of(f"{task.title} {skeleton(text)}") != split:
         return None
     prompt = plain(noisy(text, rng)) if split != "test_unseen" else plain(text)
@@ -122,7 +122,21 @@ def draw_script(context: Context) -> Script | None:
                 getattr(movements[int(rng.random() * len(movements))], name).append(call)
             else:
                 getattr(script, name).append(call)
+    _at_each(context, script)
     return script
+
+
+def _at_each(context: Context, script: Script) -> None:
+    """Now and then say that a skill runs "at each waypoint", where there is but one movement and it has several."""
+    movement = script.movements[0]
+    if len(script.movements) > 1 or len(movement.steps) < 3 or movement.kind.endswith("_stops") or movement.saying is None:
+        return
+    goto = context.book.skills[movement.steps[0][0]].skill.motion == "goto"
+    phrases = context.book.sentences.get("each" if goto else "each_turn", [])
+    for call in script.perceptions:
+        if phrases and call.skill and context.book.skills[call.skill].repeats and context.rng.random() < 0.4:
+            call.with_saying = None
+            call.saying.suffix = f" {phrases[int(context.rng.random() * len(phrases))]}"
 
 
 def _count(rng: random.Random, shares: Sequence[float]) -> int:
@@ -145,6 +159,8 @@ def _movements(context: Context, lead: list[Call]) -> list[Movement] | None:
         extra = _extra(context)
         if extra:
             movements.insert(int(rng.random() * (len(movements) + 1)), extra)
+    if rng.random() < 0.05 and (last := (home if rng.random() < 0.4 else go_back)(context)):
+        movements.append(last)
     return movements
 
 
@@ -162,7 +178,7 @@ def _lead(context: Context) -> list[Call]:
     entry, rng = context.entry, context.rng
     if not entry.lead or rng.random() < 0.2:
         return []
-    slots = context.book.slots(rng)
+    slots = context.slots()
     parameters: dict[str, Any] = {}
     for place, name in entry.links.items():
         if place.startswith("lead."):
@@ -219,6 +235,25 @@ def opened(say: Speaker, text: str, context: Context) -> str:
         openers = [f"{opener} " for opener in context.entry.openers]
     opener = say.pick(*openers)
     return phrasing.sentence(opener + text[0].lower() + text[1:])
+
+
+def aside(say: Speaker, text: str, script: Script, context: Context) -> str:
+    """The prompt, now and then with a sentence that changes nothing: background, a reason, what is not wanted."""
+    roll = say.rng.random()
+    sentences = context.book.sentences
+    if roll < 0.03 and sentences.get("background"):
+        remark = context.book.say(say.pick(*sentences["background"]), say.rng)
+        return f"{text} {remark}" if say.chance(0.5) else f"{remark} {phrasing.sentence(text)}"
+    if roll < 0.05 and sentences.get("reason"):
+        return f"{text[:-1]} {context.book.say(say.pick(*sentences['reason']), say.rng)}."
+    if roll < 0.08 and sentences.get("negation"):
+        said = {call.skill for part in (script, *script.movements) for call in part.perceptions}
+        others = [name for name in context.task.skills.get("perception", ()) if name not in said]
+        if others:
+            templates = context.book.skills[say.pick(*others)].fitting(frozenset())
+            refused = templates[int(say.rng.random() * len(templates))].render(context.slots(), say.rng)
+            return f"{text} {say.pick(*sentences['negation']).format(refused)}"
+    return text
 
 
 def pick_weighted(items: Sequence[tuple[Any, float]], rng: random.Random) -> Any:

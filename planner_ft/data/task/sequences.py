@@ -25,7 +25,7 @@ def clause(say: Speaker, movement: Movement, form: Form = "base", *, closed: boo
     if perceptions and (roll < 0.6 or not closed):
         return f"{text} while {say.calls(perceptions + filters, 'ing')}"
     if perceptions and roll < 0.8 and form == "base" and not filters:
-        return f"{text} and {say.pick('', 'there ', 'meanwhile ', '')}{say.calls(perceptions)}"
+        return f"{text} and {say.pick('', 'there ', '') if movement.kind in ('goto', 'hold') else ''}{say.calls(perceptions)}"
     calls = filters + perceptions
     return f"{text}, {say.calls(calls, 'ing')}" if calls else text
 
@@ -156,14 +156,50 @@ UNSEEN_SEQUENCES: tuple[tuple[Sequence, float], ...] = ((stages, 1), (begin_by, 
 
 def say_script(say: Speaker, script: Script, frame: Sequence) -> str:
     """The movements in this frame, with what runs in every step before or behind them."""
-    local = any(movement.filters or movement.perceptions for movement in script.movements)
+    later = [taken for movement in script.movements if say.chance(0.3) and (taken := _take_out(say, script, movement))]
+    local = bool(later) or any(movement.filters or movement.perceptions for movement in script.movements)
     both = [calls for calls in (script.filters, script.perceptions) if calls]
     if len(both) == 2 and say.chance(0.4):
         both = [script.filters + script.perceptions if say.chance(0.5) else script.perceptions + script.filters]
     front = [everywhere(say, calls, marked=True) for calls in both if say.chance(0.25)]
     body = frame(say, script.movements)
+    behind = [_say_later(say, *taken) for taken in later]
     back = [everywhere(say, rest, marked=local) for calls in both if (rest := [call for call in calls if not call.order])]
-    return " ".join([*front, body, *back])
+    return " ".join([*front, body, *behind, *back])
+
+
+ORDINALS = ("first", "second", "third", "fourth", "fifth")
+
+
+Taken = tuple[Movement, list[Call], list[Call], str]
+
+
+def _take_out(say: Speaker, script: Script, movement: Movement) -> Taken | None:
+    """Take what runs in this step alone out of its clause, with words for the step, to be said behind all movements."""
+    kinds = [other.kind for other in script.movements]
+    if not (movement.perceptions or movement.filters) or len(movement.steps) > 1 or movement.saying is None:
+        return None
+    slots = movement.saying.slots
+    phrases = [template for template in say.book.skills[movement.steps[0][0]].during if template.needed <= slots.given]
+    when = ""
+    if phrases and kinds.count(movement.kind) == 1 and say.chance(0.7):
+        when = phrases[int(say.rng.random() * len(phrases))].render(slots, say.rng)
+    elif all(len(other.steps) == 1 for other in script.movements) and len(kinds) <= len(ORDINALS):
+        ordinal = "last" if movement is script.movements[-1] and say.chance(0.5) else ORDINALS[script.movements.index(movement)]
+        when = f"{say.pick('in', 'during')} the {ordinal} {say.pick('step', 'part', 'stage')}"
+    if not when:
+        return None
+    taken = (movement, movement.filters, movement.perceptions, when)
+    movement.filters, movement.perceptions = [], []
+    return taken
+
+
+def _say_later(say: Speaker, movement: Movement, filters: list[Call], perceptions: list[Call], when: str) -> str:
+    """ "Record the sonar during the hold."; puts what was taken out back into its step."""
+    movement.filters, movement.perceptions = filters, perceptions
+    only = say.pick("", "", "only ", "")
+    calls = say.calls(perceptions + filters)
+    return sentence(f"{only}{when}, {calls}") if say.chance(0.4) else sentence(f"{calls} {only}{when}")
 
 
 def everywhere(say: Speaker, calls: list[Call], *, marked: bool) -> str:

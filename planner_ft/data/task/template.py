@@ -4,7 +4,9 @@
 
     (a|b)    one of the alternatives, which may be empty
     [text]   optional part: stands exactly when all slots in it are given
-    {slot}   a value as it is said; {slot!} without its article, {slot^} as a noun ("a half circle")
+    {slot}   a value as it is said or referred to ("the planned time"); with a mark, only a value that is stated: {slot#} in full,
+             {slot!} short, {slot^} as a noun, {slot+} as a direction (see numbers.Value)
+    {_list}  an entry of a word list, or a value of the task, that is no value of the plan
     ~verb    inflected: base form in commands, -ing form after "while"
 
 Values are set between VALUE_OPEN and VALUE_CLOSE, so that what surrounds them can be told apart: the skeleton of a
@@ -23,8 +25,8 @@ from typing import Literal
 Form = Literal["base", "ing"]
 VALUE_OPEN, VALUE_CLOSE = "\x02", "\x03"
 
-_TOKEN = re.compile(r"~[A-Za-z-]+|\{[a-z_]+[!^]?\}|[()\[\]|]|[^~{}()\[\]|]+")
-_DOUBLING = {"cut", "get", "log", "pan", "put", "run", "stop", "let", "set", "sit", "grab", "scan", "tag", "pin", "drop", "map", "spin", "swing", "plan", "begin", "hug", "shut", "trim", "snap", "clip", "chop", "step", "jot", "skim", "fit", "rig", "ram", "zip", "spot", "dip", "flag"}  # fmt: skip
+_TOKEN = re.compile(r"~[A-Za-z-]+|\{[a-z_]+[!^+#]?\}|[()\[\]|]|[^~{}()\[\]|]+")
+_DOUBLING = {"begin", "clip", "cut", "dip", "drop", "fit", "flag", "get", "hug", "jot", "let", "log", "map", "pan", "pin", "plan", "put", "run", "scan", "set", "shut", "sit", "skim", "spin", "spot", "step", "stop", "tag", "trim"}  # fmt: skip
 _GERUND = {"be": "being", "lie": "lying", "tie": "tying", "see": "seeing", "flee": "fleeing"}
 
 
@@ -37,22 +39,25 @@ def gerund(verb: str) -> str:
     return (verb[:-1] if verb.endswith("e") and not verb.endswith("ee") else verb) + "ing"
 
 
+MARKS = "#!^+"
 Node = tuple[str, object]
 
 
 @dataclass(frozen=True)
 class Template:
-    """A compiled phrase: the slots that must be given, the slots that may be, and whether it has a verb to inflect."""
+    """A compiled phrase: the slots that must be given, and the sets of slots that bring an optional part each."""
 
     source: str
     nodes: tuple[Node, ...]
     needed: frozenset[str]
-    known: frozenset[str]
-    inflects: bool
+    optional: tuple[frozenset[str], ...]
 
     def fits(self, given: frozenset[str]) -> bool:
-        """Whether the phrase says exactly the given slots: all that it needs, and none that it cannot say."""
-        return self.needed <= given <= self.known
+        """Whether the phrase says exactly the given slots: all that it needs can be said, and none is left unsaid."""
+        if not self.needed <= given:
+            return False
+        said = self.needed.union(*(part for part in self.optional if part <= given))
+        return all(slot in said for slot in given if slot[-1] not in MARKS)
 
     def render(self, values: Mapping[str, str], rng: random.Random, form: Form = "base") -> str:
         """A wording with `values` (slot, or slot with its mark, to text) put in."""
@@ -71,8 +76,8 @@ def compile_template(source: str) -> Template:
     if position != len(tokens) or len(branches) != 1:
         raise ValueError(f"phrase {source!r}: unbalanced brackets")
     nodes = branches[0]
-    needed, known = _slots(nodes)
-    return Template(source, nodes, frozenset(needed), frozenset(known), "~" in source)
+    optional: list[frozenset[str]] = []
+    return Template(source, nodes, frozenset(_slots(nodes, optional)), tuple(optional))
 
 
 def _branches(tokens: list[str], position: int) -> tuple[int, list[tuple[Node, ...]]]:
@@ -87,7 +92,9 @@ def _branches(tokens: list[str], position: int) -> tuple[int, list[tuple[Node, .
             position, inner = _branches(tokens, position + 1)
             if position >= len(tokens) or tokens[position] != {"(": ")", "[": "]"}[token]:
                 raise ValueError(f"phrase {''.join(tokens)!r}: unbalanced brackets")
-            nodes.append(("choice", tuple(inner)) if token == "(" else ("optional", (frozenset(_slots(inner[0])[1]), inner[0])))
+            if token == "[" and len(inner) > 1:
+                raise ValueError(f"phrase {''.join(tokens)!r}: alternatives in an optional part need brackets of their own")
+            nodes.append(("choice", tuple(inner)) if token == "(" else ("optional", (frozenset(_slots(inner[0], [])), inner[0])))
         elif token[0] == "~":
             nodes.append(("verb", (token[1:], gerund(token[1:]))))
         elif token[0] == "{":
@@ -99,20 +106,18 @@ def _branches(tokens: list[str], position: int) -> tuple[int, list[tuple[Node, .
     return position, branches
 
 
-def _slots(nodes: tuple[Node, ...]) -> tuple[set[str], set[str]]:
+def _slots(nodes: tuple[Node, ...], optional: list[frozenset[str]]) -> set[str]:
+    """Slots outside optional parts, those of all alternatives included; the slots of each optional part go to `optional`."""
     needed: set[str] = set()
-    known: set[str] = set()
     for kind, content in nodes:
-        if kind == "slot":
-            needed.add(str(content).rstrip("!^"))
+        if kind == "slot" and str(content)[0] != "_":
+            needed |= {str(content), str(content).rstrip(MARKS)}
         elif kind == "choice":
             for branch in content:  # type: ignore[attr-defined]
-                inner = _slots(branch)
-                needed |= inner[0]
-                known |= inner[1]
+                needed |= _slots(branch, optional)
         elif kind == "optional":
-            known |= content[0]  # type: ignore[index]
-    return needed, known | needed
+            optional.append(content[0])  # type: ignore[index]
+    return needed
 
 
 def _render(nodes: tuple[Node, ...], values: Mapping[str, str], rng: random.Random, ing: bool, parts: list[str]) -> None:

@@ -26,7 +26,7 @@ SPAN = 220  # metres from home within which most positions lie
 def value_space(parameter: Parameter, config: dict[str, Any], lexicon: Lexicon) -> Draw:
     """A function that draws a value of this parameter."""
     if parameter.type in ("number", "integer"):
-        return _number_space(parameter, config)
+        return number_space(parameter, config)
     if parameter.type == "position":
         return lambda rng: position(draw_point(rng), rng)
     if parameter.type == "polygon":
@@ -51,7 +51,8 @@ def sense_of(parameter: Parameter, config: dict[str, Any]) -> str | None:
     return UNIT_SENSE.get(parameter.unit or "")
 
 
-def _number_space(parameter: Parameter, config: dict[str, Any]) -> Draw:
+def number_space(parameter: Parameter, config: dict[str, Any]) -> Draw:
+    """A function that draws a number of this parameter."""
     sense = sense_of(parameter, config)
     low, high = config.get("typical") or _default_range(parameter, sense)
     whole = parameter.type == "integer"
@@ -160,6 +161,8 @@ def draw_polygon(rng: random.Random) -> list[Point]:
     """The corners of a fence: mostly a rectangle, at times a triangle or a five-sided one."""
     x, y = 10 * rng.randrange(-15, 10), 10 * rng.randrange(-15, 10)
     width, height = 10 * rng.randrange(2, 20), 10 * rng.randrange(2, 20)
+    if rng.random() < 0.15:
+        height = width
     ring = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
     roll = rng.random()
     if roll < 0.2:

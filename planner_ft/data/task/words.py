@@ -11,9 +11,10 @@ import random
 import re
 from collections.abc import Mapping, Sequence
 
-from planner_ft.data.task.numbers import Value, say
+from planner_ft.data.task.numbers import Value
 
 _SLOT = re.compile(r"\{([a-z_]+)\}")
+_ARTICLE = re.compile(r"^(the|a|an) ")
 _ONSETS = "b br c d dr f fl g gr h j k kl l m n p pr r s sk st t tr v w z th sch v".split()
 _VOWELS = "a e i o u a e i o ei au y oa ie".split()
 _CODAS = "n r l s t m d ck nd rk st x lm ff  ng rn".split(" ")
@@ -92,15 +93,15 @@ class Lexicon:
     @staticmethod
     def as_value(entry: str) -> Value:
         """An entry with its article as a value without."""
-        bare = entry[4:] if entry.startswith("the ") else entry
-        return say(bare, entry, bare, bare if bare == entry else f"a{'n' if bare[0] in 'aeiou' else ''} {bare}")
+        bare = _ARTICLE.sub("", entry)
+        return Value(bare, entry, bare)
 
     def quoted(self, name: str, rng: random.Random) -> Value:
         """A text to be written down word for word: mostly in quotation marks, a single word also without."""
         bare = self.as_value(self.entry(name, rng)).value
         mark = _pick(("'", '"', "'", '"', ""), rng)
         mark = mark or ("" if " " not in bare else '"')
-        return say(bare, f"{mark}{bare}{mark}")
+        return Value(bare, f"{mark}{bare}{mark}")
 
     def several(self, name: str, rng: random.Random, count: int, *, article: bool = False) -> Value:
         """A list of different things as it is said: "boats, buoys and people"."""
@@ -110,4 +111,4 @@ class Lexicon:
         joint = " and " if rng.random() < 0.85 else " as well as "
         if len(said) > 2 and rng.random() < 0.3:
             joint = f",{joint}"
-        return say(bare, ", ".join(said[:-1]) + joint + said[-1] if len(said) > 1 else said[0])
+        return Value(bare, ", ".join(said[:-1]) + joint + said[-1] if len(said) > 1 else said[0])

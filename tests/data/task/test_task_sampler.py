@@ -10,7 +10,7 @@ from planner_ft.data.task import sampler
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
-from planner_ft.vocabulary.definition import load_vocabulary
+from planner_ft.vocabulary.definition import BUNDLED, load_vocabulary
 from planner_ft.vocabulary.plans import canonical_plan, named_entries, plan_problems
 
 USV = load_vocabulary("usv")
@@ -73,3 +73,52 @@ def test_numbers_have_two_decimals_at_most():
 def test_unknown_split_is_refused():
     with pytest.raises(PlannerError, match="train, validation"):
         next(sample_tasks(USV, 0, 1, "dev"))
+
+
+@pytest.mark.parametrize("split", ["train", "test_unseen"])
+def test_another_vehicle_needs_no_other_code(split):
+    drone = load_vocabulary("inspection_drone")
+    records = list(sample_tasks(drone, 0, 400, split))
+    names = {name for record in records for name, _parameters in named_entries("task", record["expected"])}
+    assert {record["task"] for record in records} == set(drone.task) and len(drone.task) == 8
+    assert names == set(drone.skill) and len(drone.skill) == 12
+    assert not any(plan_problems("task", record["expected"], drone, strict=True) for record in records)
+
+
+def test_a_definition_without_phrases_falls_back_on_names(tmp_path):
+    plain = tmp_path / "rover.toml"
+    plain.write_text((BUNDLED / "inspection_drone.toml").read_text())
+    records = list(sample_tasks(load_vocabulary(str(plain)), 0, 300, "train"))
+    assert any("run fly to xy with position [" in record["prompt"].lower() for record in records)
+
+
+def label(prompt_part, seed=5, count=20_000):
+    """The first sampled record whose prompt has the text, so that the label can be checked against the words."""
+    return next(record for record in sample_tasks(USV, seed, count, "train") if re.search(prompt_part, record["prompt"]))
+
+
+def navigation(record):
+    return [step["navigation_skill"] for step in record["expected"]["skill_sequence"]]
+
+
+def test_left_is_negative():
+    record = label(r"^Nudge (\d+) degrees left\b[^.]*\.$")
+    degrees = int(re.search(r"(\d+) degrees left", record["prompt"]).group(1))
+    assert navigation(record)[0] == {"name": "NudgeYaw", "parameters": {"delta_yaw": -degrees}}
+
+
+def test_a_referred_value_comes_from_the_task_parameters():
+    record = label(r"^Hold[^.]* for the planned time[^.]*\.$")
+    assert navigation(record)[0]["parameters"]["time"] == record["parameters"]["duration"]
+
+
+def test_a_prompt_without_a_movement_holds_position():
+    for record in sampled("train", 400):
+        if record["family"].startswith("no_movement/"):
+            assert navigation(record) == [{"name": "StationKeep", "parameters": {}}]
+
+
+def test_refused_skills_are_not_planned():
+    record = label(r"Do not film\b")
+    steps = record["expected"]["skill_sequence"]
+    assert "SetStreamRecording" not in {skill["name"] for step in steps for skill in step["perception_skills"]}
