@@ -1,0 +1,164 @@
+"""Making the data sets: `generate` writes both levels with card, leakage report and manifest."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from planner_ft.data.card import dataset_card
+from planner_ft.data.leakage import leakage_report
+from planner_ft.data.mission.source import curated_splits, find_source
+from planner_ft.data.output import DataFolder, write_folders
+from planner_ft.data.task.sampler import sample_tasks
+from planner_ft.data.validation import canonical_record
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import compact_json
+from planner_ft.support.manifest import build_manifest
+from planner_ft.vocabulary import Vocabulary, load_vocabulary
+from planner_ft.vocabulary.plans import LEVELS, Level
+
+DEFAULT_COUNTS: dict[Level, dict[str, int]] = {
+    "mission": {"train": 125, "validation": 25, "test": 25},
+    "task": {"train": 10_000, "validation": 500, "test": 500},
+}
+"""The published sizes of the splits. At task level, test_unseen has as many records as test."""
+
+Record = dict[str, Any]
+Progress = Callable[[str, int, int], None]
+"""Called with what is being done, how much is done and of how much."""
+Messages = Callable[[Level, Record, Vocabulary], list[dict[str, str]]]
+
+
+@dataclass(frozen=True)
+class GenerationSettings:
+    """What to generate. A count of None is the published one; `source` is the folder of the curated mission set."""
+
+    level: str = "all"
+    out: Path = Path("data")
+    seed: int = 0
+    train: int | None = None
+    validation: int | None = None
+    test: int | None = None
+    vocabulary: str = "usv"
+    source: Path | None = None
+    overwrite: bool = False
+    chat: bool = False
+
+    def __post_init__(self) -> None:
+        if self.level not in (*LEVELS, "all"):
+            raise PlannerError(f"--level {self.level}: must be {', '.join(LEVELS)} or all")
+        for split in ("train", "validation", "test"):
+            count = getattr(self, split)
+            if count is not None and count < 1:
+                raise PlannerError(f"--{split} {count}: at least one record is needed")
+        if self.seed < 0:
+            raise PlannerError(f"--seed {self.seed}: must be 0 or more")
+
+    @property
+    def levels(self) -> tuple[Level, ...]:
+        return tuple(level for level in LEVELS if self.level in (level, "all"))
+
+    def counts(self, level: Level) -> dict[str, int | None]:
+        """Records asked for, by split; None where no flag says it."""
+        counts: dict[str, int | None] = {"train": self.train, "validation": self.validation, "test": self.test}
+        return {**counts, "test_unseen": self.test} if level == "task" else counts
+
+
+@dataclass
+class Generated:
+    """The result for one level: where it lies, records by split, whether it was written or found up to date, seconds by stage."""
+
+    level: Level
+    folder: Path
+    counts: dict[str, int]
+    written: bool = False
+    seconds: dict[str, float] = field(default_factory=dict)
+
+
+def generate(settings: GenerationSettings, progress: Progress = lambda _label, _done, _total: None, messages: Messages | None = None) -> list[Generated]:
+    """Generate, check and write the data of each level; `messages` turns a record into the chat form that `chat` asks for.
+
+    Nothing is written before everything is made, and existing files that would change are kept unless `overwrite` is
+    set. Raises PlannerError when the curated source is faulty, counts cannot be met, or the folder cannot be written.
+    """
+    vocabulary = load_vocabulary(settings.vocabulary)
+    results, folders = [], []
+    for level in settings.levels:
+        result, folder = _make(level, settings, vocabulary, progress, messages if settings.chat else None)
+        results.append(result)
+        folders.append(folder)
+    started = time.perf_counter()
+    for result, written in zip(results, write_folders(folders, overwrite=settings.overwrite), strict=True):
+        result.written = written
+    results[-1].seconds["writing"] = time.perf_counter() - started
+    return results
+
+
+def _make(level: Level, settings: GenerationSettings, vocabulary: Vocabulary, progress: Progress, messages: Messages | None) -> tuple[Generated, DataFolder]:
+    result = Generated(level, settings.out / level, {})
+    clock = _Clock(result.seconds)
+    source = find_source(settings.source) if level == "mission" else None
+    if source is None:
+        splits = _sampled(settings, vocabulary, progress)
+        clock.stop("sampling and validation")
+    else:
+        splits = curated_splits(source, settings.counts("mission"), vocabulary, settings.vocabulary)
+        clock.stop("validation and audit")
+    result.counts = {split: len(records) for split, records in splits.items()}
+    leakage = leakage_report(level, splits, lambda step: progress(f"{level}: {step}", 0, 0))
+    clock.stop("leakage report")
+    seed = settings.seed if source is None else None
+    texts = {f"{split}.jsonl": _lines(canonical_record(level, record, vocabulary) for record in records) for split, records in splits.items()}
+    texts["leakage.json"] = json.dumps(leakage, ensure_ascii=False, indent=2) + "\n"
+    texts["README.md"] = dataset_card(level, splits, vocabulary, leakage, seed)
+    if messages is not None:
+        for split, records in splits.items():
+            texts[f"chat/{split}.jsonl"] = _lines(compact_json({"id": record["id"], "messages": messages(level, record, vocabulary)}) for record in records)
+    clock.stop("card and serialisation")
+    manifest = build_manifest(
+        "data",
+        seed=seed,
+        configuration={
+            "level": level,
+            "counts": result.counts,
+            "vocabulary": vocabulary.name,
+            "vocabulary_sha256": vocabulary.sha256,
+            "chat": messages is not None,
+        },
+        inputs={split: source / f"{split}.jsonl" for split in splits} if source else {},
+    )
+    return result, DataFolder(result.folder, texts, manifest, source)
+
+
+def _sampled(settings: GenerationSettings, vocabulary: Vocabulary, progress: Progress) -> dict[str, list[Record]]:
+    splits: dict[str, list[Record]] = {}
+    defaults = DEFAULT_COUNTS["task"]
+    for split, asked in settings.counts("task").items():
+        count = asked or defaults[split.removesuffix("_unseen")]
+        records = splits[split] = []
+        for record in sample_tasks(vocabulary, settings.seed, count, split):  # type: ignore[arg-type]
+            records.append(record)
+            if len(records) % 100 == 0 or len(records) == count:
+                progress(f"task: {split}", len(records), count)
+    return splits
+
+
+def _lines(lines: Iterable[str]) -> str:
+    return "".join(f"{line}\n" for line in lines)
+
+
+class _Clock:
+    """Writes down how long each stage took."""
+
+    def __init__(self, seconds: dict[str, float]) -> None:
+        self.seconds = seconds
+        self.started = time.perf_counter()
+
+    def stop(self, stage: str) -> None:
+        now = time.perf_counter()
+        self.seconds[stage] = now - self.started
+        self.started = now

@@ -1,0 +1,111 @@
+"""Writing a data folder: all of it or nothing, and never over other results unasked."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import compact_json, sha256_text, write_json, write_text
+
+MANIFEST = "manifest.json"
+
+
+@dataclass(frozen=True)
+class DataFolder:
+    """Files of a level by name below `folder`, and the manifest that goes with them, without its outputs.
+
+    Where `source` is the folder itself, its curated files are left alone as long as they say the same.
+    """
+
+    folder: Path
+    texts: dict[str, str]
+    manifest: dict[str, Any]
+    source: Path | None = None
+
+
+def write_folders(folders: Sequence[DataFolder], *, overwrite: bool) -> list[bool]:
+    """Write the folders; for each, whether anything was written or it was up to date.
+
+    Raises PlannerError, before anything is written, when a file exists that says something else and `overwrite` is not set.
+    """
+    pending = [_pending(folder) for folder in folders]
+    for folder, (texts, replaced) in zip(folders, pending, strict=True):
+        if replaced and not overwrite:
+            raise PlannerError(f"{folder.folder}: {replaced[0]} exists and is different; give another --out, or --overwrite to replace it")
+        if replaced and folder.source is not None and _same_folder(folder.source, folder.folder):
+            _refuse_cut(folder, texts)
+    written = []
+    for folder, (texts, _replaced) in zip(folders, pending, strict=True):
+        if texts:
+            _write(folder, texts)
+        written.append(bool(texts))
+    return written
+
+
+def _pending(folder: DataFolder) -> tuple[dict[str, str], list[str]]:
+    """Texts that must be written, and the names of those that replace others."""
+    in_place = folder.source is not None and _same_folder(folder.source, folder.folder)
+    texts, replaced = {}, []
+    for name, text in folder.texts.items():
+        path = folder.folder / name
+        present = _present(path)
+        if present == text or (present is not None and in_place and _same_records(present, text, name)):
+            continue
+        texts[name] = text
+        if present is not None:
+            replaced.append(name)
+    if not texts and _present(folder.folder / MANIFEST) is None:
+        texts[MANIFEST] = ""
+    return texts, replaced
+
+
+def _present(path: Path) -> str | None:
+    try:
+        return path.read_text(encoding="utf-8", errors="replace") if path.exists() else None
+    except OSError as error:
+        raise PlannerError(f"{path}: cannot be read ({error.strerror})") from None
+
+
+def _same_folder(first: Path, second: Path) -> bool:
+    return first.resolve() == second.resolve()
+
+
+def _same_records(present: str, text: str, name: str) -> bool:
+    """Whether a curated file differs from its canonical text in white space alone."""
+    return name.endswith(".jsonl") and "".join(f"{compact_json(json.loads(line))}\n" for line in present.split("\n") if line.strip()) == text
+
+
+def _refuse_cut(folder: DataFolder, texts: dict[str, str]) -> None:
+    for name, text in texts.items():
+        present = _present(folder.folder / name) if "/" not in name and name.endswith(".jsonl") else None
+        if present is not None and present.count("\n") > text.count("\n"):
+            raise PlannerError(f"{folder.folder / name} is the curated source and would be cut; give another --out")
+
+
+def _write(folder: DataFolder, texts: dict[str, str]) -> None:
+    """Stage all files beside the target, then move them in: a full disk leaves the target as it was."""
+    staging = folder.folder.parent / f".{folder.folder.name}.staging"
+    try:
+        if staging.exists():
+            shutil.rmtree(staging)
+        for name, text in texts.items():
+            if name != MANIFEST:
+                write_text(staging / name, text)
+        write_json(staging / MANIFEST, {**folder.manifest, "outputs": _digests(folder, texts)})
+        for name in (*(name for name in texts if name != MANIFEST), MANIFEST):
+            (folder.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (staging / name).replace(folder.folder / name)
+    except OSError as error:
+        raise PlannerError(f"{folder.folder}: cannot be written ({error.strerror or error}); choose another --out") from None
+    finally:
+        shutil.rmtree(staging, ignore_errors=True)
+
+
+def _digests(folder: DataFolder, texts: dict[str, str]) -> dict[str, str]:
+    """SHA-256 of every file as it lies in the folder afterwards."""
+    return {name: sha256_text(text if name in texts else str(_present(folder.folder / name))) for name, text in folder.texts.items()}
