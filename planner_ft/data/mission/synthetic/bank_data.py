@@ -93,6 +93,9 @@ SMART_DATA_HARVEST = TaskPhrases(
         a data upload; an upload of your data; a data transfer to shore; a data harvest; a transmission of everything you have
         an upload by priority; a full data offload
     """),
+    bare_gerunds=listed("""
+        uploading your data; sending us your data; transmitting everything you have; offloading your recordings; sending it all in; doing the data upload
+    """),
 )
 
 AUTO_GENERATE_REPORT_SUMMARY = TaskPhrases(

@@ -63,6 +63,10 @@ HORIZONTAL_PANORAMA = TaskPhrases(
         a panorama; an all-round panorama; a 360 panorama; a horizontal panorama; all-round imagery; a panoramic sweep; a pano
         pictures all round; a view of the whole horizon
     """),
+    bare_gerunds=listed("""
+        taking a panorama; shooting a panorama; photographing the whole horizon; taking pictures all round; doing a panoramic sweep; doing a pano
+        getting all-round imagery; shooting the view all round
+    """),
     valued_imperatives=listed("""
         shoot {sectors} sectors all round from {target}; do a panorama of {sectors} sectors at {target}; take {sectors} pictures round the horizon at {target}
         shoot {sectors} sectors of panorama; do a panorama of {sectors} sectors; take a {sectors}-sector panorama at {target}
@@ -116,6 +120,10 @@ FEATURE_STARE = TaskPhrases(
     bare_noun_phrases=listed("""
         steady footage of {feature_type}; steady video of {feature_type}; a steady shot of {feature_type}; a video of {feature_type}
         a camera stare at {feature_type}; a film of {feature_type}; a steady clip of {feature_type}
+    """),
+    bare_gerunds=listed("""
+        filming {feature_type}; taking steady footage of {feature_type}; keeping the camera on {feature_type}; recording steady video of {feature_type}
+        staring at {feature_type}; getting steady video of {feature_type}; holding the camera on {feature_type}; shooting video of {feature_type}
     """),
     valued_imperatives=listed("""
         get {duration} of steady video of {feature_type} at {target}; film {duration} of {feature_type} on {target}
@@ -175,6 +183,10 @@ GLARE_FREE_APPROACH = TaskPhrases(
     bare_noun_phrases=listed("""
         glare-free pictures of {target_feature}; a glare-free shot of {target_feature}; reflection-free imagery of {target_feature}
         a picture of {target_feature} without glare; an image of {target_feature} with no reflections; glare-free stills of {target_feature}
+    """),
+    bare_gerunds=listed("""
+        photographing {target_feature} without glare; getting {target_feature} without reflections; taking glare-free pictures of {target_feature}
+        getting a glare-free shot of {target_feature}; shooting {target_feature} free of glare; capturing {target_feature} with no reflections
     """),
 )
 

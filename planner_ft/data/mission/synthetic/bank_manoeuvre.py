@@ -106,6 +106,9 @@ KEEP_STATION = TaskPhrases(
         hold; remain on station; lie to; wait there; keep her steady in position; stay on the spot; heave to; hover; sit there
     """),
     bare_noun_phrases=listed("a station hold; a position hold; station keeping; a wait there; a hold; a stand-by; a stationary spell"),
+    bare_gerunds=listed("""
+        holding position; keeping station; waiting; holding; standing by; lying to; loitering; sitting tight
+    """),
     valued_imperatives=listed("""
         stay with {target} for {duration}; give it {duration} on station at {target}; spend {duration} at {target}
         wait {duration} at {target}; hold {duration} at {target}; stick with {target} for {duration}; do {duration} of station keeping at {target}
@@ -156,6 +159,9 @@ DRIFT_AUDIT = TaskPhrases(
     """),
     bare_noun_phrases=listed("""
         a drift log; a drift test; a drift audit; a free drift; an engines-off drift; a drift measurement; a passive drift
+    """),
+    bare_gerunds=listed("""
+        drifting; logging the drift; drifting engines-off; floating free; doing a drift test; letting the current take you; running a drift audit; going adrift
     """),
     valued_imperatives=listed("""
         drift {duration} at {target}; do {duration} of drifting at {target}; spend {duration} adrift at {target}

@@ -121,6 +121,10 @@ PARALLEL_STRUCTURE_PASS = TaskPhrases(
     bare_noun_phrases=listed("""
         a {side_id} side pass; a {side_id} face run; a run along the {side_id} side; a pass down the {side_id} face; a run down its {side_id} wall
     """),
+    bare_gerunds=listed("""
+        running along its {side_id} side; making a pass down its {side_id} face; passing along its {side_id} wall; going down the {side_id} side
+        running the {side_id} wall; doing a straight pass along the {side_id} face
+    """),
     valued_imperatives=listed("""
         do a {length_compound} run along the {side_id} side of {target}; run {length} along the {side_id} face of {target}
         make a {length_compound} pass down the {side_id} wall of {target}; cover {length} of the {side_id} side of {target} in a pass
@@ -200,6 +204,9 @@ VISUAL_DOCKING_APPROACH = TaskPhrases(
         perform a visual docking approach; berth by camera; let the camera guide the docking; do a camera docking
     """),
     bare_noun_phrases=listed("a camera docking; a visual docking; a camera-guided approach to the dock; a visual docking approach"),
+    bare_gerunds=listed("""
+        docking by camera; docking visually; doing a visual docking; coming in to dock by camera; using the camera to dock; berthing by camera
+    """),
 )
 
 BANK_STRUCTURE = {

@@ -45,6 +45,10 @@ BOAT_LANDING_CLEARANCE_SWEEP = TaskPhrases(
         a boat landing scan; a clearance sweep of the boat landing; a LiDAR scan of the boat landing; a landing clearance check
         a boat landing clearance sweep; a LiDAR sweep of the landing area; a scan of its boat landing
     """),
+    bare_gerunds=listed("""
+        scanning the boat landing; sweeping the boat landing with the LiDAR; checking the boat landing for clearance; doing the boat landing clearance
+        scanning its boat landing; running the boat landing sweep
+    """),
 )
 
 _AREA_PAIR = listed("""
@@ -104,6 +108,9 @@ BATHYMETRY_GRID_SURVEY = TaskPhrases(
     """),
     bare_noun_phrases=listed("""
         a depth survey; a bathymetry grid; a bathymetry survey; a depth grid; a seabed depth survey; a sounding grid; a depth map of the area
+    """),
+    bare_gerunds=listed("""
+        doing a depth survey; mapping the seabed; running a bathymetry grid; surveying the depths; sounding out the bottom; mapping the depths
     """),
     valued_imperatives=listed("""
         map the depths of a {width} by {length} box centred on {target}; do a {width} by {length} depth survey around {target}

@@ -52,6 +52,10 @@ THERMAL_HOTSPOT_LOCALIZER = TaskPhrases(
     bare_noun_phrases=listed("""
         the hottest spot; a hotspot scan; its hottest point; a hotspot sweep; a hotspot search; the warmest spot there; a scan for hot spots
     """),
+    bare_gerunds=listed("""
+        finding the hottest spot; scanning for hotspots; pinpointing its hottest point; doing a hotspot scan; looking for hot spots; locating the hottest spot
+        running a hotspot sweep
+    """),
     valued_imperatives=listed("""
         do a {scan_width_degrees_compound} hotspot scan of {target}; scan {scan_width_degrees} for the hottest spot on {target}
         sweep {scan_width_degrees} across {target} for hot spots; do a {scan_width_degrees_compound} sweep for its hottest spot
@@ -113,6 +117,10 @@ THERMAL_TIME_LAPSE = TaskPhrases(
     bare_noun_phrases=listed("""
         a thermal time-lapse; a thermal series; thermal readings over time; a temperature log; a thermal time series; periodic thermal readings
         an infrared time-lapse
+    """),
+    bare_gerunds=listed("""
+        taking a thermal time-lapse; recording a thermal series; logging the temperature over time; taking repeated thermal readings
+        taking thermal readings at intervals; shooting an IR time-lapse; running a thermal time-lapse
     """),
     valued_imperatives=listed("""
         take thermal readings of {target} every {interval} for {duration}; take a thermal reading of {target} every {interval}

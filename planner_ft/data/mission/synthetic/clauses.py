@@ -142,7 +142,7 @@ class Teller:
         own = target.description is not None and target.description in (intent.parameters.get("feature_type"), intent.parameters.get("target_feature"))
         if own:
             return self._bare(intent, mood, "", feature="it")
-        if bare and (rng.random() < 0.55 or target.description is None and intent.title not in ("PerformOrbit", "SurveyTarget")):
+        if bare and (rng.random() < 0.55 or intent.title in ("FeatureStare", "GlareFreeApproach") or target.description is None and intent.title not in ("PerformOrbit", "SurveyTarget")):
             place = rng.choice(THERE) if explicit or rng.random() < 0.3 else ""
             return self._bare(intent, mood, f" {place}" if place else "")
         template = self._core(intent, mood, named=True)
@@ -188,7 +188,8 @@ class Teller:
         """What can be said, by slot."""
         words = dict(values)
         for name, said in intent.said.items():
-            words[name] = said.text
+            if name not in values:
+                words[name] = said.text
             if said.attributive:
                 words[f"{name}_compound"] = said.attributive
         if "side_id" in intent.parameters:

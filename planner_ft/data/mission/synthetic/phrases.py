@@ -22,7 +22,7 @@ class TaskPhrases:
     adjuncts: how a parameter is added, by parameter name ("at {radius}"). "width+length" says both; "arc:360" is said for that
     value; "heading:word" for a compass point in words.
     here_imperatives: the place is where the vehicle is ("hold position right here").
-    bare_imperatives, bare_noun_phrases: no place is said ("hold position"); for a vehicle that is at its place, or just got there.
+    bare_imperatives, bare_noun_phrases, bare_gerunds: no place is said ("hold position"); for a vehicle that is at its place, or just got there.
     valued_imperatives, valued_noun_phrases: values stand inside the phrase ("{duration} of drifting at {target}").
     """
 
@@ -33,6 +33,7 @@ class TaskPhrases:
     here_imperatives: tuple[str, ...] = ()
     bare_imperatives: tuple[str, ...] = ()
     bare_noun_phrases: tuple[str, ...] = ()
+    bare_gerunds: tuple[str, ...] = ()
     valued_imperatives: tuple[str, ...] = ()
     valued_noun_phrases: tuple[str, ...] = ()
 

@@ -62,7 +62,7 @@ def forms(title: str) -> Forms:
     return Forms(
         full={"imp": _compiled(phrases.imperatives), "np": _compiled(phrases.noun_phrases), "ger": _compiled(phrases.gerunds)},
         valued={"imp": _compiled(phrases.valued_imperatives), "np": _compiled(phrases.valued_noun_phrases), "ger": ()},
-        bare={"imp": _compiled(phrases.bare_imperatives), "np": _compiled(phrases.bare_noun_phrases), "ger": ()},
+        bare={"imp": _compiled(phrases.bare_imperatives), "np": _compiled(phrases.bare_noun_phrases), "ger": _compiled(phrases.bare_gerunds)},
         here=_compiled(phrases.here_imperatives),
         adjuncts={name: _compiled(texts) for name, texts in phrases.adjuncts.items()},
     )
