@@ -122,6 +122,7 @@ def _square_how(context: Context) -> tuple[str, bool, str]:
         start = g.SQUARE_STARTS[int(rng.random() * 8)]
         slots.put_words("corner" if "-" in start else "side", start)
         how = _one(context, "square", "how", slots)
+        start = start if how else "east"
     if rng.random() < 0.25:
         clockwise = rng.random() < 0.7
         way = "clockwise" if clockwise else rng.choice(("counter-clockwise", "anticlockwise"))
@@ -179,13 +180,13 @@ def _grid_how(context: Context, along: float, spacing: float) -> tuple[g.Corner,
         axis = "x" if g.lane_count(along, spacing) and rng.random() < 0.8 else "y"
         slots.put_words("axis", rng.choice((axis, f"the {axis} axis")))
         slots.put_words("compass", "east-west" if axis == "x" else "north-south")
-    if not slots.given:
-        return corner, axis, ""
     wanted = {name for name in ("corner", "axis") if name in slots}
     templates = [
         template for template in context.book.pattern("lawnmower", context.task.title, "how")
         if template.needed <= slots.given and {"axis" if name == "compass" else name for name in template.needed} == wanted
     ]  # fmt: skip
+    if not wanted or not templates:
+        return "south-west", "y", ""
     return corner, axis, templates[int(rng.random() * len(templates))].render(slots, rng)
 
 
@@ -280,6 +281,8 @@ def _pause(context: Context) -> tuple[float | None, str]:
     if context.rng.random() < 0.55 or "time" not in context.book.skills[hold].skill.by_name:
         return None, ""
     slots = context.slots()
+    if not context.book.pattern("sectors", context.task.title, "pause"):
+        return None, ""
     pause = _take(context, slots, "sectors", "wait", lambda: duration(draw_duration(context.rng, 2, 60), context.rng))
     return pause, _one(context, "sectors", "pause", slots)
 
