@@ -12,9 +12,7 @@ def validate(
     files: Annotated[list[Path], typer.Argument(help="JSONL or JSON: datasets (expected), predictions (output) or plans, told apart by their content.")],
     vocabulary: Annotated[str, typer.Option(help="Vocabulary: a bundled name or a TOML file.")] = "usv",
     level: Annotated[str | None, typer.Option(help="mission or task, where the content must be of that level.", show_default="what the content says")] = None,
-    complete: Annotated[
-        bool, typer.Option("--complete", help="Ask of records what the curated set has: family, spans, tags, all texts, canonical form.")
-    ] = False,
+    complete: Annotated[bool, typer.Option("--complete", help="Ask of records what the curated set has: family, spans, tags, all texts.")] = False,
 ) -> None:
     """Check files against form, vocabulary and the labelling rules that a program can check.
 

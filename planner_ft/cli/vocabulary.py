@@ -12,9 +12,7 @@ def vocabulary(
     vocabulary: Annotated[str, typer.Option(help="Vocabulary: a bundled name or a TOML file.")] = "usv",
     schemas: Annotated[Path | None, typer.Option(help="Write the JSON Schemas into this folder.", show_default=False)] = None,
     docs: Annotated[Path | None, typer.Option(help="Write the documentation page to this file.", show_default=False)] = None,
-    check: Annotated[
-        bool, typer.Option("--check", help="Write nothing; exit with 1 when the files in --schemas and --docs (schemas, docs/vocabulary.md) are stale.")
-    ] = False,
+    check: Annotated[bool, typer.Option("--check", help="Write nothing; exit with 1 when a schema or the page is stale.")] = False,
 ) -> None:
     """Show the vocabulary, or write the schemas and the documentation page that derive from it."""
     from planner_ft.support.files import write_text

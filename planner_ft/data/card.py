@@ -60,7 +60,8 @@ def _introduction(level: Level, splits: Splits, vocabulary: Vocabulary, seed: in
     made = f"`plannerft gen-data --level {level}`" + (f" with seed {seed}" if seed is not None else "")
     counts = table(["split", "records"], [[split, len(records)] for split, records in splits.items()])
     return (
-        f"# {level.capitalize()} plans of the {vocabulary.title}\n\nWritten by {made}; manifest.json has the SHA-256 of every file, leakage.json the full leakage report.\n\n"
+        f"# {level.capitalize()} plans of the {vocabulary.title}\n\nWritten by {made}; manifest.json has the SHA-256 of every file, "
+        "leakage.json the full leakage report.\n\n"
         f"{counts}\n{RECORDS[level]}\n\n{ORIGIN[level]}\n\nPositions are in the {vocabulary.frame}; home is `{list(vocabulary.home)}`, and "
         f"`{list(vocabulary.unresolved)}` stands for a place that is not known yet.\n\n"
         f'```python\nfrom datasets import load_dataset\n\ndata = load_dataset("json", data_files={{{files}}})\n```\n'
@@ -74,9 +75,8 @@ def _coverage(level: Level, splits: Splits, vocabulary: Vocabulary) -> str:
     text += table(["", *splits], [[f"`{name}`", *(found[name] for found in counts.values())] for name in names])
     if level == "task":
         inputs = {split: input_tasks(records) for split, records in splits.items()}
-        text += "\nRecords of each task.\n\n" + table(
-            ["", *splits], [[f"`{task.title}`", *(found[task.title] for found in inputs.values())] for task in vocabulary.tasks]
-        )
+        rows = [[f"`{task.title}`", *(found[task.title] for found in inputs.values())] for task in vocabulary.tasks]
+        text += "\nRecords of each task.\n\n" + table(["", *splits], rows)
     text += "\n" + _pairs(level, splits, vocabulary)
     tagged = {split: [tag for record in records for tag in record.get("tags", ())] for split, records in splits.items()}
     if any(tagged.values()):
@@ -99,15 +99,12 @@ def _pairs(level: Level, splits: Splits, vocabulary: Vocabulary) -> str:
 def _diversity(splits: Splits) -> str:
     figures: dict[str, dict[str, float]] = {split: diversity(records) for split, records in splits.items() if records}
     rows = [[name, *(of_split[name] for of_split in figures.values())] for name in next(iter(figures.values()), {})]
-    return "## Diversity\n\nA phrasing is a prompt with its numbers and names masked. distinct-n is the share of word n-grams that are different.\n\n" + table(
-        ["", *figures], rows
-    )
+    legend = "A phrasing is a prompt with its numbers and names masked. distinct-n is the share of word n-grams that are different."
+    return f"## Diversity\n\n{legend}\n\n{table(['', *figures], rows)}"
 
 
 def _leakage(leakage: Mapping[str, Any]) -> str:
-    overlaps = [
-        [item["split"], item["other"], item["exact"], item["near"], item["exact_masked"], item["near_masked"], item["families"]] for item in leakage["overlaps"]
-    ]
+    overlaps = [[item[key] for key in ("split", "other", "exact", "near", "exact_masked", "near_masked", "families")] for item in leakage["overlaps"]]
     baselines = [[item["split"], *(f"{100 * item[key]:.1f} %" for key in ("f1", "sequence", "plan")), item["similarity"]] for item in leakage["baseline"]]
     memory = [split for split, found in leakage["memory_test"].items() if found]
     verdict = f"A memory test: {', '.join(memory)}." if memory else "No split is a memory test."

@@ -13,7 +13,7 @@ from planner_ft.data.card import dataset_card
 from planner_ft.data.leakage import leakage_report
 from planner_ft.data.mission.source import curated_splits, find_source
 from planner_ft.data.output import DataFolder, write_folders
-from planner_ft.data.task.sampler import sample_tasks
+from planner_ft.data.task.sampler import Split, sample_tasks
 from planner_ft.data.validation import canonical_record
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
@@ -62,9 +62,9 @@ class GenerationSettings:
     def levels(self) -> tuple[Level, ...]:
         return tuple(level for level in LEVELS if self.level in (level, "all"))
 
-    def counts(self, level: Level) -> dict[str, int | None]:
+    def counts(self, level: Level) -> dict[Split, int | None]:
         """Records asked for, by split; None where no flag says it."""
-        counts: dict[str, int | None] = {"train": self.train, "validation": self.validation, "test": self.test}
+        counts: dict[Split, int | None] = {"train": self.train, "validation": self.validation, "test": self.test}
         return {**counts, "test_unseen": self.test} if level == "task" else counts
 
 
@@ -119,18 +119,9 @@ def _make(level: Level, settings: GenerationSettings, vocabulary: Vocabulary, pr
         for split, records in splits.items():
             texts[f"chat/{split}.jsonl"] = _lines(compact_json({"id": record["id"], "messages": messages(level, record, vocabulary)}) for record in records)
     clock.stop("card and serialisation")
-    manifest = build_manifest(
-        "data",
-        seed=seed,
-        configuration={
-            "level": level,
-            "counts": result.counts,
-            "vocabulary": vocabulary.name,
-            "vocabulary_sha256": vocabulary.sha256,
-            "chat": messages is not None,
-        },
-        inputs={split: source / f"{split}.jsonl" for split in splits} if source else {},
-    )
+    configuration = {"level": level, "counts": result.counts, "vocabulary": vocabulary.name, "vocabulary_sha256": vocabulary.sha256}
+    inputs: dict[str, Path | str] = {split: source / f"{split}.jsonl" for split in splits} if source else {}
+    manifest = build_manifest("data", seed=seed, configuration={**configuration, "chat": messages is not None}, inputs=inputs)
     return result, DataFolder(result.folder, texts, manifest, source)
 
 
@@ -140,7 +131,7 @@ def _sampled(settings: GenerationSettings, vocabulary: Vocabulary, progress: Pro
     for split, asked in settings.counts("task").items():
         count = asked or defaults[split.removesuffix("_unseen")]
         records = splits[split] = []
-        for record in sample_tasks(vocabulary, settings.seed, count, split):  # type: ignore[arg-type]
+        for record in sample_tasks(vocabulary, settings.seed, count, split):
             records.append(record)
             if len(records) % 100 == 0 or len(records) == count:
                 progress(f"task: {split}", len(records), count)

@@ -7,6 +7,7 @@ of the most similar training prompt (TF-IDF over words and word pairs, cosine): 
 
 from __future__ import annotations
 
+import itertools
 import zlib
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
@@ -177,8 +178,8 @@ def nearest_neighbour(level: Level, split: str, train: Records, test: Records) -
         expected, answer = (list(named_entries(level, item["expected"])) for item in (record, train[neighbour]))
         names, answered = [name for name, _ in expected], [name for name, _ in answer]
         scores.append((set_f1(answered, names), float(names == answered), float(expected == answer)))
-    means = np.mean(scores, axis=0).round(4).tolist() if scores else [0.0, 0.0, 0.0]
-    return Baseline(split, len(test), *means, similarity=round(float(np.median(similarities)), 4) if similarities else 0.0)
+    f1, sequence, plan = (round(float(mean), 4) for mean in np.mean(scores, axis=0)) if scores else (0.0, 0.0, 0.0)
+    return Baseline(split, len(test), f1, sequence, plan, round(float(np.median(similarities)), 4) if similarities else 0.0)
 
 
 def set_f1(answered: Sequence[str], expected: Sequence[str]) -> float:
@@ -189,7 +190,7 @@ def set_f1(answered: Sequence[str], expected: Sequence[str]) -> float:
 
 def _terms(record: Mapping[str, Any]) -> Counter[str]:
     words = shingle_words(_input_text(record))
-    return Counter([*words, *(f"{first} {second}" for first, second in zip(words, words[1:], strict=False))])
+    return Counter([*words, *(f"{first} {second}" for first, second in itertools.pairwise(words))])
 
 
 def _nearest(documents: Sequence[Counter[str]], queries: Sequence[Counter[str]]) -> tuple[list[int], list[float]]:

@@ -7,6 +7,7 @@ a half" 1.5 m, "north-west" 315 deg, "three quarters of a circle" 270 deg.
 from __future__ import annotations
 
 import functools
+import itertools
 import re
 from dataclasses import dataclass
 
@@ -30,7 +31,10 @@ UNITS: dict[str, tuple[str, float]] = {
 }
 """Word to the unit that parameters have and the factor to it."""
 
-ONES = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen", "nineteen")  # fmt: skip
+ONES = (
+    *("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve", "thirteen"),
+    *("fourteen", "fifteen", "sixteen", "seventeen", "eighteen", "nineteen"),
+)
 TENS = ("twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
 SMALL = {
     **{word: float(value) for value, word in enumerate(ONES)},
@@ -41,17 +45,11 @@ SMALL = {
 }
 COMPASS = ("north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west")
 TURNS = {
-    "full": 1.0,
-    "complete": 1.0,
-    "whole": 1.0,
-    "entire": 1.0,
-    "once": 1.0,
-    "lap": 1.0,
-    "twice": 2.0,
-    "half": 0.5,
-    "semicircle": 0.5,
+    **dict.fromkeys(("full", "complete", "whole", "entire", "once", "lap"), 1.0),
+    **dict.fromkeys(("half", "semicircle"), 0.5),
     "quarter": 0.25,
     "third": 1 / 3,
+    "twice": 2.0,
 }
 FRACTIONS = {"half": 0.5, "quarter": 0.25, "third": 1 / 3}
 PLURAL_FRACTIONS = {"quarters": 0.25, "thirds": 1 / 3}
@@ -59,6 +57,8 @@ ROUNDING = 0.0051
 """Converted values are written with two decimals."""
 
 _TOKEN = re.compile(r"\d{1,3},\d{3}(?=\s?(?:m|metres|meters|s|seconds)\b)|[1-9]/[2-9](?!\d)|\d*\.\d+|\d+|[a-z°]+(?:'[a-z]+)?|[-−–]|%|[^\s\w]", re.IGNORECASE)
+_REPEATED = re.compile(r"[\s-]*(?:full |complete )?(?:times|turns|laps|rounds|circles|orbits)")
+_BETWEEN = re.compile(r"(?:[\s,;:/=]|comma|and|by|x|y|m|metres?|meters?|east|west|north|south|minus|negative|[-−–(])*", re.IGNORECASE)
 _SPEED = re.compile(r"\s*(?:m/s|m s-1|met(?:re|er)s? (?:per|a) second)", re.IGNORECASE)
 
 
@@ -221,7 +221,7 @@ def states_number(text: str, value: float, unit: str | None) -> bool:
 def _durations(text: str) -> list[float]:
     """Sums of neighbouring durations: "two minutes and thirty seconds", "1 h 20 min"."""
     timed = [quantity for quantity in quantities(text) if quantity.unit == "s"]
-    return [first.value + second.value for first, second in zip(timed, timed[1:], strict=False) if second.start - first.end <= 5]
+    return [first.value + second.value for first, second in itertools.pairwise(timed) if second.start - first.end <= 5]
 
 
 def close(said: float, written: float) -> bool:
@@ -247,9 +247,7 @@ def turns(text: str) -> frozenset[float]:
         found.add(360.0)
     for quantity in quantities(text):
         behind = text[quantity.end : quantity.end + 24].lower()
-        if quantity.unit is None and (
-            quantity.value in (0.75, 1.5, 2 / 3) or re.match(r"[\s-]*(?:full |complete )?(?:times|turns|laps|rounds|circles|orbits)", behind)
-        ):
+        if quantity.unit is None and (quantity.value in (0.75, 1.5, 2 / 3) or _REPEATED.match(behind)):
             found.add(360 * quantity.value)
     return frozenset(found)
 
@@ -262,9 +260,9 @@ def positions(text: str) -> tuple[tuple[float, float, int, int], ...]:
     """
     found = []
     numbers = quantities(text)
-    for first, second in zip(numbers, numbers[1:], strict=False):
+    for first, second in itertools.pairwise(numbers):
         between = text[first.end : second.start]
-        if not re.fullmatch(r"(?:[\s,;:/=]|comma|and|by|x|y|m|metres?|meters?|east|west|north|south|minus|negative|[-−–(])*", between, re.IGNORECASE):
+        if not _BETWEEN.fullmatch(between):
             continue
         behind = text[second.end : second.end + 8].lower()
         one, two = _directed(first, between.lower()), _directed(second, behind)

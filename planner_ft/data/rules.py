@@ -7,6 +7,7 @@ the record that names an exception is believed.
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -17,12 +18,19 @@ from planner_ft.data.words import says, words
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
 from planner_ft.vocabulary.plans import value_problem
 
-SEARCH_WORDS = re.compile(
-    r"\b(?:f[iou]+nd|fnd|finding|looks?|looking|searche?s?|searching|locat\w*|spot|seek|detect|scout|hunt|sweep for|confirm where|pick up)\b", re.IGNORECASE
+SEARCH_WORDS = re.compile(r"\b(?:find(?:ing)?|fnd|look(?:s|ing)?|search\w*|locat\w*|spot|seek|detect|scout|hunt)\b", re.IGNORECASE)
+GO_WORDS = re.compile(
+    r"\b(?:go|going|proceed\w*|head|heading|move|moving|transit|sail|steam|make (?:for|your way)|run (?:out|over)|over to|"
+    r"take (?:her|it|the boat) to|come to|boat to|drive|cross)\b",
+    re.IGNORECASE,
 )
-GO_WORDS = re.compile(r"\b(?:go|going|proceed\w*|head|heading|move|moving|transit|sail|steam|make for|make your way|run (?:out|over)|over to|take (?:her|it|the boat) to|come to|boat to|drive|cross)\b", re.IGNORECASE)  # fmt: skip
-STAY_WORDS = re.compile(r"\b(?:where (?:you|she|it|the \w+) (?:are|is|lies|now|sits?)|where you're|where she's|right (?:here|there)|from here|here|on the spot|same (?:place|spot)|stay (?:put|there)|at the end of)\b", re.IGNORECASE)  # fmt: skip
+STAY_WORDS = re.compile(
+    r"\b(?:where (?:you|she|it|the \w+) (?:are|is|lies|now|sits?)|where you're|where she's|here|right there|on the spot|"
+    r"same (?:place|spot)|stay (?:put|there)|at the end of)\b",
+    re.IGNORECASE,
+)
 NAMED_SIDES = re.compile(r"\b(?:wide|width|long|length|broad)\b", re.IGNORECASE)
+ELSEWHERE = re.compile(r"[.;,]\s|\b(?:and|then|to|by|for)\b|\d", re.IGNORECASE)
 DOCKING = "approach"
 """The pattern of tasks that end at a docking spot, which needs no search."""
 
@@ -155,7 +163,7 @@ def _transit_problems(step: Step, following: Step | None, here: list[float] | No
     if following is None or following.place != step.place or following.task.title == vocabulary.transit:
         return
     if following.task.arrival == "self" and not command.allows("rule.explicit-go", GO_WORDS):
-        yield f"{step}: {following.task.title} goes to {step.place} by itself; {vocabulary.transit} only where the command says to go there (tag rule.explicit-go)"
+        yield f"{step}: {following.task.title} goes to {step.place} by itself; needed only where the command says to go there (tag rule.explicit-go)"
 
 
 def _return_problems(steps: list[Step], vocabulary: Vocabulary, command: Command) -> Iterator[str]:
@@ -197,7 +205,7 @@ def _value_problem(value: Any, parameter: Parameter, vocabulary: Vocabulary, com
 def _text_problem(text: str, prompt: str, tags: frozenset[str] | None) -> Iterator[str]:
     missing = says(prompt, text, misspelt=tags is None or "param.spelling" in tags)
     if missing:
-        yield f"{', '.join(map(repr, missing))} of {text!r} {'is' if len(missing) == 1 else 'are'} not in the command (spelling put right needs the tag param.spelling)"
+        yield f"{', '.join(map(repr, missing))} of {text!r} not in the command (spelling put right needs the tag param.spelling)"
     if words(text)[:1] in (["the"], ["a"], ["an"]):
         yield f"{text!r} begins with an article"
     if text != text.strip() or text[-1:] in ".,;:!?":
@@ -210,7 +218,7 @@ def _order_problems(step: Step, prompt: str) -> Iterator[str]:
         return
     width, length = step.parameters["width"], step.parameters["length"]
     numbers = quantities(prompt)
-    for first, second in zip(numbers, numbers[1:], strict=False):
+    for first, second in itertools.pairwise(numbers):
         between = prompt[first.end : second.start].strip().lower()
         if between in ("by", "x", "×", "times", "on") and (first.value, second.value) == (length, width) and width != length:
             yield f"{step}: {first.value:g} by {second.value:g} is width {first.value:g} and length {second.value:g}, not the other way round"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -52,7 +52,7 @@ def possible_pairs(vocabulary: Vocabulary) -> int:
 
 def length_rows(level: Level, splits: Splits) -> list[tuple[str, str, list[int]]]:
     """(what is measured, split, minimum, median, 90th percentile, maximum)."""
-    measures = {
+    measures: dict[str, Callable[[Mapping[str, Any]], int]] = {
         "words in the prompt": lambda record: len(words(record["prompt"])),
         f"{'tasks' if level == 'mission' else 'steps'} in the plan": lambda record: len(record["expected"][list_key(level)]),
         "characters in the plan": lambda record: len(compact_json(record["expected"])),

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -49,9 +49,7 @@ class Report:
     problems: tuple[Problem, ...]
 
 
-def validate_file(
-    path: Path, vocabulary: Vocabulary, level: Level | None = None, *, complete: bool = False, progress: Callable[[], None] = lambda: None
-) -> Report:
+def validate_file(path: Path, vocabulary: Vocabulary, level: Level | None = None, *, complete: bool = False) -> Report:
     """Check every object of a file. `complete` asks of dataset records what the curated set has: family, spans, tags, all texts, canonical form.
 
     Raises PlannerError when the file is missing, unreadable, not UTF-8 or empty.
@@ -60,7 +58,6 @@ def validate_file(
     problems = []
     lines: dict[str, int] = {}
     for line, value, problem in file_values(path):
-        progress()
         if problem is None and isinstance(value, dict):
             kind, found_level, texts = object_problems(value, vocabulary, level, complete=complete)
             counts[" ".join(filter(None, (found_level, kind or "unknown object")))] += 1
@@ -201,10 +198,11 @@ def _with_parameters(skill: Any) -> Any:
 def _task_problems(record: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
     """What is wrong with the input of a task record: its title and parameters."""
     missing = [f"{key} is missing" for key in ("task", "parameters") if key not in record]
-    plan = {"tasks": [{"title": record.get("task", ""), "parameters": record.get("parameters", {}), "task_prompt": ""}], "assumptions": [], "constraints": []}
-    return missing or [
-        text.replace("tasks[0]", "task").replace("task.parameters", "parameters") for text in plan_problems("mission", plan, vocabulary, strict=True)
-    ]
+    if missing:
+        return missing
+    plan = {"tasks": [{"title": record["task"], "parameters": record["parameters"], "task_prompt": ""}], "assumptions": [], "constraints": []}
+    found = plan_problems("mission", plan, vocabulary, strict=True)
+    return [text.replace("tasks[0].parameters", "parameters").replace("tasks[0]", "task") for text in found]
 
 
 def _annotation_problems(record: dict[str, Any], prompt: str, *, complete: bool) -> list[str]:
@@ -256,9 +254,6 @@ def _invented_numbers(record: dict[str, Any], vocabulary: Vocabulary) -> list[st
     problems = []
     for where, text in texts.items():
         digits = [quantity for quantity in quantities(text) if text[quantity.start].isdigit()]
-        problems += [
-            f"expected: {where}: {quantity.said:g} is neither in the command nor in a parameter"
-            for quantity in digits
-            if not {abs(quantity.said), abs(quantity.value)} & known
-        ]
+        invented = [quantity.said for quantity in digits if not {abs(quantity.said), abs(quantity.value)} & known]
+        problems += [f"expected: {where}: {number:g} is neither in the command nor in a parameter" for number in invented]
     return problems

@@ -59,7 +59,10 @@ def _resembles(written: str, meant: str) -> bool:
 
 
 NUMBER, NAME = "#", "@"
-_NUMBER_WORDS = frozenset(["zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen", "nineteen", "twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety", "hundred", "thousand", "half", "quarter"])  # fmt: skip
+_NUMBER_WORDS = frozenset(
+    "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen "  # noqa: SIM905
+    "nineteen twenty thirty forty fifty sixty seventy eighty ninety hundred thousand half quarter".split()
+)
 _SHINGLE = re.compile(r"[#@]|-?\d+(?:\.\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)?")
 _CODE = re.compile(r"\b(?=\w*\d)(?=\w*[A-Za-z])[\w-]+\b")
 _NAME = re.compile(r"(?<![.!?:;]\s)(?<!^)(?<![\w\"])[A-Z][\w'’-]*(?:\s+(?:[A-Z][\w'’-]*|#))*")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from planner_ft.vocabulary.definition import Parameter, Skill, Task, Vocabulary
+from planner_ft.vocabulary.definition import Parameter, Role, Skill, Task, Vocabulary
 from planner_ft.vocabulary.plans import Level
 
-ROLE_HEADINGS = {
+ROLE_HEADINGS: dict[Role, str] = {
     "navigation": "navigation skills (exactly one per step; it moves or holds the vehicle and its end ends the step)",
     "filter": "filter skills (run beside the navigation skill and constrain it)",
     "perception": "perception skills (run beside the navigation skill and gather data)",
@@ -69,7 +69,7 @@ def _cells(owner: Task | Skill) -> str:
 
 
 def _cell(parameter: Parameter, owner: Task | Skill) -> str:
-    notes = [parameter.type]
+    notes: list[str] = [parameter.type]
     if parameter.unit:
         notes.append(parameter.unit)
     if parameter.minimum is not None and parameter.maximum is not None:

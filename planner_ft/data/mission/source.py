@@ -31,7 +31,7 @@ def find_source(asked: Path | None = None) -> Path:
     raise PlannerError(f"no curated mission set in {SOURCE}; give its folder with --source, or generate --level task alone")
 
 
-def curated_splits(source: Path, counts: Mapping[str, int | None], vocabulary: Vocabulary, named: str = DEFAULT) -> dict[str, list[dict[str, Any]]]:
+def curated_splits(source: Path, counts: Mapping[Any, int | None], vocabulary: Vocabulary, named: str = DEFAULT) -> dict[str, list[dict[str, Any]]]:
     """The first `counts` records of each split, all of them where the count is None.
 
     Raises PlannerError when a record is not valid, the whole set lacks coverage, or a split is smaller than asked for.
