@@ -20,7 +20,8 @@ from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.definition import Vocabulary, load_vocabulary
 
 PARTS: tuple[tuple[str, Any, str], ...] = (
-    ("draw (geometry included)", sampler, "draw_script"), ("phrasing", sampler, "say_it"), ("plan", sampler, "expected_plan"), ("validation", sampler, "plan_problems"),
+    ("draw (geometry included)", sampler, "draw_script"), ("phrasing", sampler, "say_it"), ("plan", sampler, "expected_plan"),
+    ("validation", sampler, "plan_problems"),
     ("geometry", geometry, "survey_square"), ("geometry", geometry, "lawnmower"), ("geometry", geometry, "circle"), ("geometry", geometry, "offset"),
 )  # fmt: skip
 

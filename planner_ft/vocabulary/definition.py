@@ -209,14 +209,16 @@ def _check_references(vocabulary: Vocabulary, problems: list[str]) -> None:
         if not task.skills.get("navigation"):
             problems.append(f"task {task.title}: needs at least one navigation skill")
         problems.extend(f"task {task.title}: require_any names {name!r}, which is no parameter" for name in task.require_any if name not in task.by_name)
-        for role, names in task.skills.items():
-            for name in names:
+        for role, fitting in task.skills.items():
+            for name in fitting:
                 if name not in vocabulary.skill:
                     problems.append(f"task {task.title}: skill {name!r} is not defined")
                 elif vocabulary.skill[name].role != role:
                     problems.append(f"task {task.title}: skill {name!r} has the role {vocabulary.skill[name].role}, not {role}")
     problems.extend(f"skill {skill.name}: role {skill.role!r} is none of {', '.join(ROLES)}" for skill in vocabulary.skills if skill.role not in ROLES)
     motions = get_args(Motion)
-    problems.extend(f"skill {skill.name}: motion {skill.motion!r} is none of {', '.join(motions)}" for skill in vocabulary.skills if skill.motion not in (None, *motions))
+    odd = [skill for skill in vocabulary.skills if skill.motion not in (None, *motions)]
+    problems.extend(f"skill {skill.name}: motion {skill.motion!r} is none of {', '.join(motions)}" for skill in odd)
     for kind, known in (("task", set(vocabulary.task)), ("skill", set(vocabulary.skill))):
-        problems.extend(f"the phrase file has phrases for {kind} {name!r}, which is not defined" for name in sorted(set(vocabulary.phrases.get(kind, {})) - known))
+        unknown = sorted(set(vocabulary.phrases.get(kind, {})) - known)
+        problems.extend(f"the phrase file has phrases for {kind} {name!r}, which is not defined" for name in unknown)

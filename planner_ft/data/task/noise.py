@@ -10,7 +10,7 @@ from planner_ft.data.task.template import VALUE_CLOSE, VALUE_OPEN
 TYPOS = 0.05
 CARELESS = 0.06
 # A slip in one of these could change what is asked for.
-_KEPT = {"north", "south", "clockwise", "anticlockwise", "counter", "right", "starboard", "corner", "first", "second", "third", "fourth", "fifth", "before", "after"}
+_KEPT = frozenset("north south clockwise anticlockwise counter right starboard corner first second third fourth fifth before after".split())  # noqa: SIM905
 _PLAIN_WORD = re.compile(r"[a-z]{5,}")
 
 
@@ -26,11 +26,15 @@ def noisy(text: str, rng: random.Random) -> str:
 
 
 def _typo(text: str, rng: random.Random) -> str:
-    words = [match for match in _PLAIN_WORD.finditer(text) if match.group() not in _KEPT and text.count(VALUE_OPEN, 0, match.start()) == text.count(VALUE_CLOSE, 0, match.start())]
+    words = [match for match in _PLAIN_WORD.finditer(text) if match.group() not in _KEPT and not _inside_value(text, match.start())]
     if not words:
         return text
     match = words[int(rng.random() * len(words))]
     return text[: match.start()] + misspelt(match.group(), rng) + text[match.end() :]
+
+
+def _inside_value(text: str, place: int) -> bool:
+    return text.count(VALUE_OPEN, 0, place) > text.count(VALUE_CLOSE, 0, place)
 
 
 def misspelt(word: str, rng: random.Random) -> str:

@@ -9,8 +9,8 @@ from typing import Any
 
 from planner_ft.data.task.geometry import Point, tidy
 
-ONES = "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen nineteen".split()
-TENS = "zero ten twenty thirty forty fifty sixty seventy eighty ninety".split()
+ONES = "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen nineteen".split()  # noqa: SIM905
+TENS = "zero ten twenty thirty forty fifty sixty seventy eighty ninety".split()  # noqa: SIM905
 COMPASS = {0: "north", 45: "north-east", 90: "east", 135: "south-east", 180: "south", 225: "south-west", 270: "west", 315: "north-west"}
 FINE_COMPASS = {22.5: "north-north-east", 67.5: "east-north-east", 112.5: "east-south-east", 157.5: "south-south-east",
                 202.5: "south-south-west", 247.5: "west-south-west", 292.5: "west-north-west", 337.5: "north-north-west"}  # fmt: skip
@@ -52,7 +52,7 @@ def count_text(value: float, rng: random.Random) -> str:
     """The number in figures or, now and then and where that is short, in words."""
     if isinstance(value, int) and 0 <= value <= 20 and rng.random() < 0.3:
         return in_words(value)
-    if isinstance(value, int) and 20 < value < 1000 and (value % 10 == 0 and value < 100 or value % 100 == 0) and rng.random() < 0.15:
+    if isinstance(value, int) and 20 < value < 1000 and ((value % 10 == 0 and value < 100) or value % 100 == 0) and rng.random() < 0.15:
         return in_words(value)
     if isinstance(value, float) and value % 1 == 0.5 and 1 < value < 10 and rng.random() < 0.15:
         return f"{ONES[int(value)]} and a half"
@@ -64,7 +64,8 @@ def length(value: float, rng: random.Random) -> Value:
     figure = digits(value)
     short = f"{figure}-metre" if rng.random() < 0.6 else f"{figure} m"
     if value >= 1000 and value % 100 == 0 and rng.random() < 0.5:
-        return Value(value, "a kilometre" if value == 1000 and rng.random() < 0.4 else f"{digits(value / 1000)} {'km' if rng.random() < 0.6 else 'kilometres'}", short)
+        kilometres = f"{digits(value / 1000)} {'km' if rng.random() < 0.6 else 'kilometres'}"
+        return Value(value, "a kilometre" if value == 1000 and rng.random() < 0.4 else kilometres, short)
     roll = rng.random()
     if roll < 0.5:
         text = f"{figure} m"

@@ -15,7 +15,7 @@ from planner_ft.data.task.numbers import Value
 from planner_ft.data.task.template import Form, Template, compile_template, mark
 from planner_ft.data.task.values import Draw, number_space, value_space
 from planner_ft.data.task.words import Lexicon
-from planner_ft.vocabulary.definition import Parameter, Role, Skill, Task, Vocabulary
+from planner_ft.vocabulary.definition import ROLES, Parameter, Role, Skill, Task, Vocabulary
 
 Given = frozenset[str]
 
@@ -133,7 +133,7 @@ class Phrasebook:
             if skill.motion:
                 self.motions.setdefault(skill.motion, skill.name)
         self.verbs = _verbs(self.raw)
-        self.by_role: dict[Role, list[str]] = {role: [skill.name for skill in vocabulary.skills_in_role(role)] for role in ("navigation", "filter", "perception")}
+        self.by_role: dict[Role, list[str]] = {role: [skill.name for skill in vocabulary.skills_in_role(role)] for role in ROLES}
 
     def slots(self, rng: random.Random) -> Slots:
         """Empty slots that know this vocabulary's words."""

@@ -17,14 +17,16 @@ from typing import Any, Literal, get_args
 
 from planner_ft.data.task import phrasing, sequences
 from planner_ft.data.task.context import Context
-from planner_ft.data.task.movements import EXTRA, Movement, go_back, home, implied_hold, main_movement, simple
+from planner_ft.data.task.movements import Movement, implied_hold, simple
 from planner_ft.data.task.noise import noisy
+from planner_ft.data.task.patterns import EXTRA, main_movement
 from planner_ft.data.task.phrasebook import Call, Phrasebook, Saying
 from planner_ft.data.task.phrasing import Script, Speaker
+from planner_ft.data.task.shapes import go_back, home
 from planner_ft.data.task.steps import expected_plan
 from planner_ft.data.task.template import close_gaps, plain, skeleton
 from planner_ft.support.errors import PlannerError
-from planner_ft.vocabulary.definition import Task, Vocabulary
+from planner_ft.vocabulary.definition import Vocabulary
 from planner_ft.vocabulary.plans import canonical_parameters, plan_problems
 
 Split = Literal["train", "validation", "test", "test_unseen"]
@@ -92,7 +94,7 @@ def draw_sample(book: Phrasebook, rng: random.Random, split: Split) -> dict[str,
     expected = expected_plan(script, book.vocabulary)
     problems = plan_problems("task", expected, book.vocabulary, strict=True)
     if problems:
-        raise PlannerError(f"vocabulary {book.vocabulary.name}: a sample of {task.title} is not valid ({problems[0]}); correct typical ranges in the phrase file")
+        raise PlannerError(f"vocabulary {book.vocabulary.name}: a sample of {task.title} is not valid ({problems[0]}); correct the phrase file's ranges")
     return {
         "family": f"{'unseen-' if split == 'test_unseen' else ''}{frame}/{script.movements[0].kind}{len(script.movements)}",
         "task": task.title,
@@ -183,7 +185,7 @@ def _lead(context: Context) -> list[Call]:
     for place, name in entry.links.items():
         if place.startswith("lead."):
             context.require(name)
-            value = context.fill(slots, name, place, refer=None if entry.lead_skill else None)
+            value = context.fill(slots, name, place)
             if name == entry.lead_skill.get("from"):
                 parameters[entry.lead_skill["parameter"]] = [value]
     templates = [template for template in entry.lead if template.fits(frozenset(slots.given))]
@@ -247,7 +249,7 @@ def aside(say: Speaker, text: str, script: Script, context: Context) -> str:
     if roll < 0.05 and sentences.get("reason"):
         return f"{text[:-1]} {context.book.say(say.pick(*sentences['reason']), say.rng)}."
     if roll < 0.08 and sentences.get("negation"):
-        said = {call.skill for part in (script, *script.movements) for call in part.perceptions}
+        said = {call.skill for calls in (script.perceptions, *(movement.perceptions for movement in script.movements)) for call in calls}
         others = [name for name in context.task.skills.get("perception", ()) if name not in said]
         if others:
             templates = context.book.skills[say.pick(*others)].fitting(frozenset())

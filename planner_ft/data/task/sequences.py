@@ -154,6 +154,10 @@ SEQUENCES: tuple[tuple[Sequence, float], ...] = (
 UNSEEN_SEQUENCES: tuple[tuple[Sequence, float], ...] = ((stages, 1), (begin_by, 1), (moves_on, 1))
 
 
+ALL_THE_TIME = ("throughout", "the whole time", "all the time", "all the while", "at all times", "in every step", "from start to finish", "the entire time")
+ALL_THE_TIME_FIRST = ("throughout", "all the while", "during the whole task", "at all times", "the whole time", "in every step", "on every leg")
+
+
 def say_script(say: Speaker, script: Script, frame: Sequence) -> str:
     """The movements in this frame, with what runs in every step before or behind them."""
     later = [taken for movement in script.movements if say.chance(0.3) and (taken := _take_out(say, script, movement))]
@@ -210,5 +214,5 @@ def everywhere(say: Speaker, calls: list[Call], *, marked: bool) -> str:
     if can_with(calls) and roll > 0.93:
         return sentence(f"do all of this with {say.with_words(calls)}")
     if roll < 0.75:
-        return sentence(f"{say.calls(calls)}{say.pick(' throughout', ' the whole time', ' all the time', ' all the while', ' at all times', ' in every step', ' from start to finish', ' the entire time')}")
-    return sentence(f"{say.pick('throughout, ', 'all the while, ', 'during the whole task, ', 'at all times, ', 'the whole time, ', 'in every step, ', 'during all of this, ', 'on every leg, ')}{say.calls(calls)}")
+        return sentence(f"{say.calls(calls)} {say.pick(*ALL_THE_TIME)}")
+    return sentence(f"{say.pick(*ALL_THE_TIME_FIRST)}, {say.calls(calls)}")

@@ -94,7 +94,7 @@ def draw_number(rng: random.Random, low: float, high: float, *, whole: bool = Fa
     """A number as people choose them: mostly round ones, sometimes with a decimal."""
     raw = low + (high - low) * rng.random() ** 1.6
     roll = rng.random()
-    if not whole and (raw < 5 and roll < 0.3 or roll > 0.97):
+    if not whole and ((raw < 5 and roll < 0.3) or roll > 0.97):
         number = round(raw * 2) / 2 if rng.random() < 0.7 else round(raw, 1)
     elif raw > 100 and roll < 0.8:
         number = round(raw / 50) * 50 if rng.random() < 0.5 else round(raw / 10) * 10

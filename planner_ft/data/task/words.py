@@ -9,15 +9,15 @@ from __future__ import annotations
 
 import random
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from planner_ft.data.task.numbers import Value
 
 _SLOT = re.compile(r"\{([a-z_]+)\}")
 _ARTICLE = re.compile(r"^(the|a|an) ")
-_ONSETS = "b br c d dr f fl g gr h j k kl l m n p pr r s sk st t tr v w z th sch v".split()
-_VOWELS = "a e i o u a e i o ei au y oa ie".split()
-_CODAS = "n r l s t m d ck nd rk st x lm ff  ng rn".split(" ")
+_ONSETS = "b br c d dr f fl g gr h j k kl l m n p pr r s sk st t tr v w z th sch v".split()  # noqa: SIM905
+_VOWELS = "a e i o u a e i o ei au y oa ie".split()  # noqa: SIM905
+_CODAS = "n r l s t m d ck nd rk st x lm ff  ng rn".split(" ")  # noqa: SIM905
 _ENDINGS = ("", "", "a", "o", "en", "berg", "vik", "sund", "ton", "i", "ey", "holm")
 LETTERS = "ABCDEFGHJKLMNPRSTVWXZ"
 
@@ -61,7 +61,7 @@ def made_up_tag(rng: random.Random) -> str:
     return made_up_code(rng) if roll < 0.85 else stem
 
 
-MADE_UP = {
+MADE_UP: dict[str, Callable[[random.Random], str]] = {
     "name": made_up_name,
     "code": made_up_code,
     "tag": made_up_tag,
