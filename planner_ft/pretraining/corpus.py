@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner_ft.data.mission.synthetic import sample_missions
-from planner_ft.data.task import sample_tasks
+from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.prompts.render import render_sample
 from planner_ft.prompts.text import completion_text, user_text
 from planner_ft.support.files import atomic_writer

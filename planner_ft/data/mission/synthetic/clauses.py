@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from random import Random
 from typing import Literal
 
@@ -32,6 +33,17 @@ THERE = ("there", "right there", "on the spot", "from there", "while you are the
 RETRACTIONS = (
     ", no, scratch that, ", ", no wait, ", ", sorry, ", " - no, ", ", no, better ", ", or no, ", ", forget that, ", " ... actually no, ", ", correction, ", ", wait, no, ", ", belay that, ", ", strike that, ", ", hang on, no, ", ", I mean ",
 )  # fmt: skip
+SAME = (", same again", ", same thing", ", likewise", ", in the same way", " too", ", same as before", ", the same way", ", same settings", " as well", ", ditto", ", same values", ", also like that")
+_TIME = ("for a while", "for a bit", "for some time", "until further notice", "as long as it takes", "for a little while", "until I call you", "until the ferry has passed", "for a moment")
+_SLOW = ("slowly", "nice and slow", "at a crawl", "at an easy pace", "taking your time", "at a moderate speed", "not too fast")
+_OFF = ("at a safe distance", "with plenty of room", "not too close", "close in", "a fair bit off", "from a respectful distance", "keeping well off")
+VAGUE: dict[str, dict[str, tuple[str, ...]]] = {
+    "KeepStation": {"duration": _TIME}, "DriftAudit": {"duration": _TIME}, "PerformOrbit": {"radius": _OFF, "speed": _SLOW}, "ParallelStructurePass": {"distance": _OFF, "speed": _SLOW},
+    "ThermalTimeLapse": {"duration": _TIME, "interval": ("at regular intervals", "every so often")}, "FeatureStare": {"duration": _TIME}, "SurveyTarget": {"radius": _OFF},
+    "HorizontalPanorama": {"overlap": ("with a good overlap", "with plenty of overlap"), "sectors": ("in as many sectors as you like",)}, "SubseaCableTrack": {"max_dist": ("as far as you can", "to where it ends", "for a good stretch")},
+    "BathymetryGridSurvey": {"spacing": ("with narrow lines", "with tight spacing", "in close lines")}, "ThermalHotspotLocalizer": {"scan_width_degrees": ("with a wide scan", "with a narrow scan")},
+    "VisualDockingApproach": {"distance": ("nice and gently", "stopping just short of it")},
+}  # fmt: skip
 BEARINGS = frozenset("north south east west northeast northwest southeast southwest north-east north-west south-east south-west".split())
 
 
@@ -52,11 +64,16 @@ class Teller:
         if intent.title == "SmartDataHarvest" and "target_list" not in intent.parameters and mood == "ger":
             return "uploading your data"
         text = self._retracted(intent.instead) if intent.instead is not None and mood == "imp" else ""
-        text += self._told(intent, mood, explicit)
+        text += self._several(intent, mood) if intent.also else self._told(intent, mood, explicit)
+        if intent.title == "DockingApproach" and mood == "imp" and self.rng.random() < 0.14 and not text.startswith(("come", "return", "head", "go", "get")):
+            # A return that ends at a berth is the docking alone (rule 5).
+            text = f"{self.rng.choice(BANK_RETURN)}{self.rng.choice((' and ', ' and ', ', then ', ' and then '))}{text}"
+        text += self._vague(intent)
         if intent.purpose:
             text += f" {intent.purpose}"
         if intent.target is not None:
-            self.introduce_silently(intent.target)
+            for target in (intent.target, *intent.also):
+                self.introduce_silently(target)
             if intent.title in ("BathymetryGridSurvey", "SubseaCableTrack"):
                 self.left[intent.target.key] = intent.title
         return text
@@ -66,6 +83,27 @@ class Teller:
         if intent.target is not None:
             self.introduce_silently(intent.target)
         return text + self.rng.choice(RETRACTIONS)
+
+    def _several(self, intent: Intent, mood: Mood) -> str:
+        """The same for several targets: "circle the red buoy, then the green one, 12 m off each"."""
+        rng, first = self.rng, intent.target
+        assert first is not None
+        if rng.random() < 0.5:
+            text = self._named(replace(intent, also=()), mood, self._full(first))
+            for target in intent.also:
+                text += rng.choice((", then ", ", and then ", " and ", ", after that ", ", and ")) + self._full(target).rstrip(",") + rng.choice(SAME)
+            return text
+        names = [self._full(target).rstrip(",") for target in (first, *intent.also)]
+        mention = rng.choice((" and ", " and then ", ", then ", " and after that ")).join((", ".join(names[:-1]), names[-1]))
+        text = self._named(replace(intent, also=()), mood, mention)
+        return text + (rng.choice((" each", " each time", " in each case", " every time")) if intent.said and rng.random() < 0.4 else "")
+
+    def _vague(self, intent: Intent) -> str:
+        """Something vague where a value could stand; it is no value, and the plan has none."""
+        if self.rng.random() > 0.05:
+            return ""
+        pool = [text for name, texts in VAGUE.get(intent.title, {}).items() if name not in intent.parameters for text in texts]
+        return self.rng.choice(("", ",")) + f" {self.rng.choice(pool)}" if pool else ""
 
     def introduce(self, target: Target) -> str:
         """Names the target ahead of the clause that uses it, which then says "it" or "there"."""
@@ -78,7 +116,8 @@ class Teller:
         if target is None and intent.parameters.keys() & {"target_list", "target_feature"} and intent.title not in PLACE_TASKS:
             return self._filled(intent, self._core(intent, mood, named=True), {}, mood)
         if target is None:
-            return self._bare(intent, mood, rng.choice(HERE) if intent.title in PLACE_TASKS else "", here=True)
+            place = rng.choice(HERE) if intent.title in PLACE_TASKS and (self.focus is not None or rng.random() < 0.65) else ""
+            return self._bare(intent, mood, place, here=bool(place))
         again = target.key in self.known
         if again and self.left.pop(target.key, None) is not None:
             return self._named(intent, mood, rng.choice(TRACK_AGAIN if target.noun == "cable" else AREA_AGAIN))
@@ -111,6 +150,8 @@ class Teller:
         if intent.title == "SubseaCableTrack":
             return self._cable(intent, mood, mention)
         mention = mention or (self._sought(target) if intent.title == "SearchAndDetect" else self._full(target))
+        if intent.part:
+            mention = f"the {intent.part} of {mention}"
         template = self._core(intent, mood, named=True)
         if target.description is None and intent.title in AT_A_POINT:
             template = template.at_place
@@ -142,12 +183,14 @@ class Teller:
         own = target.description is not None and target.description in (intent.parameters.get("feature_type"), intent.parameters.get("target_feature"))
         if own:
             return self._bare(intent, mood, "", feature="it")
-        if bare and (rng.random() < 0.55 or intent.title in ("FeatureStare", "GlareFreeApproach") or target.description is None and intent.title not in ("PerformOrbit", "SurveyTarget")):
+        if bare and not intent.part and (rng.random() < 0.55 or intent.title in ("FeatureStare", "GlareFreeApproach") or target.description is None and intent.title not in ("PerformOrbit", "SurveyTarget")):
             place = rng.choice(THERE) if explicit or rng.random() < 0.3 else ""
             return self._bare(intent, mood, f" {place}" if place else "")
         template = self._core(intent, mood, named=True)
         if target.description is None and intent.title in AT_A_POINT:
             template = template.at_place
+        if intent.part:
+            return self._filled(intent, template, {"target": f"its {intent.part}"}, mood)
         it = "it" if target.description is not None or intent.title in ("PerformOrbit", "SurveyTarget") else "that point"
         return self._filled(intent, template.there, {"target": it, "target_description": it, "cable": it}, mood)
 
@@ -164,10 +207,12 @@ class Teller:
         usable = [item for item in pool if item.slots <= self._words(intent, {}).keys()] or [item for item in pool if not item.slots]
         if usable:
             return self._filled(intent, rng.choice(usable), {name: text for name, text in values.items() if text}, mood, place)
-        fallback = "it" if not here and place == "" else place.strip()
-        template = self._core(intent, mood, named=True).there
-        text = self._filled(intent, template, {"target": "it" if fallback in ("", "it") else "it", "target_description": "it", **{n: t for n, t in values.items() if t}}, mood)
-        return text.replace(" there", place or " there", 1) if here else text
+        known = {name: text for name, text in values.items() if text}
+        for _ in range(8):
+            template = self._core(intent, mood, named=True).placeless
+            if "target" not in template.slots:
+                return self._filled(intent, template, known, mood, place)
+        return self._bare(intent, "imp", place, here=here, feature=feature) if mood != "imp" else self._filled(intent, template.there, {"target": "it", **known}, mood)
 
     def _core(self, intent: Intent, mood: Mood, *, named: bool, extra: dict[str, str] | None = None) -> Template:
         rng, shapes = self.rng, forms(intent.title)

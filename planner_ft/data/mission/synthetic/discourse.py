@@ -97,13 +97,17 @@ def telegram(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     rng = teller.rng
     teller.clipped = True
     mood: Mood = "np" if rng.random() < 0.65 else "imp"
-    parts = [clip(teller.tell(intent, mood)) for intent in intents]
+    parts = [clip(teller.tell(intent, mood), intent) for intent in intents]
     return [rng.choice((", ", "; ", ". ", ", then ", " / ", " - ", ", ", " -> ")).join(parts)]
 
 
-def clip(text: str) -> str:
-    """The text without its articles."""
-    return " ".join(word for word in text.split(" ") if word not in ("a", "an", "the")) or text
+def clip(text: str, intent: Intent) -> str:
+    """The text without its articles, but for those inside of text values, which the plan holds word for word."""
+    values = [value for value in intent.parameters.values() if isinstance(value, str)]
+    values += [target.description for target in (intent.target, *intent.also) if target is not None and target.description]
+    for value in values:
+        text = text.replace(value, value.replace(" ", "\u00a0"))
+    return " ".join(word for word in text.split(" ") if word not in ("a", "an", "the")).replace("\u00a0", " ")
 
 
 def but_first(teller: Teller, intents: Sequence[Intent]) -> Sentences:
@@ -178,6 +182,18 @@ def where_first(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     text = pattern.replace("{}", place.rstrip(","), 1).replace("{}", chained(teller, inside), 1)
     rest = intents[len(inside) :]
     return [text, *([] if not rest else [_placed(chained(teller, rest), "imp", 1, True, rng)])]
+
+
+def on_site(teller: Teller, intents: Sequence[Intent]) -> Sentences:
+    """The vehicle is said to be at the place already."""
+    rng = teller.rng
+    target = next(intent.target for intent in intents if intent.target is not None and intent.target.on_site)
+    place = teller.introduce(target).rstrip(",")
+    opening = rng.choice(frames.ON_SITE)
+    rest = one_sentence(teller, intents) if rng.random() < 0.5 or len(intents) == 1 else several_sentences(teller, intents)
+    if opening.endswith(",") and rest:
+        return [f"{opening.format(place)} {rest[0]}", *rest[1:]]
+    return [opening.format(place), *rest]
 
 
 def _introduced(teller: Teller, target: Target, intents: Sequence[Intent]) -> Sentences:

@@ -55,6 +55,28 @@ def exclusion(rng: Random, planned: set[str], *, home: bool) -> Extra | None:
     return Extra(rng.choice(EXCLUSIONS).replace("{}", thing), constraint)
 
 
+LEFT_OUT = ("leave the {} out of it", "skip the {}", "ignore the {}", "not the {}", "the {} is not part of this", "leave the {} for another day", "forget about the {}", "never mind the {}", "the {} can wait", "don't bother with the {}", "leave the {} alone")
+TIMES = ("14:00", "noon", "sunset", "dark", "1630", "three o'clock", "high water", "the tide turns", "the ferry comes in", "the end of the shift", "five", "09:45", "the fog comes in", "the crew change", "dawn", "tonight")
+CONDITIONS = ("the wind stays down", "the visibility holds", "the swell stays under a metre", "the battery allows it", "the channel is clear", "nobody is in the water", "it stays dry", "the light is good enough", "the traffic allows it", "the link is up")
+
+
+def left_out(rng: Random, description: str) -> Extra:
+    """A thing that the command says to leave out."""
+    return Extra(rng.choice(LEFT_OUT).format(description), f"The {description} is left out.")
+
+
+def deadline(rng: Random) -> Extra:
+    """A time by which it must be done, or a condition for it."""
+    if rng.random() < 0.5:
+        word, time = rng.choice(("by", "before")), rng.choice(TIMES)
+        if word == "by" and " " in time and time.split(" ")[-1] in ("turns", "in"):
+            word = "before"
+        text = rng.choice(("be done {}", "all of it {}", "it has to be finished {}", "have it done {}", "this must be done {}", "we need it {}")).format(f"{word} {time}")
+        return Extra(text, f"The mission must be finished {word} {time}.")
+    condition = rng.choice(CONDITIONS)
+    return Extra(rng.choice(("only if {}", "as long as {}", "provided {}", "if {}", "but only while {}", "given that {}")).format(condition), f"The mission is carried out only if {condition}.")
+
+
 def no_thing(rng: Random, planned: set[str]) -> Extra | None:
     """A short exclusion: "no report", "no panorama"."""
     pool = [title for title in ("Diagnostics", "AutoGenerateReportSummary", "SmartDataHarvest", "HorizontalPanorama", "PerformOrbit") if title not in planned]
@@ -82,10 +104,10 @@ def impossible(rng: Random) -> Extra:
 NOTHING = "The command asks for nothing that the vehicle has a task for."
 CANCELLED = "The command rules out everything, so no task is left."
 IDLE_TALK = (
-    "how are you doing out there?", "what's the weather like?", "who is on watch tonight?", "did you see the game?", "is anybody there?", "when is lunch?", "what's your battery at?", "are you awake?", "nice work yesterday",
-    "good job with the buoy last week", "thanks for everything", "just testing the radio", "radio check", "radio check, how do you read?", "hello?", "what time is it?", "never mind, wrong channel", "sorry, wrong boat", "ignore my last message",
+    "how are you doing out there?", "what's the weather like?", "who is on watch tonight?", "did you see the game?", "is anybody there?", "when is lunch?", "are you awake?", "nice work yesterday",
+    "good job with the buoy last week", "thanks for everything", "hello?", "what time is it?", "never mind, wrong channel", "sorry, wrong boat", "ignore my last message",
     "say hello to the crew", "how deep is the sea?", "who painted you?", "do you like boats?", "what's for dinner?", "I'll call you back in a minute", "we'll send orders later", "nothing for you at the moment", "that was all for today", "no orders today",
-    "there's nothing to do right now", "the mission is postponed until Thursday", "we are still waiting for the permit", "stand by for news from the office, nothing yet", "can you believe this rain?", "do you copy?", "you're breaking up", "happy birthday",
+    "there's nothing to do right now", "the mission is postponed until Thursday", "we are still waiting for the permit", "can you believe this rain?", "do you copy?", "you're breaking up", "happy birthday",
     "see you at the barbecue", "was that you on the radar?", "somebody left the gate open", "what do you think of the new crane?", "I wonder who won the regatta", "have a nice weekend", "the permit is not there yet", "do you remember the old ferry?",
 )  # fmt: skip
 CANCEL = (

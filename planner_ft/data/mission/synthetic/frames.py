@@ -72,3 +72,7 @@ PURPOSES = (
 QUESTIONS = (
     "Confirm you have understood", "Is that clear?", "Can you do that?", "Please confirm", "Acknowledge", "Copy?", "All clear?", "Let me know if you can't", "Tell me if anything's unclear", "Got that?", "Understood?", "Can you manage?",
 )  # fmt: skip
+ON_SITE = (
+    "you're already at {}", "you are at {} now", "you're lying at {} already", "she's already at {}", "the boat is lying beside {}", "as you're at {} already,", "now that you're at {},", "while you are at {},", "since you're sitting right next to {},", "you've just arrived at {}",
+    "the boat is at {} as we speak", "as the boat already lies at {},", "you should be alongside {} by now", "we have you right next to {}", "from where you are, at {},", "you're there already, at {}", "I can see you're beside {}", "being at {} anyway,",
+)  # fmt: skip

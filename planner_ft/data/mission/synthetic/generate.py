@@ -59,6 +59,8 @@ def draw_mission(rng: Random, name: str) -> Record:
 
 
 def _form(rng: Random, scene: Scene) -> str:
+    if any(intent.target is not None and intent.target.on_site for intent in scene.intents):
+        return "on-site"
     while True:
         form = rng.choices(tuple(FORMS), tuple(FORMS.values()))[0]
         if len(scene.intents) > 1 or form not in TWO_NEEDED:
@@ -71,7 +73,7 @@ def _sentences(rng: Random, form: str, teller: Teller, scene: Scene) -> list[str
         return discourse.radio(teller, intents, words.proper_name(rng) if rng.random() < 0.7 else words.code(rng))
     tell = {
         "one-sentence": discourse.one_sentence, "sentences": discourse.several_sentences, "numbered": discourse.numbered, "telegram": discourse.telegram, "but-first": discourse.but_first,
-        "after-gerund": discourse.after_gerund, "last-first": discourse.last_first, "where-first": discourse.where_first, "questions": discourse.questions,
+        "after-gerund": discourse.after_gerund, "last-first": discourse.last_first, "where-first": discourse.where_first, "questions": discourse.questions, "on-site": discourse.on_site,
     }[form]  # fmt: skip
     return tell(teller, intents)
 
@@ -88,6 +90,10 @@ def _with_extras(rng: Random, style: Style, sentences: list[str], intents: tuple
         added.append(extras.limit(rng, style))
     if rng.random() < 0.02:
         added.append(extras.impossible(rng))
+    if rng.random() < 0.02:
+        added.append(extras.left_out(rng, words.description(rng, words.noun(rng))[0]))
+    if rng.random() < 0.025:
+        added.append(extras.deadline(rng))
     for extra in added:
         limits.append(extra.constraint)
         told = _put(rng, told, extra.text)

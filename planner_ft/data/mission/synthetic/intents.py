@@ -34,6 +34,7 @@ class Target:
     `identity` is the id or call sign of something to follow. `spot` marks a docking place, which is never searched.
     `movable` says that it can drift or be followed, `area` that it is a stretch of water rather than a thing.
     `said_as` is what the command says for the description ("green one" for "green buoy").
+    `on_site` means that the vehicle lies there already, by the command's own words.
     """
 
     key: int
@@ -48,11 +49,12 @@ class Target:
     whereabouts: str = ""
     noun: str = ""
     said_as: str | None = None
+    on_site: bool = False
 
     @property
     def must_be_found(self) -> bool:
         """True when only a search can tell where it is."""
-        return self.position is None and self.identity is None and not self.spot
+        return self.position is None and self.identity is None and not self.spot and not self.on_site
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,7 @@ class Intent:
 
     A title of Transit or SearchAndDetect stands for a command that says "go to" or "find"; `home` for a return.
     `purpose` is why it is wanted; `instead` is what the command says first and takes back.
+    `part` is the part of the target that is looked at, where no parameter holds it; `also` are further targets for the same.
     `said` holds the words of the stated parameters, `parameters` their values.
     """
 
@@ -71,3 +74,5 @@ class Intent:
     home: bool = False
     purpose: str = ""
     instead: Intent | None = None
+    part: str = ""
+    also: tuple[Target, ...] = ()

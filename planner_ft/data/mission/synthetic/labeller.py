@@ -6,8 +6,8 @@ Which rule a line follows is said by its number: 2 located or not, 3 getting the
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from typing import Any
 
 from planner_ft.data.mission.synthetic.intents import LEAVES, NO_PLACE, PLACE_TASKS, POSITION_PARAMETER, Intent, Target
@@ -35,7 +35,8 @@ def label(intents: Iterable[Intent]) -> list[Planned]:
     """
     plan: list[Planned] = []
     located: set[int] = set()
-    here: int | None = None
+    intents = list(_each(intents))
+    here = next((intent.target.key for intent in intents if intent.target is not None and intent.target.on_site), None)
     for intent in intents:
         target = intent.target
         if target is not None and intent.title not in NO_PLACE:
@@ -50,6 +51,14 @@ def label(intents: Iterable[Intent]) -> list[Planned]:
         plan.append(Planned(intent.title, _parameters(intent, located), target, intent))
         here = _whereabouts_after(intent, here)
     return plan
+
+
+def _each(intents: Iterable[Intent]) -> Iterator[Intent]:
+    """One intent per target where one is asked for at several."""
+    for intent in intents:
+        yield replace(intent, also=())
+        for target in intent.also:
+            yield replace(intent, target=target, also=())
 
 
 def _needs_search(intent: Intent, target: Target, located: set[int]) -> bool:

@@ -38,6 +38,12 @@ def _place(planned: Planned) -> str:
     return f"{name_of(target)} at {position_words(target.position)}"
 
 
+def _thing(planned: Planned) -> str:
+    """The target, or the part of it that is looked at, with its place."""
+    part = f"the {planned.intent.part} of " if planned.intent.part else ""
+    return part + _place(planned)
+
+
 def _at(planned: Planned, word: str = "at") -> str:
     return f" {word} {_place(planned)}" if planned.target is not None else " where the vehicle is"
 
@@ -46,6 +52,8 @@ def _of(planned: Planned) -> str:
     target = planned.target
     if target is None:
         return " where the vehicle is"
+    if planned.intent.part:
+        return f" of the {planned.intent.part} of {name_of(target)}"
     return f" of {name_of(target)}" if target.description is not None else f" at {name_of(target)}"
 
 
@@ -154,7 +162,7 @@ def _cable(p: dict[str, Any], planned: Planned, rng: Random) -> str:
 
 
 def _survey(p: dict[str, Any], planned: Planned, rng: Random) -> str:
-    return f"Inspect {_place(planned)}" + _say(p, "radius", " at a stand-off of {} m") + _once_found(planned)
+    return f"Inspect {_thing(planned)}" + _say(p, "radius", " at a stand-off of {} m") + _once_found(planned)
 
 
 def _harvest(p: dict[str, Any], planned: Planned, rng: Random) -> str:
@@ -186,6 +194,8 @@ def assumptions(plan: list[Planned]) -> list[str]:
             found[f"The position of {name_of(target)} is unknown until it has been found."] = None
         if target.doubtful and target.position is not None:
             found[f"{position_words(target.position)} is taken as correct."] = None
+        if target.on_site:
+            found[f"The vehicle lies at {name_of(target)}."] = None
         if target.spot and target.position is None:
             found[f"The position of {name_of(target)} is filled in before docking."] = None
     return list(found)

@@ -130,8 +130,17 @@ def draw_scene(rng: Random, style: Style) -> Scene:
     intents += ending
     if wanted > 2 and rng.random() < 0.06:
         intents.insert(rng.randint(1, len(intents) - 1), rng.choice((Intent("Diagnostics"), Intent("AutoGenerateReportSummary"), _harvest(rng))))
+    if rng.random() < 0.035 and not any(intent.target is None and intent.title in PLACE_TASKS for intent in intents):
+        intents = _on_site(rng, style, intents)
     intents = _once(intents) or _stop(rng, style, 1, 1)
     return _corrected(rng, style, Scene(tuple(intents), style))
+
+
+def _on_site(rng: Random, style: Style, intents: list[Intent]) -> list[Intent]:
+    """The vehicle lies at a structure already; what is done there comes first and needs neither search nor Transit."""
+    target = words.structure(rng, 80, located=rng.random() < 0.3)
+    target = replace(target, on_site=True, whereabouts="")
+    return [*(_task(rng, style, title, target) for title in _titles(rng, HERE_WEIGHTS, rng.choice((1, 1, 2)))), *intents[-3:]]
 
 
 def _once(intents: list[Intent]) -> list[Intent]:
@@ -208,8 +217,30 @@ def _task(rng: Random, style: Style, title: str, target: Target | None) -> Inten
     elif title == "BathymetryGridSurvey" and rng.random() < 0.86:
         width, length = say_length(rng, style, 20, 300), say_length(rng, style, 20, 300)
         parameters, said = {"width": width.value, "length": length.value, **parameters}, {"width": width, "length": length, **said}
-    purpose = rng.choice(PURPOSES[title]) if rng.random() < 0.05 and title in PURPOSES else ""
-    return Intent(title, target, parameters, said, purpose=purpose)
+    if title == "KeepStation" and target is not None and target.must_be_found and "duration" not in parameters:
+        # Staying with something that may move for no stated time would be FollowTarget.
+        value = say_duration(rng, style)
+        parameters, said = {"duration": value.value}, {"duration": value}
+    roll = rng.random()
+    purpose = rng.choice(PURPOSES[title]) if roll < 0.05 and title in PURPOSES else ""
+    if roll > 0.93 and title in CONFIRMED and target is not None and target.description is not None:
+        purpose = rng.choice(CONFIRMS)
+    return Intent(title, target, parameters, said, purpose=purpose, part=_part(rng, title, target))
+
+
+CONFIRMED = frozenset(("SearchAndDetect", "SurveyTarget", "PerformOrbit", "FeatureStare", "ParallelStructurePass"))
+CONFIRMS = (
+    "and confirm that it is still there", "and confirm whether it is still afloat", "and confirm it is intact", "and see whether it has moved", "and check whether it is still upright", "and confirm that it is lit", "and verify that nobody is aboard",
+    "and see if it is damaged", "and confirm it has not sunk", "and make sure it has not drifted", "and confirm that nothing is missing", "and see if anything hangs from it", "and confirm that it is the right one",
+)  # fmt: skip
+PARTS = ("{} face", "{} side", "{} wall", "{} end", "hull", "deck", "roof", "waterline", "underside", "stern", "bow", "legs", "foundation", "upper half", "machinery space", "engine casing", "top", "base")
+
+
+def _part(rng: Random, title: str, target: Target | None) -> str:
+    """A part of the target that the command speaks of and no parameter holds."""
+    if title not in ("SurveyTarget", "ThermalTimeLapse", "ThermalHotspotLocalizer") or target is None or target.description is None or rng.random() > 0.09:
+        return ""
+    return rng.choice(PARTS).format(words.side(rng)) if rng.random() < 0.7 else words.feature(rng)
 
 
 def _here(rng: Random, style: Style, count: int) -> list[Intent]:
@@ -225,6 +256,8 @@ def _stop(rng: Random, style: Style, key: int, room: int) -> list[Intent]:
     """Intents at one target, at most `room`."""
     kind = rng.choices(STOPS, STOP_WEIGHTS)[0]
     count = min(room, rng.choices((1, 2, 3), (58, 32, 10))[0])
+    if kind in ("structure", "located", "point") and rng.random() < 0.1:
+        return [_several(rng, style, key, kind)]
     if kind == "area":
         return _area(rng, style, key, count)
     if kind == "cable":
@@ -240,6 +273,29 @@ def _stop(rng: Random, style: Style, key: int, room: int) -> list[Intent]:
         return _at_target(rng, style, Target(key, None, draw_position(rng)), _titles(rng, POINT_WEIGHTS, count))
     target = words.structure(rng, key, located=kind == "located")
     return _at_target(rng, style, replace(target, doubtful=target.position is not None and rng.random() < 0.07), _titles(rng, PLACE_WEIGHTS, count))
+
+
+SHARED = ("SurveyTarget", "SurveyTarget", "PerformOrbit", "PerformOrbit", "Transit", "KeepStation", "HorizontalPanorama", "ThermalTimeLapse", "ThermalHotspotLocalizer", "DriftAudit", "BoatLandingClearanceSweep")
+
+
+def _several(rng: Random, style: Style, key: int, kind: str) -> Intent:
+    """One thing to be done at two or three targets."""
+    title = rng.choice(SHARED)
+    count = rng.choice((2, 2, 2, 3))
+    if kind == "point":
+        targets = [Target(key + 20 * index, None, draw_position(rng)) for index in range(count)]
+    elif rng.random() < 0.55:
+        base = words.noun(rng)
+        looks = list(dict.fromkeys(words.adjective(rng) for _ in range(count)))
+        targets = [
+            Target(key + 20 * index, f"{look} {base}", draw_position(rng) if kind == "located" and rng.random() < 0.8 else None, noun=base, said_as=f"{look} one" if index else None)
+            for index, look in enumerate(looks)
+        ]
+    else:
+        targets = [replace(words.structure(rng, key + 20 * index, located=kind == "located"), whereabouts="") for index in range(count)]
+    if len({target.description for target in targets}) < len(targets) and kind != "point":
+        targets = targets[:1]
+    return replace(_task(rng, style, title, targets[0]), also=tuple(targets[1:]), part="", purpose="")
 
 
 def _at_target(rng: Random, style: Style, target: Target, titles: list[str]) -> list[Intent]:

@@ -11,6 +11,7 @@ from planner_ft.data.mission.synthetic.bank import BANK
 _SLOT = re.compile(r"\{(\w+)\}")
 # A self-going task whose phrase says "proceed to" would need a Transit of its own (rule 4).
 _GOES = re.compile(r"\b(?:proceed|get) to \{(?:start|target)\} (?:and|on)\b")
+_PLACE = re.compile(r" (?:of|on|at|from|beside|off|to|in) \{target\}(?=$| )")
 _OF = re.compile(r"\b(?:of|on) \{target\}")
 _THERE = re.compile(r"\b(?:at|to|in|into) \{target\}")
 
@@ -33,6 +34,11 @@ class Template:
     def there(self) -> Template:
         """The phrase with "there" in place of "at {target}" and the like."""
         return Template(_THERE.sub("there", self.text).replace("from {target}", "from there"))
+
+    @cached_property
+    def placeless(self) -> Template:
+        """The phrase without its place, where that leaves a phrase."""
+        return Template(_PLACE.sub("", self.text))
 
     @cached_property
     def at_place(self) -> Template:
