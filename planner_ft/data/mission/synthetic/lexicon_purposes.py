@@ -4,12 +4,6 @@ from __future__ import annotations
 
 from planner_ft.data.mission.synthetic.phrases import listed
 
-PURPOSES_GENERAL = listed("""
-    for the insurance; for the owner; for the records; for tonight's handover; for the port authority; for the classification society; for the client
-    for the archive; for the dredging claim; for the engineers; for the maintenance crew; for the harbour master; for the court case
-    for the research group; for the museum; for the annual inspection; for the tender; for the morning meeting; for the fishery office
-    for the diving team; for peace of mind; to keep the office happy; because the owner asked; because the insurer wants it; for good measure
-""")
 PURPOSES: dict[str, tuple[str, ...]] = {
     "Diagnostics": listed("""
         to be on the safe side; to know that all is well; because of last night's knock; since the mast was struck; so that we can trust the data

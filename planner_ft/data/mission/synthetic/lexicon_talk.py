@@ -1,4 +1,4 @@
-"""Talk around a command: openers, closers, fillers, whereabouts, connectives and talk that asks for nothing.
+"""Talk around a command: openers, closers, fillers, whereabouts and talk that asks for nothing.
 
 Openers and closers stand without the punctuation that joins them on; small talk is whole sentences.
 """
@@ -72,36 +72,3 @@ CLOSERS = listed("""
     best; yours; all from me; nothing else; no more than that; nothing more; simple as that; easy; job done; you know the drill; do it well; carry on
     make it so; execute; proceed; standing by; break; end of orders; end of list
 """)
-CONNECTIVES: dict[str, tuple[str, ...]] = {
-    # Before an imperative that is carried out next.
-    "then": listed("""
-        then; and then; after that; next; afterwards; once that's done; when that is done; when you're done; and after that; from there
-        following that; thereafter; that done; with that done; and next; subsequently; as soon as that is done; when finished; when you have finished
-        then please; after which; once finished; once you have done that; and once that's done; straight after that; right after that; later
-        moving on; then go on and; and afterwards
-    """),
-    # Before a gerund or noun phrase that comes earlier.
-    "after": listed(
-        "after; once you are done with; when you have finished; following; right after; straight after; as soon as you are through with; once through with"
-    ),
-    # Before a gerund or noun phrase that comes later.
-    "before": listed("before; prior to; ahead of; in advance of; but before; and before; well before; just before"),
-    # Before an imperative that is carried out earlier than what was said.
-    "first": listed("""
-        first; but first; first of all; to begin with; first off; before that; but before that; first thing; beforehand; ahead of that; to start with
-        for a start; initially; though first; but first of all; before anything else; before you do that; but before you do; before all that
-        number one
-    """),
-    # Before the last imperative.
-    "finally": listed("""
-        finally; lastly; last of all; to finish; at the end; in the end; and finally; last thing; to wrap up; to round it off; when all is done
-        when everything is done; at last; and to finish; to conclude; to top it off; as a last step; and at the very end; when all that is finished
-        once everything is finished; ultimately
-    """),
-    # Between two imperatives of one sentence.
-    "and": (
-        *listed("and; and also; plus; and please; and on top of that; and likewise; as well as that,; and while you are at it,; and besides that"),
-        ",",
-        ";",
-    ),
-}
