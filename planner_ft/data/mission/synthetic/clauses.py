@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from random import Random
 from typing import Literal
@@ -19,32 +20,46 @@ Mood = Literal["imp", "np", "ger"]
 RETURN_NOUNS = ("a return home", "a return to base", "the trip home", "the run home", "a transit home", "the way back home")
 RETURN_GERUNDS = ("coming home", "returning home", "heading home", "returning to base", "going back to base", "coming back", "going home")
 SENSOR_TASKS = frozenset(("FeatureStare", "GlareFreeApproach", "ThermalTimeLapse", "ThermalHotspotLocalizer", "HorizontalPanorama"))
+UNPLACED = frozenset(("KeepStation", "DriftAudit", "HorizontalPanorama", "ThermalHotspotLocalizer", "ThermalTimeLapse"))
+"""What can be asked for without any place: it happens where the vehicle is."""
 AT_A_POINT = SENSOR_TASKS | {"BoatLandingClearanceSweep", "SurveyTarget"}
 HOLDS = (
-    "stop beside {target} and {clause}", "stop at {target} and {clause}", "pull up next to {target} and {clause}", "lie off {target} and {clause}", "stop next to {target} and {clause}",
-    "hold still beside {target} and {clause}", "stand off {target} and {clause}", "hold position off {target} while you {clause}", "stay beside {target} while you {clause}", "stop in front of {target} and {clause}",
+    "stop beside {target} and {clause}", "stop at {target} and {clause}", "pull up next to {target} and {clause}",
+    "lie off {target} and {clause}", "stop next to {target} and {clause}",
+    "hold still beside {target} and {clause}", "stand off {target} and {clause}", "hold position off {target} while you {clause}",
+    "stay beside {target} while you {clause}", "stop in front of {target} and {clause}",
 )  # fmt: skip
 GOING = (
-    "go to {target} and {clause}", "head over to {target} and {clause}", "proceed to {target} and {clause}", "go to {target}, {clause}", "make your way to {target} and {clause}",
-    "move to {target} and {clause}", "run out to {target} and {clause}", "go out to {target} and {clause}", "go over to {target} and {clause}", "pop over to {target} and {clause}", "get yourself to {target} and {clause}",
+    "go to {target} and {clause}", "head over to {target} and {clause}", "proceed to {target} and {clause}", "go to {target}, {clause}",
+    "make your way to {target} and {clause}",
+    "move to {target} and {clause}", "run out to {target} and {clause}", "go out to {target} and {clause}", "go over to {target} and {clause}",
+    "pop over to {target} and {clause}", "get yourself to {target} and {clause}",
 )  # fmt: skip
-HERE = (" where you are", " right here", " from where you are", " from here", " on the spot", " right where you are", " here", " at your present position", " from your current position", " where she lies now")
+HERE = (" where you are", " right here", " from where you are", " from here", " on the spot", " right where you are", " here",
+    " at your present position", " from your current position", " where she lies now")
 THERE = ("there", "right there", "on the spot", "from there", "while you are there", "at the same place", "at that spot")
 RETRACTIONS = (
-    ", no, scratch that, ", ", no wait, ", ", sorry, ", " - no, ", ", no, better ", ", or no, ", ", forget that, ", " ... actually no, ", ", correction, ", ", wait, no, ", ", belay that, ", ", strike that, ", ", hang on, no, ", ", I mean ",
+    ", no, scratch that, ", ", no wait, ", ", sorry, ", " - no, ", ", no, better ", ", or no, ", ", forget that, ", " ... actually no, ",
+    ", correction, ", ", wait, no, ", ", belay that, ", ", strike that, ", ", hang on, no, ", ", I mean ",
 )  # fmt: skip
-SAME = (", same again", ", same thing", ", likewise", ", in the same way", " too", ", same as before", ", the same way", ", same settings", " as well", ", ditto", ", same values", ", also like that")
-_TIME = ("for a while", "for a bit", "for some time", "until further notice", "as long as it takes", "for a little while", "until I call you", "until the ferry has passed", "for a moment")
+SAME = (", same again", ", same thing", ", likewise", ", in the same way", " too", ", same as before", ", the same way", ", same settings",
+    " as well", ", ditto", ", same values", ", also like that")
+_TIME = ("for a while", "for a bit", "for some time", "until further notice", "as long as it takes", "for a little while", "until I call you",
+    "until the ferry has passed", "for a moment")
 _SLOW = ("slowly", "nice and slow", "at a crawl", "at an easy pace", "taking your time", "at a moderate speed", "not too fast")
 _OFF = ("at a safe distance", "with plenty of room", "not too close", "close in", "a fair bit off", "from a respectful distance", "keeping well off")
 VAGUE: dict[str, dict[str, tuple[str, ...]]] = {
-    "KeepStation": {"duration": _TIME}, "DriftAudit": {"duration": _TIME}, "PerformOrbit": {"radius": _OFF, "speed": _SLOW}, "ParallelStructurePass": {"distance": _OFF, "speed": _SLOW},
-    "ThermalTimeLapse": {"duration": _TIME, "interval": ("at regular intervals", "every so often")}, "FeatureStare": {"duration": _TIME}, "SurveyTarget": {"radius": _OFF},
-    "HorizontalPanorama": {"overlap": ("with a good overlap", "with plenty of overlap"), "sectors": ("in as many sectors as you like",)}, "SubseaCableTrack": {"max_dist": ("as far as you can", "to where it ends", "for a good stretch")},
-    "BathymetryGridSurvey": {"spacing": ("with narrow lines", "with tight spacing", "in close lines")}, "ThermalHotspotLocalizer": {"scan_width_degrees": ("with a wide scan", "with a narrow scan")},
+    "KeepStation": {"duration": _TIME}, "DriftAudit": {"duration": _TIME}, "PerformOrbit": {"radius": _OFF, "speed": _SLOW},
+    "ParallelStructurePass": {"distance": _OFF, "speed": _SLOW},
+    "ThermalTimeLapse": {"duration": _TIME, "interval": ("at regular intervals", "every so often")}, "FeatureStare": {"duration": _TIME},
+    "SurveyTarget": {"radius": _OFF},
+    "HorizontalPanorama": {"overlap": ("with a good overlap", "with plenty of overlap"), "sectors": ("in as many sectors as you like",)},
+    "SubseaCableTrack": {"max_dist": ("as far as you can", "to where it ends", "for a good stretch")},
+    "BathymetryGridSurvey": {"spacing": ("with narrow lines", "with tight spacing", "in close lines")},
+    "ThermalHotspotLocalizer": {"scan_width_degrees": ("with a wide scan", "with a narrow scan")},
     "VisualDockingApproach": {"distance": ("nice and gently", "stopping just short of it")},
 }  # fmt: skip
-BEARINGS = frozenset("north south east west northeast northwest southeast southwest north-east north-west south-east south-west".split())
+BEARINGS = frozenset(["north", "south", "east", "west", "northeast", "northwest", "southeast", "southwest", "north-east", "north-west", "south-east", "south-west"])
 
 
 class Teller:
@@ -116,7 +131,8 @@ class Teller:
         if target is None and intent.parameters.keys() & {"target_list", "target_feature"} and intent.title not in PLACE_TASKS:
             return self._filled(intent, self._core(intent, mood, named=True), {}, mood)
         if target is None:
-            place = rng.choice(HERE) if intent.title in PLACE_TASKS and (self.focus is not None or rng.random() < 0.65) else ""
+            unsaid = self.focus is None and intent.title in UNPLACED and rng.random() < 0.35
+            place = rng.choice(HERE) if intent.title in PLACE_TASKS and not unsaid else ""
             return self._bare(intent, mood, place, here=bool(place))
         again = target.key in self.known
         if again and self.left.pop(target.key, None) is not None:
@@ -125,7 +141,8 @@ class Teller:
             return self._again(intent, mood, explicit)
         mention = short_mention(target, rng, self.style, spoken=self.spoken) if again else None
         if again and intent.title == "KeepStation" and rng.random() < 0.3:
-            return self._named(intent, mood, mention or "").replace("hold", "go back and hold", 1) if mood == "imp" else self._named(intent, mood, mention or "")
+            return self._named(intent, mood, mention or "").replace("hold", "go back and hold", 1) if mood == "imp" else self._named(intent, mood,
+            mention or "")
         return self._named(intent, mood, mention)
 
     def _full(self, target: Target) -> str:
@@ -183,7 +200,8 @@ class Teller:
         own = target.description is not None and target.description in (intent.parameters.get("feature_type"), intent.parameters.get("target_feature"))
         if own:
             return self._bare(intent, mood, "", feature="it")
-        if bare and not intent.part and (rng.random() < 0.55 or intent.title in ("FeatureStare", "GlareFreeApproach") or target.description is None and intent.title not in ("PerformOrbit", "SurveyTarget")):
+        if bare and not intent.part and (rng.random() < 0.55 or intent.title in ("FeatureStare",
+        "GlareFreeApproach") or (target.description is None and intent.title not in ("PerformOrbit", "SurveyTarget"))):
             place = rng.choice(THERE) if explicit or rng.random() < 0.3 else ""
             return self._bare(intent, mood, f" {place}" if place else "")
         template = self._core(intent, mood, named=True)
@@ -212,7 +230,8 @@ class Teller:
             template = self._core(intent, mood, named=True).placeless
             if "target" not in template.slots:
                 return self._filled(intent, template, known, mood, place)
-        return self._bare(intent, "imp", place, here=here, feature=feature) if mood != "imp" else self._filled(intent, template.there, {"target": "it", **known}, mood)
+        return self._bare(intent, "imp", place, here=here, feature=feature) if mood != "imp" else self._filled(intent, template.there,
+        {"target": "it", **known}, mood)
 
     def _core(self, intent: Intent, mood: Mood, *, named: bool, extra: dict[str, str] | None = None) -> Template:
         rng, shapes = self.rng, forms(intent.title)
@@ -241,7 +260,7 @@ class Teller:
             words["side_id"] = intent.parameters["side_id"]
         for name in ("feature_type", "target_feature"):
             if name in intent.parameters and name not in values:
-                words[name] = self._article(str(intent.parameters[name]))
+                words[name] = self._article(str(intent.parameters[name]), own=intent.target is not None)
         if "target_list" in intent.parameters and "target_list" not in values:
             words["target_list"] = say_list(intent.parameters["target_list"], self.rng, clipped=self.clipped)
         if intent.target is not None and intent.target.identity is not None:
@@ -252,10 +271,10 @@ class Teller:
             words["arc_noun"] = ""
         return words
 
-    def _article(self, text: str) -> str:
+    def _article(self, text: str, *, own: bool) -> str:
         if self.clipped:
             return text
-        return f"{'its' if self.focus is not None and self.rng.random() < 0.2 else 'the'} {text}"
+        return f"{'its' if own and self.focus is not None and self.rng.random() < 0.2 else 'the'} {text}"
 
     def _filled(self, intent: Intent, template: Template, values: dict[str, str], mood: Mood, place: str = "") -> str:
         rng = self.rng
@@ -265,7 +284,8 @@ class Teller:
         if "arc_noun" in template.slots:
             words["arc_noun"] = self._arc_noun(intent, words)
         used = {slot.removesuffix("_compound").replace("arc_noun", "arc") for slot in template.slots}
-        text = template.fill(words) + place
+        text = template.fill(words)
+        text += "" if re.search(r"\b(?:there|here|where you are|spot)$", text) else place
         left = [name for name in words if name in ADJOINED and name not in used]
         return self._with_adjuncts(text, intent, words, left, mood)
 
@@ -291,7 +311,8 @@ class Teller:
             if not usable:
                 continue
             adjunct = rng.choice(usable).fill(words)
-            if index == 0 and mood == "imp" and name in ("duration", "radius", "distance") and len(names) == 1 and rng.random() < 0.05 and adjunct.startswith(("for ", "at ")):
+            if index == 0 and mood == "imp" and name in ("duration", "radius",
+            "distance") and len(names) == 1 and rng.random() < 0.05 and adjunct.startswith(("for ", "at ")):
                 text = f"{adjunct} {text}" if rng.random() < 0.5 else f"{adjunct}, {text}"
             else:
                 text += ("," if self.clipped or rng.random() < 0.25 else "") + " " + adjunct

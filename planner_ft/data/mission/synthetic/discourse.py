@@ -157,9 +157,11 @@ def last_first(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     mood: Mood = "imp" if rng.random() < 0.6 else "np"
     said = [teller.tell(intent, mood, explicit=True) for intent in reversed(intents)]
     if mood == "np":
-        opening, middle, final = rng.choice((("the last thing is", "before that comes", "and first of all"), ("at the end I want", "ahead of that", "and at the very start"), ("last comes", "before it", "first comes")))
+        opening, middle, final = rng.choice((("the last thing is", "before that comes", "and first of all"), ("at the end I want",
+        "ahead of that", "and at the very start"), ("last comes", "before it", "first comes")))
     else:
-        opening, middle, final = rng.choice((("in the end", "before that", "and first of all"), ("finally", "before that", "but first"), ("to finish", "before that", "but to start with"), ("the last thing to do is to", "before that", "and first")))
+        opening, middle, final = rng.choice((("in the end", "before that", "and first of all"), ("finally", "before that", "but first"),
+        ("to finish", "before that", "but to start with"), ("the last thing to do is to", "before that", "and first")))
     return [f"{opening} {said[0]}", *(f"{middle} {text}" for text in said[1:-1]), f"{final} {said[-1]}"]
 
 
@@ -228,7 +230,8 @@ def _capital(text: str) -> str:
 def questions(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     """Polite questions, one after the other."""
     rng = teller.rng
-    asks = ("can you {}?", "could you {}?", "would you {}?", "could you please {}?", "can the boat {}?", "is it possible to {}?", "could we {}?", "might you {}?", "can we {}?", "would it be possible to {}?", "could someone {}?")
+    asks = ("can you {}?", "could you {}?", "would you {}?", "could you please {}?", "can the boat {}?", "is it possible to {}?", "could we {}?",
+        "might you {}?", "can we {}?", "would it be possible to {}?", "could someone {}?")
     cut = rng.randint(1, len(intents))
     sentences = [rng.choice(asks).format(chained(teller, intents[:cut]))]
     if cut < len(intents):

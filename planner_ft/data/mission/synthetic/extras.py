@@ -26,8 +26,10 @@ RULED_OUT = {
     "KeepStation": (("the station keeping", "the waiting", "the hold"), "The vehicle does not hold position."),
 }
 EXCLUSIONS = (
-    "skip {}", "no need for {}", "leave out {}", "forget about {}", "don't bother with {}", "we don't need {}", "without {} this time", "{} isn't needed", "you can skip {}", "never mind {}", "not {} today", "drop {}",
-    "{} can wait", "cancel {}", "{} is off", "negative on {}", "leave {} for another day", "skip {}, that was done already", "{} is not required", "we can do without {}", "no time for {}", "and please skip {}", "forget {}",
+    "skip {}", "no need for {}", "leave out {}", "forget about {}", "don't bother with {}", "we don't need {}", "without {} this time",
+    "{} isn't needed", "you can skip {}", "never mind {}", "not {} today", "drop {}",
+    "{} can wait", "cancel {}", "{} is off", "negative on {}", "leave {} for another day", "skip {}, that was done already", "{} is not required",
+    "we can do without {}", "no time for {}", "and please skip {}", "forget {}",
 )  # fmt: skip
 RETURN_EXCLUSIONS = ("don't come home yet", "no need to come home", "don't return to base", "you don't have to come back")
 
@@ -55,9 +57,12 @@ def exclusion(rng: Random, planned: set[str], *, home: bool) -> Extra | None:
     return Extra(rng.choice(EXCLUSIONS).replace("{}", thing), constraint)
 
 
-LEFT_OUT = ("leave the {} out of it", "skip the {}", "ignore the {}", "not the {}", "the {} is not part of this", "leave the {} for another day", "forget about the {}", "never mind the {}", "the {} can wait", "don't bother with the {}", "leave the {} alone")
-TIMES = ("14:00", "noon", "sunset", "dark", "1630", "three o'clock", "high water", "the tide turns", "the ferry comes in", "the end of the shift", "five", "09:45", "the fog comes in", "the crew change", "dawn", "tonight")
-CONDITIONS = ("the wind stays down", "the visibility holds", "the swell stays under a metre", "the battery allows it", "the channel is clear", "nobody is in the water", "it stays dry", "the light is good enough", "the traffic allows it", "the link is up")
+LEFT_OUT = ("leave the {} out of it", "skip the {}", "ignore the {}", "not the {}", "the {} is not part of this", "leave the {} for another day",
+    "forget about the {}", "never mind the {}", "the {} can wait", "don't bother with the {}", "leave the {} alone")
+TIMES = ("14:00", "noon", "sunset", "dark", "1630", "three o'clock", "high water", "the tide turns", "the ferry comes in", "the end of the shift",
+    "five", "09:45", "the fog comes in", "the crew change", "dawn", "tonight")
+CONDITIONS = ("the wind stays down", "the visibility holds", "the swell stays under a metre", "the battery allows it", "the channel is clear",
+    "nobody is in the water", "it stays dry", "the light is good enough", "the traffic allows it", "the link is up")
 
 
 def left_out(rng: Random, description: str) -> Extra:
@@ -71,10 +76,12 @@ def deadline(rng: Random) -> Extra:
         word, time = rng.choice(("by", "before")), rng.choice(TIMES)
         if word == "by" and " " in time and time.split(" ")[-1] in ("turns", "in"):
             word = "before"
-        text = rng.choice(("be done {}", "all of it {}", "it has to be finished {}", "have it done {}", "this must be done {}", "we need it {}")).format(f"{word} {time}")
+        text = rng.choice(("be done {}", "all of it {}", "it has to be finished {}", "have it done {}", "this must be done {}",
+        "we need it {}")).format(f"{word} {time}")
         return Extra(text, f"The mission must be finished {word} {time}.")
     condition = rng.choice(CONDITIONS)
-    return Extra(rng.choice(("only if {}", "as long as {}", "provided {}", "if {}", "but only while {}", "given that {}")).format(condition), f"The mission is carried out only if {condition}.")
+    return Extra(rng.choice(("only if {}", "as long as {}", "provided {}", "if {}", "but only while {}", "given that {}")).format(condition),
+    f"The mission is carried out only if {condition}.")
 
 
 def no_thing(rng: Random, planned: set[str]) -> Extra | None:
@@ -104,14 +111,20 @@ def impossible(rng: Random) -> Extra:
 NOTHING = "The command asks for nothing that the vehicle has a task for."
 CANCELLED = "The command rules out everything, so no task is left."
 IDLE_TALK = (
-    "how are you doing out there?", "what's the weather like?", "who is on watch tonight?", "did you see the game?", "is anybody there?", "when is lunch?", "are you awake?", "nice work yesterday",
-    "good job with the buoy last week", "thanks for everything", "hello?", "what time is it?", "never mind, wrong channel", "sorry, wrong boat", "ignore my last message",
-    "say hello to the crew", "how deep is the sea?", "who painted you?", "do you like boats?", "what's for dinner?", "I'll call you back in a minute", "we'll send orders later", "nothing for you at the moment", "that was all for today", "no orders today",
-    "there's nothing to do right now", "the mission is postponed until Thursday", "we are still waiting for the permit", "can you believe this rain?", "do you copy?", "you're breaking up", "happy birthday",
-    "see you at the barbecue", "was that you on the radar?", "somebody left the gate open", "what do you think of the new crane?", "I wonder who won the regatta", "have a nice weekend", "the permit is not there yet", "do you remember the old ferry?",
+    "how are you doing out there?", "what's the weather like?", "who is on watch tonight?", "did you see the game?", "is anybody there?",
+    "when is lunch?", "are you awake?", "nice work yesterday",
+    "good job with the buoy last week", "thanks for everything", "hello?", "what time is it?", "never mind, wrong channel", "sorry, wrong boat",
+    "ignore my last message",
+    "say hello to the crew", "how deep is the sea?", "who painted you?", "do you like boats?", "what's for dinner?",
+    "I'll call you back in a minute", "we'll send orders later", "nothing for you at the moment", "that was all for today", "no orders today",
+    "there's nothing to do right now", "the mission is postponed until Thursday", "we are still waiting for the permit",
+    "can you believe this rain?", "do you copy?", "you're breaking up", "happy birthday",
+    "see you at the barbecue", "was that you on the radar?", "somebody left the gate open", "what do you think of the new crane?",
+    "I wonder who won the regatta", "have a nice weekend", "the permit is not there yet", "do you remember the old ferry?",
 )  # fmt: skip
 CANCEL = (
-    "cancel everything", "forget it", "never mind", "scrub the mission", "the whole thing is off", "we're not doing anything today", "all jobs are cancelled", "do nothing for now", "disregard all orders", "call the whole thing off", "belay all that", "no jobs today",
+    "cancel everything", "forget it", "never mind", "scrub the mission", "the whole thing is off", "we're not doing anything today",
+    "all jobs are cancelled", "do nothing for now", "disregard all orders", "call the whole thing off", "belay all that", "no jobs today",
 )  # fmt: skip
 
 

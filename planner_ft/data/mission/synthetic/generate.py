@@ -10,7 +10,7 @@ from typing import Any
 from planner_ft.data.mission.synthetic import discourse, extras, frames, lexicon, words
 from planner_ft.data.mission.synthetic.clauses import Teller
 from planner_ft.data.mission.synthetic.intents import Intent
-from planner_ft.data.mission.synthetic.labeller import label
+from planner_ft.data.mission.synthetic.labeller import Planned, label
 from planner_ft.data.mission.synthetic.numbers import Style, draw_style
 from planner_ft.data.mission.synthetic.plan_texts import assumptions, constraints, task_prompt
 from planner_ft.data.mission.synthetic.scene import Scene, draw_scene
@@ -19,8 +19,10 @@ from planner_ft.data.mission.synthetic.surface import Register, finished
 Record = dict[str, Any]
 
 EMPTY_SHARE = 0.042
+LONG = 7
 FORMS = {
-    "one-sentence": 26, "sentences": 24, "numbered": 5, "telegram": 9, "but-first": 8, "after-gerund": 6, "last-first": 2, "where-first": 13, "radio": 6, "questions": 4,
+    "one-sentence": 26, "sentences": 24, "numbered": 5, "telegram": 9, "but-first": 8, "after-gerund": 6, "last-first": 2, "where-first": 13,
+    "radio": 6, "questions": 4,
 }  # fmt: skip
 TWO_NEEDED = frozenset(("but-first", "after-gerund", "last-first", "numbered"))
 
@@ -40,13 +42,12 @@ def draw_mission(rng: Random, name: str) -> Record:
     style = draw_style(rng)
     if rng.random() < EMPTY_SHARE:
         return _empty(rng, style, name)
-    scene = draw_scene(rng, style)
+    scene, plan = _scene(rng, style)
     form = _form(rng, scene)
     register = Register.draw(rng, form)
     teller = Teller(rng, style, spoken=register.spoken)
     teller.wrong = dict(scene.wrong)
     sentences = _sentences(rng, form, teller, scene)
-    plan = label(scene.intents)
     limits: list[str] = []
     sentences = _with_extras(rng, style, sentences, scene.intents, limits, form)
     expected = {
@@ -56,6 +57,15 @@ def draw_mission(rng: Random, name: str) -> Record:
     }
     prompt = finished(sentences, rng, register, _values(scene))
     return {"id": name, "family": f"synthetic-{form}", "prompt": prompt, "expected": expected, "tags": []}
+
+
+def _scene(rng: Random, style: Style) -> tuple[Scene, list[Planned]]:
+    """A scene with its plan; long plans are mostly drawn again."""
+    while True:
+        scene = draw_scene(rng, style)
+        plan = label(scene.intents)
+        if len(plan) <= LONG or rng.random() < 0.12:
+            return scene, plan
 
 
 def _form(rng: Random, scene: Scene) -> str:
@@ -72,8 +82,10 @@ def _sentences(rng: Random, form: str, teller: Teller, scene: Scene) -> list[str
     if form == "radio":
         return discourse.radio(teller, intents, words.proper_name(rng) if rng.random() < 0.7 else words.code(rng))
     tell = {
-        "one-sentence": discourse.one_sentence, "sentences": discourse.several_sentences, "numbered": discourse.numbered, "telegram": discourse.telegram, "but-first": discourse.but_first,
-        "after-gerund": discourse.after_gerund, "last-first": discourse.last_first, "where-first": discourse.where_first, "questions": discourse.questions, "on-site": discourse.on_site,
+        "one-sentence": discourse.one_sentence, "sentences": discourse.several_sentences, "numbered": discourse.numbered,
+        "telegram": discourse.telegram, "but-first": discourse.but_first,
+        "after-gerund": discourse.after_gerund, "last-first": discourse.last_first, "where-first": discourse.where_first,
+        "questions": discourse.questions, "on-site": discourse.on_site,
     }[form]  # fmt: skip
     return tell(teller, intents)
 
@@ -137,4 +149,5 @@ def _empty(rng: Random, style: Style, name: str) -> Record:
         sentences = [*(sentence.rstrip(".") for sentence in rng.sample(lexicon.SMALL_TALK, 1)), *sentences]
     register = Register.draw(rng, "sentences")
     prompt = finished(sentences, rng, register, ())
-    return {"id": name, "family": f"synthetic-{kind}", "prompt": prompt, "expected": {"tasks": [], "assumptions": [], "constraints": reasons}, "tags": ["rule.empty"]}
+    return {"id": name, "family": f"synthetic-{kind}", "prompt": prompt, "expected": {"tasks": [], "assumptions": [], "constraints": reasons},
+    "tags": ["rule.empty"]}

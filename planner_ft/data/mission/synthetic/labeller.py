@@ -80,7 +80,8 @@ def _position(target: Target, located: set[int]) -> list[Any]:
 def _parameters(intent: Intent, located: set[int]) -> dict[str, Any]:
     if intent.home:
         return {"target_position": list(HOME)}
-    target, parameters = intent.target, {}
+    target = intent.target
+    parameters: dict[str, Any] = {}
     if target is not None and intent.title == "FollowTarget" and target.identity is not None:
         parameters["target_id"] = target.identity
     name = POSITION_PARAMETER.get(intent.title)

@@ -8,7 +8,7 @@ from random import Random
 def say_list(items: list[str], rng: Random, *, clipped: bool = False) -> str:
     """The items in words; whatever the order of the words, the first item of `items` is the most urgent one."""
     article = "" if clipped or rng.random() < 0.2 else "the "
-    named = [f"{article}{item}" for item in items]
+    named = [item if "'s " in item else f"{article}{item}" for item in items]
     if len(named) == 1:
         return named[0]
     roll = rng.random()
@@ -24,7 +24,10 @@ def say_list(items: list[str], rng: Random, *, clipped: bool = False) -> str:
 
 
 PAIRS = (
-    "{a} and {b}", "{a} and {b}", "{a} and then {b}", "{a}, then {b}", "{a} first, then {b}", "{a} first and {b} second", "{a} first, {b} after that", "{a} ahead of {b}", "{a} before {b}",
-    "{a} first and {b} after", "{a} followed by {b}", "{a}, {b}", "{a} and after that {b}", "first {a}, then {b}", "{a} with priority and then {b}", "{a} and {b}, in that order",
+    "{a} and {b}", "{a} and {b}", "{a} and then {b}", "{a}, then {b}", "{a} first, then {b}", "{a} first and {b} second",
+    "{a} first, {b} after that", "{a} ahead of {b}", "{a} before {b}",
+    "{a} first and {b} after", "{a} followed by {b}", "{a}, {b}", "{a} and after that {b}", "first {a}, then {b}",
+    "{a} with priority and then {b}", "{a} and {b}, in that order",
 )  # fmt: skip
-BACKWARDS = ("{b}, but {a} first", "{b} after {a}", "{b}, but {a} ahead of that", "{b}, but before that {a}", "{b} - no, {a} first, then {b}", "{a} and {b}, most urgent first")
+BACKWARDS = ("{b}, but {a} first", "{b} after {a}", "{b}, but {a} ahead of that", "{b}, but before that {a}", "{b} - no, {a} first, then {b}",
+    "{a} and {b}, most urgent first")

@@ -54,12 +54,15 @@ def described(target: Target, rng: Random, *, clipped: bool = False) -> str:
 
 
 PLACED = (
-    *("{text} at {place}",) * 12, "{text} on {place}", "{text}, {place},", "{text}, which is at {place},", "{text} ({place})", "{text} lying at {place}", "{text} standing at {place}",
-    "{text} over at {place}", "{text} out at {place}", "{text} position {place}", "{text} at position {place}", "{text} at grid {place}", "{text}, at {place},", "{text} located at {place}",
+    *("{text} at {place}",) * 12, "{text} on {place}", "{text}, {place},", "{text}, which is at {place},", "{text} ({place})",
+    "{text} lying at {place}", "{text} standing at {place}",
+    "{text} over at {place}", "{text} out at {place}", "{text} position {place}", "{text} at position {place}", "{text} at grid {place}",
+    "{text}, at {place},", "{text} located at {place}",
 )  # fmt: skip
 DOUBTS = (
     "{text} somewhere near {place}", "{text} at about {place}", "{text} around {place}", "{text} at roughly {place}", "{text}, at {place} if I remember right,",
-    "{text}, which should be at {place},", "{text} at {place}, I think,", "{text}, probably at {place},", "{text} at {place} or thereabouts", "{text}, at {place} more or less,",
+    "{text}, which should be at {place},", "{text} at {place}, I think,", "{text}, probably at {place},", "{text} at {place} or thereabouts",
+    "{text}, at {place} more or less,",
 )  # fmt: skip
 
 
@@ -75,5 +78,7 @@ def short_mention(target: Target, rng: Random, style: Style, *, spoken: bool = F
     return f"the {text}" if target.article else text
 
 
-AREA_AGAIN = ("its centre", "the centre of the area", "the centre of the grid", "the middle of it", "the centre point", "that same centre point", "the centre of the survey")
-TRACK_AGAIN = ("the start of the track", "the start point", "where the track began", "the starting point", "the start of the cable run", "the beginning of the track")
+AREA_AGAIN = ("its centre", "the centre of the area", "the centre of the grid", "the middle of it", "the centre point", "that same centre point",
+    "the centre of the survey")
+TRACK_AGAIN = ("the start of the track", "the start point", "where the track began", "the starting point", "the start of the cable run",
+    "the beginning of the track")

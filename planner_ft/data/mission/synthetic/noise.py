@@ -6,14 +6,19 @@ import re
 from random import Random
 
 KEYS = {
-    "a": "sq", "b": "vn", "c": "xv", "d": "sf", "e": "wr", "f": "dg", "g": "fh", "h": "gj", "i": "uo", "j": "hk", "k": "jl", "l": "k", "m": "n", "n": "bm", "o": "ip", "p": "o",
+    "a": "sq", "b": "vn", "c": "xv", "d": "sf", "e": "wr", "f": "dg", "g": "fh", "h": "gj", "i": "uo", "j": "hk", "k": "jl", "l": "k", "m": "n",
+    "n": "bm", "o": "ip", "p": "o",
     "q": "w", "r": "et", "s": "ad", "t": "ry", "u": "yi", "v": "cb", "w": "qe", "x": "zc", "y": "tu", "z": "x",
 }  # fmt: skip
 SHORT = {
-    "please": "pls", "you": "u", "your": "ur", "and": "n", "are": "r", "then": "thn", "for": "4", "to": "2", "before": "b4", "minutes": "mins", "seconds": "secs", "with": "w", "survey": "surv",
-    "report": "rpt", "sensor": "snsr", "sensors": "snsrs", "check": "chk", "position": "pos", "camera": "cam", "degrees": "deg", "metres": "m", "picture": "pic", "pictures": "pics", "through": "thru",
-    "around": "rnd", "at": "@", "temperature": "temp", "panorama": "pano", "video": "vid", "bathymetry": "bathy", "follow": "folw", "heading": "hdg", "bearing": "brg", "station": "stn", "location": "loc",
-    "without": "w/o", "because": "bc", "thermal": "therm", "speed": "spd", "distance": "dist", "minute": "min", "second": "sec", "hour": "hr", "hours": "hrs", "good": "gd", "tomorrow": "tmrw", "okay": "k",
+    "please": "pls", "you": "u", "your": "ur", "and": "n", "are": "r", "then": "thn", "for": "4", "to": "2", "before": "b4", "minutes": "mins",
+    "seconds": "secs", "with": "w", "survey": "surv",
+    "report": "rpt", "sensor": "snsr", "sensors": "snsrs", "check": "chk", "position": "pos", "camera": "cam", "degrees": "deg", "metres": "m",
+    "picture": "pic", "pictures": "pics", "through": "thru",
+    "around": "rnd", "at": "@", "temperature": "temp", "panorama": "pano", "video": "vid", "bathymetry": "bathy", "follow": "folw",
+    "heading": "hdg", "bearing": "brg", "station": "stn", "location": "loc",
+    "without": "w/o", "because": "bc", "thermal": "therm", "speed": "spd", "distance": "dist", "minute": "min", "second": "sec", "hour": "hr",
+    "hours": "hrs", "good": "gd", "tomorrow": "tmrw", "okay": "k",
 }  # fmt: skip
 FREE_WORDS = re.compile(r"(?<![\w'-])[a-z]{4,}(?![\w'-])")
 MARK = re.compile(r"[\x00-\x1f]")

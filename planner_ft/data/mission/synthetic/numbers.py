@@ -11,9 +11,7 @@ from random import Random
 
 Number = int | float
 
-ONES = (
-    "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen nineteen"
-).split()
+ONES = ["zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen", "nineteen"]
 TENS = ("", "", "twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
 FRACTIONS = {0.5: "half", 0.25: "quarter", 0.75: "three quarters"}
 
@@ -147,9 +145,12 @@ def _say_far(rng: Random, style: Style) -> Said:
 COMMON_DURATIONS = (
     ("half an hour", "half-hour", 1800), ("a quarter of an hour", "quarter-hour", 900), ("quarter of an hour", "quarter-hour", 900),
     ("three quarters of an hour", "three-quarter-hour", 2700), ("an hour and a half", "hour-and-a-half", 5400), ("half a minute", "half-minute", 30),
-    ("a minute and a half", "minute-and-a-half", 90), ("an hour", "one-hour", 3600), ("a minute", "one-minute", 60), ("two and a half hours", "two-and-a-half-hour", 9000),
-    ("a couple of minutes", "two-minute", 120), ("one and a half hours", "one-and-a-half-hour", 5400), ("a full hour", "one-hour", 3600), ("a full minute", "one-minute", 60),
-    ("an hour and a quarter", "hour-and-a-quarter", 4500), ("half a minute", "half-minute", 30), ("three quarters of a minute", "45-second", 45), ("a half hour", "half-hour", 1800),
+    ("a minute and a half", "minute-and-a-half", 90), ("an hour", "one-hour", 3600), ("a minute", "one-minute", 60), ("two and a half hours",
+    "two-and-a-half-hour", 9000),
+    ("a couple of minutes", "two-minute", 120), ("one and a half hours", "one-and-a-half-hour", 5400), ("a full hour", "one-hour", 3600),
+    ("a full minute", "one-minute", 60),
+    ("an hour and a quarter", "hour-and-a-quarter", 4500), ("half a minute", "half-minute", 30), ("three quarters of a minute", "45-second", 45),
+    ("a half hour", "half-hour", 1800),
 )  # fmt: skip
 
 

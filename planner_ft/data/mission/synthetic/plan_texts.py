@@ -11,7 +11,8 @@ from planner_ft.data.mission.synthetic.mentions import name_of
 from planner_ft.data.mission.synthetic.positions import position_words
 
 DONE = {
-    "PerformOrbit": "circled", "ParallelStructurePass": "passed", "FeatureStare": "filmed", "GlareFreeApproach": "photographed", "ThermalHotspotLocalizer": "scanned",
+    "PerformOrbit": "circled", "ParallelStructurePass": "passed", "FeatureStare": "filmed", "GlareFreeApproach": "photographed",
+    "ThermalHotspotLocalizer": "scanned",
     "ThermalTimeLapse": "measured", "SurveyTarget": "inspected", "FollowTarget": "followed", "SubseaCableTrack": "tracked", "Transit": "approached",
 }  # fmt: skip
 BEGUN = {
@@ -151,14 +152,16 @@ def _landing(p: dict[str, Any], planned: Planned, rng: Random) -> str:
 
 
 def _bathymetry(p: dict[str, Any], planned: Planned, rng: Random) -> str:
-    size = f" over {p['width']} m by {p['length']} m" if "width" in p and "length" in p else _say(p, "width", " over a width of {} m") + _say(p, "length", " over a length of {} m")
+    size = f" over {p['width']} m by {p['length']} m" if "width" in p and "length" in p else _say(p, "width", " over a width of {} m") + _say(p,
+    "length", " over a length of {} m")
     return f"Survey the depths around {_place(planned)}{size}" + _say(p, "spacing", " with lines {} m apart") + _once_found(planned)
 
 
 def _cable(p: dict[str, Any], planned: Planned, rng: Random) -> str:
     assert planned.target is not None
     start = "where it has been found" if p["start"] == UNRESOLVED else position_words(tuple(p["start"]))
-    return f"Track {name_of(planned.target)} by sonar from {start}" + _say(p, "heading", " on a heading of {} degrees") + _say(p, "max_dist", " for at most {} m")
+    return f"Track {name_of(planned.target)} by sonar from {start}" + _say(p, "heading", " on a heading of {} degrees") + _say(p, "max_dist",
+    " for at most {} m")
 
 
 def _survey(p: dict[str, Any], planned: Planned, rng: Random) -> str:
@@ -168,15 +171,17 @@ def _survey(p: dict[str, Any], planned: Planned, rng: Random) -> str:
 def _harvest(p: dict[str, Any], planned: Planned, rng: Random) -> str:
     if "target_list" not in p:
         return "Upload the recorded data by priority"
-    items = [f"the {item}" for item in p["target_list"]]
+    items = [item if "'s " in item else f"the {item}" for item in p["target_list"]]
     return f"Upload {', then '.join(items)}"
 
 
 _PROMPTS = {
-    "Diagnostics": lambda p, planned, rng: "Run a sensor health check", "AutoGenerateReportSummary": lambda p, planned, rng: "Write a report on what was observed",
+    "Diagnostics": lambda p, planned, rng: "Run a sensor health check", "AutoGenerateReportSummary": lambda p, planned,
+    rng: "Write a report on what was observed",
     "Transit": _transit, "SearchAndDetect": _search, "FollowTarget": _follow, "PerformOrbit": _orbit, "ParallelStructurePass": _pass, "DockingApproach": _dock,
     "VisualDockingApproach": _visual_dock, "DriftAudit": _drift, "KeepStation": _keep, "HorizontalPanorama": _panorama, "ThermalHotspotLocalizer": _hotspot,
-    "FeatureStare": _stare, "GlareFreeApproach": _glare, "ThermalTimeLapse": _time_lapse, "BoatLandingClearanceSweep": _landing, "BathymetryGridSurvey": _bathymetry,
+    "FeatureStare": _stare, "GlareFreeApproach": _glare, "ThermalTimeLapse": _time_lapse, "BoatLandingClearanceSweep": _landing,
+    "BathymetryGridSurvey": _bathymetry,
     "SubseaCableTrack": _cable, "SurveyTarget": _survey, "SmartDataHarvest": _harvest,
 }  # fmt: skip
 

@@ -50,7 +50,7 @@ def position_words(position: Position) -> str:
 def say_position(position: Position, rng: Random, style: Style, *, spoken: bool = False) -> str:
     """The position in the speaker's form; `spoken` keeps to forms that can be dictated."""
     x, y = position
-    if spoken or style.spelled >= 0.6 and rng.random() < 0.6:
+    if spoken or (style.spelled >= 0.6 and rng.random() < 0.6):
         return _spoken(x, y, rng, style)
     form = style.coordinate if rng.random() < 0.9 else rng.randrange(24)
     if form < 7:
@@ -60,7 +60,8 @@ def say_position(position: Position, rng: Random, style: Style, *, spoken: bool 
     if form < 12:
         return f"({x}, {y})"
     if form < 22:
-        return WRITTEN[form - 12].format(x=x, y=y, east=_side(x, "east", "west", " "), north=_side(y, "north", "south", " "), e=_side(x, "E", "W", ""), n=_side(y, "N", "S", ""))
+        return WRITTEN[form - 12].format(x=x, y=y, east=_side(x, "east", "west", " "), north=_side(y, "north", "south", " "), e=_side(x, "E", "W",
+        ""), n=_side(y, "N", "S", ""))
     return _spoken(x, y, rng, style)
 
 

@@ -93,14 +93,16 @@ class Scene:
 
 PLACE_WEIGHTS = {
     "PerformOrbit": 17, "ParallelStructurePass": 13, "KeepStation": 10, "DriftAudit": 7, "HorizontalPanorama": 10, "ThermalHotspotLocalizer": 11,
-    "FeatureStare": 15, "GlareFreeApproach": 13, "ThermalTimeLapse": 12, "BoatLandingClearanceSweep": 10, "SurveyTarget": 17, "Transit": 6, "BathymetryGridSurvey": 2,
+    "FeatureStare": 15, "GlareFreeApproach": 13, "ThermalTimeLapse": 12, "BoatLandingClearanceSweep": 10, "SurveyTarget": 17, "Transit": 6,
+    "BathymetryGridSurvey": 2,
 }  # fmt: skip
 POINT_WEIGHTS = {
     "KeepStation": 16, "DriftAudit": 15, "HorizontalPanorama": 16, "ThermalTimeLapse": 5, "ThermalHotspotLocalizer": 5, "SurveyTarget": 8, "PerformOrbit": 7,
     "Transit": 14, "BoatLandingClearanceSweep": 7, "FeatureStare": 5, "GlareFreeApproach": 5, "ParallelStructurePass": 2,
 }  # fmt: skip
 HERE_WEIGHTS = {
-    "KeepStation": 14, "DriftAudit": 14, "HorizontalPanorama": 15, "ThermalHotspotLocalizer": 8, "ThermalTimeLapse": 9, "FeatureStare": 4, "GlareFreeApproach": 4,
+    "KeepStation": 14, "DriftAudit": 14, "HorizontalPanorama": 15, "ThermalHotspotLocalizer": 8, "ThermalTimeLapse": 9, "FeatureStare": 4,
+    "GlareFreeApproach": 4,
     "BoatLandingClearanceSweep": 8,
 }  # fmt: skip
 MOVING_WEIGHTS = {"FollowTarget": 16, "KeepStation": 9, "SurveyTarget": 4, "FeatureStare": 4, "PerformOrbit": 4, "Transit": 1, "ThermalHotspotLocalizer": 1}
@@ -230,10 +232,13 @@ def _task(rng: Random, style: Style, title: str, target: Target | None) -> Inten
 
 CONFIRMED = frozenset(("SearchAndDetect", "SurveyTarget", "PerformOrbit", "FeatureStare", "ParallelStructurePass"))
 CONFIRMS = (
-    "and confirm that it is still there", "and confirm whether it is still afloat", "and confirm it is intact", "and see whether it has moved", "and check whether it is still upright", "and confirm that it is lit", "and verify that nobody is aboard",
-    "and see if it is damaged", "and confirm it has not sunk", "and make sure it has not drifted", "and confirm that nothing is missing", "and see if anything hangs from it", "and confirm that it is the right one",
+    "and confirm that it is still there", "and confirm whether it is still afloat", "and confirm it is intact", "and see whether it has moved",
+    "and check whether it is still upright", "and confirm that it is lit", "and verify that nobody is aboard",
+    "and see if it is damaged", "and confirm it has not sunk", "and make sure it has not drifted", "and confirm that nothing is missing",
+    "and see if anything hangs from it", "and confirm that it is the right one",
 )  # fmt: skip
-PARTS = ("{} face", "{} side", "{} wall", "{} end", "hull", "deck", "roof", "waterline", "underside", "stern", "bow", "legs", "foundation", "upper half", "machinery space", "engine casing", "top", "base")
+PARTS = ("{} face", "{} side", "{} wall", "{} end", "hull", "deck", "roof", "waterline", "underside", "stern", "bow", "legs", "foundation",
+    "upper half", "machinery space", "engine casing", "top", "base")
 
 
 def _part(rng: Random, title: str, target: Target | None) -> str:
@@ -275,7 +280,8 @@ def _stop(rng: Random, style: Style, key: int, room: int) -> list[Intent]:
     return _at_target(rng, style, replace(target, doubtful=target.position is not None and rng.random() < 0.07), _titles(rng, PLACE_WEIGHTS, count))
 
 
-SHARED = ("SurveyTarget", "SurveyTarget", "PerformOrbit", "PerformOrbit", "Transit", "KeepStation", "HorizontalPanorama", "ThermalTimeLapse", "ThermalHotspotLocalizer", "DriftAudit", "BoatLandingClearanceSweep")
+SHARED = ("SurveyTarget", "SurveyTarget", "PerformOrbit", "PerformOrbit", "Transit", "KeepStation", "HorizontalPanorama", "ThermalTimeLapse",
+    "ThermalHotspotLocalizer", "DriftAudit", "BoatLandingClearanceSweep")
 
 
 def _several(rng: Random, style: Style, key: int, kind: str) -> Intent:
@@ -288,7 +294,8 @@ def _several(rng: Random, style: Style, key: int, kind: str) -> Intent:
         base = words.noun(rng)
         looks = list(dict.fromkeys(words.adjective(rng) for _ in range(count)))
         targets = [
-            Target(key + 20 * index, f"{look} {base}", draw_position(rng) if kind == "located" and rng.random() < 0.8 else None, noun=base, said_as=f"{look} one" if index else None)
+            Target(key + 20 * index, f"{look} {base}", draw_position(rng) if kind == "located" and rng.random() < 0.8 else None, noun=base,
+            said_as=f"{look} one" if index else None)
             for index, look in enumerate(looks)
         ]
     else:
@@ -302,11 +309,11 @@ def _at_target(rng: Random, style: Style, target: Target, titles: list[str]) -> 
     if "FollowTarget" in titles:
         titles = [title for title in titles if title != "FollowTarget"][:1] + ["FollowTarget"]
     for title in ("Transit", "SurveyTarget", "BathymetryGridSurvey"):
-        if title in titles and (title == "Transit" or title == "BathymetryGridSurvey" and rng.random() < 0.5):
+        if title in titles and (title == "Transit" or (title == "BathymetryGridSurvey" and rng.random() < 0.5)):
             titles = [title, *(other for other in titles if other != title)]
     if titles == ["Transit"] and rng.random() < 0.4:
         titles = ["Transit", rng.choice(tuple(POINT_WEIGHTS) if target.description is None else tuple(PLACE_WEIGHTS))]
-    if target.position is None and (rng.random() < 0.22 or len(titles) == 1 and rng.random() < 0.06):
+    if target.position is None and (rng.random() < 0.22 or (len(titles) == 1 and rng.random() < 0.06)):
         titles = ["SearchAndDetect", *titles]
         if rng.random() < 0.2:
             titles = titles[:1]
@@ -342,10 +349,12 @@ def _area(rng: Random, style: Style, key: int, count: int) -> list[Intent]:
 
 
 AREAS = (
-    "turning basin", "harbour basin", "channel", "anchorage", "dredged pocket", "sand bar", "fairway bend", "berth pocket", "river mouth", "scour hole", "spoil ground",
+    "turning basin", "harbour basin", "channel", "anchorage", "dredged pocket", "sand bar", "fairway bend", "berth pocket", "river mouth",
+    "scour hole", "spoil ground",
     "north basin", "approach channel", "mooring field", "reef edge", "lock approach", "shoal", "outer harbour", "ferry berth", "dump site",
 )  # fmt: skip
-CABLES = ("export cable", "array cable", "power cable", "telephone cable", "feeder cable", "cable", "subsea cable", "data cable", "fibre cable", "inter-array cable", "old telegraph cable")
+CABLES = ("export cable", "array cable", "power cable", "telephone cable", "feeder cable", "cable", "subsea cable", "data cable", "fibre cable",
+    "inter-array cable", "old telegraph cable")
 
 
 def _cable(rng: Random, style: Style, key: int, count: int) -> list[Intent]:
@@ -407,7 +416,9 @@ def _near(position: Position, rng: Random) -> Position:
 
 
 CORRECTIONS = (
-    ", no, make that ", ", no wait, ", ", sorry, ", ", correction, ", " - no, ", ", I mean ", ", no, scratch that, ", ", make it ", " no wait make it ", ", er, no, ",
-    ", or rather ", " - sorry, make that ", ", wait, no, ", ", strike that, ", ", no, better ", ", hang on, ", " ... no, ", ", actually ", " I mean ", " correction ", " sorry ",
+    ", no, make that ", ", no wait, ", ", sorry, ", ", correction, ", " - no, ", ", I mean ", ", no, scratch that, ", ", make it ",
+    " no wait make it ", ", er, no, ",
+    ", or rather ", " - sorry, make that ", ", wait, no, ", ", strike that, ", ", no, better ", ", hang on, ", " ... no, ", ", actually ",
+    " I mean ", " correction ", " sorry ",
     ", my mistake, ", ", wrong, ", ", no no, ", ", let's say ", " - belay that, ", ", disregard, ",
 )  # fmt: skip

@@ -98,16 +98,20 @@ def _filled(sentences: list[str], rng: Random, count: int) -> list[str]:
 
 
 LIGHT = ("er", "um", "uh", "well", "ok", "okay", "so", "right", "hmm", "alright", "uh", "um", "right then", "so um", "ok so", "well then", "uh yeah")
-MANNERS = tuple(text for text in lexicon.FILLERS if text in ("if you please", "please", "if you would", "if you can", "when you are ready", "in your own time", "nice and easy", "no rush", "for me", "for us", "if possible", "right away", "straight away", "ASAP", "as soon as you can", "pronto", "sharpish"))  # fmt: skip
+MANNERS = tuple(text for text in lexicon.FILLERS if text in ("if you please", "please", "if you would", "if you can", "when you are ready",
+"in your own time", "nice and easy", "no rush", "for me", "for us", "if possible", "right away", "straight away", "ASAP", "as soon as you can",
+"pronto", "sharpish"))  # fmt: skip
 
 
 @cache
 def _known_words() -> frozenset[str]:
-    texts = (*lexicon.TARGET_NOUNS, *lexicon.TARGET_ADJECTIVES, *lexicon.WITH_PHRASES, *lexicon.FEATURES, *lexicon.FEATURE_PHRASES, *lexicon.DOCK_SPOTS, *lexicon.DOCK_MARKS, *lexicon.DATA_ITEMS, *lexicon.MOVING_TARGETS)
+    texts = (*lexicon.TARGET_NOUNS, *lexicon.TARGET_ADJECTIVES, *lexicon.WITH_PHRASES, *lexicon.FEATURES, *lexicon.FEATURE_PHRASES,
+        *lexicon.DOCK_SPOTS, *lexicon.DOCK_MARKS, *lexicon.DATA_ITEMS, *lexicon.MOVING_TARGETS)
     return frozenset(word for text in texts for word in text.split(" "))
 
 
-NEVER = frozenset((*ONES, *TENS, *COMPASS, "hundred", "thousand", "minus", "half", "point", "port", "comma", "quarter", "inner", "outer", "upper", "lower", "left", "right", "north", "south", "east", "west"))
+NEVER = frozenset((*ONES, *TENS, *COMPASS, "hundred", "thousand", "minus", "half", "point", "port", "comma", "quarter", "inner", "outer", "upper",
+"lower", "left", "right", "north", "south", "east", "west"))
 
 
 def _protected(values: tuple[str, ...]) -> set[str]:

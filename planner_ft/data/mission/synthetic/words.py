@@ -8,18 +8,18 @@ from planner_ft.data.mission.synthetic import lexicon
 from planner_ft.data.mission.synthetic.intents import Target
 from planner_ft.data.mission.synthetic.positions import Position, draw_position
 
-ONSETS = (
-    "b c d f g h j k l m n p r s t v w z bl br ch cl cr dr fj fl fr gl gr kl kn kr pl pr qu sc sch sh sk sl sm sn sp st str sv sw th tr tw vr y"
-).split()
-NUCLEI = "a e i o u a e i o u aa ai au ea ee ei ie oa oe oo ou ui y å ø ö é".split()
-CODAS = "b ck d f g k l m n p r s t x ld lf lk lm ln lt mb mp nd ng nk nn nt rd rg rk rm rn rst rt sk ss st th tt ts".split()
-ENDINGS = ("", "", "", "a", "e", "o", "en", "er", "y", "ing", "el", "ar", "um", "is", "us", "on", "ley", "ton", "vik", "sund", "holm", "berg", "fjord", "stad", "by", "gate")
+ONSETS = ["b", "c", "d", "f", "g", "h", "j", "k", "l", "m", "n", "p", "r", "s", "t", "v", "w", "z", "bl", "br", "ch", "cl", "cr", "dr", "fj", "fl", "fr", "gl", "gr", "kl", "kn", "kr", "pl", "pr", "qu", "sc", "sch", "sh", "sk", "sl", "sm", "sn", "sp", "st", "str", "sv", "sw", "th", "tr", "tw", "vr", "y"]
+NUCLEI = ["a", "e", "i", "o", "u", "a", "e", "i", "o", "u", "a", "e", "i", "o", "u", "a", "e", "i", "o", "u", "ai", "au", "ea", "ee", "ei", "ie", "oa", "oo", "ou", "y", "å", "ø", "ö", "é"]
+CODAS = ["b", "ck", "d", "f", "g", "k", "l", "m", "n", "p", "r", "s", "t", "x", "ld", "lf", "lk", "lm", "ln", "lt", "mb", "mp", "nd", "ng", "nk", "nn", "nt", "rd", "rg", "rk", "rm", "rn", "rst", "rt", "sk", "ss", "st", "th", "tt", "ts"]
+ENDINGS = ("", "", "", "a", "e", "o", "en", "er", "y", "ing", "el", "ar", "um", "is", "us", "on", "ley", "ton", "vik", "sund", "holm", "berg",
+    "fjord", "stad", "by", "gate")
 WORD_ENDINGS = ("", "", "er", "el", "le", "ing", "ed", "y", "ish", "al", "ane", "ock", "ard", "ette", "ic", "ous", "board", "line", "head", "post", "ing")
 ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "IX")
 LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ"
 ITEMS = tuple(item for item in lexicon.DATA_ITEMS if "report" not in item and item != "summary")
 PATTERNS = tuple(pattern for pattern in lexicon.CALLSIGN_PATTERNS if not pattern.lower().startswith(("id ", "number", "contact number")))
-GREEK = ("Alpha", "Beta", "Gamma", "Delta", "Echo", "Bravo", "Charlie", "Foxtrot", "Golf", "Hotel", "Kilo", "Lima", "Mike", "November", "Oscar", "Papa", "Romeo", "Sierra", "Tango", "Victor", "Whisky", "Zulu")
+GREEK = ("Alpha", "Beta", "Gamma", "Delta", "Echo", "Bravo", "Charlie", "Foxtrot", "Golf", "Hotel", "Kilo", "Lima", "Mike", "November", "Oscar",
+    "Papa", "Romeo", "Sierra", "Tango", "Victor", "Whisky", "Zulu")
 
 
 def pseudo_word(rng: Random, endings: tuple[str, ...] = WORD_ENDINGS) -> str:
@@ -58,8 +58,7 @@ def code(rng: Random) -> str:
 
 def fill_pattern(pattern: str, rng: Random) -> str:
     """`pattern` with each # a digit and each @ a capital letter."""
-    text = "".join(rng.choice("0123456789") if mark == "#" else rng.choice(LETTERS) if mark == "@" else mark for mark in pattern)
-    return text
+    return "".join(rng.choice("0123456789") if mark == "#" else rng.choice(LETTERS) if mark == "@" else mark for mark in pattern)
 
 
 def call_sign(rng: Random) -> tuple[str, str | None]:
@@ -85,14 +84,14 @@ def _identity(rng: Random) -> str:
 def noun(rng: Random) -> str:
     """A thing on the water or ashore."""
     roll = rng.random()
-    if roll < 0.83:
+    if roll < 0.88:
         return rng.choice(lexicon.TARGET_NOUNS)
-    return pseudo_word(rng) if roll < 0.93 else f"{pseudo_word(rng)} {rng.choice(lexicon.TARGET_NOUNS).split()[-1]}"
+    return pseudo_word(rng) if roll < 0.95 else f"{pseudo_word(rng)} {rng.choice(lexicon.TARGET_NOUNS).split()[-1]}"
 
 
 def adjective(rng: Random) -> str:
     """A word that tells one thing from another."""
-    return rng.choice(lexicon.TARGET_ADJECTIVES) if rng.random() < 0.88 else pseudo_word(rng)
+    return rng.choice(lexicon.TARGET_ADJECTIVES) if rng.random() < 0.92 else pseudo_word(rng)
 
 
 def description(rng: Random, base: str) -> tuple[str, bool]:
@@ -135,7 +134,8 @@ def moving_thing(rng: Random, key: int, *, located: bool) -> Target:
     """Something that drifts or sails and can be stayed with."""
     base = rng.choice(lexicon.MOVING_TARGETS)
     text, article = (base, True) if rng.random() < 0.3 else description(rng, base.split()[-1] if rng.random() < 0.3 else base)
-    return Target(key, text, _place(rng, located), article, movable=True, noun=base.split()[-1], whereabouts="" if located or rng.random() > 0.3 else rng.choice(lexicon.WHEREABOUTS))
+    return Target(key, text, _place(rng, located), article, movable=True, noun=base.split()[-1],
+    whereabouts="" if located or rng.random() > 0.3 else rng.choice(lexicon.WHEREABOUTS))
 
 
 def _place(rng: Random, located: bool) -> Position | None:
@@ -158,7 +158,7 @@ def dock_spot(rng: Random) -> str:
 def feature(rng: Random) -> str:
     """A part of a structure that a camera can look at, without article."""
     roll = rng.random()
-    base = rng.choice(lexicon.FEATURES) if roll < 0.86 else pseudo_word(rng) if roll < 0.95 else f"{pseudo_word(rng)} {rng.choice(lexicon.FEATURES).split()[-1]}"
+    base = rng.choice(lexicon.FEATURES) if roll < 0.9 else pseudo_word(rng) if roll < 0.96 else f"{pseudo_word(rng)} {rng.choice(lexicon.FEATURES).split()[-1]}"
     if rng.random() < 0.28:
         base = f"{adjective(rng)} {base}"
     return f"{base} {rng.choice(lexicon.FEATURE_PHRASES)}" if rng.random() < 0.13 else base
