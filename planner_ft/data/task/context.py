@@ -96,9 +96,12 @@ class Context:
         elif name == self.entry.phrases_for and rng.random() < 0.6:
             templates = [template for template in self.entry.phrases if template.fits(given)] or templates
         if entry.repeats and rng.random() < REPEATED and self.book.sentences.get("repeat"):
-            return Call(name, parameters, Saying(templates, slots, " " + self._repeat()))
-        after_with = entry.fitting(given, after_with=True)
-        return Call(name, parameters, Saying(templates, slots), Saying(after_with, slots) if after_with else None)
+            return Call(name, parameters, Saying(templates, slots, suffix=" " + self._repeat()))
+        after_with, nouns = entry.after_with(given), entry.nouns(given)
+        return Call(
+            name, parameters, Saying(templates, slots),
+            Saying(after_with, slots) if after_with else None, Saying(nouns, slots) if nouns else None,
+        )  # fmt: skip
 
     def _repeat(self) -> str:
         phrases = self.book.sentences["repeat"]

@@ -37,4 +37,4 @@ def main_movement(context: Context) -> Movement:
             break
         roll -= share
     names = context.task.skills["navigation"]
-    return simple(context, names[int(rng.random() ** 1.4 * len(names))])
+    return simple(context, names[int(rng.random() ** 1.8 * len(names))])

@@ -7,14 +7,15 @@ from __future__ import annotations
 
 import random
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from planner_ft.data.task.numbers import Value
 from planner_ft.data.task.template import Form, Template, compile_template, mark
 from planner_ft.data.task.values import Draw, number_space, value_space
-from planner_ft.data.task.words import Lexicon
+from planner_ft.data.task.words import FALLBACK, MADE_UP, Lexicon
+from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.definition import ROLES, Parameter, Role, Skill, Task, Vocabulary
 
 Given = frozenset[str]
@@ -63,11 +64,12 @@ class Saying:
 
     templates: Sequence[Template]
     slots: Slots
+    prefix: str = ""
     suffix: str = ""
 
     def render(self, rng: random.Random, form: Form = "base") -> str:
         """One wording."""
-        return self.templates[int(rng.random() * len(self.templates))].render(self.slots, rng, form) + self.suffix
+        return self.prefix + self.templates[int(rng.random() * len(self.templates))].render(self.slots, rng, form) + self.suffix
 
 
 @dataclass
@@ -78,6 +80,7 @@ class Call:
     parameters: dict[str, Any]
     saying: Saying
     with_saying: Saying | None = None
+    noun_saying: Saying | None = None
     order: int = field(default=0)
 
 
@@ -95,15 +98,26 @@ class SkillEntry:
         new = [compile_template(text) for text in config.get("unseen", [])] if unseen else []
         self._layers = [layer for layer in (new, seen, [compile_template(text) for text in fallback]) if layer]
         self._with = [compile_template(text) for text in config.get("with", [])]
+        self._nouns = [] if unseen else [compile_template(text) for text in config.get("nouns", [])]
         self.during = [compile_template(text) for text in config.get("during", [])]
         self.repeats = bool(config.get("repeats"))
-        self._cache: dict[tuple[Given, bool], list[Template]] = {}
+        self._cache: dict[tuple[Given, str], list[Template]] = {}
 
-    def fitting(self, given: Given, *, after_with: bool = False) -> list[Template]:
-        """Phrases that say exactly `given`; never empty except for those after "with"."""
-        key = (given, after_with)
+    def fitting(self, given: Given) -> list[Template]:
+        """Phrases that say exactly `given`; never empty."""
+        return self._fitting(given, "phrases", self._layers)
+
+    def after_with(self, given: Given) -> list[Template]:
+        """What stands after "with"; empty if nothing says exactly `given`."""
+        return self._fitting(given, "with", [self._with])
+
+    def nouns(self, given: Given) -> list[Template]:
+        """What stands after "log"; empty if nothing says exactly `given`."""
+        return self._fitting(given, "nouns", [self._nouns])
+
+    def _fitting(self, given: Given, kind: str, layers: list[list[Template]]) -> list[Template]:
+        key = (given, kind)
         if key not in self._cache:
-            layers = [self._with] if after_with else self._layers
             found: list[Template] = next((fits for layer in layers if (fits := [t for t in layer if t.fits(given)])), [])
             self._cache[key] = found
         return self._cache[key]
@@ -122,6 +136,7 @@ class Phrasebook:
     def __init__(self, vocabulary: Vocabulary, *, unseen: bool) -> None:
         self.vocabulary, self.unseen = vocabulary, unseen
         self.raw = vocabulary.phrases
+        _check_phrases(vocabulary)
         self.lexicon = Lexicon(self.raw.get("words", {}))
         configs = self.raw.get("skill", {})
         self.skills = {skill.name: SkillEntry(skill, configs.get(skill.name, {}), self.lexicon, unseen=unseen) for skill in vocabulary.skills}
@@ -177,6 +192,34 @@ class TaskEntry:
         self.openers: list[str] = config.get("openers", [])
         self.unresolved = [compile_template(text) for text in config.get("unresolved", [])]
         self.goto_phrases = [compile_template(text) for text in config.get("pattern_phrases", {}).get("goto", [])]
+
+
+def _check_phrases(vocabulary: Vocabulary) -> None:
+    """Raise PlannerError for a phrase that does not parse or names a word list that is not there."""
+    raw = vocabulary.phrases
+    known = {*raw.get("words", {}), *raw.get("decor", {}), *FALLBACK, *MADE_UP, *(name for task in vocabulary.tasks for name in task.by_name), "step"}
+    for section in ("skill", "task", "pattern", "sentence"):
+        for phrase in _phrases(raw.get(section, {})):
+            try:
+                compile_template(phrase.replace("{}", ""))
+            except ValueError as error:
+                raise PlannerError(f"vocabulary {vocabulary.source}: phrase file, [{section}]: {error}") from None
+            for name in re.findall(r"\{_([a-z_]+)\}", phrase):
+                if name not in known:
+                    raise PlannerError(f"vocabulary {vocabulary.source}: phrase {phrase!r} names the word list {name!r}; add it to [words] or [decor]")
+
+
+def _phrases(value: Any) -> Iterator[str]:
+    """All phrases in a section of the phrase file; settings of values, links and the like are passed over."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, list):
+        for item in value:
+            yield from _phrases(item)
+    elif isinstance(value, dict):
+        for key, item in value.items():
+            if key not in ("values", "links", "often", "stated", "phrases_for", "lead_skill", "openers"):
+                yield from _phrases(item)
 
 
 def _verbs(phrases: Any) -> set[str]:

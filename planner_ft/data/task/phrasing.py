@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 from planner_ft.data.task.movements import Movement
 from planner_ft.data.task.phrasebook import Call, Phrasebook
-from planner_ft.data.task.template import Form
+from planner_ft.data.task.template import Form, compile_template
 
 
 @dataclass
@@ -50,7 +50,22 @@ class Speaker:
 
     def calls(self, calls: list[Call], form: Form = "base") -> str:
         """Several skills, joined: "record the sonar, log the depth and take a fix"."""
-        return join([self.call(call, form) for call in calls], self.pick(" and ", " and ", ", and "))
+        return join(self.parts(calls, form), self.pick(" and ", " and ", ", and "))
+
+    def parts(self, calls: list[Call], form: Form = "base") -> list[str]:
+        """Each skill in words, those that can be logged now and then together: "log the depth and the position"."""
+        logged = [call for call in calls if call.noun_saying is not None]
+        verbs = self.book.sentences.get("log")
+        if len(logged) < 2 or not verbs or self.chance(0.55):
+            return [self.call(call, form) for call in calls]
+        words = []
+        for call in logged:
+            self._mention(call)
+            assert call.noun_saying is not None
+            words.append(call.noun_saying.render(self.rng))
+        verb = compile_template(self.pick(*verbs)).render({}, self.rng, form)
+        rest = [self.call(call, form) for call in calls if call.noun_saying is None]
+        return [f"{verb} {join(words, ' and ')}", *rest] if self.chance(0.5) or not rest else [*rest, f"{verb} {join(words, ' and ')}"]
 
     def with_words(self, calls: list[Call]) -> str:
         """What stands after "with"; every call must have such words."""
@@ -127,7 +142,7 @@ def move_while(say: Speaker, movement: Movement, filters: list[Call], perception
 def move_and(say: Speaker, movement: Movement, filters: list[Call], perceptions: list[Call]) -> str:
     """Hold for 60 s and record the sonar."""
     head = _head(say, filters) if say.chance(0.4) else ""
-    parts = [say.move(movement)] + [say.call(call) for call in perceptions]
+    parts = [say.move(movement), *say.parts(perceptions)]
     return _finish(head, join(parts, say.pick(" and ", " and ", ", and ")), "" if head else _tail(say, filters))
 
 

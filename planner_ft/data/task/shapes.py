@@ -18,6 +18,9 @@ def waypoints(context: Context) -> Movement | None:
     """Two to six stated places, one after the other."""
     rng, slots = context.rng, context.slots()
     points = [draw_point(rng) for _ in range(2 + int(rng.random() ** 1.6 * 5))]
+    if rng.random() < 0.1 and len(points) < 4:
+        slots.put("points", Value(None, ", then ".join(position(point, rng).text for point in points)))
+        return in_pattern(context, "waypoints", points, slots)
     said = [position(point, rng).short or "" for point in points]
     joint = rng.choice((" and ", ", ", " and then ", ", and then "))
     if rng.random() < 0.7 or len(points) > 3:
@@ -98,6 +101,10 @@ def lawnmower(context: Context) -> Movement | None:
         steps = go_to(context, g.lawnmower(center, width, along, spacing, corner, axis))
         return Movement("lawnmower", steps, Saying(templates, slots)) if steps else None
     center = take(context, slots, "lawnmower", "center", any_position(context))
+    if not context.linked("lawnmower.spacing") and rng.random() < 0.5 and context.book.pattern("lawnmower", context.task.title):
+        lanes = g.lane_count(width, spacing) if axis == "y" else g.lane_count(along, spacing)
+        slots.put("lanes", Value(lanes, count_text(lanes or 0, rng)))
+        sizes.pop("spacing")
     for name, size in sizes.items():
         take(context, slots, "lawnmower", name, lambda size=size: length(size, rng))  # type: ignore[misc]
     slots.put_words("how", how)
@@ -111,6 +118,7 @@ def _grid_how(context: Context, along: float, spacing: float) -> tuple[g.Corner,
     if rng.random() < 0.25:
         corner = g.CORNERS[int(rng.random() * 4)]
         slots.put_words("corner", corner)
+        slots["_step"] = "west" if "east" in corner else "east"
     if rng.random() < 0.25:
         axis = "x" if g.lane_count(along, spacing) and rng.random() < 0.8 else "y"
         slots.put_words("axis", rng.choice((axis, f"the {axis} axis")))

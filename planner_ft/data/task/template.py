@@ -94,6 +94,8 @@ def _branches(tokens: list[str], position: int) -> tuple[int, list[tuple[Node, .
             position, inner = _branches(tokens, position + 1)
             if position >= len(tokens) or tokens[position] != {"(": ")", "[": "]"}[token]:
                 raise ValueError(f"phrase {''.join(tokens)!r}: unbalanced brackets")
+            if len({frozenset(_slots(branch, [])) for branch in inner}) > 1:
+                raise ValueError(f"phrase {''.join(tokens)!r}: all alternatives must say the same slots; write an optional part instead")
             if token == "[" and len(inner) > 1:
                 raise ValueError(f"phrase {''.join(tokens)!r}: alternatives in an optional part need brackets of their own")
             nodes.append(("choice", tuple(inner)) if token == "(" else ("optional", (frozenset(_slots(inner[0], [])), inner[0])))

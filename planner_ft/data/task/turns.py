@@ -27,7 +27,8 @@ def headings(context: Context) -> Movement | None:
         degrees = g.sector_headings(count, rng.choice((0, 0, 45, 90)), clockwise=rng.random() < 0.8)
     words = all(value % 45 == 0 for value in degrees) and rng.random() < 0.6
     said = [COMPASS[int(value)] if words else f"{int(value):03d}" if count % 2 and isinstance(value, int) else digits(value) for value in degrees]
-    slots.put("headings", Value(None, ", ".join(said[:-1]) + rng.choice((" and ", " and then ")) + said[-1]))
+    listed = ", then ".join(said) if rng.random() < 0.25 else ", ".join(said[:-1]) + rng.choice((" and ", " and then ")) + said[-1]
+    slots.put("headings", Value(None, listed))
     return in_turns(context, [(name, {key: value}) for value in degrees], "headings", slots, "headings")
 
 

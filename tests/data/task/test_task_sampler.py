@@ -122,3 +122,23 @@ def test_refused_skills_are_not_planned():
     record = label(r"Do not film\b")
     steps = record["expected"]["skill_sequence"]
     assert "SetStreamRecording" not in {skill["name"] for step in steps for skill in step["perception_skills"]}
+
+
+def test_a_referred_grid_is_computed_from_the_task_parameters():
+    default = r"^(?!.*(corner|axis|along|running|lanes (x|y|east|north)))(Survey|Mow|Cover|Run) the (planned |given )(survey )?(area|grid)\b[^.]*\.$"
+    record = label(default)
+    given = record["parameters"]
+    first = navigation(record)[0]["parameters"]
+    assert first == {"x": pytest.approx(given["center"][0] - given["width"] / 2), "y": pytest.approx(given["center"][1] - given["length"] / 2)}
+    assert len(navigation(record)) == 2 * round(given["width"] / given["spacing"] + 1)
+
+
+@pytest.mark.parametrize(
+    ("phrase", "message"),
+    [("~go (to {xy}", "unbalanced"), ("~go (to {xy}|there)", "same slots"), ("~go to the {_castle}", "castle")],
+)
+def test_a_bad_phrase_is_named(tmp_path, phrase, message):
+    (tmp_path / "rover.toml").write_text((BUNDLED / "inspection_drone.toml").read_text())
+    (tmp_path / "rover.phrases.toml").write_text(f'[skill.FlyToXY]\nphrases = ["{phrase}"]\n')
+    with pytest.raises(PlannerError, match=message):
+        next(sample_tasks(load_vocabulary(str(tmp_path / "rover.toml")), 0, 1, "train"))
