@@ -125,7 +125,7 @@ def test_refused_skills_are_not_planned():
 
 
 def test_a_referred_grid_is_computed_from_the_task_parameters():
-    default = r"^(?!.*(corner|axis|along|running|lanes (x|y|east|north)))(Survey|Mow|Cover|Run) the (planned |given )(survey )?(area|grid)\b[^.]*\.$"
+    default = r"^(?!.*(corner|axis|along|running|lanes (x|y|east|north)|then|before))(Survey|Mow|Cover|Run) the (planned |given )(survey )?(area|grid)\b[^.,;]*\.$"
     record = label(default)
     given = record["parameters"]
     first = navigation(record)[0]["parameters"]
