@@ -125,8 +125,8 @@ def test_refused_skills_are_not_planned():
 
 
 def test_a_referred_grid_is_computed_from_the_task_parameters():
-    default = r"^(?!.*(corner|axis|along|running|lanes (x|y|east|north)|then|before))(Survey|Mow|Cover|Run) the (planned |given )(survey )?(area|grid)\b[^.,;]*\.$"
-    record = label(default)
+    unaltered = r"^(?!.*(corner|axis|along|running|lanes (x|y|east|north)|then|before))"
+    record = label(unaltered + r"(Survey|Mow|Cover|Run) the (planned |given )(survey )?(area|grid)\b[^.,;]*\.$")
     given = record["parameters"]
     first = navigation(record)[0]["parameters"]
     assert first == {"x": pytest.approx(given["center"][0] - given["width"] / 2), "y": pytest.approx(given["center"][1] - given["length"] / 2)}
