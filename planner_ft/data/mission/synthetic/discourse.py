@@ -62,8 +62,10 @@ def several_sentences(teller: Teller, intents: Sequence[Intent]) -> Sentences:
         if index == 0 and size == len(intents) > 1:
             size -= 1
         mood: Mood = "np" if rng.random() < 0.2 else "imp"
-        text = joined([teller.tell(intent, mood) for intent in intents[index : index + size]], rng) if mood == "imp" else ", ".join(
-            teller.tell(intent, mood) for intent in intents[index : index + size]
+        text = (
+            joined([teller.tell(intent, mood) for intent in intents[index : index + size]], rng)
+            if mood == "imp"
+            else ", ".join(teller.tell(intent, mood) for intent in intents[index : index + size])
         )
         sentences.append(_placed(text, mood, index, index + size == len(intents), rng))
         index += size
@@ -157,11 +159,22 @@ def last_first(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     mood: Mood = "imp" if rng.random() < 0.6 else "np"
     said = [teller.tell(intent, mood, explicit=True) for intent in reversed(intents)]
     if mood == "np":
-        opening, middle, final = rng.choice((("the last thing is", "before that comes", "and first of all"), ("at the end I want",
-        "ahead of that", "and at the very start"), ("last comes", "before it", "first comes")))
+        opening, middle, final = rng.choice(
+            (
+                ("the last thing is", "before that comes", "and first of all"),
+                ("at the end I want", "ahead of that", "and at the very start"),
+                ("last comes", "before it", "first comes"),
+            )
+        )
     else:
-        opening, middle, final = rng.choice((("in the end", "before that", "and first of all"), ("finally", "before that", "but first"),
-        ("to finish", "before that", "but to start with"), ("the last thing to do is to", "before that", "and first")))
+        opening, middle, final = rng.choice(
+            (
+                ("in the end", "before that", "and first of all"),
+                ("finally", "before that", "but first"),
+                ("to finish", "before that", "but to start with"),
+                ("the last thing to do is to", "before that", "and first"),
+            )
+        )
     return [f"{opening} {said[0]}", *(f"{middle} {text}" for text in said[1:-1]), f"{final} {said[-1]}"]
 
 
@@ -202,7 +215,9 @@ def _introduced(teller: Teller, target: Target, intents: Sequence[Intent]) -> Se
     rng = teller.rng
     text = teller.introduce(target)
     plain = text.startswith("the ") and not any(mark.isupper() for mark in (target.description or ""))
-    opening = rng.choice(frames.INTROS_INDEFINITE).format(indefinite(text[4:])) if plain and rng.random() < 0.75 else rng.choice(frames.INTROS_DEFINITE).format(text)
+    opening = (
+        rng.choice(frames.INTROS_INDEFINITE).format(indefinite(text[4:])) if plain and rng.random() < 0.75 else rng.choice(frames.INTROS_DEFINITE).format(text)
+    )
     rest = one_sentence(teller, intents) if rng.random() < 0.5 or len(intents) == 1 else several_sentences(teller, intents)
     return [opening.rstrip(","), *rest]
 
@@ -230,8 +245,19 @@ def _capital(text: str) -> str:
 def questions(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     """Polite questions, one after the other."""
     rng = teller.rng
-    asks = ("can you {}?", "could you {}?", "would you {}?", "could you please {}?", "can the boat {}?", "is it possible to {}?", "could we {}?",
-        "might you {}?", "can we {}?", "would it be possible to {}?", "could someone {}?")
+    asks = (
+        "can you {}?",
+        "could you {}?",
+        "would you {}?",
+        "could you please {}?",
+        "can the boat {}?",
+        "is it possible to {}?",
+        "could we {}?",
+        "might you {}?",
+        "can we {}?",
+        "would it be possible to {}?",
+        "could someone {}?",
+    )
     cut = rng.randint(1, len(intents))
     sentences = [rng.choice(asks).format(chained(teller, intents[:cut]))]
     if cut < len(intents):

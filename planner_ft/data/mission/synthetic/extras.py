@@ -57,12 +57,49 @@ def exclusion(rng: Random, planned: set[str], *, home: bool) -> Extra | None:
     return Extra(rng.choice(EXCLUSIONS).replace("{}", thing), constraint)
 
 
-LEFT_OUT = ("leave the {} out of it", "skip the {}", "ignore the {}", "not the {}", "the {} is not part of this", "leave the {} for another day",
-    "forget about the {}", "never mind the {}", "the {} can wait", "don't bother with the {}", "leave the {} alone")
-TIMES = ("14:00", "noon", "sunset", "dark", "1630", "three o'clock", "high water", "the tide turns", "the ferry comes in", "the end of the shift",
-    "five", "09:45", "the fog comes in", "the crew change", "dawn", "tonight")
-CONDITIONS = ("the wind stays down", "the visibility holds", "the swell stays under a metre", "the battery allows it", "the channel is clear",
-    "nobody is in the water", "it stays dry", "the light is good enough", "the traffic allows it", "the link is up")
+LEFT_OUT = (
+    "leave the {} out of it",
+    "skip the {}",
+    "ignore the {}",
+    "not the {}",
+    "the {} is not part of this",
+    "leave the {} for another day",
+    "forget about the {}",
+    "never mind the {}",
+    "the {} can wait",
+    "don't bother with the {}",
+    "leave the {} alone",
+)
+TIMES = (
+    "14:00",
+    "noon",
+    "sunset",
+    "dark",
+    "1630",
+    "three o'clock",
+    "high water",
+    "the tide turns",
+    "the ferry comes in",
+    "the end of the shift",
+    "five",
+    "09:45",
+    "the fog comes in",
+    "the crew change",
+    "dawn",
+    "tonight",
+)
+CONDITIONS = (
+    "the wind stays down",
+    "the visibility holds",
+    "the swell stays under a metre",
+    "the battery allows it",
+    "the channel is clear",
+    "nobody is in the water",
+    "it stays dry",
+    "the light is good enough",
+    "the traffic allows it",
+    "the link is up",
+)
 
 
 def left_out(rng: Random, description: str) -> Extra:
@@ -76,12 +113,15 @@ def deadline(rng: Random) -> Extra:
         word, time = rng.choice(("by", "before")), rng.choice(TIMES)
         if word == "by" and " " in time and time.split(" ")[-1] in ("turns", "in"):
             word = "before"
-        text = rng.choice(("be done {}", "all of it {}", "it has to be finished {}", "have it done {}", "this must be done {}",
-        "we need it {}")).format(f"{word} {time}")
+        text = rng.choice(("be done {}", "all of it {}", "it has to be finished {}", "have it done {}", "this must be done {}", "we need it {}")).format(
+            f"{word} {time}"
+        )
         return Extra(text, f"The mission must be finished {word} {time}.")
     condition = rng.choice(CONDITIONS)
-    return Extra(rng.choice(("only if {}", "as long as {}", "provided {}", "if {}", "but only while {}", "given that {}")).format(condition),
-    f"The mission is carried out only if {condition}.")
+    return Extra(
+        rng.choice(("only if {}", "as long as {}", "provided {}", "if {}", "but only while {}", "given that {}")).format(condition),
+        f"The mission is carried out only if {condition}.",
+    )
 
 
 def no_thing(rng: Random, planned: set[str]) -> Extra | None:

@@ -44,12 +44,44 @@ NEXT = (
     "then you can {}", "on completion {}", "upon completion, {}", "{} when you're through", "and when you're finished, {}",
     "then, {}", "{}", "{}", "{}", "{}",
 )  # fmt: skip
-NEXT_NOUN = ("then {}", "after that {}", "followed by {}", "next {}", "and after that {}", "then I need {}", "after that we'd like {}",
-    "then give me {}", "{} after that", "plus {} afterwards", "and finally {}", "{}")
-LAST = ("finally, {}", "finally {}", "lastly, {}", "last of all {}", "to finish, {}", "and last, {}", "to wrap up, {}", "at the end, {}",
-    "to end with, {}", "and finally {}")
-FIRST = ("first, {}", "first {}", "first of all, {}", "to begin with, {}", "start with this: {}", "to start, {}", "for starters {}",
-    "first up, {}", "first off, {}", "firstly, {}")
+NEXT_NOUN = (
+    "then {}",
+    "after that {}",
+    "followed by {}",
+    "next {}",
+    "and after that {}",
+    "then I need {}",
+    "after that we'd like {}",
+    "then give me {}",
+    "{} after that",
+    "plus {} afterwards",
+    "and finally {}",
+    "{}",
+)
+LAST = (
+    "finally, {}",
+    "finally {}",
+    "lastly, {}",
+    "last of all {}",
+    "to finish, {}",
+    "and last, {}",
+    "to wrap up, {}",
+    "at the end, {}",
+    "to end with, {}",
+    "and finally {}",
+)
+FIRST = (
+    "first, {}",
+    "first {}",
+    "first of all, {}",
+    "to begin with, {}",
+    "start with this: {}",
+    "to start, {}",
+    "for starters {}",
+    "first up, {}",
+    "first off, {}",
+    "firstly, {}",
+)
 
 BUT_FIRST = (
     "{late}, but first {early}", "{late}, but {early} first", "{late} but before that {early}", "{late}, but before you do that, {early}",
@@ -68,18 +100,60 @@ AFTER_GERUND = (
     "{late} when you are done {early}", "after {early} {late}", "having finished {early}, {late}", "as soon as you're through {early}, {late}",
     "{late} as soon as you are done {early}", "following {early}, {late}",
 )  # fmt: skip
-BEFORE_GERUND = ("before {late}, {early}", "{early} before {late}", "prior to {late}, {early}", "ahead of {late}, {early}",
-    "{early} prior to {late}", "before {late} {early}")
-AFTER_NOUN = ("after {early}, {late}", "{late} after {early}", "{early} first, then {late}", "once {early} is done, {late}",
-    "when {early} is finished, {late}", "as soon as {early} is finished, {late}", "with {early} done, {late}", "{late}, but only after {early}")
+BEFORE_GERUND = (
+    "before {late}, {early}",
+    "{early} before {late}",
+    "prior to {late}, {early}",
+    "ahead of {late}, {early}",
+    "{early} prior to {late}",
+    "before {late} {early}",
+)
+AFTER_NOUN = (
+    "after {early}, {late}",
+    "{late} after {early}",
+    "{early} first, then {late}",
+    "once {early} is done, {late}",
+    "when {early} is finished, {late}",
+    "as soon as {early} is finished, {late}",
+    "with {early} done, {late}",
+    "{late}, but only after {early}",
+)
 
-TWO = ("{} and {}", "{} and then {}", "{}, then {}", "{} then {}", "{}, and then {}", "{}, and {}", "{}, after that {}", "{} before you {}",
-    "{}, and after that {}", "{}, followed by this: {}", "{} and afterwards {}", "{}; then {}", "{}, and once that's done {}")
+TWO = (
+    "{} and {}",
+    "{} and then {}",
+    "{}, then {}",
+    "{} then {}",
+    "{}, and then {}",
+    "{}, and {}",
+    "{}, after that {}",
+    "{} before you {}",
+    "{}, and after that {}",
+    "{}, followed by this: {}",
+    "{} and afterwards {}",
+    "{}; then {}",
+    "{}, and once that's done {}",
+)
 MANY = (", ", ", then ", ", ", "; ", " and then ", ", and then ", ", after that ", ", next ", " then ")
 LAST_JOINT = (" and ", ", and ", ", then ", " and then ", ", and then ", ", and finally ", " and finally ", ", after that ", ", and last ")
 
-STATIONS = ("control", "harbour control", "base", "pilot station", "ops", "the bridge", "coastguard", "port control", "shore", "operations",
-    "mother ship", "station", "watch officer", "VTS", "dispatch")
+STATIONS = (
+    "control",
+    "harbour control",
+    "base",
+    "pilot station",
+    "ops",
+    "the bridge",
+    "coastguard",
+    "port control",
+    "shore",
+    "operations",
+    "mother ship",
+    "station",
+    "watch officer",
+    "VTS",
+    "dispatch",
+)
 RADIO = (
     "{boat}, this is {station}, {text}, over", "{boat}, {station}. {text}. Over", "{boat}, {station}: {text}. Over",
     "{boat} {boat}, this is {station}. {text}. How copy? Over", "{station} to {boat}, {text}, over",
@@ -93,10 +167,34 @@ INTROS_INDEFINITE = (
     "there's {}", "there is {}", "we've got {}", "we have {}", "I've got {}", "there should be {}", "you'll find {}", "the client has {}",
     "we have here {}", "somebody reported {}", "they reported {}", "there is supposed to be {}", "I can see {}",
 )  # fmt: skip
-INTROS_DEFINITE = ("this is about {}", "it's about {}", "your target is {}", "the target is {}", "today's target: {}", "next on the list is {}",
-    "we're worried about {}", "the office is asking about {}", "I have a job for you at {}", "you know {}", "remember {}?")
-WHERE_FIRST = ("at {}, {}", "at {} {}", "beside {}, {}", "over at {}, {}", "next to {}, {}", "when you get to {}, {}", "once you're at {}, {}",
-    "on arrival at {}, {}", "by {}, {}", "near {}, {}", "close to {}, {}", "at {}: {}", "off {}, {}")
+INTROS_DEFINITE = (
+    "this is about {}",
+    "it's about {}",
+    "your target is {}",
+    "the target is {}",
+    "today's target: {}",
+    "next on the list is {}",
+    "we're worried about {}",
+    "the office is asking about {}",
+    "I have a job for you at {}",
+    "you know {}",
+    "remember {}?",
+)
+WHERE_FIRST = (
+    "at {}, {}",
+    "at {} {}",
+    "beside {}, {}",
+    "over at {}, {}",
+    "next to {}, {}",
+    "when you get to {}, {}",
+    "once you're at {}, {}",
+    "on arrival at {}, {}",
+    "by {}, {}",
+    "near {}, {}",
+    "close to {}, {}",
+    "at {}: {}",
+    "off {}, {}",
+)
 COLON_FIRST = ("{}: {}", "{} - {}", "{}. {}", "target {}: {}", "re {}: {}", "about {}: {}", "for {}: {}", "{}, {}")
 
 PURPOSES = (
@@ -110,6 +208,38 @@ PURPOSES = (
 QUESTIONS = (
     "Confirm you have understood", "Is that clear?", "Can you do that?", "Please confirm", "Acknowledge", "Copy?", "All clear?",
     "Let me know if you can't", "Tell me if anything's unclear", "Got that?", "Understood?", "Can you manage?",
+)  # fmt: skip
+HEADINGS = (
+    "job {n}: {text}", "ref {n}: {text}", "{n}: {text}", "ticket {n}. {text}", "request {n}: {text}", "day {n}: {text}",
+    "item {n} on the list: {text}", "log {n}: {text}",
+    "run {n}, {text}", "order no. {n}: {text}", "[{n}] {text}", "message {n}: {text}", "exercise {n}: {text}", "shift note {n}: {text}",
+)  # fmt: skip
+LETTERS = (
+    ("hi {name}", "{bye}, {me}"), ("hello {name}", "{bye}, {me}"), ("dear {name}", "{bye}, {me}"), ("{name}", "{me}"), ("hi all", "{bye}, {me}"),
+    ("morning {name}", "{bye}"),
+    ("hey {name}", "{me}"), ("good evening {name}", "{bye}, {me}"), ("dear colleagues", "{bye}, {me}"), ("hi team", "{bye} from {me}"),
+    ("to whoever is on watch", "{bye}, {me}"),
+)  # fmt: skip
+BYES = (
+    "regards",
+    "best regards",
+    "thanks",
+    "cheers",
+    "many thanks",
+    "best",
+    "yours",
+    "kind regards",
+    "greetings",
+    "thank you",
+    "all the best",
+    "best wishes",
+    "see you tomorrow",
+)
+RULED_OUT_FIRST = (
+    "don't {wrong}, {right}", "no need to {wrong}, {right} instead", "don't {wrong} but {right}", "I don't want you to {wrong}, just {right}",
+    "you don't have to {wrong}, {right} instead",
+    "rather than {ger}, {right}", "instead of {ger}, {right}", "{right} instead of {ger}", "{right}, but don't {wrong}",
+    "{right} rather than {ger}", "forget {ger}, {right}",
 )  # fmt: skip
 ON_SITE = (
     "you're already at {}", "you are at {} now", "you're lying at {} already", "she's already at {}", "the boat is lying beside {}",

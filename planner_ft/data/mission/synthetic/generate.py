@@ -9,11 +9,12 @@ from typing import Any
 
 from planner_ft.data.mission.synthetic import discourse, extras, frames, lexicon, words
 from planner_ft.data.mission.synthetic.clauses import Teller
+from planner_ft.data.mission.synthetic.corrections import Scene
 from planner_ft.data.mission.synthetic.intents import Intent
 from planner_ft.data.mission.synthetic.labeller import Planned, label
 from planner_ft.data.mission.synthetic.numbers import Style, draw_style
 from planner_ft.data.mission.synthetic.plan_texts import assumptions, constraints, task_prompt
-from planner_ft.data.mission.synthetic.scene import Scene, draw_scene
+from planner_ft.data.mission.synthetic.scene import draw_scene
 from planner_ft.data.mission.synthetic.surface import Register, finished
 
 Record = dict[str, Any]
@@ -55,7 +56,7 @@ def draw_mission(rng: Random, name: str) -> Record:
         "assumptions": assumptions(plan),
         "constraints": [*constraints(plan), *limits],
     }
-    prompt = finished(sentences, rng, register, _values(scene))
+    prompt = finished(_addressed(rng, sentences, form), rng, register, _values(scene))
     return {"id": name, "family": f"synthetic-{form}", "prompt": prompt, "expected": expected, "tags": []}
 
 
@@ -121,6 +122,26 @@ def _with_extras(rng: Random, style: Style, sentences: list[str], intents: tuple
     return told
 
 
+def _addressed(rng: Random, sentences: list[str], form: str) -> list[str]:
+    """Now and then a letter with greeting and name, or a numbered entry of a log."""
+    roll = rng.random()
+    if form == "radio" or roll > 0.05:
+        return sentences
+    if roll < 0.018:
+        number = rng.choice(
+            (
+                str(rng.randint(1, 999)),
+                f"{rng.randint(0, 23):02d}{rng.randint(0, 59):02d}",
+                f"{rng.randint(1, 40)}/{rng.randint(1, 12)}",
+                f"{rng.randint(0, 23)}:{rng.randint(0, 59):02d}",
+            )
+        )
+        return [rng.choice(frames.HEADINGS).format(n=number, text=sentences[0]), *sentences[1:]]
+    greeting, bye = rng.choice(frames.LETTERS)
+    names = {"name": words.person(rng), "me": words.person(rng), "bye": rng.choice(frames.BYES)}
+    return [f"{greeting.format(**names)}, {sentences[0]}", *sentences[1:], bye.format(**names)]
+
+
 def _put(rng: Random, sentences: list[str], text: str, *, last: bool = False) -> list[str]:
     """The extra clause at the end, at the start or joined to the last sentence."""
     roll = rng.random()
@@ -149,5 +170,10 @@ def _empty(rng: Random, style: Style, name: str) -> Record:
         sentences = [*(sentence.rstrip(".") for sentence in rng.sample(lexicon.SMALL_TALK, 1)), *sentences]
     register = Register.draw(rng, "sentences")
     prompt = finished(sentences, rng, register, ())
-    return {"id": name, "family": f"synthetic-{kind}", "prompt": prompt, "expected": {"tasks": [], "assumptions": [], "constraints": reasons},
-    "tags": ["rule.empty"]}
+    return {
+        "id": name,
+        "family": f"synthetic-{kind}",
+        "prompt": prompt,
+        "expected": {"tasks": [], "assumptions": [], "constraints": reasons},
+        "tags": ["rule.empty"],
+    }

@@ -29,5 +29,11 @@ PAIRS = (
     "{a} first and {b} after", "{a} followed by {b}", "{a}, {b}", "{a} and after that {b}", "first {a}, then {b}",
     "{a} with priority and then {b}", "{a} and {b}, in that order",
 )  # fmt: skip
-BACKWARDS = ("{b}, but {a} first", "{b} after {a}", "{b}, but {a} ahead of that", "{b}, but before that {a}", "{b} - no, {a} first, then {b}",
-    "{a} and {b}, most urgent first")
+BACKWARDS = (
+    "{b}, but {a} first",
+    "{b} after {a}",
+    "{b}, but {a} ahead of that",
+    "{b}, but before that {a}",
+    "{b} - no, {a} first, then {b}",
+    "{a} and {b}, most urgent first",
+)

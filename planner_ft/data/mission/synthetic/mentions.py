@@ -33,7 +33,11 @@ def full_mention(target: Target, rng: Random, style: Style, *, clipped: bool = F
     place = wrong + say_position(target.position, rng, style, spoken=spoken)
     if target.description is None:
         bracketed = place[0] in "[("
-        return place if bracketed or rng.random() < 0.8 else f"{rng.choice(('position', 'the point', 'grid', 'waypoint', 'the spot', 'the position', 'point'))} {place}"
+        return (
+            place
+            if bracketed or rng.random() < 0.8
+            else f"{rng.choice(('position', 'the point', 'grid', 'waypoint', 'the spot', 'the position', 'point'))} {place}"
+        )
     text = described(target, rng, clipped=clipped)
     if target.doubtful:
         return rng.choice(DOUBTS).format(text=text, place=place)
@@ -78,7 +82,20 @@ def short_mention(target: Target, rng: Random, style: Style, *, spoken: bool = F
     return f"the {text}" if target.article else text
 
 
-AREA_AGAIN = ("its centre", "the centre of the area", "the centre of the grid", "the middle of it", "the centre point", "that same centre point",
-    "the centre of the survey")
-TRACK_AGAIN = ("the start of the track", "the start point", "where the track began", "the starting point", "the start of the cable run",
-    "the beginning of the track")
+AREA_AGAIN = (
+    "its centre",
+    "the centre of the area",
+    "the centre of the grid",
+    "the middle of it",
+    "the centre point",
+    "that same centre point",
+    "the centre of the survey",
+)
+TRACK_AGAIN = (
+    "the start of the track",
+    "the start point",
+    "where the track began",
+    "the starting point",
+    "the start of the cable run",
+    "the beginning of the track",
+)

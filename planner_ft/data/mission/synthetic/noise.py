@@ -21,7 +21,6 @@ SHORT = {
     "hours": "hrs", "good": "gd", "tomorrow": "tmrw", "okay": "k",
 }  # fmt: skip
 FREE_WORDS = re.compile(r"(?<![\w'-])[a-z]{4,}(?![\w'-])")
-MARK = re.compile(r"[\x00-\x1f]")
 
 
 def mistype(word: str, rng: Random) -> str:

@@ -11,9 +11,11 @@ from random import Random
 
 Number = int | float
 
-ONES = ["zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen", "nineteen"]
+ONES = (
+    "zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen",
+    "seventeen", "eighteen", "nineteen",
+)  # fmt: skip
 TENS = ("", "", "twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
-FRACTIONS = {0.5: "half", 0.25: "quarter", 0.75: "three quarters"}
 
 
 @dataclass(frozen=True)
@@ -49,8 +51,7 @@ def integer_words(n: int, hyphen: str = " ") -> str:
     if n < 100:
         return TENS[n // 10] + (hyphen + ONES[n % 10] if n % 10 else "")
     if n < 1000:
-        rest = f" and {integer_words(n % 100, hyphen)}" if n % 100 else ""
-        return f"{ONES[n // 100]} hundred{rest}"
+        return f"{ONES[n // 100]} hundred" + (f" and {integer_words(n % 100, hyphen)}" if n % 100 else "")
     rest = n % 1000
     joint = " and " if 0 < rest < 100 else " "
     return f"{integer_words(n // 1000, hyphen)} thousand" + (joint + integer_words(rest, hyphen) if rest else "")
@@ -80,11 +81,11 @@ def number_text(value: Number, rng: Random, style: Style) -> str:
 def draw_style(rng: Random) -> Style:
     """A speaker's way with numbers."""
     return Style(
-        spelled=rng.choice((0.0, 0.0, 0.0, 0.1, 0.3, 0.6, 1.0)),
+        spelled=rng.choice((0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.3, 0.6, 1.0)),
         unit=rng.choice(("long", "long", "short", "short", "tight")),
         metre=rng.choice(("metre", "metre", "meter")),
         hyphen=rng.choice((" ", "-", "-")),
-        coordinate=rng.randrange(24),
+        coordinate=rng.randrange(32),
     )
 
 
@@ -100,6 +101,8 @@ def quantity(number: Number, unit: str, value: Number, rng: Random, style: Style
     long = long.replace("metre", style.metre)
     spelled = number_text(number, rng, style)
     in_words = not spelled[-1].isdigit()
+    if spelled.startswith("one hundred") and rng.random() < 0.35:
+        spelled = f"a{spelled.removeprefix('one')}"
     if not in_words and style.unit != "long" and rng.random() < 0.85:
         if unit == "second" and rng.random() < 0.3:
             short = "sec"
@@ -154,6 +157,9 @@ COMMON_DURATIONS = (
 )  # fmt: skip
 
 
+HOURS_AND_MINUTES = ("{} h {} min", "{}h{}", "{} hr {} min", "{} h {}", "{} hours {} minutes", "{}h {}min", "{} hours and {} minutes")
+
+
 def say_duration(rng: Random, style: Style, *, brief: bool = False) -> Said:
     """A duration in seconds; `brief` keeps it to a few minutes."""
     roll = rng.random()
@@ -163,6 +169,10 @@ def say_duration(rng: Random, style: Style, *, brief: bool = False) -> Said:
     if roll < (0.55 if brief else 0.28):
         seconds = rng.choice((10, 15, 20, 30, 40, 45, 50, 60, 75, 80, 90, 100, 120, 150, 180, rng.randint(5, 300)))
         return quantity(seconds, "second", seconds, rng, style)
+    if roll > 0.99 and not brief:
+        whole, minutes = rng.randint(1, 3), rng.choice((5, 10, 15, 20, 30, 40, 45, 50))
+        text = rng.choice(HOURS_AND_MINUTES).format(whole, minutes)
+        return Said(3600 * whole + 60 * minutes, text if whole > 1 else text.replace("hours", "hour"), "")
     if roll > 0.965 and not brief:
         hours = rng.choice((1, 2, 3, 4, 6, 8, 12, 1.5, 2.5, 0.5))
         return quantity(hours, "hour", hours * 3600, rng, style)
@@ -273,11 +283,8 @@ def say_percent(rng: Random, style: Style) -> Said:
 def say_count(rng: Random, style: Style) -> Said:
     """A small count, words more often than digits."""
     count = rng.choice((4, 5, 6, 7, 8, 9, 10, 12, 14, 15, 16, 18, 20, 24, 36, rng.randint(3, 40)))
+    if count == 12 and rng.random() < 0.1:
+        return Said(12, "a dozen", "dozen")
     spelled = count <= 12 and rng.random() < 0.45
     text = number_words(count, rng, style.hyphen) if spelled else number_text(count, rng, style)
     return Said(count, text, text)
-
-
-def say_plain(number: Number, rng: Random, style: Style) -> str:
-    """A bare number."""
-    return number_text(number, rng, style)

@@ -152,16 +152,20 @@ def _landing(p: dict[str, Any], planned: Planned, rng: Random) -> str:
 
 
 def _bathymetry(p: dict[str, Any], planned: Planned, rng: Random) -> str:
-    size = f" over {p['width']} m by {p['length']} m" if "width" in p and "length" in p else _say(p, "width", " over a width of {} m") + _say(p,
-    "length", " over a length of {} m")
+    size = (
+        f" over {p['width']} m by {p['length']} m"
+        if "width" in p and "length" in p
+        else _say(p, "width", " over a width of {} m") + _say(p, "length", " over a length of {} m")
+    )
     return f"Survey the depths around {_place(planned)}{size}" + _say(p, "spacing", " with lines {} m apart") + _once_found(planned)
 
 
 def _cable(p: dict[str, Any], planned: Planned, rng: Random) -> str:
     assert planned.target is not None
     start = "where it has been found" if p["start"] == UNRESOLVED else position_words(tuple(p["start"]))
-    return f"Track {name_of(planned.target)} by sonar from {start}" + _say(p, "heading", " on a heading of {} degrees") + _say(p, "max_dist",
-    " for at most {} m")
+    return (
+        f"Track {name_of(planned.target)} by sonar from {start}" + _say(p, "heading", " on a heading of {} degrees") + _say(p, "max_dist", " for at most {} m")
+    )
 
 
 def _survey(p: dict[str, Any], planned: Planned, rng: Random) -> str:

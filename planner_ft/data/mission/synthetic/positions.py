@@ -52,21 +52,23 @@ def say_position(position: Position, rng: Random, style: Style, *, spoken: bool 
     x, y = position
     if spoken or (style.spelled >= 0.6 and rng.random() < 0.6):
         return _spoken(x, y, rng, style)
-    form = style.coordinate if rng.random() < 0.9 else rng.randrange(24)
+    form = style.coordinate if rng.random() < 0.9 else rng.randrange(32)
     if form < 7:
         return f"[{x}, {y}]"
     if form < 9:
         return f"[{_decimal(x)}, {_decimal(y)}]"
     if form < 12:
         return f"({x}, {y})"
-    if form < 22:
-        return WRITTEN[form - 12].format(x=x, y=y, east=_side(x, "east", "west", " "), north=_side(y, "north", "south", " "), e=_side(x, "E", "W",
-        ""), n=_side(y, "N", "S", ""))
+    if form < 30:
+        return WRITTEN[form - 12].format(
+            x=x, y=y, east=_side(x, "east", "west", " "), north=_side(y, "north", "south", " "), e=_side(x, "E", "W", ""), n=_side(y, "N", "S", "")
+        )
     return _spoken(x, y, rng, style)
 
 
 WRITTEN = (
     "x={x} y={y}", "x {x} y {y}", "{x} {y}", "{x}, {y}", "{x}/{y}", "{east} {north}", "{e} {n}", "x={x}, y={y}", "[{x},{y}]", "({x} {y})",
+    "{x},{y}", "x:{x} y:{y}", "({x},{y})", "{east}, {north}", "{north} {east}", "x: {x}, y: {y}", "X{x} Y{y}", "x={x}/y={y}",
 )  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from functools import cache
 from random import Random
@@ -105,15 +106,48 @@ MANNERS = tuple(text for text in lexicon.FILLERS if text in ("if you please", "p
 
 @cache
 def _known_words() -> frozenset[str]:
-    texts = (*lexicon.TARGET_NOUNS, *lexicon.TARGET_ADJECTIVES, *lexicon.WITH_PHRASES, *lexicon.FEATURES, *lexicon.FEATURE_PHRASES,
-        *lexicon.DOCK_SPOTS, *lexicon.DOCK_MARKS, *lexicon.DATA_ITEMS, *lexicon.MOVING_TARGETS)
+    texts = (
+        *lexicon.TARGET_NOUNS,
+        *lexicon.TARGET_ADJECTIVES,
+        *lexicon.WITH_PHRASES,
+        *lexicon.FEATURES,
+        *lexicon.FEATURE_PHRASES,
+        *lexicon.DOCK_SPOTS,
+        *lexicon.DOCK_MARKS,
+        *lexicon.DATA_ITEMS,
+        *lexicon.MOVING_TARGETS,
+    )
     return frozenset(word for text in texts for word in text.split(" "))
 
 
-NEVER = frozenset((*ONES, *TENS, *COMPASS, "hundred", "thousand", "minus", "half", "point", "port", "comma", "quarter", "inner", "outer", "upper",
-"lower", "left", "right", "north", "south", "east", "west"))
+CODE = re.compile(r"\d|\b[A-Z]\b")
+NEVER = frozenset(
+    (
+        *ONES,
+        *TENS,
+        *COMPASS,
+        "hundred",
+        "thousand",
+        "minus",
+        "half",
+        "point",
+        "port",
+        "comma",
+        "quarter",
+        "inner",
+        "outer",
+        "upper",
+        "lower",
+        "left",
+        "right",
+        "north",
+        "south",
+        "east",
+        "west",
+    )
+)
 
 
 def _protected(values: tuple[str, ...]) -> set[str]:
     known = _known_words()
-    return {word for value in values for word in value.split(" ") if word not in known} | NEVER
+    return {word for value in values for word in value.split(" ") if word not in known or CODE.search(value)} | NEVER

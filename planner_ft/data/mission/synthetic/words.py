@@ -8,18 +8,78 @@ from planner_ft.data.mission.synthetic import lexicon
 from planner_ft.data.mission.synthetic.intents import Target
 from planner_ft.data.mission.synthetic.positions import Position, draw_position
 
-ONSETS = ["b", "c", "d", "f", "g", "h", "j", "k", "l", "m", "n", "p", "r", "s", "t", "v", "w", "z", "bl", "br", "ch", "cl", "cr", "dr", "fj", "fl", "fr", "gl", "gr", "kl", "kn", "kr", "pl", "pr", "qu", "sc", "sch", "sh", "sk", "sl", "sm", "sn", "sp", "st", "str", "sv", "sw", "th", "tr", "tw", "vr", "y"]
-NUCLEI = ["a", "e", "i", "o", "u", "a", "e", "i", "o", "u", "a", "e", "i", "o", "u", "a", "e", "i", "o", "u", "ai", "au", "ea", "ee", "ei", "ie", "oa", "oo", "ou", "y", "å", "ø", "ö", "é"]
-CODAS = ["b", "ck", "d", "f", "g", "k", "l", "m", "n", "p", "r", "s", "t", "x", "ld", "lf", "lk", "lm", "ln", "lt", "mb", "mp", "nd", "ng", "nk", "nn", "nt", "rd", "rg", "rk", "rm", "rn", "rst", "rt", "sk", "ss", "st", "th", "tt", "ts"]
-ENDINGS = ("", "", "", "a", "e", "o", "en", "er", "y", "ing", "el", "ar", "um", "is", "us", "on", "ley", "ton", "vik", "sund", "holm", "berg",
-    "fjord", "stad", "by", "gate")
+ONSETS = (
+    "b", "c", "d", "f", "g", "h", "j", "k", "l", "m", "n", "p", "r", "s", "t", "v", "w", "z", "bl", "br", "ch", "cl", "cr", "dr", "fj", "fl", "fr",
+    "gl", "gr", "kl", "kn", "kr", "pl", "pr", "qu", "sc", "sch", "sh", "sk", "sl", "sm", "sn", "sp", "st", "str", "sv", "sw", "th", "tr", "tw", "vr",
+    "y",
+)  # fmt: skip
+NUCLEI = (
+    "a", "e", "i", "o", "u", "a", "e", "i", "o", "u", "a", "e", "i", "o", "u", "a", "e", "i", "o", "u", "ai", "au", "ea", "ee", "ei", "ie", "oa",
+    "oo", "ou", "y", "å", "ø", "ö", "é",
+)  # fmt: skip
+CODAS = (
+    "b", "ck", "d", "f", "g", "k", "l", "m", "n", "p", "r", "s", "t", "x", "ld", "lf", "lk", "lm", "ln", "lt", "mb", "mp", "nd", "ng", "nk", "nn",
+    "nt", "rd", "rg", "rk", "rm", "rn", "rst", "rt", "sk", "ss", "st", "th", "tt", "ts",
+)  # fmt: skip
+ENDINGS = (
+    "",
+    "",
+    "",
+    "a",
+    "e",
+    "o",
+    "en",
+    "er",
+    "y",
+    "ing",
+    "el",
+    "ar",
+    "um",
+    "is",
+    "us",
+    "on",
+    "ley",
+    "ton",
+    "vik",
+    "sund",
+    "holm",
+    "berg",
+    "fjord",
+    "stad",
+    "by",
+    "gate",
+)
 WORD_ENDINGS = ("", "", "er", "el", "le", "ing", "ed", "y", "ish", "al", "ane", "ock", "ard", "ette", "ic", "ous", "board", "line", "head", "post", "ing")
 ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "IX")
 LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ"
 ITEMS = tuple(item for item in lexicon.DATA_ITEMS if "report" not in item and item != "summary")
 PATTERNS = tuple(pattern for pattern in lexicon.CALLSIGN_PATTERNS if not pattern.lower().startswith(("id ", "number", "contact number")))
-GREEK = ("Alpha", "Beta", "Gamma", "Delta", "Echo", "Bravo", "Charlie", "Foxtrot", "Golf", "Hotel", "Kilo", "Lima", "Mike", "November", "Oscar",
-    "Papa", "Romeo", "Sierra", "Tango", "Victor", "Whisky", "Zulu")
+MARKS = ("cross", "board", "lamp", "marker", "triangle", "square", "tag", "beacon", "disc", "panel", "diamond", "circle")
+RECORDINGS = ("log", "pictures", "files", "scan", "video", "readings", "frames", "list", "data", "stills", "clips", "track")
+GREEK = (
+    "Alpha",
+    "Beta",
+    "Gamma",
+    "Delta",
+    "Echo",
+    "Bravo",
+    "Charlie",
+    "Foxtrot",
+    "Golf",
+    "Hotel",
+    "Kilo",
+    "Lima",
+    "Mike",
+    "November",
+    "Oscar",
+    "Papa",
+    "Romeo",
+    "Sierra",
+    "Tango",
+    "Victor",
+    "Whisky",
+    "Zulu",
+)
 
 
 def pseudo_word(rng: Random, endings: tuple[str, ...] = WORD_ENDINGS) -> str:
@@ -48,6 +108,12 @@ def proper_name(rng: Random) -> str:
     elif roll < 0.28:
         name += f" {rng.choice(GREEK)}"
     return name
+
+
+def person(rng: Random) -> str:
+    """Somebody's name."""
+    title = rng.choice(("", "", "", "", "Mr ", "Ms ", "Captain "))
+    return title + (rng.choice(lexicon.PROPER_NAMES).split(" ")[0] if rng.random() < 0.7 else pseudo_word(rng, ENDINGS).capitalize())
 
 
 def code(rng: Random) -> str:
@@ -134,8 +200,15 @@ def moving_thing(rng: Random, key: int, *, located: bool) -> Target:
     """Something that drifts or sails and can be stayed with."""
     base = rng.choice(lexicon.MOVING_TARGETS)
     text, article = (base, True) if rng.random() < 0.3 else description(rng, base.split()[-1] if rng.random() < 0.3 else base)
-    return Target(key, text, _place(rng, located), article, movable=True, noun=base.split()[-1],
-    whereabouts="" if located or rng.random() > 0.3 else rng.choice(lexicon.WHEREABOUTS))
+    return Target(
+        key,
+        text,
+        _place(rng, located),
+        article,
+        movable=True,
+        noun=base.split()[-1],
+        whereabouts="" if located or rng.random() > 0.3 else rng.choice(lexicon.WHEREABOUTS),
+    )
 
 
 def _place(rng: Random, located: bool) -> Position | None:
@@ -168,7 +241,7 @@ def dock_mark(rng: Random) -> str:
     """A mark that guides a docking by camera."""
     if rng.random() < 0.7:
         return rng.choice(lexicon.DOCK_MARKS)
-    return f"{adjective(rng)} {rng.choice(('cross', 'board', 'lamp', 'marker', 'triangle', 'square', 'tag', 'beacon', 'disc', 'panel', 'diamond', 'circle', pseudo_word(rng)))}"
+    return f"{adjective(rng)} {rng.choice((*MARKS, pseudo_word(rng)))}"
 
 
 def side(rng: Random) -> str:
@@ -180,4 +253,4 @@ def data_item(rng: Random) -> str:
     """Something to send, without article."""
     if rng.random() < 0.8:
         return rng.choice(ITEMS)
-    return f"{pseudo_word(rng) if rng.random() < 0.5 else adjective(rng)} {rng.choice(('log', 'pictures', 'files', 'scan', 'video', 'readings', 'frames', 'list', 'data', 'stills', 'clips', 'track'))}"
+    return f"{pseudo_word(rng) if rng.random() < 0.5 else adjective(rng)} {rng.choice(RECORDINGS)}"
