@@ -17,6 +17,10 @@ HOLDS = (
     "hold still beside {target} and {clause}", "stand off {target} and {clause}", "hold position off {target} while you {clause}",
     "stay beside {target} while you {clause}", "stop in front of {target} and {clause}",
 )  # fmt: skip
+PAIR_INTROS = (
+    "there are two {many} out there, {first} and {second}", "we have two {many}, {first} and {second}", "two {many} to see today, {first} and {second}",
+    "it's about two {many}: {first} and {second}", "you'll find two {many}, {first} and {second}", "there should be two {many}, {first} and {second}",
+)  # fmt: skip
 GOING = (
     "go to {target} and {clause}", "head over to {target} and {clause}", "proceed to {target} and {clause}", "go to {target}, {clause}",
     "make your way to {target} and {clause}",

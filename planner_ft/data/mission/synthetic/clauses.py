@@ -11,6 +11,7 @@ from planner_ft.data.mission.synthetic.clause_words import (
     GOING,
     HERE,
     HOLDS,
+    PAIR_INTROS,
     RETRACTIONS,
     RETURN_GERUNDS,
     RETURN_NOUNS,
@@ -23,7 +24,7 @@ from planner_ft.data.mission.synthetic.clause_words import (
 from planner_ft.data.mission.synthetic.filling import Filler, Mood
 from planner_ft.data.mission.synthetic.frames import RULED_OUT_FIRST
 from planner_ft.data.mission.synthetic.intents import PLACE_TASKS, Intent, Target
-from planner_ft.data.mission.synthetic.mentions import AREA_AGAIN, TRACK_AGAIN, full_mention, indefinite, short_mention, spoken_identity
+from planner_ft.data.mission.synthetic.mentions import AREA_AGAIN, TRACK_AGAIN, full_mention, indefinite, plural, short_mention, spoken_identity
 from planner_ft.data.mission.synthetic.numbers import Style
 from planner_ft.data.mission.synthetic.positions import say_position
 from planner_ft.data.mission.synthetic.templates import forms
@@ -95,6 +96,25 @@ class Teller(Filler):
         text = self._named(replace(intent, also=()), mood, mention)
         return text + (rng.choice((" each", " each time", " in each case", " every time")) if intent.said and rng.random() < 0.4 else "")
 
+    def pair(self, intent: Intent) -> list[str]:
+        """Two things of a kind are named, then "the red one" and "the other one"."""
+        rng, first, second = self.rng, intent.target, intent.also[0]
+        assert first is not None
+        looks = [(target.description or "").removesuffix(f" {first.noun}") for target in (first, second)]
+        places = [f" at {say_position(target.position, rng, self.style, spoken=self.spoken)}" if target.position else "" for target in (first, second)]
+        opening = rng.choice(PAIR_INTROS).format(
+            many=plural(first.noun), first=f"{indefinite(looks[0])} one{places[0]}", second=f"{indefinite(looks[1])} one{places[1]}"
+        )
+        text = self._named(replace(intent, also=(), instead=None), "imp", f"the {looks[0]} one")
+        text += (
+            rng.choice((", then ", " and then ", ", after that ", " and "))
+            + rng.choice(("the other one", "the other one", "the other"))
+            + rng.choice((*SAME, "", "", ""))
+        )
+        for target in (first, second):
+            self.introduce_silently(target)
+        return [opening, text]
+
     def _first_of(self, target: Target) -> str:
         return short_mention(target, self.rng, self.style, spoken=self.spoken) if target.key in self.known else self._full(target)
 
@@ -140,7 +160,7 @@ class Teller(Filler):
         assert target is not None
         if mood == "imp" and mention is None and intent.title in PLACE_TASKS:
             roll = rng.random()
-            lead = HOLDS if roll < 0.07 and intent.title in SENSOR_TASKS else GOING if roll < 0.22 else None
+            lead = HOLDS if roll < 0.11 and intent.title in SENSOR_TASKS else GOING if roll < 0.25 else None
             if lead:
                 text = rng.choice(lead)
                 self.introduce_silently(target)

@@ -199,6 +199,13 @@ def where_first(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     return [text, *([] if not rest else [_placed(chained(teller, rest), "imp", 1, True, rng)])]
 
 
+def pair(teller: Teller, intents: Sequence[Intent]) -> Sentences:
+    """Two things of a kind are introduced; the second is "the other one"."""
+    told = teller.pair(intents[0])
+    rest = several_sentences(teller, intents[1:]) if len(intents) > 1 else []
+    return [told[0], framed(told[1], "imp", teller.rng), *rest]
+
+
 def on_site(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     """The vehicle is said to be at the place already."""
     rng = teller.rng

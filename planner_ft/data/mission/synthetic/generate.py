@@ -72,6 +72,9 @@ def _scene(rng: Random, style: Style) -> tuple[Scene, list[Planned]]:
 def _form(rng: Random, scene: Scene) -> str:
     if any(intent.target is not None and intent.target.on_site for intent in scene.intents):
         return "on-site"
+    first = scene.intents[0]
+    if len(first.also) == 1 and first.also[0].said_as and rng.random() < 0.5:
+        return "pair"
     while True:
         form = rng.choices(tuple(FORMS), tuple(FORMS.values()))[0]
         if len(scene.intents) > 1 or form not in TWO_NEEDED:
@@ -87,6 +90,7 @@ def _sentences(rng: Random, form: str, teller: Teller, scene: Scene) -> list[str
         "telegram": discourse.telegram, "but-first": discourse.but_first,
         "after-gerund": discourse.after_gerund, "last-first": discourse.last_first, "where-first": discourse.where_first,
         "questions": discourse.questions, "on-site": discourse.on_site,
+        "pair": discourse.pair,
     }[form]  # fmt: skip
     return tell(teller, intents)
 

@@ -23,6 +23,13 @@ def indefinite(text: str) -> str:
     return f"{'an' if text[0] in VOWELS else 'a'} {text}"
 
 
+def plural(text: str) -> str:
+    """The noun for more than one."""
+    if text.endswith("y") and text[-2] not in "aeiou":
+        return f"{text[:-1]}ies"
+    return f"{text}es" if text.endswith(("s", "x", "ch", "sh")) else f"{text}s"
+
+
 def full_mention(target: Target, rng: Random, style: Style, *, clipped: bool = False, spoken: bool = False, wrong: str = "") -> str:
     """The target as it is first spoken of, with its place; `clipped` drops the article, `wrong` is said and put right first."""
     if target.identity is not None:

@@ -12,6 +12,7 @@ from planner_ft.data.mission.synthetic.lexicon import PURPOSES
 from planner_ft.data.mission.synthetic.numbers import (
     Said,
     Style,
+    quantity,
     say_count,
     say_degrees,
     say_duration,
@@ -83,6 +84,11 @@ def as_said(word: str) -> Said:
 
 def stated(rng: Random, title: str, style: Style) -> tuple[dict[str, object], dict[str, Said]]:
     said = {item.name: item.say(rng, style) for item in PARAMETERS.get(title, ()) if rng.random() < item.share}
+    if "interval" in said and "duration" in said and float(said["interval"].value) * 2 > float(said["duration"].value):
+        # A series has room for more than one reading.
+        minutes, seconds = rng.randint(4, 60), rng.choice((5, 10, 15, 20, 30, 40, 60))
+        said["duration"] = quantity(minutes, "minute", minutes * 60, rng, style)
+        said["interval"] = quantity(seconds, "second", seconds, rng, style)
     return {name: value.value for name, value in said.items()}, said
 
 
@@ -105,9 +111,19 @@ def draw_task(rng: Random, style: Style, title: str, target: Target | None) -> I
     purpose = rng.choice(PURPOSES[title]) if roll < 0.05 and title in PURPOSES else ""
     if roll > 0.93 and title in CONFIRMED and target is not None and target.description is not None:
         purpose = rng.choice(CONFIRMS)
+    elif 0.8 < roll < 0.89 and title in RIDDEN:
+        purpose = rng.choice(RIDERS)
     return Intent(title, target, parameters, said, purpose=purpose, part=_part(rng, title, target))
 
 
+RIDERS = (
+    "with the video running", "with video on", "filming as you go", "with the camera on", "with the LiDAR running", "taking pictures as you go",
+    "recording video all the way", "with the sonar on",
+    "and keep the camera on it throughout", "with the lights on", "collecting LiDAR data", "with video and LiDAR", "snapping stills on the way",
+    "camera rolling", "with the thermal camera recording",
+)  # fmt: skip
+RIDDEN = frozenset(("PerformOrbit", "ParallelStructurePass", "SurveyTarget"))
+"""Tasks that can have a sensor run beside them, which makes no task of its own."""
 CONFIRMED = frozenset(("SearchAndDetect", "SurveyTarget", "PerformOrbit", "FeatureStare", "ParallelStructurePass"))
 CONFIRMS = (
     "and confirm that it is still there", "and confirm whether it is still afloat", "and confirm it is intact", "and see whether it has moved",
