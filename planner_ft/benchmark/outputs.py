@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import dataclass
 from typing import Any, NoReturn
+
+LONGEST_INTEGER = 300
+"""Digits of an integer that a float can still hold, with room."""
 
 
 @dataclass(frozen=True)
@@ -20,20 +24,19 @@ def parse_output(output: str | dict[str, Any] | None) -> Parsed:
 
     The published definition is "parses as one JSON object". A Markdown fence, a sentence before the object, a second
     object or a cut end therefore do not parse, whatever they contain. An answer that is an object already is taken
-    as it is. NaN and Infinity are not JSON.
+    as it is. NaN and Infinity are not JSON, and numbers that a float cannot hold are refused with them.
     """
-    if isinstance(output, dict):
-        return Parsed(output)
-    text = (output or "").strip()
-    if not text:
+    if output is None or (isinstance(output, str) and not output.strip()):
         return Parsed(None, "empty")
     try:
-        value = json.loads(text, parse_constant=_refuse)
+        text = json.dumps(output) if isinstance(output, dict) else output
+        value = json.loads(text, parse_constant=_refuse, parse_float=_float, parse_int=_int)
     except json.JSONDecodeError as error:
         return Parsed(None, f"not JSON ({error.msg} at character {error.pos})")
-    except (ValueError, RecursionError) as error:
-        # A number of thousands of digits, NaN, or nesting deeper than the parser follows.
-        return Parsed(None, f"not JSON ({str(error).split(';')[0] or 'nested too deeply'})")
+    except RecursionError:
+        return Parsed(None, "not JSON (nested too deeply)")
+    except ValueError as error:
+        return Parsed(None, f"not JSON ({error})")
     if not isinstance(value, dict):
         return Parsed(None, "JSON, but no object")
     return Parsed(value)
@@ -41,3 +44,12 @@ def parse_output(output: str | dict[str, Any] | None) -> Parsed:
 
 def _refuse(constant: str) -> NoReturn:
     raise ValueError(f"{constant} is no JSON number")
+
+
+def _float(text: str) -> float:
+    value = float(text)
+    return value if math.isfinite(value) else _refuse(text[:20])
+
+
+def _int(text: str) -> int:
+    return int(text) if len(text) <= LONGEST_INTEGER else _refuse(f"{text[:20]}...")

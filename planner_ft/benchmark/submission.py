@@ -6,8 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from planner_ft.benchmark.folder import LATENCY, PREDICTIONS
 from planner_ft.benchmark.results import Results, System, score_system
 from planner_ft.benchmark.samples import BenchData, joined
+from planner_ft.candidates import all_candidates
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import iterate_jsonl
 from planner_ft.support.manifest import build_manifest
@@ -23,14 +25,17 @@ def score_predictions(path: Path, data: BenchData, vocabulary: Vocabulary, *, se
     """Score the predictions in `path` against `data`.
 
     A line needs `id` and `output` (text, or the plan as an object); `candidate` and `configuration` group lines, `tokens`,
-    `latency_s` and `finish_reason` are used where they are given. `name` stands for lines without `candidate`.
+    `latency_s` and `finish_reason` are used where they are given. `name` stands for lines without `candidate`. For the
+    predictions.jsonl of a run, its latency.jsonl is read, too.
     Raises PlannerError that names the lines of malformed, double and unknown predictions.
     """
     groups = read_predictions(path, [sample.id for sample in data.samples], name or path.stem)
     rows, scores = [], []
+    timed = _timed(path)
     for (candidate, configuration), predictions in groups.items():
-        system = System(candidate, configuration, label=candidate)
-        latencies = {key: float(line["latency_s"]) for key, line in predictions.items() if isinstance(line.get("latency_s"), int | float)}
+        system = _system(candidate, configuration, predictions, vocabulary)
+        given = {key: float(line["latency_s"]) for key, line in predictions.items() if isinstance(line.get("latency_s"), int | float)}
+        latencies = {**timed.get((candidate, configuration), {}), **given}
         row, of_samples = score_system(data.level, system, data.samples, predictions, vocabulary, seed=seed, latencies=latencies)
         rows.append(row)
         scores += of_samples
@@ -64,6 +69,29 @@ def read_predictions(path: Path, ids: Sequence[str], name: str) -> Predictions:
     if not groups:
         raise PlannerError(f"{path}: holds no predictions; one JSON object per line with id and output is expected")
     return groups
+
+
+def _system(candidate: str, configuration: str, predictions: dict[str, dict[str, Any]], vocabulary: Vocabulary) -> System:
+    """What is known of a system by its name, and from its lines whether it is a stand-in."""
+    known = next((entry for entry in all_candidates() if entry.name == candidate), None)
+    standin = any(line.get("standin") is True for line in predictions.values())
+    label = (known and known.published) or candidate
+    return System(
+        candidate, configuration, label=f"{label} (stand-in)" if standin else label, published=known.published if known else None,
+        is_standin=standin, pretrained=bool(known and known.knows(vocabulary)),
+    )  # fmt: skip
+
+
+def _timed(path: Path) -> dict[tuple[str, str], dict[str, float]]:
+    """The latencies of a run by (candidate, configuration) and sample id; none for other files."""
+    timed: dict[tuple[str, str], dict[str, float]] = {}
+    beside = path.with_name(LATENCY)
+    if path.name != PREDICTIONS or not beside.is_file():
+        return timed
+    for _number, line, _problem_there in iterate_jsonl(beside):
+        if isinstance(line, dict) and isinstance(line.get("latency_s"), int | float):
+            timed.setdefault((str(line.get("candidate")), str(line.get("configuration"))), {})[str(line.get("id"))] = float(line["latency_s"])
+    return timed
 
 
 def _problem(line: Any, known: set[str]) -> str | None:

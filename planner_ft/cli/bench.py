@@ -2,21 +2,82 @@
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-LEVEL = Annotated[str, typer.Option(help="mission (commands to tasks) or task (tasks to skills).", show_default=False)]
+from planner_ft.cli.progress import interruptible
+
+if TYPE_CHECKING:
+    from planner_ft.benchmark.results import Results
+    from planner_ft.benchmark.settings import BenchSettings
+
 VOCABULARY = Annotated[str, typer.Option(help="Vocabulary: a bundled name or a TOML file.")]
 SEED = Annotated[int, typer.Option(help="Seed of the bootstrap intervals.")]
 
 
+def bench(
+    level: Annotated[str | None, typer.Option(help="mission (commands to tasks) or task (tasks to skills).", show_default=False)] = None,
+    candidates: Annotated[
+        str | None, typer.Option(help="Names, folders or hub ids, separated by commas; `plannerft candidates` lists them.", show_default=False)
+    ] = None,
+    configurations: Annotated[
+        str | None, typer.Option(help="base (prompted with the vocabulary), lora (fine-tuned), separated by commas.", show_default="base,lora")
+    ] = None,
+    data: Annotated[
+        Path | None,
+        typer.Option(help="Test data: any JSONL with id, prompt and expected (task level: also task and parameters).", show_default="data/LEVEL/test.jsonl"),
+    ] = None,
+    limit: Annotated[int | None, typer.Option(help="Only the first samples of the data.", show_default="all")] = None,
+    adapter: Annotated[
+        list[str] | None, typer.Option(help="Adapter folder; with several candidates NAME=DIR, once for each.", show_default="adapters/CANDIDATE/LEVEL")
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for predictions, results and tables.", show_default="eval/runs/LEVEL")] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with an interrupted run; what is there is not generated again.")] = False,
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Remove an earlier run from --out first.")] = False,
+    device: Annotated[str, typer.Option(help="auto, cpu, cuda or cuda:N.")] = "auto",
+    quantization: Annotated[str | None, typer.Option(help="nf4 (4-bit base) or none.", show_default="as the candidate is trained: nf4")] = None,
+    batch_size: Annotated[int, typer.Option(help="Queries generated together (quality; latency is always one at a time).")] = 16,
+    max_new_tokens: Annotated[
+        int | None, typer.Option(help="Limit of generated tokens per answer; cut answers are counted.", show_default="1024 mission, 2048 task")
+    ] = None,
+    latency_samples: Annotated[int | None, typer.Option(help="Time the queries of this many samples, one at a time; 0: none.", show_default="50")] = None,
+    vocabulary: Annotated[str | None, typer.Option(help="Vocabulary: a bundled name or a TOML file.", show_default="usv")] = None,
+    seed: SEED = 0,
+    gate: Annotated[
+        Path | None, typer.Option(help="Gate file (TOML): run what it names and exit with 1 when a figure falls short.", show_default=False)
+    ] = None,
+) -> None:
+    """Benchmark candidates: F1, hallucination, validity, latency and tokens with 95 % intervals, beside the published figures.
+
+    Greedy decoding. --out holds predictions.jsonl (written as answers are made), results.json, scores.jsonl, latency.jsonl
+    and the table as Markdown, CSV and LaTeX.
+    """
+    named = {
+        "level": level, "candidates": candidates, "configurations": configurations, "data": data, "limit": limit, "adapter": adapter,
+        "quantization": quantization, "max_new_tokens": max_new_tokens, "latency_samples": latency_samples, "vocabulary": vocabulary,
+    }  # fmt: skip
+    named = {name: value for name, value in named.items() if value is not None}
+    common = {"device": device, "batch_size": batch_size, "seed": seed, "resume": resume, "overwrite": overwrite}
+    if gate is not None:
+        _run_gate(gate, out, named, common)
+        return
+    settings = _settings(named, out=out, **common)
+    from planner_ft.benchmark.runner import run_bench
+
+    with interruptible(settings.folder) as progress:
+        results = run_bench(settings, progress)
+    _show(results, settings.folder)
+
+
 def score(
-    level: LEVEL,
+    level: Annotated[str, typer.Option(help="mission (commands to tasks) or task (tasks to skills).", show_default=False)],
     predictions: Annotated[Path, typer.Option(help="JSONL with id and output per line; candidate, configuration, tokens and latency_s are used if given.")],
     data: Annotated[Path | None, typer.Option(help="Test data that the predictions were made for.", show_default="data/LEVEL/test.jsonl")] = None,
     out: Annotated[Path | None, typer.Option(help="Folder for results.json and the tables; without it the table is only printed.", show_default=False)] = None,
+    limit: Annotated[int | None, typer.Option(help="Only the first samples of the data.", show_default="all")] = None,
     name: Annotated[str | None, typer.Option(help="The system's name in the table, where lines name no candidate.", show_default="the file's name")] = None,
     vocabulary: VOCABULARY = "usv",
     seed: SEED = 0,
@@ -32,21 +93,53 @@ def score(
     checked, definition = check_level(level), load_vocabulary(vocabulary)
     if out is not None:
         folder.check_folder(out, () if overwrite else folder.SCORED, "give --overwrite or another --out")
-    results = score_predictions(predictions, load_bench_data(data or default_data(checked), checked, definition), definition, seed=seed, name=name)
-    _show(results, out)
+    samples = load_bench_data(data or default_data(checked), checked, definition, limit)
+    results = score_predictions(predictions, samples, definition, seed=seed, name=name)
     if out is not None:
         folder.write_results(out, results)
+    _show(results, out)
 
 
-def _show(results: object, out: Path | None) -> None:
-    """Print the table, the samples without prediction and where the files lie."""
+def _split(text: str) -> tuple[str, ...]:
+    return tuple(part.strip() for part in text.split(",") if part.strip())
+
+
+def _settings(named: dict[str, Any], **common: Any) -> BenchSettings:
+    """Settings from the flags that were given."""
+    from planner_ft.benchmark.settings import BenchSettings
+    from planner_ft.support.errors import PlannerError
+    from planner_ft.vocabulary.plans import check_level
+
+    if "level" not in named or "candidates" not in named:
+        raise PlannerError("bench needs --level and --candidates (or --gate FILE); try: plannerft bench --level mission --candidates embedded")
+    values = {**named, "level": check_level(named["level"])}
+    values |= {name: _split(values[name]) for name in ("candidates", "configurations") if name in values}
+    return BenchSettings(adapters=tuple(values.pop("adapter", ())), **values, **common)
+
+
+def _run_gate(path: Path, out: Path | None, named: dict[str, Any], common: dict[str, Any]) -> None:
+    from planner_ft.benchmark.gate import load_gate, run_gate
+    from planner_ft.support.errors import PlannerError
+
+    if named:
+        flags = ", ".join(f"--{name.replace('_', '-')}" for name in named)
+        raise PlannerError(f"--gate {path} says itself what is run; leave out {flags} or change the file")
+    gate = load_gate(path)
+    with tempfile.TemporaryDirectory() as temporary:
+        target = out or Path(temporary) / "gate"
+        with interruptible(target if out else None) as progress:
+            run_gate(gate, target, progress, lambda results: _show(results, out), **common)
+    typer.echo(f"{path}: passed ({', '.join(threshold.metric for threshold in gate.thresholds)})")
+
+
+def _show(results: Results, out: Path | None) -> None:
+    """Print the table, the samples without a prediction and where the files lie."""
     from rich.console import Console
 
-    from planner_ft.benchmark.results import Results
+    from planner_ft.benchmark.folder import TABLES
     from planner_ft.benchmark.terminal import print_missing, print_results
 
-    assert isinstance(results, Results)
     print_results(results, Console())
     print_missing(results, Console(stderr=True))
     if out is not None:
-        typer.echo(f"\n{out}/: results.json, scores.jsonl, table.md, table.csv, table.tex")
+        typer.echo(f"\n{out}/: results.json, scores.jsonl, {', '.join(TABLES)}")

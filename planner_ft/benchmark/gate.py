@@ -1,0 +1,109 @@
+"""The regression gate: a run whose figures must not fall short of thresholds."""
+
+from __future__ import annotations
+
+import dataclasses
+import tomllib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from planner_ft.benchmark.results import Results
+from planner_ft.benchmark.runner import Progress, run_bench
+from planner_ft.benchmark.scoring import METRICS
+from planner_ft.benchmark.settings import BenchSettings
+from planner_ft.support.errors import GateError, PlannerError
+from planner_ft.support.files import read_text
+from planner_ft.vocabulary.plans import check_level
+
+REQUIRED = ("level", "candidate", "configuration", "thresholds")
+OPTIONAL = ("data", "adapter", "vocabulary", "limit", "max_new_tokens", "latency_samples")
+NOT_RATES = ("latency_s", "tokens")
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """Bounds of one metric, in the unit of results.json: rates are fractions."""
+
+    metric: str
+    minimum: float | None
+    maximum: float | None
+
+    def shortfall(self, results: Results) -> str | None:
+        """How the gate's row misses the bounds, or None."""
+        value = results.rows[0].metrics[self.metric].value
+        if value is None:
+            return f"{self.metric} was not measured"
+        if self.minimum is not None and value < self.minimum:
+            return f"{self.metric} is {value:.4g}, below the minimum {self.minimum:g}"
+        if self.maximum is not None and value > self.maximum:
+            return f"{self.metric} is {value:.4g}, above the maximum {self.maximum:g}"
+        return None
+
+
+@dataclass(frozen=True)
+class Gate:
+    """A gate file (TOML): one candidate in one configuration, and thresholds by metric."""
+
+    path: Path
+    settings: BenchSettings
+    thresholds: tuple[Threshold, ...]
+
+
+def load_gate(path: Path) -> Gate:
+    """Read a gate file; `data`, `adapter` and a vocabulary's path are relative to it. Raises PlannerError that lists every mistake."""
+    try:
+        raw = tomllib.loads(read_text(path))
+    except tomllib.TOMLDecodeError as error:
+        raise PlannerError(f"{path}: not TOML: {error}") from None
+    problems = [f"{key} is missing" for key in REQUIRED if key not in raw]
+    problems += [f"unknown key {key!r} (there are {', '.join((*REQUIRED, *OPTIONAL))})" for key in raw if key not in (*REQUIRED, *OPTIONAL)]
+    kinds: dict[str, type] = dict.fromkeys(("limit", "max_new_tokens", "latency_samples"), int) | {"thresholds": dict}
+    problems += [
+        f"{key} must be a {kinds.get(key, str).__name__}" for key in raw if key in (*REQUIRED, *OPTIONAL) and type(raw[key]) is not kinds.get(key, str)
+    ]
+    if problems:
+        raise PlannerError(f"{path}: {'; '.join(problems)}")
+    thresholds = tuple(_threshold(path, metric, bounds) for metric, bounds in raw["thresholds"].items())
+    if not thresholds:
+        raise PlannerError(f"{path}: [thresholds] names no metric; write for example schema_valid = {{ min = 0.98 }}")
+    return Gate(path, _settings(path, raw, thresholds), thresholds)
+
+
+def run_gate(gate: Gate, out: Path, progress: Progress, show: Callable[[Results], Any] = lambda _results: None, **changes: Any) -> Results:
+    """Run the gate's benchmark into `out`; `show` gets the results. Raises GateError when a figure falls short of its threshold."""
+    results = run_bench(dataclasses.replace(gate.settings, out=out, **changes), progress)
+    show(results)
+    shortfalls = [text for text in (threshold.shortfall(results) for threshold in gate.thresholds) if text]
+    if shortfalls:
+        raise GateError(f"{gate.path}: {results.rows[0].system.label}, {results.rows[0].system.configuration}: {'; '.join(shortfalls)}")
+    return results
+
+
+def _settings(path: Path, raw: dict[str, Any], thresholds: tuple[Threshold, ...]) -> BenchSettings:
+    needs_latency = any(threshold.metric == "latency_s" for threshold in thresholds)
+    vocabulary = raw.get("vocabulary", "usv")
+    return BenchSettings(
+        level=check_level(raw["level"]),
+        candidates=(raw["candidate"],),
+        configurations=(raw["configuration"],),
+        data=path.parent / raw["data"] if "data" in raw else None,
+        adapters=(str(path.parent / raw["adapter"]),) if "adapter" in raw else (),
+        vocabulary=str(path.parent / vocabulary) if vocabulary.endswith(".toml") else vocabulary,
+        limit=raw.get("limit"),
+        max_new_tokens=raw.get("max_new_tokens"),
+        latency_samples=raw.get("latency_samples", 25 if needs_latency else 0),
+    )
+
+
+def _threshold(path: Path, metric: str, bounds: Any) -> Threshold:
+    if metric not in METRICS:
+        raise PlannerError(f"{path}: unknown metric {metric!r}; there are {', '.join(METRICS)}")
+    values = bounds if isinstance(bounds, dict) else {}
+    numbers = all(isinstance(value, int | float) and not isinstance(value, bool) for value in values.values())
+    if not values or set(values) - {"min", "max"} or not numbers:
+        raise PlannerError(f"{path}: {metric} must be a table of numbers with min or max, for example {metric} = {{ min = 0.98 }}")
+    if metric not in NOT_RATES and any(not 0 <= value <= 1 for value in values.values()):
+        raise PlannerError(f"{path}: {metric} is a fraction between 0 and 1, as in results.json, not a percentage")
+    return Threshold(metric, values.get("min"), values.get("max"))
