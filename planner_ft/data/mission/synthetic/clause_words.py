@@ -72,6 +72,8 @@ TIME = (
 SLOW = ("slowly", "nice and slow", "at a crawl", "at an easy pace", "taking your time", "at a moderate speed", "not too fast")
 OFF = ("at a safe distance", "with plenty of room", "not too close", "close in", "a fair bit off", "from a respectful distance", "keeping well off")
 VAGUE: dict[str, dict[str, tuple[str, ...]]] = {
+    "FollowTarget": {"end": ("wherever it goes", "whatever it does", "until I tell you to stop", "until further notice", "until you hear from us",
+    "and don't lose it", "until the lifeboat arrives")},
     "KeepStation": {"duration": TIME}, "DriftAudit": {"duration": TIME}, "PerformOrbit": {"radius": OFF, "speed": SLOW},
     "ParallelStructurePass": {"distance": OFF, "speed": SLOW},
     "ThermalTimeLapse": {"duration": TIME, "interval": ("at regular intervals", "every so often")}, "FeatureStare": {"duration": TIME},

@@ -56,7 +56,8 @@ class Teller(Filler):
             text = f"{self.rng.choice(BANK_RETURN)}{self.rng.choice((' and ', ' and ', ', then ', ' and then '))}{text}"
         text += self._vague(intent)
         if intent.purpose:
-            text += f" {intent.purpose}"
+            ahead = mood == "imp" and intent.purpose.startswith(("to ", "for ", "because ", "since ", "as ")) and self.rng.random() < 0.3
+            text = f"{intent.purpose}, {text}" if ahead else f"{text} {intent.purpose}"
         if intent.target is not None:
             for target in (intent.target, *intent.also):
                 self.introduce_silently(target)
@@ -178,7 +179,12 @@ class Teller(Filler):
         template = self._core(intent, mood, named=True)
         if target.description is None and intent.title in AT_A_POINT:
             template = template.at_place
-        return self._filled(intent, template, {"target": mention, "target_description": mention}, mood)
+        values = {"target": mention, "target_description": mention}
+        feature = next((name for name in ("feature_type", "target_feature") if name in intent.parameters), None)
+        if feature is not None and target.position is None and not target.whereabouts and rng.random() < 0.18:
+            template = template.possessive
+            values["own_feature"] = str(intent.parameters[feature])
+        return self._filled(intent, template, values, mood)
 
     def introduce_silently(self, target: Target) -> None:
         """From here on the target is known, without words of its own."""

@@ -7,6 +7,7 @@ from random import Random
 
 from planner_ft.data.mission.synthetic import frames, lexicon
 from planner_ft.data.mission.synthetic.numbers import Style, say_length
+from planner_ft.data.mission.synthetic.positions import draw_position, position_words, say_position
 
 RULED_OUT = {
     "Diagnostics": (("the diagnostics", "the sensor check", "the self-test", "the health check"), "Diagnostics are not run."),
@@ -25,7 +26,20 @@ RULED_OUT = {
     "SurveyTarget": (("the inspection", "the survey"), "No survey is made."),
     "KeepStation": (("the station keeping", "the waiting", "the hold"), "The vehicle does not hold position."),
 }
+HAZARDS = (
+    ("divers are down at {place}", "Divers are in the water at {position}."), ("there are divers in the water at {place}",
+    "Divers are in the water at {position}."),
+    ("keep clear of the net at {place}", "Keep clear of the net at {position}."), ("mind the rock at {place}", "Mind the rock at {position}."),
+    ("stay away from {place}", "Stay away from {position}."),
+    ("there is a wreck at {place}, mind it", "Mind the wreck at {position}."), ("avoid the shoal at {place}", "Avoid the shoal at {position}."),
+    ("the dredger works at {place}, keep away from it", "Keep away from the dredger at {position}."),
+    ("don't go near {place}", "Do not go near {position}."), ("watch out for the mooring at {place}", "Watch out for the mooring at {position}."),
+    ("a crane barge is anchored at {place}, give it room", "Keep clear of the crane barge at {position}."),
+    ("the swimmers are at {place}", "Swimmers are in the water at {position}."), ("leave {place} alone", "Stay away from {position}."),
+    ("the ferry passes {place}, let it by", "Let the ferry pass at {position}."),
+)  # fmt: skip
 EXCLUSIONS = (
+    "{} was done already", "{} has been done already", "we did {} this morning", "the night shift did {} yesterday",
     "skip {}", "no need for {}", "leave out {}", "forget about {}", "don't bother with {}", "we don't need {}", "without {} this time",
     "{} isn't needed", "you can skip {}", "never mind {}", "not {} today", "drop {}",
     "{} can wait", "cancel {}", "{} is off", "negative on {}", "leave {} for another day", "skip {}, that was done already", "{} is not required",
@@ -141,6 +155,13 @@ def limit(rng: Random, style: Style) -> Extra:
         text, constraint = rng.choice(lexicon.OPERATOR_LIMITS_VALUED)
         return Extra(text.replace("{value}", value), constraint.replace("{value}", value))
     return Extra(*rng.choice(lexicon.OPERATOR_LIMITS))
+
+
+def hazard(rng: Random, style: Style) -> Extra:
+    """Something to keep away from, with its position, which is no place to go to."""
+    position = draw_position(rng)
+    text, constraint = rng.choice(HAZARDS)
+    return Extra(text.format(place=say_position(position, rng, style)), constraint.format(position=position_words(position)))
 
 
 def impossible(rng: Random) -> Extra:

@@ -111,6 +111,8 @@ def _with_extras(rng: Random, style: Style, sentences: list[str], intents: tuple
         added.append(extras.left_out(rng, words.description(rng, words.noun(rng))[0]))
     if rng.random() < 0.025:
         added.append(extras.deadline(rng))
+    if rng.random() < 0.025:
+        added.append(extras.hazard(rng, style))
     for extra in added:
         limits.append(extra.constraint)
         told = _put(rng, told, extra.text)

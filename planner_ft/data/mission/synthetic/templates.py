@@ -31,6 +31,7 @@ _SLOT = re.compile(r"\{(\w+)\}")
 # A self-going task whose phrase says "proceed to" would need a Transit of its own (rule 4).
 _GOES = re.compile(r"\b(?:proceed|get) to \{(?:start|target)\} (?:and|on)\b")
 _PLACE = re.compile(r" (?:of|on|at|from|beside|off|to|in) \{target\}(?=$| )")
+_OWNED = re.compile(r"\{(?:feature_type|target_feature)\} (?:of|on|at) \{target\}")
 _OF = re.compile(r"\b(?:of|on) \{target\}")
 _THERE = re.compile(r"\b(?:at|to|in|into) \{target\}")
 
@@ -58,6 +59,11 @@ class Template:
     def placeless(self) -> Template:
         """The phrase without its place, where that leaves a phrase."""
         return Template(_PLACE.sub("", self.text))
+
+    @cached_property
+    def possessive(self) -> Template:
+        """The phrase with "the barge's ladder" in place of "the ladder of the barge"; the feature's bare name is `own_feature`."""
+        return Template(_OWNED.sub("{target}'s {own_feature}", self.text))
 
     @cached_property
     def at_place(self) -> Template:
