@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -16,7 +15,7 @@ from planner_ft.data.output import DataFolder, write_folders
 from planner_ft.data.task.sampler import Split, sample_tasks
 from planner_ft.data.validation import canonical_record
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import compact_json
+from planner_ft.support.files import compact_json, indented_json
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import LEVELS, Level
@@ -113,7 +112,7 @@ def _make(level: Level, settings: GenerationSettings, vocabulary: Vocabulary, pr
     clock.stop("leakage report")
     seed = settings.seed if source is None else None
     texts = {f"{split}.jsonl": _lines(canonical_record(level, record, vocabulary) for record in records) for split, records in splits.items()}
-    texts["leakage.json"] = json.dumps(leakage, ensure_ascii=False, indent=2) + "\n"
+    texts["leakage.json"] = indented_json(leakage)
     texts["README.md"] = dataset_card(level, splits, vocabulary, leakage, seed)
     if messages is not None:
         for split, records in splits.items():

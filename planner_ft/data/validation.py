@@ -6,7 +6,6 @@ record, `output` a prediction, `tasks` or `skill_sequence` a plan. Every problem
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -18,7 +17,7 @@ from planner_ft.data.rules import rule_problems
 from planner_ft.data.steprules import step_problems
 from planner_ft.data.tags import tag_problems
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import compact_json, iterate_jsonl, read_text
+from planner_ft.support.files import compact_json, decode_json, iterate_jsonl, read_text
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import LEVELS, MISSION_KEYS, Level, canonical_parameters, canonical_plan, list_key, plan_problems
 from planner_ft.vocabulary.schema import ELEMENTS
@@ -94,10 +93,8 @@ def file_values(path: Path) -> Iterator[tuple[int, Any, str | None]]:
         raise PlannerError(f"{path}: is empty; a dataset, predictions or a plan is expected")
     first = text.lstrip().split("\n", 1)[0]
     if path.suffix == ".json" or first.strip() in ("{", "["):
-        try:
-            yield 1, json.loads(text), None
-        except json.JSONDecodeError as error:
-            yield error.lineno, None, f"not JSON ({error.msg} at column {error.colno})"
+        value, line, problem = decode_json(text)
+        yield line or 1, value, problem
         return
     yield from iterate_jsonl(path)
 
@@ -110,10 +107,9 @@ def object_problems(
     if kind is None:
         return None, level, ["none of a dataset record (expected), a prediction (output) and a plan (tasks or skill_sequence)"]
     if kind == "prediction" and isinstance(plan, str):
-        try:
-            plan = json.loads(plan)
-        except (json.JSONDecodeError, RecursionError) as error:
-            return kind, level, [*_identifier_problems(value, ("id",)), f"output is not JSON ({error})"]
+        plan, _line, problem = decode_json(plan)
+        if problem:
+            return kind, level, [*_identifier_problems(value, ("id",)), f"output: {problem}"]
     found = next((known for known in LEVELS if isinstance(plan, dict) and list_key(known) in plan), level)
     if found is None:
         return kind, None, [f"{_plan_key(kind)}holds neither tasks nor skill_sequence"]

@@ -19,6 +19,11 @@ def compact_json(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
 
+def indented_json(value: Any) -> str:
+    """JSON for people to read, with a newline at the end: the form of schemas, manifests and reports."""
+    return json.dumps(value, ensure_ascii=False, indent=2, allow_nan=False) + "\n"
+
+
 @contextlib.contextmanager
 def atomic_writer(path: Path | str, mode: str = "w") -> Iterator[IO[Any]]:
     """Open a temporary file beside `path` that replaces it when the block ends without an exception.
@@ -33,7 +38,7 @@ def atomic_writer(path: Path | str, mode: str = "w") -> Iterator[IO[Any]]:
             yield stream
             stream.flush()
             os.fsync(stream.fileno())
-        os.replace(temporary, path)
+        temporary.replace(path)
     except OSError as error:
         raise PlannerError(f"{path}: cannot be written ({error.strerror or error}); choose another folder or free some space") from error
     finally:
@@ -49,7 +54,7 @@ def write_text(path: Path | str, text: str) -> None:
 
 def write_json(path: Path | str, value: Any) -> None:
     """Write `value` as indented JSON, atomically."""
-    write_text(path, json.dumps(value, ensure_ascii=False, indent=2, allow_nan=False) + "\n")
+    write_text(path, indented_json(value))
 
 
 def write_jsonl(path: Path | str, records: Iterable[Any]) -> None:
@@ -63,7 +68,7 @@ def read_text(path: Path | str) -> str:
     """The UTF-8 text of a file. Raises PlannerError when it is missing, unreadable or not UTF-8."""
     path = Path(path)
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         raise PlannerError(f"{path}: no such file") from None
     except UnicodeDecodeError as error:
@@ -72,12 +77,33 @@ def read_text(path: Path | str) -> str:
         raise PlannerError(f"{path}: cannot be read ({error.strerror})") from None
 
 
+def decode_json(text: str) -> tuple[Any, int, str | None]:
+    """(value, 0, None), or (None, line within the text, what is wrong): bad syntax, NaN, nesting too deep, half a surrogate pair."""
+    try:
+        value = json.loads(text, parse_constant=_no_number)
+        if "\\u" in text:
+            json.dumps(value, ensure_ascii=False).encode()
+    except json.JSONDecodeError as error:
+        return None, error.lineno, f"not JSON ({error.msg} at column {error.colno})"
+    except RecursionError:
+        return None, 1, "not JSON that can be read (nested too deeply)"
+    except UnicodeEncodeError:
+        return None, 1, "not JSON that can be written again (half of a surrogate pair in a string)"
+    except ValueError as error:
+        return None, 1, f"not JSON ({error})"
+    return value, 0, None
+
+
+def _no_number(name: str) -> None:
+    raise ValueError(f"{name} is no JSON number")
+
+
 def read_json(path: Path | str) -> Any:
     """The value of a JSON file. Raises PlannerError that names file, line and column when it does not parse."""
-    try:
-        return json.loads(read_text(path))
-    except json.JSONDecodeError as error:
-        raise PlannerError(f"{path}:{error.lineno}: not JSON ({error.msg} at column {error.colno})") from None
+    value, line, problem = decode_json(read_text(path))
+    if problem is not None:
+        raise PlannerError(f"{path}:{line}: {problem}")
+    return value
 
 
 def iterate_jsonl(path: Path | str) -> Iterator[tuple[int, Any | None, str | None]]:
@@ -87,12 +113,9 @@ def iterate_jsonl(path: Path | str) -> Iterator[tuple[int, Any | None, str | Non
     """
     # Split on "\n" alone: str.splitlines would also cut at U+2028, which JSON allows inside a string.
     for number, line in enumerate(read_text(path).split("\n"), 1):
-        if not line.strip():
-            continue
-        try:
-            yield number, json.loads(line), None
-        except json.JSONDecodeError as error:
-            yield number, None, f"not JSON ({error.msg} at column {error.colno})"
+        if line.strip():
+            value, _line, problem = decode_json(line)
+            yield number, value, problem
 
 
 def read_jsonl(path: Path | str) -> list[dict[str, Any]]:

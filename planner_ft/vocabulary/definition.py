@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import functools
 import tomllib
-from dataclasses import dataclass, field, fields
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal, get_args
+from typing import Any
 
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text, sha256_text
+from planner_ft.vocabulary.shape import ROLES, Arrival, Motion, ParameterType, Role, shape_problems
 
-Role = Literal["navigation", "filter", "perception"]
-ParameterType = Literal["position", "polygon", "number", "integer", "text", "id", "texts"]
-Arrival = Literal["transit", "self", "none"]
-Motion = Literal["goto", "hold", "turn_to", "turn_by", "arc", "drift", "visual", "wait"]
+__all__ = ["BUNDLED", "DEFAULT", "ROLES", "Parameter", "Role", "Skill", "Task", "Vocabulary", "build_vocabulary", "bundled_vocabularies", "load_vocabulary"]
 
-ROLES: tuple[Role, ...] = get_args(Role)
 BUNDLED = Path(__file__).parent
 DEFAULT = "usv"
 PHRASES = ".phrases.toml"
@@ -79,9 +77,9 @@ class Skill:
         return {parameter.name: parameter for parameter in self.parameters}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Vocabulary:
-    """A vehicle's tasks and skills. Positions are metres in the local frame.
+    """A vehicle's tasks and skills. Positions are metres in the local frame. Two are the same only when they are one object.
 
     `phrases` is the content of the companion file NAME.phrases.toml, from which the task sampler words its prompts.
     """
@@ -133,12 +131,17 @@ def load_vocabulary(source: str | Path = DEFAULT) -> Vocabulary:
     raw = _parse(path, text)
     companion = path.with_name(path.name.removesuffix(".toml") + PHRASES)
     phrases = _parse(companion, read_text(companion)) if companion.is_file() else {}
-    problems: list[str] = []
-    vocabulary = _build(raw, phrases, str(source), sha256_text(text), problems)
-    if not problems and vocabulary is not None:
-        _check_references(vocabulary, problems)
-    if problems or vocabulary is None:
-        raise PlannerError(f"{path}: " + "; ".join(problems))
+    return build_vocabulary(raw, phrases, str(path), source=str(source), sha256=sha256_text(text))
+
+
+def build_vocabulary(raw: dict[str, Any], phrases: dict[str, Any], where: str, *, source: str = "", sha256: str = "") -> Vocabulary:
+    """The vocabulary of a parsed definition and its phrases. Raises PlannerError that lists everything wrong, and says `where`."""
+    problems = shape_problems(raw, phrases)
+    if not problems:
+        vocabulary = _build(raw, phrases, source, sha256)
+        problems = list(_reference_problems(vocabulary))
+    if problems:
+        raise PlannerError(f"{where}: " + "; ".join(problems))
     return vocabulary
 
 
@@ -149,76 +152,48 @@ def _parse(path: Path, text: str) -> dict[str, Any]:
         raise PlannerError(f"{path}: not TOML: {error}") from None
 
 
-def _build(raw: dict[str, Any], phrases: dict[str, Any], source: str, sha256: str, problems: list[str]) -> Vocabulary | None:
-    vehicle = raw.get("vehicle", {})
-    missing = [key for key in ("name", "title", "frame", "home", "unresolved", "transit", "locate") if key not in vehicle]
-    if missing:
-        problems.append(f"[vehicle] lacks {', '.join(missing)}")
-        return None
-    tasks = [_entry(Task, entry, f"task {entry.get('title', index + 1)}", problems) for index, entry in enumerate(raw.get("task", []))]
-    skills = [_entry(Skill, entry, f"skill {entry.get('name', index + 1)}", problems) for index, entry in enumerate(raw.get("skill", []))]
-    if not tasks or not skills:
-        problems.append("at least one [[task]] and one [[skill]] are needed")
-    if problems:
-        return None
+def _build(raw: dict[str, Any], phrases: dict[str, Any], source: str, sha256: str) -> Vocabulary:
+    vehicle = raw["vehicle"]
     return Vocabulary(
         name=vehicle["name"], title=vehicle["title"], frame=vehicle["frame"],
         home=tuple(vehicle["home"]), unresolved=tuple(vehicle["unresolved"]),
         transit=vehicle["transit"], locate=vehicle["locate"],
-        tasks=tuple(tasks), skills=tuple(skills), source=source, sha256=sha256, phrases=phrases,
+        tasks=tuple(Task(**_values(entry)) for entry in raw["task"]),
+        skills=tuple(Skill(**_values(entry)) for entry in raw["skill"]),
+        source=source, sha256=sha256, phrases=phrases,
     )  # fmt: skip
 
 
-def _entry(kind: type, entry: dict[str, Any], where: str, problems: list[str]) -> Any:
+def _values(entry: dict[str, Any]) -> dict[str, Any]:
     values = dict(entry)
-    values["parameters"] = tuple(_parameter(item, where, problems) for item in values.get("parameters", []))
-    values["require_any"] = tuple(values.get("require_any", ()))
-    if "skills" in values:
-        values["skills"] = {role: tuple(names) for role, names in values["skills"].items()}
-    return _construct(kind, values, where, problems)
+    values["parameters"] = tuple(Parameter(**parameter) for parameter in entry.get("parameters", []))
+    values["require_any"] = tuple(entry.get("require_any", []))
+    if "skills" in entry:
+        values["skills"] = {role: tuple(names) for role, names in entry["skills"].items()}
+    return values
 
 
-def _parameter(entry: dict[str, Any], where: str, problems: list[str]) -> Any:
-    where = f"{where}, parameter {entry.get('name', '?')}"
-    if entry.get("type") not in get_args(ParameterType):
-        problems.append(f"{where}: type {entry.get('type')!r} is none of {', '.join(get_args(ParameterType))}")
-    return _construct(Parameter, entry, where, problems)
-
-
-def _construct(kind: type, values: dict[str, Any], where: str, problems: list[str]) -> Any:
-    unknown = sorted(set(values) - {item.name for item in fields(kind)})
-    if unknown:
-        problems.append(f"{where}: unknown key {', '.join(unknown)}")
-        return None
-    try:
-        return kind(**values)
-    except TypeError as error:
-        problems.append(f"{where}: {str(error).split('() ')[-1]}")
-        return None
-
-
-def _check_references(vocabulary: Vocabulary, problems: list[str]) -> None:
+def _reference_problems(vocabulary: Vocabulary) -> Iterator[str]:
+    """Names that are defined twice or not at all."""
     for kind, names in (("task", [task.title for task in vocabulary.tasks]), ("skill", [skill.name for skill in vocabulary.skills])):
-        problems.extend(f"{kind} {name} is defined twice" for name in sorted({name for name in names if names.count(name) > 1}))
+        yield from (f"{kind} {name} is defined twice" for name in sorted({name for name in names if names.count(name) > 1}))
     for key in ("transit", "locate"):
         if getattr(vocabulary, key) not in vocabulary.task:
-            problems.append(f"[vehicle] {key} = {getattr(vocabulary, key)!r} is no task")
+            yield f"[vehicle] {key} = {getattr(vocabulary, key)!r} is no task"
+    transit = vocabulary.task.get(vocabulary.transit)
+    if transit and transit.position_parameter is None:
+        yield f"task {transit.title}: brings the vehicle to a place and needs a parameter of type position"
+    owners: list[Task | Skill] = [*vocabulary.tasks, *vocabulary.skills]
+    for owner in owners:
+        what = f"task {owner.title}" if isinstance(owner, Task) else f"skill {owner.name}"
+        yield from (f"{what}: require_any names {name!r}, which is no parameter" for name in owner.require_any if name not in owner.by_name)
     for task in vocabulary.tasks:
-        if task.arrival not in get_args(Arrival):
-            problems.append(f"task {task.title}: arrival {task.arrival!r} is none of {', '.join(get_args(Arrival))}")
-        if not task.skills.get("navigation"):
-            problems.append(f"task {task.title}: needs at least one navigation skill")
-        problems.extend(f"task {task.title}: require_any names {name!r}, which is no parameter" for name in task.require_any if name not in task.by_name)
         for role, fitting in task.skills.items():
             for name in fitting:
                 if name not in vocabulary.skill:
-                    problems.append(f"task {task.title}: skill {name!r} is not defined")
+                    yield f"task {task.title}: skill {name!r} is not defined"
                 elif vocabulary.skill[name].role != role:
-                    problems.append(f"task {task.title}: skill {name!r} has the role {vocabulary.skill[name].role}, not {role}")
-    problems.extend(f"skill {skill.name}: role {skill.role!r} is none of {', '.join(ROLES)}" for skill in vocabulary.skills if skill.role not in ROLES)
-    motions = get_args(Motion)
-    odd = [skill for skill in vocabulary.skills if skill.motion not in (None, *motions)]
-    problems.extend(f"skill {skill.name}: motion {skill.motion!r} is none of {', '.join(motions)}" for skill in odd)
+                    yield f"task {task.title}: skill {name!r} has the role {vocabulary.skill[name].role}, not {role}"
     for kind, known in (("task", set(vocabulary.task)), ("skill", set(vocabulary.skill))):
         unknown = sorted(set(vocabulary.phrases.get(kind, {})) - known)
-        problems.extend(f"the phrase file has phrases for {kind} {name!r}, which is not defined" for name in unknown)
+        yield from (f"the phrase file has phrases for {kind} {name!r}, which is not defined" for name in unknown)

@@ -8,7 +8,7 @@ the sampler writes; schema.py states the same rules as JSON Schema, and a test h
 
 from __future__ import annotations
 
-import math
+import sys
 from collections.abc import Iterator
 from typing import Any, Literal, get_args
 
@@ -215,11 +215,12 @@ def value_problem(value: Any, parameter: Parameter) -> str | None:
     if kind in ("number", "integer"):
         if not _is_number(value) or (kind == "integer" and value != int(value)):
             return f"{value!r} is no {'whole number' if kind == 'integer' else 'number'}"
-        if parameter.minimum is not None and value < parameter.minimum or parameter.maximum is not None and value > parameter.maximum:
+        # The two bounds stand together in a definition, or neither does.
+        if parameter.minimum is not None and parameter.maximum is not None and not parameter.minimum <= value <= parameter.maximum:
             return f"{value!r} is not between {parameter.minimum:g} and {parameter.maximum:g}"
     elif kind == "text" and not _is_text(value):
         return f"{value!r} is no text"
-    elif kind == "id" and not (_is_text(value) or (isinstance(value, int) and not isinstance(value, bool))):
+    elif kind == "id" and not (_is_text(value) or (_is_number(value) and value == int(value))):
         return f"{value!r} is no identifier"
     elif kind == "texts" and not (isinstance(value, list) and all(_is_text(item) for item in value)):
         return f"{value!r} is no list of texts"
@@ -231,7 +232,8 @@ def value_problem(value: Any, parameter: Parameter) -> str | None:
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    # False for NaN and infinity, and for whole numbers too large to be calculated with.
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= sys.float_info.max
 
 
 def _is_text(value: Any) -> bool:

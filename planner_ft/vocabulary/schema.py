@@ -6,11 +6,10 @@ names, the form that grammar compilers for constrained decoding take.
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
-from planner_ft.support.files import write_json
+from planner_ft.support.files import indented_json, read_text, write_json
 from planner_ft.vocabulary.definition import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.plans import LEVELS, MISSION_KEYS, STEP_KEYS, Level
 
@@ -26,7 +25,7 @@ def plan_schema(level: Level, vocabulary: Vocabulary, *, strict: bool) -> Schema
     """The schema of a plan: its structure alone, or also names, roles, parameter names, types and ranges."""
     if level == "mission":
         task = {"anyOf": [_task(task) for task in vocabulary.tasks]} if strict else _structural_task()
-        properties: dict[str, Schema] = {"tasks": {"type": "array", "items": task}, **{key: TEXTS for key in MISSION_KEYS[1:]}}
+        properties: dict[str, Schema] = {"tasks": {"type": "array", "items": task}, **dict.fromkeys(MISSION_KEYS[1:], TEXTS)}
     else:
         properties = {"skill_sequence": {"type": "array", "items": _step(vocabulary, strict)}}
     return {
@@ -38,16 +37,16 @@ def plan_schema(level: Level, vocabulary: Vocabulary, *, strict: bool) -> Schema
 
 def record_schema(vocabulary: Vocabulary) -> Schema:
     """The schema of a dataset record of either level; `expected` may hold names and parameters alone."""
-    texts = {"type": "array", "items": {"type": "string"}}
-    task = {"type": "object", "properties": {"title": {"enum": [task.title for task in vocabulary.tasks]}, "parameters": {"type": "object"}}, "required": ["title"]}
-    skill = {"type": "object", "properties": {"name": {"enum": [skill.name for skill in vocabulary.skills]}, "parameters": {"type": "object"}}, "required": ["name"]}
-    step = {
+    task = _named("title", [task.title for task in vocabulary.tasks])
+    skill = _named("name", [skill.name for skill in vocabulary.skills])
+    step: Schema = {
         "type": "object",
         "properties": {"navigation_skill": skill, "filter_skills": {"type": "array", "items": skill}, "perception_skills": {"type": "array", "items": skill}},
         "required": ["navigation_skill"],
     }
-    span = _object({"element": {"enum": list(ELEMENTS)}, "start": {"type": "integer", "minimum": 0}, "end": {"type": "integer", "minimum": 1}, "text": {"type": "string"}}, strict=True)
-    common = {"id": NON_BLANK, "family": NON_BLANK, "prompt": NON_BLANK, "spans": {"type": "array", "items": span}, "tags": texts}
+    bound: Schema = {"type": "integer", "minimum": 0}
+    span = _object({"element": {"enum": list(ELEMENTS)}, "start": bound, "end": bound, "text": {"type": "string"}}, strict=True)
+    common = {"id": NON_BLANK, "family": NON_BLANK, "prompt": NON_BLANK, "spans": {"type": "array", "items": span}, "tags": TEXTS}
     mission = {"type": "object", "properties": {"tasks": {"type": "array", "items": task}}, "required": ["tasks"]}
     sequence = {"type": "object", "properties": {"skill_sequence": {"type": "array", "items": step}}, "required": ["skill_sequence"]}
     of_task = {"task": {"enum": [task.title for task in vocabulary.tasks]}, "parameters": {"type": "object"}}
@@ -59,6 +58,10 @@ def record_schema(vocabulary: Vocabulary) -> Schema:
             {"type": "object", "properties": {**common, **of_task, "expected": sequence}, "required": ["id", "prompt", "task", "parameters", "expected"]},
         ],
     }
+
+
+def _named(key: str, names: list[str]) -> Schema:
+    return {"type": "object", "properties": {key: {"enum": names}, "parameters": {"type": "object"}}, "required": [key]}
 
 
 ELEMENTS = ("objective", "target", "sensor", "constraint")
@@ -92,7 +95,8 @@ def manifest_schema() -> Schema:
 
 def all_schemas(vocabulary: Vocabulary) -> dict[str, Schema]:
     """Every schema by file name."""
-    schemas = {f"{level}.{'strict.' if strict else ''}schema.json": plan_schema(level, vocabulary, strict=strict) for level in LEVELS for strict in (False, True)}
+    plans = [(level, strict) for level in LEVELS for strict in (False, True)]
+    schemas = {f"{level}.{'strict.' if strict else ''}schema.json": plan_schema(level, vocabulary, strict=strict) for level, strict in plans}
     return {**schemas, "record.schema.json": record_schema(vocabulary), "manifest.schema.json": manifest_schema()}
 
 
@@ -107,12 +111,7 @@ def write_schemas(folder: Path, vocabulary: Vocabulary) -> list[Path]:
 
 def stale_schemas(folder: Path, vocabulary: Vocabulary) -> list[str]:
     """Names of the schema files in `folder` that are missing or differ from what the vocabulary gives."""
-    stale = []
-    for name, schema in all_schemas(vocabulary).items():
-        path = folder / name
-        if not path.is_file() or json.loads(path.read_text(encoding="utf-8")) != schema:
-            stale.append(name)
-    return stale
+    return [name for name, schema in all_schemas(vocabulary).items() if not (folder / name).is_file() or read_text(folder / name) != indented_json(schema)]
 
 
 def parameter_schema(parameter: Parameter) -> Schema:
@@ -165,9 +164,9 @@ def _step(vocabulary: Vocabulary, strict: bool) -> Schema:
     else:
         anything = _object({"name": {"type": "string"}, "parameters": {"type": "object"}}, strict=False)
         of_role = dict.fromkeys(("navigation", "filter", "perception"), anything)
-    skills = {
+    skills: dict[str, Schema] = {
         "navigation_skill": of_role["navigation"],
         "filter_skills": {"type": "array", "items": of_role["filter"]},
         "perception_skills": {"type": "array", "items": of_role["perception"]},
     }
-    return _object({**skills, **{key: TEXTS for key in STEP_KEYS[3:]}}, strict=strict)
+    return _object({**skills, **dict.fromkeys(STEP_KEYS[3:], TEXTS)}, strict=strict)

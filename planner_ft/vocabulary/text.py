@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from planner_ft.support.files import read_text
 from planner_ft.vocabulary.definition import Parameter, Role, Skill, Task, Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -61,7 +62,7 @@ def documentation_page(vocabulary: Vocabulary) -> str:
 
 def stale_page(path: Path, vocabulary: Vocabulary) -> bool:
     """Whether the page at `path` is missing or differs from what the vocabulary gives."""
-    return not path.is_file() or path.read_text(encoding="utf-8") != documentation_page(vocabulary)
+    return not path.is_file() or read_text(path) != documentation_page(vocabulary)
 
 
 def _cells(owner: Task | Skill) -> str:
