@@ -24,15 +24,20 @@ def parse_output(output: str | dict[str, Any] | None) -> Parsed:
 
     The published definition is "parses as one JSON object". A Markdown fence, a sentence before the object, a second
     object or a cut end therefore do not parse, whatever they contain. An answer that is an object already is taken
-    as it is. NaN and Infinity are not JSON, and numbers that a float cannot hold are refused with them.
+    as it is. NaN and Infinity are not JSON; numbers that a float cannot hold and strings that UTF-8
+    cannot hold are refused with them.
     """
     if output is None or (isinstance(output, str) and not output.strip()):
         return Parsed(None, "empty")
     try:
         text = json.dumps(output) if isinstance(output, dict) else output
         value = json.loads(text, parse_constant=_refuse, parse_float=_float, parse_int=_int)
+        if "\\u" in text:
+            json.dumps(value, ensure_ascii=False).encode()
     except json.JSONDecodeError as error:
         return Parsed(None, f"not JSON ({error.msg} at character {error.pos})")
+    except UnicodeEncodeError:
+        return Parsed(None, "not JSON (half of a surrogate pair in a string)")
     except RecursionError:
         return Parsed(None, "not JSON (nested too deeply)")
     except ValueError as error:

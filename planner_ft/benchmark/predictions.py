@@ -5,14 +5,13 @@ Every line carries the key of what it depends on (`plan.Job.key`); a resumed run
 
 from __future__ import annotations
 
-import json
 import os
 from pathlib import Path
 from typing import IO, Any
 
 from planner_ft.benchmark.folder import LATENCY, PREDICTIONS
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import iterate_jsonl
+from planner_ft.support.files import compact_json, iterate_jsonl
 
 Line = dict[str, Any]
 
@@ -48,7 +47,7 @@ class RecordLog:
         """Write a record as one line and hand it to the operating system."""
         self.records[record["key"], record["id"]] = record
         try:
-            line = _line(record)
+            line = f"{compact_json(record)}\n".encode()
             while line:
                 line = line[self.stream.write(line) :]
         except OSError as error:
@@ -90,12 +89,3 @@ def prediction_log(folder: Path) -> RecordLog:
 def latency_log(folder: Path) -> RecordLog:
     """The log of timed queries: one line per timed sample, candidate and configuration."""
     return RecordLog(folder / LATENCY)
-
-
-def _line(record: Line) -> bytes:
-    text = json.dumps(record, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    try:
-        return text.encode() + b"\n"
-    except UnicodeEncodeError:
-        # A model may write half of a surrogate pair as an escape; UTF-8 cannot hold it, JSON can.
-        return json.dumps(record, separators=(",", ":"), allow_nan=False).encode() + b"\n"

@@ -56,7 +56,7 @@ def _record_run(plan: Plan, predictions: RecordLog) -> None:
             raise PlannerError(f"{path}: {job.name} was begun with another {' and another '.join(changed)}; give --overwrite to start anew, or another --out")
     keys = {(job.candidate.name, job.configuration.name): job.key for job in plan.jobs}
     for record in predictions.records.values():
-        name = record.get("candidate"), record.get("configuration")
+        name = str(record.get("candidate")), str(record.get("configuration"))
         if keys.get(name, record["key"]) != record["key"]:
             raise PlannerError(f"{predictions.path}: holds answers of {name[0]} {name[1]} that are not of this run; give --overwrite or another --out")
     write_json(path, {"jobs": {**recorded, **{job.name: job.parts for job in plan.jobs}}})

@@ -33,12 +33,13 @@ class Sample:
 
 @dataclass(frozen=True)
 class BenchData:
-    """The samples of a file, of which `limit` may have kept only the first."""
+    """The samples of a file, of which `limit` may have kept only the first; `ids` are those of the whole file."""
 
     path: Path
     sha256: str
     level: Level
     samples: tuple[Sample, ...]
+    ids: frozenset[str]
 
     def summary(self) -> dict[str, Any]:
         """Path, digest and number of samples, as results.json has them."""
@@ -67,7 +68,7 @@ def load_bench_data(path: Path | str, level: Level, vocabulary: Vocabulary, limi
         raise PlannerError(joined(problems))
     if not samples:
         raise PlannerError(f"{path}: holds no samples")
-    return BenchData(path, sha256_file(path), level, tuple(samples.values())[:limit])
+    return BenchData(path, sha256_file(path), level, tuple(samples.values())[:limit], frozenset(samples))
 
 
 def joined(problems: list[str]) -> str:

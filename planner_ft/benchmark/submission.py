@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +28,7 @@ def score_predictions(path: Path, data: BenchData, vocabulary: Vocabulary, *, se
     predictions.jsonl of a run, its latency.jsonl is read, too.
     Raises PlannerError that names the lines of malformed, double and unknown predictions.
     """
-    groups = read_predictions(path, [sample.id for sample in data.samples], name or path.stem)
+    groups = read_predictions(path, data.ids, name or path.stem)
     rows, scores = [], []
     timed = _timed(path)
     for (candidate, configuration), predictions in groups.items():
@@ -46,9 +45,8 @@ def score_predictions(path: Path, data: BenchData, vocabulary: Vocabulary, *, se
     return Results(data.level, data.summary(), tuple(rows), manifest, tuple(scores))
 
 
-def read_predictions(path: Path, ids: Sequence[str], name: str) -> Predictions:
-    """Predictions by (candidate, configuration), then by sample id."""
-    known = set(ids)
+def read_predictions(path: Path, known: frozenset[str], name: str) -> Predictions:
+    """Predictions by (candidate, configuration), then by sample id; `known` are the ids of the test data."""
     groups: Predictions = {}
     lines: dict[tuple[str, str, str], int] = {}
     problems: list[str] = []
@@ -94,7 +92,7 @@ def _timed(path: Path) -> dict[tuple[str, str], dict[str, float]]:
     return timed
 
 
-def _problem(line: Any, known: set[str]) -> str | None:
+def _problem(line: Any, known: frozenset[str]) -> str | None:
     if not isinstance(line, dict):
         return f"a JSON object is expected, not {type(line).__name__}"
     if not isinstance(line.get("id"), str):

@@ -53,7 +53,7 @@ def test_set_f1(predicted: list[str], expected: list[str], value: float) -> None
     "text",
     [
         "", "  ", "no", "[]", '"a"', "1", "{", '{"tasks": []} {"tasks": []}', '```json\n{"tasks": []}\n```', 'Here: {"tasks": []}',
-        '{"tasks": NaN}', "[" * 100_000, '{"a":' + "9" * 5000 + "}",
+        '{"tasks": NaN}', '{"tasks": 1e999}', '{"tasks": "\\ud800"}', "[" * 100_000, '{"a":' + "9" * 5000 + "}",
     ],
 )  # fmt: skip
 def test_only_one_json_object_parses(text: str) -> None:
