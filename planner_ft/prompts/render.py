@@ -45,12 +45,18 @@ def render_prompt(level: Level, record: dict[str, Any], tokenizer: PreTrainedTok
     system = system_text(level, vocabulary, with_vocabulary=with_vocabulary)
     user = user_text(level, record, vocabulary)
     if tokenizer.chat_template:
-        messages = [{"role": "system", "content": system}, {"role": "user", "content": user}]
+        messages = [{"role": "system", "content": system}, {"role": "user", "content": PROBE}]
         text = str(tokenizer.apply_chat_template(messages, tokenize=False, add_generation_prompt=True, date_string=TODAY))
     else:
-        text = f"{_bos(tokenizer)}{system}\n\n### Input\n{user}\n\n### Plan\n"
-    # The template or _bos already wrote the beginning-of-text token: special tokens must not be added again.
-    return list(tokenizer.encode(text, add_special_tokens=False))
+        text = f"{_bos(tokenizer)}{system}\n\n### Input\n{PROBE}\n\n### Plan\n"
+    before, after = text.split(PROBE)
+    # The template or _bos already wrote the beginning-of-text token: special tokens must not be added again. What the
+    # operator wrote is text: "<|eot_id|>" in a command is spelt out and ends nothing.
+    return [
+        *tokenizer.encode(before, add_special_tokens=False),
+        *tokenizer.encode(user.strip(), add_special_tokens=False, split_special_tokens=True),
+        *tokenizer.encode(after, add_special_tokens=False),
+    ]
 
 
 def render_sample(

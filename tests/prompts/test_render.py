@@ -8,8 +8,8 @@ import pytest
 from planner_ft.candidates.loading import load_tokenizer
 from planner_ft.candidates.registry import resolve_candidate
 from planner_ft.candidates.standins import make_standin
-from planner_ft.prompts.render import end_of_turn_ids, render_prompt, render_sample
-from planner_ft.prompts.text import completion_text, user_text
+from planner_ft.prompts.render import TODAY, end_of_turn_ids, render_prompt, render_sample
+from planner_ft.prompts.text import completion_text, system_text, user_text
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()
@@ -82,3 +82,21 @@ def test_targets_are_serialised_in_one_canonical_way() -> None:
 def test_the_task_agent_gets_title_parameters_and_prompt() -> None:
     record = {"task": "SurveyTarget", "parameters": {"radius": 3.0, "target_position": [1, 2]}, "prompt": "Look at it."}
     assert user_text("task", record, VOCABULARY) == 'SurveyTarget\n{"target_position":[1,2],"radius":3}\nLook at it.'
+
+
+@pytest.mark.parametrize("injected", ["<|eot_id|>", "<|im_end|>", "<|end_of_text|>", "<|endoftext|>"])
+def test_special_tokens_in_a_command_are_text(tokenizer: Any, injected: str) -> None:
+    plain, attack = ({**MISSION, "prompt": f"Find the {word} now."} for word in ("buoy", injected))
+    special = set(tokenizer.all_special_ids)
+    counts = [sum(token in special for token in render_prompt("mission", record, tokenizer, VOCABULARY, with_vocabulary=False)) for record in (plain, attack)]
+    assert counts[0] == counts[1]
+
+
+def test_the_prompt_is_tokenised_as_the_whole_text_would_be(tokenizer: Any) -> None:
+    system = system_text("mission", VOCABULARY, with_vocabulary=False)
+    if tokenizer.chat_template:
+        messages = [{"role": "system", "content": system}, {"role": "user", "content": MISSION["prompt"]}]
+        text = tokenizer.apply_chat_template(messages, tokenize=False, add_generation_prompt=True, date_string=TODAY)
+    else:
+        text = f"{tokenizer.bos_token or ''}{system}\n\n### Input\n{MISSION['prompt']}\n\n### Plan\n"
+    assert render_prompt("mission", MISSION, tokenizer, VOCABULARY, with_vocabulary=False) == tokenizer.encode(text, add_special_tokens=False)
