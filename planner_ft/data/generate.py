@@ -11,7 +11,7 @@ from typing import Any
 from planner_ft.data.card import dataset_card
 from planner_ft.data.leakage import leakage_report
 from planner_ft.data.mission.source import curated_splits, find_source
-from planner_ft.data.output import DataFolder, write_folders
+from planner_ft.data.output import DataFolder, check_writable, write_folders
 from planner_ft.data.task.sampler import Split, sample_tasks
 from planner_ft.data.validation import canonical_record
 from planner_ft.support.errors import PlannerError
@@ -85,6 +85,7 @@ def generate(settings: GenerationSettings, progress: Progress = lambda _label, _
     set. Raises PlannerError when the curated source is faulty, counts cannot be met, or the folder cannot be written.
     """
     vocabulary = load_vocabulary(settings.vocabulary)
+    check_writable(settings.out)
     results, folders = [], []
     for level in settings.levels:
         result, folder = _make(level, settings, vocabulary, progress, messages if settings.chat else None)

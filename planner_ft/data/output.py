@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import compact_json, sha256_text, write_json, write_text
+from planner_ft.support.files import compact_json, sha256_file, sha256_text, write_json, write_text
 
 MANIFEST = "manifest.json"
 
@@ -35,10 +36,10 @@ def write_folders(folders: Sequence[DataFolder], *, overwrite: bool) -> list[boo
     """
     pending = [_pending(folder) for folder in folders]
     for folder, (texts, replaced) in zip(folders, pending, strict=True):
-        if replaced and not overwrite:
-            raise PlannerError(f"{folder.folder}: {replaced[0]} exists and is different; give another --out, or --overwrite to replace it")
         if replaced and folder.source is not None and _same_folder(folder.source, folder.folder):
             _refuse_cut(folder, texts)
+        if replaced and not overwrite:
+            raise PlannerError(f"{folder.folder}: {replaced[0]} exists and is different; give another --out, or --overwrite to replace it")
     written = []
     for folder, (texts, _replaced) in zip(folders, pending, strict=True):
         if texts:
@@ -66,7 +67,7 @@ def _pending(folder: DataFolder) -> tuple[dict[str, str], list[str]]:
 
 def _present(path: Path) -> str | None:
     try:
-        return path.read_text(encoding="utf-8", errors="replace") if path.exists() else None
+        return path.read_bytes().decode("utf-8-sig", "replace") if path.exists() else None
     except OSError as error:
         raise PlannerError(f"{path}: cannot be read ({error.strerror})") from None
 
@@ -77,7 +78,9 @@ def _same_folder(first: Path, second: Path) -> bool:
 
 def _same_records(present: str, text: str, name: str) -> bool:
     """Whether a curated file differs from its canonical text in white space alone."""
-    return name.endswith(".jsonl") and "".join(f"{compact_json(json.loads(line))}\n" for line in present.split("\n") if line.strip()) == text
+    if "/" in name or not name.endswith(".jsonl"):
+        return False
+    return "".join(f"{compact_json(json.loads(line))}\n" for line in present.split("\n") if line.strip()) == text
 
 
 def _refuse_cut(folder: DataFolder, texts: dict[str, str]) -> None:
@@ -87,12 +90,19 @@ def _refuse_cut(folder: DataFolder, texts: dict[str, str]) -> None:
             raise PlannerError(f"{folder.folder / name} is the curated source and would be cut; give another --out")
 
 
+def check_writable(folder: Path) -> None:
+    """Raise PlannerError when `folder` cannot be made or written: before the work, not after it."""
+    existing = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    if not existing.is_dir():
+        raise PlannerError(f"--out {folder}: {existing} is no folder; give another --out")
+    if not os.access(existing, os.W_OK | os.X_OK):
+        raise PlannerError(f"--out {folder}: {existing} cannot be written; give another --out")
+
+
 def _write(folder: DataFolder, texts: dict[str, str]) -> None:
     """Stage all files beside the target, then move them in: a full disk leaves the target as it was."""
-    staging = folder.folder.parent / f".{folder.folder.name}.staging"
+    staging = folder.folder.parent / f".{folder.folder.name}.{os.getpid()}.staging"
     try:
-        if staging.exists():
-            shutil.rmtree(staging)
         for name, text in texts.items():
             if name != MANIFEST:
                 write_text(staging / name, text)
@@ -102,10 +112,12 @@ def _write(folder: DataFolder, texts: dict[str, str]) -> None:
             (staging / name).replace(folder.folder / name)
     except OSError as error:
         raise PlannerError(f"{folder.folder}: cannot be written ({error.strerror or error}); choose another --out") from None
+    except PlannerError as error:
+        raise PlannerError(str(error).replace(str(staging), str(folder.folder))) from None
     finally:
         shutil.rmtree(staging, ignore_errors=True)
 
 
 def _digests(folder: DataFolder, texts: dict[str, str]) -> dict[str, str]:
     """SHA-256 of every file as it lies in the folder afterwards."""
-    return {name: sha256_text(text if name in texts else str(_present(folder.folder / name))) for name, text in folder.texts.items()}
+    return {name: sha256_text(text) if name in texts else sha256_file(folder.folder / name) for name, text in folder.texts.items()}

@@ -43,7 +43,11 @@ SMALL = {
     "fourty": 40.0,
     "dozen": 12.0,
 }
-COMPASS = ("north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west")
+COMPASS = (
+    *("north", "north-north-east", "north-east", "east-north-east", "east", "east-south-east", "south-east", "south-south-east"),
+    *("south", "south-south-west", "south-west", "west-south-west", "west", "west-north-west", "north-west", "north-north-west"),
+)
+SHORT = ("N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE", "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW")
 TURNS = {
     **dict.fromkeys(("full", "complete", "whole", "entire", "once", "lap"), 1.0),
     **dict.fromkeys(("half", "semicircle"), 0.5),
@@ -209,13 +213,13 @@ def _with_unit(text: str, tokens: list[Token], first: int, after: int, value: fl
 
 def states_number(text: str, value: float, unit: str | None) -> bool:
     """Whether `value` in a parameter's `unit` can come from the text. A number said in another unit does not count."""
-    kind = unit if unit in ("s", "m", "m/s", "deg", "%") else None
+    kind = "deg" if unit == "degC" else unit
     for quantity in quantities(text):
         if quantity.unit in (kind, None) and close(quantity.value, value):
             return True
     if kind == "s" and any(close(total, value) for total in _durations(text)):
         return True
-    return kind == "deg" and (value % 360 in bearings(text) or any(close(turn, abs(value)) for turn in turns(text)))
+    return unit == "deg" and (value % 360 in bearings(text) or any(close(turn, abs(value)) for turn in turns(text)))
 
 
 def _durations(text: str) -> list[float]:
@@ -233,9 +237,9 @@ def close(said: float, written: float) -> bool:
 def bearings(text: str) -> frozenset[float]:
     """Compass directions that the text names, in degrees clockwise from north."""
     lowered = re.sub(r"\b(north|south)[\s-]?(east|west)", r"\1-\2", text.lower())
-    found = {45.0 * index for index, name in enumerate(COMPASS) if re.search(rf"(?<![\w-]){name}(?:erly|wards?|ern|bound)?(?![\w-])", lowered)}
-    short = {"N": 0.0, "NE": 45.0, "E": 90.0, "SE": 135.0, "S": 180.0, "SW": 225.0, "W": 270.0, "NW": 315.0}
-    return frozenset(found | {short[name] for name in re.findall(r"\b(?:NE|SE|SW|NW|N|E|S|W)\b", text)})
+    lowered = re.sub(r"\b(north|south|east|west)[\s-]((?:north|south)-(?:east|west))", r"\1-\2", lowered)
+    found = {22.5 * index for index, name in enumerate(COMPASS) if re.search(rf"(?<![\w-]){name}(?:erly|wards?|ern|bound)?(?![\w-])", lowered)}
+    return frozenset(found | {22.5 * SHORT.index(name) for name in re.findall(rf"\b(?:{'|'.join(sorted(SHORT, key=len, reverse=True))})\b", text)})
 
 
 @functools.lru_cache(maxsize=4096)

@@ -20,15 +20,20 @@ BUNDLED = Path(__file__).parent / "curated"
 
 
 def find_source(asked: Path | None = None) -> Path:
-    """The folder with the curated set: `asked`, else ./data/mission, the checkout's, or the copy in the package."""
+    """The folder with the curated set: `asked`, else that of the checkout that we work in or run from, else the package's copy.
+
+    ./data/mission counts in a checkout alone: elsewhere it is what an earlier run has written.
+    """
     if asked is not None:
         if not asked.is_dir():
             raise PlannerError(f"--source {asked}: no such folder")
         return asked
-    for folder in (SOURCE, Path(planner_ft.__file__).parent.parent / SOURCE, BUNDLED):
+    package = Path(planner_ft.__file__).parent
+    checkouts = [root for root in (Path(), package.parent) if (root / package.name / "__init__.py").is_file()]
+    for folder in (*(root / SOURCE for root in checkouts), BUNDLED):
         if (folder / "train.jsonl").is_file():
             return folder
-    raise PlannerError(f"no curated mission set in {SOURCE}; give its folder with --source, or generate --level task alone")
+    raise PlannerError("the curated mission set is neither in a checkout nor in the package; give its folder with --source, or --level task alone")
 
 
 def curated_splits(source: Path, counts: Mapping[Any, int | None], vocabulary: Vocabulary, named: str = DEFAULT) -> dict[str, list[dict[str, Any]]]:
@@ -43,7 +48,7 @@ def curated_splits(source: Path, counts: Mapping[Any, int | None], vocabulary: V
         problems += found
     if problems:
         more = f" (and {len(problems) - 1} more; plannerft validate --complete {source}/*.jsonl lists them)" if len(problems) > 1 else ""
-        other = f"; the set is written for another vocabulary than {named}: give --source, or --level task" if named != DEFAULT else ""
+        other = f"; a set for the vocabulary {named} is needed: give its folder with --source, or --level task alone" if named != DEFAULT else ""
         raise PlannerError(f"{problems[0]}{more}{other}")
     if named == DEFAULT:
         lacking = coverage_problems(splits, vocabulary)

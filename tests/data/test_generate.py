@@ -1,0 +1,213 @@
+"""`gen-data` writes both levels, twice the same, all or nothing."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from planner_ft.data.generate import GenerationSettings, generate
+from planner_ft.prompts.chat import chat_messages
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import read_jsonl, sha256_file, write_jsonl
+from planner_ft.vocabulary import load_vocabulary
+
+ROOT = Path(__file__).parents[2]
+CURATED = ROOT / "data" / "mission"
+SMALL: dict[str, Any] = {"train": 20, "validation": 5, "test": 6}
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+
+
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def source(tmp_path: Path) -> Path:
+    """A copy of the curated set that a test may spoil."""
+    folder = tmp_path / "source"
+    shutil.copytree(CURATED, folder)
+    return folder
+
+
+def test_both_levels_with_card_leakage_report_and_manifest(tmp_path: Path) -> None:
+    mission, task = generate(GenerationSettings(out=tmp_path / "data", **SMALL))
+    assert mission.counts == {"train": 20, "validation": 5, "test": 6}
+    assert task.counts == {"train": 20, "validation": 5, "test": 6, "test_unseen": 6}
+    for result in (mission, task):
+        files = {*(f"{split}.jsonl" for split in result.counts), "README.md", "leakage.json"}
+        assert {path.name for path in result.folder.iterdir()} == files | {"manifest.json"}
+        manifest = json.loads((result.folder / "manifest.json").read_text())
+        assert manifest["outputs"] == {name: sha256_file(result.folder / name) for name in files}
+        assert manifest["kind"] == "data" and manifest["configuration"]["counts"] == result.counts
+    assert json.loads((task.folder / "manifest.json").read_text())["seed"] == 0
+
+
+def test_the_same_seed_makes_the_same_bytes_and_another_seed_others(tmp_path: Path) -> None:
+    for name, seed in (("a", 3), ("b", 3), ("c", 4)):
+        generate(GenerationSettings(level="task", out=tmp_path / name, seed=seed, **SMALL))
+    a, b, c = (contents(tmp_path / name / "task") for name in "abc")
+    a.pop("manifest.json"), b.pop("manifest.json")
+    assert a == b
+    assert a["train.jsonl"] != c["train.jsonl"]
+
+
+def test_a_second_run_is_up_to_date_and_other_results_are_kept(tmp_path: Path) -> None:
+    out = tmp_path / "data"
+    assert all(result.written for result in generate(GenerationSettings(out=out, **SMALL)))
+    before = contents(out)
+    assert not any(result.written for result in generate(GenerationSettings(out=out, **SMALL)))
+    with pytest.raises(PlannerError, match=r"task: train.jsonl exists and is different; .* --overwrite"):
+        generate(GenerationSettings(out=out, seed=1, **SMALL))
+    assert contents(out) == before
+    generate(GenerationSettings(out=out, seed=1, overwrite=True, **SMALL))
+    assert contents(out)["task/train.jsonl"] != before["task/train.jsonl"]
+
+
+def test_in_place_the_curated_source_is_left_alone(tmp_path: Path, source: Path) -> None:
+    (tmp_path / "data").mkdir()
+    folder = source.rename(tmp_path / "data" / "mission")
+    for name in ("README.md", "leakage.json", "manifest.json"):
+        (folder / name).unlink(missing_ok=True)
+    before = contents(folder)
+    (result,) = generate(GenerationSettings(level="mission", source=folder))
+    assert result.written and {**contents(folder), **before} == contents(folder)
+    with pytest.raises(PlannerError, match="is the curated source and would be cut"):
+        generate(GenerationSettings(level="mission", source=folder, train=20, overwrite=True))
+    assert {**contents(folder), **before} == contents(folder)
+
+
+def test_the_committed_card_and_report_are_up_to_date() -> None:
+    (result,) = generate(GenerationSettings(level="mission", out=ROOT / "data", source=CURATED))
+    assert not result.written, "run: plannerft gen-data --level mission --overwrite"
+
+
+def test_what_is_not_canonical_is_converted(tmp_path: Path, source: Path) -> None:
+    records = read_jsonl(source / "train.jsonl")
+    first = records[0]["expected"]["tasks"][0]["parameters"]
+    first["target_position"] = [float(value) for value in first["target_position"]]
+    write_jsonl(source / "train.jsonl", [dict(reversed(record.items())) for record in records])
+    generate(GenerationSettings(level="mission", out=tmp_path / "data", source=source))
+    assert read_jsonl(tmp_path / "data" / "mission" / "train.jsonl") == read_jsonl(CURATED / "train.jsonl")
+    assert (tmp_path / "data" / "mission" / "train.jsonl").read_text().startswith('{"id":')
+
+
+def test_the_chat_form_holds_the_answer_that_we_train_on(tmp_path: Path) -> None:
+    generate(GenerationSettings(out=tmp_path, chat=True, **SMALL), messages=chat_messages)
+    for level in ("mission", "task"):
+        record, chat = (read_jsonl(tmp_path / level / name)[0] for name in ("train.jsonl", "chat/train.jsonl"))
+        assert [message["role"] for message in chat["messages"]] == ["system", "user", "assistant"]
+        assert record["prompt"] in chat["messages"][1]["content"]
+        assert json.loads(chat["messages"][2]["content"]) == record["expected"]
+
+
+def test_every_split_loads_with_datasets_at_once(tmp_path: Path) -> None:
+    datasets = pytest.importorskip("datasets")
+    for result in generate(GenerationSettings(out=tmp_path, **SMALL)):
+        files = {split: str(result.folder / f"{split}.jsonl") for split in result.counts}
+        loaded = datasets.load_dataset("json", data_files=files, cache_dir=str(tmp_path / "cache"))
+        assert {split: len(rows) for split, rows in loaded.items()} == result.counts
+        for split, path in files.items():
+            assert [row["id"] for row in loaded[split]] == [record["id"] for record in read_jsonl(path)]
+            assert loaded[split][0]["expected"] == read_jsonl(path)[0]["expected"]
+    assert set(datasets.load_dataset(str(tmp_path / "task"), cache_dir=str(tmp_path / "cache"))) == {"train", "validation", "test", "test_unseen"}
+
+
+def test_another_vehicle_has_its_task_set(tmp_path: Path) -> None:
+    (result,) = generate(GenerationSettings(level="task", out=tmp_path, vocabulary="inspection_drone", **SMALL))
+    titles = {record["task"] for record in read_jsonl(result.folder / "train.jsonl")}
+    assert titles <= set(load_vocabulary("inspection_drone").task)
+    with pytest.raises(PlannerError, match="a set for the vocabulary inspection_drone is needed"):
+        generate(GenerationSettings(out=tmp_path / "all", vocabulary="inspection_drone", source=CURATED, **SMALL))
+    assert not (tmp_path / "all").exists()
+
+
+def test_another_vehicle_takes_a_mission_set_of_its_own(tmp_path: Path) -> None:
+    drone = load_vocabulary("inspection_drone")
+    prompts = {"train": "go to [4, 5]", "validation": "fly to [6, 7], please", "test": "[8, 9], over"}
+    for split, prompt in prompts.items():
+        position = [int(number) for number in re.findall(r"\d", prompt)]
+        name = drone.task[drone.transit].position_parameter
+        task = {"title": drone.transit, "parameters": {name: position}, "task_prompt": f"Fly to {position}."}
+        expected = {"tasks": [task], "assumptions": [], "constraints": []}
+        record = {"id": split, "family": split, "prompt": prompt, "expected": expected, "spans": [], "tags": []}
+        write_jsonl(tmp_path / "own" / f"{split}.jsonl", [record])
+    (result,) = generate(GenerationSettings(level="mission", out=tmp_path / "data", vocabulary="inspection_drone", source=tmp_path / "own"))
+    assert result.counts == {"train": 1, "validation": 1, "test": 1}
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({"level": "skills"}, "--level skills: must be mission, task or all"),
+        ({"train": 0}, "--train 0: at least one record"),
+        ({"seed": -1}, "--seed -1"),
+        ({"level": "mission", "train": 126}, "--train 126: the curated mission set has 125 records"),
+        ({"level": "mission", "source": Path("nowhere")}, "--source nowhere: no such folder"),
+        ({"vocabulary": "submarine"}, "--vocabulary submarine: no such file"),
+    ],
+)
+def test_mistakes_are_one_sentence(tmp_path: Path, settings: dict[str, Any], message: str) -> None:
+    with pytest.raises(PlannerError, match=re.escape(message)):
+        generate(GenerationSettings(**{"out": tmp_path / "data", **settings}))
+    assert not (tmp_path / "data").exists()
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (None, r"train.jsonl: no such file"),
+        (b"", r"train.jsonl: is empty"),
+        (b"\xff\xfe", r"train.jsonl: not UTF-8"),
+        (b'{"id": "a", "prompt": "go', r"train.jsonl:1: not JSON"),
+        (b'{"id": "a", "prompt": "go"}', r"train.jsonl:1: .* \(and \d+ more; plannerft validate --complete"),
+        (b"[1]\n", r"train.jsonl:1: a JSON object is expected"),
+    ],
+)
+def test_a_faulty_source_is_named_and_nothing_written(tmp_path: Path, source: Path, content: bytes | None, message: str) -> None:
+    (source / "train.jsonl").unlink()
+    if content is not None:
+        (source / "train.jsonl").write_bytes(content)
+    with pytest.raises(PlannerError, match=message):
+        generate(GenerationSettings(level="mission", out=tmp_path / "data", source=source))
+    assert not (tmp_path / "data").exists()
+
+
+def test_a_source_that_lacks_coverage_is_named(tmp_path: Path, source: Path) -> None:
+    write_jsonl(source / "test.jsonl", read_jsonl(source / "test.jsonl")[:24])
+    with pytest.raises(PlannerError, match=r"source: test: 24 records, 25 are expected"):
+        generate(GenerationSettings(level="mission", out=tmp_path / "data", source=source))
+
+
+def test_a_full_disk_leaves_what_was_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    out = tmp_path / "data"
+    generate(GenerationSettings(level="task", out=out, **SMALL))
+    before = contents(tmp_path)
+    calls = iter(range(100))
+
+    def full(_descriptor: int) -> None:
+        if next(calls) == 2:
+            raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(PlannerError, match=r"data/task/test.jsonl: cannot be written \(No space left on device\)"):
+        generate(GenerationSettings(level="task", out=out, seed=9, overwrite=True, **SMALL))
+    assert contents(tmp_path) == before
+
+
+def test_a_folder_that_cannot_be_written_is_named_before_the_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(PlannerError, match=r"--out file/data: .*file is no folder"):
+        generate(GenerationSettings(out=Path("file") / "data"))
+    monkeypatch.setattr(os, "access", lambda *_arguments: False)
+    with pytest.raises(PlannerError, match=r"--out .*data: .* cannot be written"):
+        generate(GenerationSettings(out=tmp_path / "data"))

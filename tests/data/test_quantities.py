@@ -1,0 +1,73 @@
+"""Numbers, units, coordinates and bearings as people say them."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner_ft.data.quantities import bearings, positions, quantities, states_number, states_position, turns
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("four minutes", [(240, "s")]),
+        ("a kilometre", [(1000, "m")]),
+        ("for a minute and a half", [(90, "s")]),
+        ("two and a half minutes", [(150, "s")]),
+        ("half an hour", [(1800, "s")]),
+        ("three quarters of an hour", [(2700, "s")]),
+        ("one point two kilometres", [(1200, "m")]),
+        ("one decimal five kilometres", [(1500, "m")]),
+        ("two hundred and fifty metres", [(250, "m")]),
+        ("heading one two zero", [(120, None)]),
+        ("half a metre per second", [(0.5, "m/s")]),
+        ("a reading every minute", [(60, "s")]),
+        ("a ten-minute drift", [(600, "s")]),
+        ("20 minuets", [(1200, "s")]),
+        ("1,200 m", [(1200, "m")]),
+        ("[1,200]", [(1, None), (200, None)]),
+        ("100 by 60", [(100, None), (60, None)]),
+        (".5 m/s", [(0.5, "m/s")]),
+        ("5 knots", [(5 * 1852 / 3600, "m/s")]),
+        ("forty five, 20 percent", [(45, None), (20, "%")]),
+        ("nothing to see", []),
+    ],
+)
+def test_numbers_are_read_with_their_unit(text: str, said: list[tuple[float, str | None]]) -> None:
+    found = [(quantity.value, quantity.unit) for quantity in quantities(text)]
+    assert [unit for _, unit in found[: len(said)]] == [unit for _, unit in said]
+    assert [value for value, _ in found[: len(said)]] == pytest.approx([value for value, _ in said])
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["[45.0, -12]", "(45, -12)", "x=45 y=-12", "x 45 y -12", "45 minus 12", "forty five comma minus twelve", "45 east 12 south", "at 45, -12.", "y -12 x 45"],
+)
+def test_coordinates_are_read_in_many_forms(text: str) -> None:
+    assert states_position(text, [45, -12])
+    assert not states_position(text, [45, 12])
+    assert not states_position(text, [-12, 45]) or "y -12" in text
+
+
+def test_numbers_of_two_places_make_no_third() -> None:
+    assert not states_position("from [10, 20] to [30, 40]", [10, 40])
+    assert [(x, y) for x, y, _start, _end in positions("from [10, 20] over to [30, 40]")] == [(10, 20), (30, 40)]
+
+
+def test_a_number_with_another_unit_does_not_count() -> None:
+    assert states_number("hold for eight minutes", 480, "s")
+    assert not states_number("hold for eight minutes", 8, "s")
+    assert not states_number("hold for eight minutes", 8, "m")
+    assert states_number("2 minutes and 30 seconds", 150, "s")
+
+
+def test_bearings_and_turns() -> None:
+    assert bearings("head north-west") == {315}
+    assert bearings("head northwest, then SSE") == {315, 157.5}
+    assert bearings("Newton") == frozenset()
+    assert states_number("towards the south-west", 225, "deg")
+    assert {180.0} == turns("half a circle")
+    assert 270.0 in turns("three quarters of a circle")
+    assert 720.0 in turns("two full orbits") or 720.0 in turns("twice round")
+    assert not states_number("circle the buoy", 360, "deg")
+    assert states_number("once round the buoy", 360, "deg")

@@ -1,0 +1,67 @@
+"""Tags agree with plans, and the audit of a curated set misses nothing."""
+
+from __future__ import annotations
+
+import copy
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from planner_ft.data.tags import ALWAYS_TAGGED, TAGS, TASKS_OF_TAG, coverage_problems, tag_problems
+from planner_ft.support.files import read_jsonl
+from planner_ft.vocabulary import load_vocabulary
+
+USV = load_vocabulary()
+CURATED = {split: read_jsonl(Path(__file__).parents[2] / "data" / "mission" / f"{split}.jsonl") for split in ("train", "validation", "test")}
+
+
+@pytest.fixture
+def splits() -> dict[str, list[dict[str, Any]]]:
+    return copy.deepcopy(CURATED)
+
+
+def test_the_curated_set_covers_what_it_must(splits: dict[str, list[dict[str, Any]]]) -> None:
+    assert coverage_problems(splits, USV) == []
+
+
+def test_tables_name_known_tags_and_tasks() -> None:
+    assert set(TASKS_OF_TAG) | set(ALWAYS_TAGGED.values()) <= set(TAGS)
+    assert {title for titles in TASKS_OF_TAG.values() for title in titles} | set(ALWAYS_TAGGED) <= set(USV.task)
+    assert sum(tag.startswith("which.") for tag in TAGS) == 11
+
+
+def test_what_is_lacking_is_named(splits: dict[str, list[dict[str, Any]]]) -> None:
+    moved = splits["train"].pop()
+    splits["test"] = [record for record in splits["test"] if "which.glare" not in record["tags"]]
+    splits["validation"].append(moved)
+    splits["validation"][0]["family"] = splits["train"][0]["family"]
+    found = coverage_problems(splits, USV)
+    for part in (
+        "train: 124 records, 125 are expected",
+        "test: GlareFreeApproach occurs 0 times, 1 are needed",
+        "test: no record has the tag which.glare",
+        f"family {splits['train'][0]['family']!r} is in train and in validation",
+    ):
+        assert part in found
+
+
+def test_a_prompt_in_two_splits_is_named(splits: dict[str, list[dict[str, Any]]]) -> None:
+    splits["test"][0]["prompt"] = splits["train"][0]["prompt"]
+    assert any("is in train and in test" in problem for problem in coverage_problems(splits, USV))
+
+
+@pytest.mark.parametrize(
+    ("titles", "tags", "problem"),
+    [
+        (["KeepStation"], ["which.keep", "rule.zen"], "tag 'rule.zen' is not known"),
+        (["KeepStation"], ["which.keep", "which.orbit"], "tag which.orbit needs PerformOrbit"),
+        (["KeepStation"], [], "the tag which.keep is not"),
+        (["KeepStation"], ["which.keep", "which.keep"], "stands twice"),
+        ([], [], "go together"),
+        (["KeepStation"], ["which.keep", "rule.empty"], "go together"),
+    ],
+)
+def test_tags_and_tasks_must_agree(titles: list[str], tags: list[str], problem: str) -> None:
+    record = {"tags": tags, "expected": {"tasks": [{"title": title, "parameters": {}} for title in titles]}}
+    assert any(problem in text for text in tag_problems(record))
