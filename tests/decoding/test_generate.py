@@ -56,6 +56,17 @@ def test_batched_answers_are_those_of_single_queries_and_of_transformers(model: 
         assert generate(model, [query], ends)[0].ids == answer.ids
 
 
+def test_models_with_absolute_positions_are_batched_rightly() -> None:
+    from transformers import GPT2Config, GPT2LMHeadModel
+
+    torch.manual_seed(0)
+    config = GPT2Config(vocab_size=VOCABULARY, n_embd=32, n_layer=2, n_head=4, n_positions=512, initializer_range=0.5, bos_token_id=1, eos_token_id=2)
+    gpt = GPT2LMHeadModel(config).eval()
+    queries = prompts(5)
+    for query, answer in zip(queries, generate(gpt, queries, limits(5)), strict=True):
+        assert list(answer.ids) == reference(gpt, query, limits(5))
+
+
 def test_answers_grow_past_a_block_of_the_cache(model: Any) -> None:
     query = prompts(1)[0]
     assert len(query) + 200 > BLOCK
