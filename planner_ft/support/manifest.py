@@ -52,7 +52,8 @@ def hardware() -> dict[str, Any]:
     except (ValueError, OSError):
         memory = None
     return {
-        "platform": platform.platform(),
+        # Without the kernel's release, which says more about a host than about a result.
+        "platform": "-".join((platform.system(), platform.machine(), *platform.libc_ver())),
         "processor": platform.machine(),
         "cores": len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count(),
         "memory_bytes": memory,
