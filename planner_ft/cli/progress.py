@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import shlex
+import signal
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -27,11 +29,38 @@ def interruptible(folder: Path | None) -> Iterator[Report]:
 
     console = Console(stderr=True, highlight=False)
     try:
-        with _bars(console) if console.is_terminal else _lines(console) as report:
-            yield report
+        with _not_swallowed() as stopped, _bars(console) if console.is_terminal else _lines(console) as report:
+
+            def reporting(label: str, done: int, total: int) -> None:
+                if stopped():
+                    raise KeyboardInterrupt
+                report(label, done, total)
+
+            yield reporting
     except KeyboardInterrupt:
         console.print(f"interrupted{f'; {_kept(folder)}' if folder else ''}", soft_wrap=True, markup=False)
         raise typer.Exit(130) from None
+
+
+@contextlib.contextmanager
+def _not_swallowed() -> Iterator[Callable[[], bool]]:
+    """Yield a function that says whether Ctrl-C was pressed: libraries swallow a KeyboardInterrupt while they load."""
+    pressed = threading.Event()
+    if threading.current_thread() is not threading.main_thread():
+        yield pressed.is_set
+        return
+    before = signal.getsignal(signal.SIGINT)
+
+    def press(_number: int, _frame: object) -> None:
+        pressed.set()
+        raise KeyboardInterrupt
+
+    if before is not signal.SIG_IGN:
+        signal.signal(signal.SIGINT, press)
+    try:
+        yield pressed.is_set
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 @contextlib.contextmanager
@@ -84,4 +113,4 @@ def _kept(folder: Path) -> str:
     from planner_ft.benchmark.runner import resume_hint
 
     arguments = [argument for argument in sys.argv[1:] if argument not in ("--overwrite", "--resume")]
-    return f"{resume_hint(folder)}; go on with: {shlex.join([Path(sys.argv[0]).name, *arguments, '--resume'])}"
+    return f"{resume_hint(folder)}; go on with: {shlex.join(['plannerft', *arguments, '--resume'])}"

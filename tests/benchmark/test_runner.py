@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import shutil
+import signal
 from pathlib import Path
 from typing import Any
 
@@ -361,6 +363,23 @@ def test_ctrl_c_says_how_to_go_on(settings: Any, tmp_path: Path, data: Path, mon
     assert result.exit_code == 130
     assert f"3 answers are kept in {tmp_path / 'out' / 'predictions.jsonl'}" in result.stderr
     assert "plannerft bench --level mission --resume" in result.stderr
+
+
+def test_a_ctrl_c_that_a_library_swallows_is_not_lost(tmp_path: Path, data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    load = engine_module.load_model
+
+    def swallowing(*args: Any, **kwargs: Any) -> Any:
+        with contextlib.suppress(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+        return load(*args, **kwargs)
+
+    monkeypatch.setattr(engine_module, "load_model", swallowing)
+    handler = signal.getsignal(signal.SIGINT)
+    arguments = ("--level", "mission", "--candidates", NAME, "--configurations", "base", "--data", data, "--out", tmp_path / "out", "--max-new-tokens", 3)
+    result = invoke(*arguments)
+    assert result.exit_code == 130
+    assert "0 answers are kept" in result.stderr
+    assert signal.getsignal(signal.SIGINT) is handler
 
 
 def test_the_command_prints_the_table(tmp_path: Path, data: Path) -> None:
