@@ -64,6 +64,7 @@ _TOKEN = re.compile(r"\d{1,3},\d{3}(?=\s?(?:m|metres|meters|s|seconds)\b)|[1-9]/
 _REPEATED = re.compile(r"[\s-]*(?:full |complete )?(?:times|turns|laps|rounds|circles|orbits)")
 _BETWEEN = re.compile(r"(?:[\s,;:/=]|comma|and|by|x|y|m|metres?|meters?|east|west|north|south|minus|negative|[-−–(])*", re.IGNORECASE)
 _SPEED = re.compile(r"\s*(?:m/s|m s-1|met(?:re|er)s? (?:per|a) second)", re.IGNORECASE)
+_HALF_SPEED = re.compile(r"\s*an? met(?:re|er) (?:per|a) second", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -197,8 +198,10 @@ def _unit(tokens: list[Token], index: int) -> tuple[tuple[str, float] | None, in
 
 def _with_unit(text: str, tokens: list[Token], first: int, after: int, value: float) -> tuple[Quantity, int]:
     start, end = tokens[first][1], tokens[after - 1][2]
-    if _SPEED.match(text, end) or (value == 0.5 and re.match(r"\s*a met(?:re|er) (?:per|a) second", text[end:], re.IGNORECASE)):
-        return Quantity(value, "m/s", start, end, value), after
+    speed = _SPEED.match(text, end) or (_HALF_SPEED.match(text, end) if value == 0.5 else None)
+    if speed:
+        behind = next((index for index in range(after, len(tokens)) if tokens[index][1] >= speed.end()), len(tokens))
+        return Quantity(value, "m/s", start, speed.end(), value), behind
     unit, behind = _unit(tokens, after)
     if unit is None:
         return Quantity(value, None, start, end, value), after

@@ -168,6 +168,9 @@ def _transit_problems(step: Step, following: Step | None, here: list[float] | No
 
 def _return_problems(steps: list[Step], vocabulary: Vocabulary, command: Command) -> Iterator[str]:
     home = list(vocabulary.home)
+    ends = [step for step in steps if step.task.pattern == DOCKING or (step.task.title == vocabulary.transit and step.place == home)]
+    if command.tags is not None and "rule.return" in command.tags and not ends:
+        yield f"the tag rule.return needs a {vocabulary.transit} to {home} or a docking"
     if command.prompt is not None and states_position(command.prompt, home):
         return
     returns = [number for number, step in enumerate(steps) if step.task.title == vocabulary.transit and step.place == home]

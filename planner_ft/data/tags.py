@@ -73,7 +73,7 @@ TAGS: dict[str, str] = {
 TASKS_OF_TAG: dict[str, tuple[str, ...]] = {
     "rule.search": ("SearchAndDetect",), "rule.search-on-request": ("SearchAndDetect",), "rule.one-search": ("SearchAndDetect",),
     "rule.transit": ("Transit",), "rule.transit-unresolved": ("Transit",), "rule.explicit-go": ("Transit",),
-    "rule.return": ("Transit", "DockingApproach"), "rule.dock": ("DockingApproach",), "rule.visual-dock": ("VisualDockingApproach",),
+    "rule.dock": ("DockingApproach",), "rule.visual-dock": ("VisualDockingApproach",),
     "rule.diagnostics": ("Diagnostics",), "rule.report": ("AutoGenerateReportSummary",), "rule.harvest": ("SmartDataHarvest",),
     "param.side": ("ParallelStructurePass",), "param.standoff-radius": ("PerformOrbit", "SurveyTarget"),
     "param.standoff-distance": ("ParallelStructurePass", "VisualDockingApproach"), "param.arc": ("PerformOrbit",), "param.no-arc": ("PerformOrbit",),

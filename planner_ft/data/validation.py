@@ -12,14 +12,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from planner_ft.data.quantities import quantities
+from planner_ft.data.completeness import completeness_problems
 from planner_ft.data.rules import rule_problems
 from planner_ft.data.steprules import step_problems
 from planner_ft.data.tags import tag_problems
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, decode_json, iterate_jsonl, read_text
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import LEVELS, MISSION_KEYS, Level, canonical_parameters, canonical_plan, list_key, plan_problems
+from planner_ft.vocabulary.plans import LEVELS, Level, canonical_parameters, canonical_plan, list_key, plan_problems
 from planner_ft.vocabulary.schema import ELEMENTS
 
 Kind = Literal["record", "prediction", "plan"]
@@ -161,7 +161,7 @@ def record_problems(level: Level, record: dict[str, Any], vocabulary: Vocabulary
         problems += [f"expected: {text}" for text in rule_problems(expected, vocabulary, prompt, tags)]
         problems += _annotation_problems(record, prompt, complete=complete)
     if complete and not form:
-        problems += _completeness_problems(level, record, vocabulary)
+        problems += completeness_problems(level, record, vocabulary)
     return problems
 
 
@@ -224,32 +224,3 @@ def _span_problems(span: Any, prompt: str) -> Iterator[str]:
         yield f"{start!r} to {end!r} lies outside the prompt"
     elif prompt[start:end] != span["text"]:
         yield f"text is {span['text']!r}, but the prompt has {prompt[start:end]!r} there"
-
-
-def _completeness_problems(level: Level, record: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
-    """What a record of the curated set must also hold; its plan is strictly valid."""
-    expected = record["expected"]
-    if level == "task":
-        return []
-    tasks = expected["tasks"]
-    problems = [f"expected: tasks[{index}] {task['title']}: task_prompt is empty" for index, task in enumerate(tasks) if not task["task_prompt"].strip()]
-    if not tasks and not expected["constraints"]:
-        problems.append("expected: an empty task list needs a constraint that says why")
-    if any(value == list(vocabulary.unresolved) for task in tasks for value in task["parameters"].values()) and not expected["assumptions"]:
-        problems.append("expected: a plan with an unresolved place needs an assumption about it")
-    return problems + _invented_numbers(record, vocabulary)
-
-
-def _invented_numbers(record: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
-    """Numbers in the plan's texts that neither the command nor a parameter has."""
-    expected = record["expected"]
-    texts = {f"tasks[{index}].task_prompt": task["task_prompt"] for index, task in enumerate(expected["tasks"])}
-    texts |= {f"{key}[{index}]": text for key in MISSION_KEYS[1:] for index, text in enumerate(expected[key])}
-    said = compact_json([[task["parameters"] for task in expected["tasks"]], vocabulary.home, vocabulary.unresolved])
-    known = {abs(number) for quantity in (*quantities(record["prompt"]), *quantities(said)) for number in (quantity.value, quantity.said)}
-    problems = []
-    for where, text in texts.items():
-        digits = [quantity for quantity in quantities(text) if text[quantity.start].isdigit()]
-        invented = [quantity.said for quantity in digits if not {abs(quantity.said), abs(quantity.value)} & known]
-        problems += [f"expected: {where}: {number:g} is neither in the command nor in a parameter" for number in invented]
-    return problems

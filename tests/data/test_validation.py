@@ -88,6 +88,24 @@ def test_texts_may_not_invent_numbers(tmp_path: Path) -> None:
     assert problems(tmp_path, record(), complete=True) == []
 
 
+@pytest.mark.parametrize("prompt", ["Proceed to [4, 5] at 3 m/s.", "Proceed to [4, 5], not to [6, 7].", "Proceed to [4, 5] and wait there for two minutes."])
+def test_what_the_command_states_may_not_be_lost(tmp_path: Path, prompt: str) -> None:
+    assert any("of the command stand" in text for text in problems(tmp_path, record(prompt=prompt), complete=True))
+    assert problems(tmp_path, record(prompt=prompt)) == []
+
+
+def test_a_limit_that_is_a_constraint_is_not_lost(tmp_path: Path) -> None:
+    limited = record(prompt="Proceed to [4, 5] and keep two hundred metres clear of [9, 9].")
+    limited["expected"]["constraints"] = ["Keep 200 metres clear of [9, 9]."]
+    assert problems(tmp_path, limited, complete=True) == []
+
+
+def test_the_same_task_twice_in_a_row_is_a_mistake(tmp_path: Path) -> None:
+    twice = record()
+    twice["expected"]["tasks"] *= 2
+    assert any("the same task again" in text for text in problems(tmp_path, twice, complete=True))
+
+
 def test_a_record_of_the_curated_form_is_canonical(tmp_path: Path) -> None:
     odd = record()
     odd["expected"]["tasks"][0]["parameters"]["target_position"] = [4.0, 5]
