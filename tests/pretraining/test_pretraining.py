@@ -1,0 +1,94 @@
+"""How the embedded candidate is made: tokenizer, packed corpus, resumable loop."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import torch
+
+from planner_ft.pretraining.corpus import IGNORE, encode_shard, load_shard, pack, tokenizer_texts
+from planner_ft.pretraining.loop import PretrainSettings, completion_loss, learning_rate, new_model, pretrain
+from planner_ft.pretraining.tokenizer import train_tokenizer
+from planner_ft.prompts.text import system_text
+from planner_ft.vocabulary import load_vocabulary
+
+VOCABULARY = load_vocabulary()
+TINY = PretrainSettings(hidden=32, layers=1, heads=2, feed_forward=64, width=512, wide=1024, batch_tokens=2048, tokens=6000, compile=False)
+SPECIAL = {"bos": 1, "eos": 2, "pad": 0}
+
+
+@pytest.fixture(scope="module")
+def tokenizer() -> Any:
+    return train_tokenizer(tokenizer_texts(VOCABULARY, 0, 300, 0.5), VOCABULARY, size=1200)
+
+
+@pytest.fixture(scope="module")
+def shard(tokenizer: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("corpus") / "shard.npz"
+    counts = encode_shard(path, tokenizer, VOCABULARY, seed=1, count=80, mission_share=0.5, longest=1024)
+    assert counts["samples"] + counts["left_out"] == 80
+    return path
+
+
+def test_any_text_survives_the_tokenizer(tokenizer: Any) -> None:
+    text = 'Größe 12.5 m, "20 20" → {"x":-99,"unknown_key":[1,2]} \u2028 naïve 🚤\n\n'
+    assert tokenizer.decode(tokenizer.encode(text, add_special_tokens=False)) == text
+
+
+def test_digits_stand_apart_and_instructions_are_one_token(tokenizer: Any) -> None:
+    pieces = [tokenizer.decode([token]) for token in tokenizer.encode("at [120, -45]", add_special_tokens=False)]
+    assert [piece.strip() for piece in pieces if piece.strip().isdigit()] == ["1", "2", "0", "4", "5"]
+    assert len(tokenizer.encode(system_text("mission", VOCABULARY, with_vocabulary=False), add_special_tokens=False)) == 1
+
+
+def test_the_tokenizer_is_the_same_for_the_same_texts(tokenizer: Any) -> None:
+    again = train_tokenizer(tokenizer_texts(VOCABULARY, 0, 300, 0.5), VOCABULARY, size=1200)
+    assert again.get_vocab() == tokenizer.get_vocab()
+
+
+def test_packing_keeps_every_sample_whole(shard: Path) -> None:
+    samples = load_shard(shard)
+    rows = pack(samples, 1024, 0, seed=3)
+    assert len(rows.input_ids) < len(samples)
+    found = []
+    for row in range(len(rows.input_ids)):
+        for document in range(rows.documents[row].max() + 1):
+            place = rows.documents[row] == document
+            found.append(tuple(rows.input_ids[row][place]))
+            assert list(rows.positions[row][place]) == list(range(place.sum()))
+    assert sorted(found) == sorted(tuple(ids) for ids, _prompt in samples)
+    assert (rows.labels != IGNORE).sum() == sum(len(ids) - prompt for ids, prompt in samples)
+
+
+def test_samples_of_a_row_do_not_see_each_other(shard: Path, tokenizer: Any) -> None:
+    samples = sorted(load_shard(shard), key=lambda sample: len(sample[0]))[:4]
+    model: Any = new_model(TINY, len(tokenizer), SPECIAL)
+    together = pack(samples, 1024, 0, seed=0)
+    assert len(together.input_ids) == 1
+    weights = [len(ids) - prompt for ids, prompt in samples]
+    apart = [completion_loss(model, model.model, pack([sample], 1024, 0, seed=0))[0].item() for sample in samples]
+    assert completion_loss(model, model.model, together)[0].item() == pytest.approx(np.average(apart, weights=weights), rel=2e-3)
+
+
+def test_the_loss_falls_and_an_interrupted_run_continues(shard: Path, tokenizer: Any, tmp_path: Path) -> None:
+    def run(folder: str, tokens: int) -> tuple[dict[str, Any], Any]:
+        model: Any = new_model(TINY, len(tokenizer), SPECIAL)
+        # The plateau of the learning rate is the same for both budgets, so that only the interruption differs.
+        settings = replace(TINY, tokens=tokens, warmup=1e-9, decay=1e-9)
+        return pretrain(model, [shard], settings, pad=0, folder=tmp_path / folder), model
+
+    whole, first = run("whole", 30_000)
+    run("parts", 12_000)
+    resumed, second = run("parts", 30_000)
+    assert resumed["step"] == whole["step"] and resumed["tokens"] == whole["tokens"]
+    assert all(torch.equal(a, b) for a, b in zip(first.state_dict().values(), second.state_dict().values(), strict=True))
+    fresh: Any = new_model(TINY, len(tokenizer), SPECIAL)
+    rows = pack(load_shard(shard)[:8], 1024, 0, seed=0)
+    assert completion_loss(first, first.model, rows)[0] < 0.9 * completion_loss(fresh, fresh.model, rows)[0]
+
+
+def test_the_learning_rate_rises_stays_and_falls_to_zero() -> None:
+    settings = replace(TINY, tokens=1000, warmup=0.1, decay=0.5)
+    assert [round(learning_rate(settings, tokens), 2) for tokens in (0, 50, 100, 500, 750, 1000)] == [0, 0.5, 1, 1, 0.5, 0]
