@@ -42,7 +42,9 @@ def make_shard(job: tuple[Path, Path, int, int, float, int]) -> dict[str, int]:
     from planner_ft.pretraining.corpus import encode_shard
 
     path, tokenizer, seed, count, share, longest = job
-    return encode_shard(path, PreTrainedTokenizerFast.from_pretrained(tokenizer), load_vocabulary(), seed=seed, count=count, mission_share=share, longest=longest)
+    return encode_shard(
+        path, PreTrainedTokenizerFast.from_pretrained(tokenizer), load_vocabulary(), seed=seed, count=count, mission_share=share, longest=longest
+    )
 
 
 def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSettings) -> list[Path]:

@@ -15,7 +15,6 @@ from torch import Tensor, nn
 
 from planner_ft.pretraining.corpus import IGNORE, Rows, load_shard, pack
 
-
 SIZE_STEP = 1024
 
 
@@ -45,7 +44,7 @@ class PretrainSettings:
     compile: bool = True
 
 
-def new_model(settings: PretrainSettings, vocabulary_size: int, special: dict[str, int]) -> nn.Module:
+def new_model(settings: PretrainSettings, vocabulary_size: int, special: dict[str, int]) -> Any:
     """A freshly initialised Llama with tied embeddings."""
     from transformers import LlamaConfig, LlamaForCausalLM
 
@@ -73,7 +72,9 @@ def batches(shards: list[Path], settings: PretrainSettings, pad: int, skip: int)
             narrow = [sample for sample in samples if len(sample[0]) <= settings.width]
             wide = [sample for sample in samples if settings.width < len(sample[0]) <= settings.wide]
             seed = settings.seed + 7919 * epoch + index
-            groups = [(pack(part, width, pad, seed), settings.batch_tokens // width) for part, width in ((narrow, settings.width), (wide, settings.wide)) if part]
+            groups = [
+                (pack(part, width, pad, seed), settings.batch_tokens // width) for part, width in ((narrow, settings.width), (wide, settings.wide)) if part
+            ]
             chunks = [(rows, start, size) for rows, size in groups for start in range(0, len(rows.input_ids) - size + 1, size)]
             for choice in np.random.default_rng(seed).permutation(len(chunks)):
                 number += 1
@@ -128,7 +129,7 @@ def pretrain(model: Any, shards: list[Path], settings: PretrainSettings, *, pad:
             for group in optim.param_groups:
                 group["lr"] = factor * peak
         loss, tokens = completion_loss(model, body, rows)
-        loss.backward()
+        torch.autograd.backward(loss)
         torch.nn.utils.clip_grad_norm_(model.parameters(), settings.gradient_clip)
         for optim in optims:
             optim.step()

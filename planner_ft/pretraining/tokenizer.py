@@ -31,8 +31,8 @@ CHAT_TEMPLATE = (
 def pre_token_pattern(vocabulary: Vocabulary) -> str:
     """The regular expression whose matches become pre-tokens."""
     keys = {*MISSION_KEYS, *TASK_KEYS, *STEP_KEYS, *SKILL_KEYS, "skill_sequence"}
-    for owner in (*vocabulary.tasks, *vocabulary.skills):
-        keys.update(owner.by_name)
+    keys.update(name for task in vocabulary.tasks for name in task.by_name)
+    keys.update(name for skill in vocabulary.skills for name in skill.by_name)
     alternatives = "|".join(sorted(keys, key=lambda key: (-len(key), key)))
     unresolved = re.escape(",".join(f"{value:g}" for value in vocabulary.unresolved))
     structure = rf'(?:[{{}}\[\]",]*"(?:{alternatives})":)+[{{\[]*"?'

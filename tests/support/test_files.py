@@ -17,7 +17,7 @@ def test_an_interrupted_write_leaves_the_old_file(tmp_path: Path) -> None:
         stream.write("half")
         raise RuntimeError
     assert json.loads(path.read_text()) == {"a": 1}
-    assert os.listdir(tmp_path) == ["result.json"]
+    assert [path.name for path in tmp_path.iterdir()] == ["result.json"]
 
 
 def test_a_full_disk_is_one_sentence(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -27,7 +27,7 @@ def test_a_full_disk_is_one_sentence(monkeypatch: pytest.MonkeyPatch, tmp_path: 
     monkeypatch.setattr(os, "fsync", full)
     with pytest.raises(PlannerError, match="No space left on device"):
         write_json(tmp_path / "result.json", {"a": 1})
-    assert os.listdir(tmp_path) == []
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(
