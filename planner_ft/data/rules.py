@@ -18,10 +18,14 @@ from planner_ft.data.words import says, words
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
 from planner_ft.vocabulary.plans import value_problem
 
-SEARCH_WORDS = re.compile(r"\b(?:find(?:ing)?|fnd|look(?:s|ing)?|search\w*|locat\w*|spot|seek|detect|scout|hunt)\b", re.IGNORECASE)
+SEARCH_WORDS = re.compile(
+    r"\b(?:f[iu]n?d(?:ing)?|fnd|look(?:s|ing)?|search\w*|locat\w*|spot|seek|detect|scout|hunt\w*|track down|trace|comb|sight|eyes on|"
+    r"lookout|sweep\w*|scan\w*|whereabouts|visual on|establish where|pin down|pinpoint|where .{1,40} (?:is|are|lies|went))\b",
+    re.IGNORECASE,
+)
 GO_WORDS = re.compile(
-    r"\b(?:go|going|proceed\w*|head|heading|move|moving|transit|sail|steam|make (?:for|your way)|run (?:out|over)|over to|"
-    r"take (?:her|it|the boat) to|come to|boat to|drive|cross)\b",
+    r"\b(?:go|going|proceed\w*|head|heading|move|moving|transit\w*|sail|steam|make (?:for|your way)|run (?:out|over)|over to|relocat\w*|"
+    r"reposition|carry on|continue to|take (?:her|it|the boat) to|come to|boat to|drive|cross|get (?:over|yourself)|travel|visit)\b",
     re.IGNORECASE,
 )
 STAY_WORDS = re.compile(
@@ -30,7 +34,11 @@ STAY_WORDS = re.compile(
     re.IGNORECASE,
 )
 NAMED_SIDES = re.compile(r"\b(?:wide|width|long|length|broad)\b", re.IGNORECASE)
-ELSEWHERE = re.compile(r"[.;,]\s|\b(?:and|then|to|by|for)\b|\d", re.IGNORECASE)
+PLACED = re.compile(
+    r"[\s,(\[:@]*(?:(?:lying|located|standing|which is|position)\s*)?(?:(?:at|near|around|about|in|on)\s*)*[\s(\[xX=:-]*(?:minus\s*)?", re.IGNORECASE
+)
+"""What stands between a target and its coordinates."""
+AREA = re.compile(r"\bby\b", re.IGNORECASE)
 DOCKING = "approach"
 """The pattern of tasks that end at a docking spot, which needs no search."""
 
@@ -125,9 +133,8 @@ def _has_coordinates(prompt: str, target: str) -> bool:
     if place < 0:
         return False
     end = place + len(target)
-    return any(
-        0 <= start - end <= 16 and not re.search(r"[.;,]\s|\b(?:and|then|to|by|for)\b|\d", prompt[end:start]) for _x, _y, start, _end in positions(prompt)
-    )
+    pairs = [start for _x, _y, start, behind in positions(prompt) if not AREA.search(prompt[start:behind])]
+    return any(start >= end and PLACED.fullmatch(prompt[end:start]) is not None for start in pairs)
 
 
 # ---------------------------------------------------------------- getting there
@@ -137,10 +144,13 @@ def _movement_problems(steps: list[Step], vocabulary: Vocabulary, command: Comma
     unresolved = list(vocabulary.unresolved)
     here: list[float] | None = None
     located = left = False
+    searches = 0
     for number, step in enumerate(steps):
         task, following = step.task, steps[number + 1] if number + 1 < len(steps) else None
         if task.title == vocabulary.transit:
-            yield from _transit_problems(step, following, here, left, vocabulary, command)
+            # Two places that are not known yet look the same.
+            unsure = step.place == unresolved and searches > 1
+            yield from _transit_problems(step, following, None if unsure else here, left, vocabulary, command)
         elif task.arrival == "transit":
             if located:
                 yield f"{step}: {vocabulary.locate} does not arrive; {vocabulary.transit} to {unresolved} comes before this task"
@@ -150,6 +160,7 @@ def _movement_problems(steps: list[Step], vocabulary: Vocabulary, command: Comma
                 yield f"{step}: performed at {step.place}, but no {vocabulary.transit} there comes before it"
         if task.title == vocabulary.locate:
             located, left, here = True, False, None
+            searches += 1
         elif step.place is not None:
             located, left = False, task.leaves and task.position_parameter is not None
             here = None if task.leaves else step.place
