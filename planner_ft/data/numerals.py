@@ -162,6 +162,8 @@ def unit_of(word: str) -> tuple[str, float] | None:
         return None
     limit = 0 if len(word) == 4 else 1 if len(word) == 5 else 2
     for name, unit in UNITS.items():
-        if len(name) >= 4 and (sorted(word) == sorted(name) or (limit and len(name) >= 5 and edit_distance(word, name, limit) <= limit)):
+        if len(name) < 4 or name[0] != word[0]:
+            continue
+        if sorted(word) == sorted(name) or (limit and len(name) >= 5 and edit_distance(word, name, limit) <= limit):
             return unit
     return None

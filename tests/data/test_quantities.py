@@ -38,6 +38,7 @@ from planner_ft.data.quantities import bearings, positions, quantities, states_n
         ("every mnute", [(60, "s")]),
         ("5 knots", [(5 * 1852 / 3600, "m/s")]),
         ("forty five, 20 percent", [(45, None), (20, "%")]),
+        ("face 297 - record the radar", [(297, None)]),
         ("nothing to see", []),
     ],
 )
