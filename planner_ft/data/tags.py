@@ -104,14 +104,17 @@ class Coverage:
     which: int = 1
 
 
-def tag_problems(record: Mapping[str, Any]) -> Iterator[str]:
-    """Unknown tags, and tags that do not agree with the tasks of the expected plan."""
+def tag_problems(record: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
+    """Unknown tags, and tags that do not agree with the tasks of the expected plan.
+
+    The tags were made for the surface vehicle: what one says of tasks that another vehicle lacks is not asked of it.
+    """
     tags = record.get("tags", [])
     titles = set(plan_names("mission", record.get("expected")))
     for tag in tags:
         if tag not in TAGS:
             yield f"tag {tag!r} is not known"
-        elif tag in TASKS_OF_TAG and not titles & set(TASKS_OF_TAG[tag]):
+        elif (needed := set(TASKS_OF_TAG.get(tag, ())) & set(vocabulary.task)) and not titles & needed:
             yield f"tag {tag} needs {' or '.join(TASKS_OF_TAG[tag])} in the plan"
     if len(set(tags)) != len(tags):
         yield "a tag stands twice"

@@ -159,7 +159,7 @@ def record_problems(level: Level, record: dict[str, Any], vocabulary: Vocabulary
         tags = record.get("tags")
         tags = tags if isinstance(tags, list) and all(isinstance(tag, str) for tag in tags) else None
         problems += [f"expected: {text}" for text in rule_problems(expected, vocabulary, prompt, tags)]
-        problems += _annotation_problems(record, prompt, complete=complete)
+        problems += _annotation_problems(record, prompt, vocabulary, complete=complete)
     if complete and not form:
         problems += completeness_problems(level, record, vocabulary)
     return problems
@@ -201,7 +201,7 @@ def _task_problems(record: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
     return [text.replace("tasks[0].parameters", "parameters").replace("tasks[0]", "task") for text in found]
 
 
-def _annotation_problems(record: dict[str, Any], prompt: str, *, complete: bool) -> list[str]:
+def _annotation_problems(record: dict[str, Any], prompt: str, vocabulary: Vocabulary, *, complete: bool) -> list[str]:
     problems = [f"{key} is missing" for key in ("spans", "tags") if complete and key not in record]
     for key in ("spans", "tags"):
         if not isinstance(record.get(key, []), list):
@@ -209,7 +209,7 @@ def _annotation_problems(record: dict[str, Any], prompt: str, *, complete: bool)
     for index, span in enumerate(record.get("spans", [])):
         problems += [f"spans[{index}]: {text}" for text in _span_problems(span, prompt)]
     if all(isinstance(tag, str) for tag in record.get("tags", [])):
-        return problems + (list(tag_problems(record)) if "tags" in record else [])
+        return problems + (list(tag_problems(record, vocabulary)) if "tags" in record else [])
     return [*problems, "tags holds something else than texts"]
 
 

@@ -64,4 +64,4 @@ def test_a_prompt_in_two_splits_is_named(splits: dict[str, list[dict[str, Any]]]
 )
 def test_tags_and_tasks_must_agree(titles: list[str], tags: list[str], problem: str) -> None:
     record = {"tags": tags, "expected": {"tasks": [{"title": title, "parameters": {}} for title in titles]}}
-    assert any(problem in text for text in tag_problems(record))
+    assert any(problem in text for text in tag_problems(record, USV))
