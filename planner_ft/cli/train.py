@@ -101,13 +101,13 @@ def _resume_command() -> str:
 
 
 def _print_result(request: Any, manifest: dict[str, Any], console: Any) -> None:
-    from planner_ft.training.report import clock, gibibytes
+    from planner_ft.training.report import clock, memory_size
 
     result = manifest["result"]
     speed = f"{result['steps']} steps, {result['tokens']:,} tokens in {clock(result['seconds'])} ({result['tokens_per_s']:.0f} tokens/s)"
     best = f", best validation loss {result['validation_loss']:.4f} after epoch {result['best_epoch']:g}" if result["validation_loss"] is not None else ""
     lines = [
-        f"{speed}, peak memory {gibibytes(result['peak_memory_bytes'])}{best}",
+        f"{speed}, peak memory {memory_size(result['peak_memory_bytes'])}{best}",
         f"adapter: {request.output} ({result['adapter_bytes'] / 1e6:.1f} MB); loss curve in loss.png, log in train_log.jsonl",
         f"next: plannerft bench --level {request.level} --candidates {request.candidate.name} --configurations base,lora --adapter {request.output}",
     ]

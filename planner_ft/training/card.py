@@ -26,7 +26,7 @@ def model_card(manifest: dict[str, Any]) -> str:
         _front_matter(manifest),
         f"# {agent} on {name}",
         _warning(manifest),
-        f"A LoRA adapter that turns {_task(manifest['level'])} into JSON, for the vocabulary `{manifest['vocabulary']['name']}`. "
+        f"A LoRA adapter that turns {_task(manifest['level'])}, as JSON, for the vocabulary `{manifest['vocabulary']['name']}`. "
         "Made with planner_ft; prompts are rendered by `planner_ft.prompts.render_prompt`, without the vocabulary.",
         "## Use",
         f"`plannerft bench --level {manifest['level']} --candidates {name} --adapter THIS_FOLDER`, or with plain PEFT:",
@@ -44,7 +44,7 @@ def _front_matter(manifest: dict[str, Any]) -> str:
     licence = manifest["licence"]
     known = LICENCES.get(licence)
     lines = [
-        f"base_model: {json.dumps(manifest['base_reference'])}",
+        *([f"base_model: {manifest['base']['repo']}"] if manifest["base"]["repo"] else []),
         "library_name: peft",
         "pipeline_tag: text-generation",
         f"license: {known or 'other'}",

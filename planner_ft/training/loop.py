@@ -178,7 +178,7 @@ def _not_finite(run: Run, state: TrainState, what: str, batch: Batch) -> str:
 def _report(run: Run, state: TrainState, values: dict[str, float], tokens: int, seconds: float) -> None:
     record = {
         "step": state.step, "epoch": round(state.step / run.steps_per_epoch, 4), **values,
-        "tokens": state.tokens, "seconds": round(state.seconds + seconds, 3), "tokens_per_s": round(tokens / seconds, 1),
+        "tokens": state.tokens, "step_tokens": tokens, "seconds": round(state.seconds + seconds, 3), "tokens_per_s": round(tokens / seconds, 1),
     }  # fmt: skip
     run.log.write(record)
     run.trackers.log(record)

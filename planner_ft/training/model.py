@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import warnings
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -19,8 +20,16 @@ if TYPE_CHECKING:
 
 LOGIT_VALUES = 2**24
 """Output-layer values that exist at one time: 16 million, 64 MiB in float32."""
+SMALL_MODEL = 50_000_000
+"""Weights below which one CPU thread is used. With 7 million, two threads were 1.3 times as fast on two idle cores, and
+four to sixty times as slow when another program kept one of them busy: every small operation waits for both."""
 LARGE_MODEL = 500_000_000
 """Weights from which gradient checkpointing `auto` is on."""
+
+
+def cpu_threads(settings: TrainSettings, parameters: int) -> int:
+    """Threads that a run on the CPU uses."""
+    return settings.threads or (1 if parameters < SMALL_MODEL else torch.get_num_threads())
 
 
 def attach_adapter(model: Any, settings: TrainSettings, reference: str) -> Any:
@@ -33,14 +42,18 @@ def attach_adapter(model: Any, settings: TrainSettings, reference: str) -> Any:
     config = LoraConfig(
         r=settings.rank, lora_alpha=settings.lora_alpha, lora_dropout=settings.dropout, target_modules=settings.targets, bias="none", task_type="CAUSAL_LM"
     )
+    parameters = model.num_parameters()
     model.requires_grad_(False)
     torch.manual_seed(settings.seed)
     try:
-        peft_model = get_peft_model(model, config)
+        with warnings.catch_warnings():
+            # PEFT asks transformers under a name that transformers is giving up.
+            warnings.simplefilter("ignore", FutureWarning)
+            peft_model = get_peft_model(model, config)
     except ValueError as error:
         raise PlannerError(f"--target-modules {settings.target_modules}: {str(error).splitlines()[0]}") from None
     peft_model.peft_config["default"].base_model_name_or_path = reference
-    if uses_gradient_checkpointing(settings, sum(value.numel() for value in model.parameters())):
+    if uses_gradient_checkpointing(settings, parameters):
         peft_model.gradient_checkpointing_enable({"use_reentrant": False})
     return peft_model
 
@@ -66,7 +79,7 @@ def loss_sum(model: Any, batch: Batch, dtype: torch.dtype) -> Tensor:
     base = model.get_base_model()
     head = base.get_output_embeddings()
     with torch.autocast(batch.input_ids.device.type, dtype=dtype, enabled=dtype != torch.float32):
-        hidden = base.get_decoder()(input_ids=batch.input_ids, attention_mask=batch.attention_mask, use_cache=False).last_hidden_state
+        hidden = base.get_decoder()(input_ids=batch.input_ids, use_cache=False).last_hidden_state
         selected = hidden[batch.rows, batch.columns]
         size = max(1, LOGIT_VALUES // base.config.get_text_config().vocab_size)
         if len(selected) <= size:

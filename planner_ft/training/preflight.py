@@ -13,7 +13,7 @@ from planner_ft.prompts import end_of_turn_ids
 from planner_ft.support.errors import PlannerError
 from planner_ft.training.model import LOGIT_VALUES, memory_levers, uses_gradient_checkpointing
 from planner_ft.training.output import folder_problems, nearest_folder, writable_problem
-from planner_ft.training.report import gibibytes, tracker_problems
+from planner_ft.training.report import memory_size, tracker_problems
 from planner_ft.training.request import TrainRequest
 from planner_ft.training.samples import Sample, Split, read_split, render_split, shortened
 
@@ -51,6 +51,8 @@ class Finding:
     text: str = ""
     problems: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    skipped: bool = False
+    """The check could not run, for want of what an earlier one did not find."""
 
 
 def run_preflight(request: TrainRequest, prepared: Prepared) -> Iterator[Finding]:
@@ -105,7 +107,7 @@ def check_rendering(request: TrainRequest, prepared: Prepared) -> Finding:
     """Does every sample fit the limit whole, and is something of it trained?"""
     finding = Finding("rendering")
     if prepared.tokenizer is None or not prepared.splits:
-        return replace(finding, text="skipped: no tokenizer or no data")
+        return replace(finding, text="skipped: no tokenizer or no data", skipped=True)
     try:
         rendered = {split.path: render_split(split, request.level, prepared.tokenizer, request.vocabulary) for split in prepared.splits}
     except PlannerError as error:
@@ -136,7 +138,7 @@ def check_tokens(request: TrainRequest, prepared: Prepared) -> Finding:
     """Does every answer end with a trained end-of-turn token, and every text begin with one beginning-of-text token?"""
     finding = Finding("special tokens")
     if prepared.tokenizer is None or not prepared.samples:
-        return replace(finding, text="skipped: nothing rendered")
+        return replace(finding, text="skipped: nothing rendered", skipped=True)
     tokenizer = prepared.tokenizer
     end, bos = end_of_turn_ids(tokenizer)[0], tokenizer.bos_token_id
     size = request.candidate.dimensions.vocabulary if request.candidate.dimensions else len(tokenizer)
@@ -172,13 +174,16 @@ def check_output(request: TrainRequest, prepared: Prepared) -> Finding:
     finding = Finding("output", problems=folder_problems(request.output, overwrite=request.overwrite, resume=request.resume))
     if problem := writable_problem(request.output):
         finding.problems.append(problem)
+        return finding
     free = shutil.disk_usage(nearest_folder(request.output)).free
     # Adapter, best adapter and two moments in float32; the old checkpoint goes when the new one is complete.
     weights = adapter_parameters(request.candidate.dimensions, request.settings.rank) if request.candidate.dimensions else 0
     needed = 2 * 4 * 4 * weights + 2**25
     if needed > free:
-        finding.problems.append(f"--output {request.output}: {gibibytes(needed)} are needed for checkpoints and {gibibytes(free)} free; choose another disk")
-    finding.text = f"{request.output}: {gibibytes(needed)} needed for checkpoints, {gibibytes(free)} free"
+        finding.problems.append(
+            f"--output {request.output}: {memory_size(needed)} are needed for checkpoints and {memory_size(free)} free; choose another disk"
+        )
+    finding.text = f"{request.output}: {memory_size(needed)} needed for checkpoints, {memory_size(free)} free"
     return finding
 
 
@@ -187,16 +192,16 @@ def check_memory(request: TrainRequest, prepared: Prepared) -> Finding:
     finding = Finding("memory")
     estimate = estimated_memory(request, prepared)
     if estimate is None or prepared.device is None:
-        return replace(finding, text="no estimate: dimensions, device or samples are unknown")
+        return replace(finding, text="no estimate: dimensions, device or samples are unknown", skipped=True)
     free, total = device_memory(prepared.device)
-    finding.text = f"about {gibibytes(estimate.total)} of {gibibytes(free)} free on {prepared.device}"
+    finding.text = f"about {memory_size(estimate.total)} of {memory_size(free)} free on {prepared.device}"
     longest = prepared.train.longest if prepared.train else 0
     checkpointing = uses_gradient_checkpointing(request.settings, request.candidate.parameters or 0)
     advice = memory_levers(request.settings, checkpointing, longest)
     if estimate.total > total:
-        finding.problems.append(f"training needs about {gibibytes(estimate.total)} and {prepared.device} has {gibibytes(total)}; {advice}")
+        finding.problems.append(f"training needs about {memory_size(estimate.total)} and {prepared.device} has {memory_size(total)}; {advice}")
     elif estimate.total > free:
-        finding.notes.append(f"{gibibytes(free)} are free and about {gibibytes(estimate.total)} needed; close other programs, or {advice}")
+        finding.notes.append(f"{memory_size(free)} are free and about {memory_size(estimate.total)} needed; close other programs, or {advice}")
     return finding
 
 

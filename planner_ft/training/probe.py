@@ -1,8 +1,9 @@
 """The check on the loaded model: does every adapter weight learn, and does our loss equal the model's own?
 
-A new LoRA adapter has B = 0, so that the gradient of A is zero whatever is wrong. The probe therefore puts small random
-numbers into B for one step, and takes everything back: weights, gradients and random state are afterwards as before.
-A validation pass goes first, since one is what broke training with 4-bit layers on a CPU.
+A new LoRA adapter has B = 0, so that the gradient of A is zero whatever is wrong, and A is checked in a second step with
+small random numbers in B. B is checked in the first: then gradients reach it through the frozen weights alone, and a
+layer that passes none on (as 4-bit layers that a CPU has packed) is not hidden by the path through other adapters. A
+validation pass goes first, since one is what packs them. Afterwards weights, gradients and random state are as before.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import torch
-from torch import nn
+from torch import Tensor
 
 from planner_ft.training.batches import Batch, collate
 from planner_ft.training.model import adapter_parameters, evaluating, loss_sum
@@ -36,23 +37,21 @@ def probe_model(model: Any, samples: Sequence[Sample], pad: int, batch_size: int
     shortest = collate(by_length[:1], pad).to(device)
     longest = collate(by_length[-batch_size:], pad).to(device)
     with _restored(model):
-        model.train()
-        problems = _loss_problems(model, by_length[0], shortest, dtype)
-        problems += _trainable_problems(model)
-        return problems + _gradient_problems(model, longest, dtype)
+        problems = _loss_problems(model, by_length[0], shortest, dtype) + _trainable_problems(model)
+        gradients = _gradients(model, longest, dtype)
+        _randomise_b(model)
+        second = _gradients(model, longest, dtype)
+        gradients |= {name: value for name, value in second.items() if "lora_A" in name}
+        return problems + _gradient_problems(gradients)
 
 
 @contextlib.contextmanager
 def _restored(model: Any) -> Iterator[None]:
-    """Put random numbers into every lora_B for the block; afterwards weights, gradients and random state are as before."""
+    """After the block, adapter weights, gradients and random state are as before."""
     state = rng_state()
     saved = {name: value.detach().clone() for name, value in adapter_parameters(model).items()}
-    generator = torch.Generator().manual_seed(0)
+    model.train()
     try:
-        with torch.no_grad():
-            for name, value in adapter_parameters(model).items():
-                if "lora_B" in name:
-                    value.copy_(torch.randn(value.shape, generator=generator) * B_DEVIATION)
         yield
     finally:
         with torch.no_grad():
@@ -60,6 +59,14 @@ def _restored(model: Any) -> Iterator[None]:
                 value.copy_(saved[name])
                 value.grad = None
         restore_rng(state)
+
+
+def _randomise_b(model: Any) -> None:
+    generator = torch.Generator().manual_seed(0)
+    with torch.no_grad():
+        for name, value in adapter_parameters(model).items():
+            if "lora_B" in name:
+                value.copy_(torch.randn(value.shape, generator=generator) * B_DEVIATION)
 
 
 def _loss_problems(model: Any, sample: Sample, batch: Batch, dtype: torch.dtype) -> list[str]:
@@ -82,18 +89,20 @@ def _trainable_problems(model: Any) -> list[str]:
     return [f"{len(foreign)} weights of the base model would be trained (first: {foreign[0]})"] if foreign else []
 
 
-def _gradient_problems(model: Any, batch: Batch, dtype: torch.dtype) -> list[str]:
+def _gradients(model: Any, batch: Batch, dtype: torch.dtype) -> dict[str, Tensor | None]:
+    """The gradient of every adapter weight."""
+    for value in adapter_parameters(model).values():
+        value.grad = None
     torch.autograd.backward(loss_sum(model, batch, dtype) / len(batch.targets))
-    parameters = adapter_parameters(model)
-    without = [name for name, value in parameters.items() if not _has_gradient(value)]
-    infinite = [name for name, value in parameters.items() if value.grad is not None and not bool(torch.isfinite(value.grad).all())]
+    return {name: value.grad for name, value in adapter_parameters(model).items()}
+
+
+def _gradient_problems(gradients: dict[str, Tensor | None]) -> list[str]:
+    without = [name for name, value in gradients.items() if value is None or not bool(value.any())]
+    infinite = [name for name, value in gradients.items() if value is not None and not bool(torch.isfinite(value).all())]
     problems = []
     if without:
-        problems.append(f"{len(without)} of {len(parameters)} adapter matrices get no gradient (first: {without[0]}); they would stay as they are")
+        problems.append(f"{len(without)} of {len(gradients)} adapter matrices get no gradient (first: {without[0]}); they would stay as they are")
     if infinite:
-        problems.append(f"{len(infinite)} of {len(parameters)} adapter matrices get a gradient that is not finite (first: {infinite[0]})")
+        problems.append(f"{len(infinite)} of {len(gradients)} adapter matrices get a gradient that is not finite (first: {infinite[0]})")
     return problems
-
-
-def _has_gradient(value: nn.Parameter) -> bool:
-    return value.grad is not None and bool(value.grad.any())

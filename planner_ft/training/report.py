@@ -34,16 +34,19 @@ class PlainDisplay:
     def __init__(self, console: Console, total: int, every: int) -> None:
         self.console, self.total, self.every = console, total, every
         self.losses: list[float] = []
+        self.tokens, self.seconds = 0.0, 0.0
 
     def step(self, record: dict[str, Any], eta_seconds: float, peak: int) -> None:
         self.losses.append(record["loss"])
+        self.tokens += record["step_tokens"]
+        self.seconds += record["step_tokens"] / record["tokens_per_s"]
         if record["step"] % self.every and record["step"] != self.total:
             return
-        loss = sum(self.losses) / len(self.losses)
-        self.losses.clear()
+        loss, rate = sum(self.losses) / len(self.losses), self.tokens / self.seconds
+        self.losses, self.tokens, self.seconds = [], 0.0, 0.0
         self.note(
             f"step {record['step']}/{self.total}  epoch {record['epoch']:.2f}  loss {loss:.4f}  lr {record['lr']:.2e}  "
-            f"{record['tokens_per_s']:.0f} tokens/s  {clock(eta_seconds)} left  peak {gibibytes(peak)}"
+            f"{rate:.0f} tokens/s  {clock(eta_seconds)} left  peak {memory_size(peak)}"
         )
 
     def note(self, text: str) -> None:
@@ -64,12 +67,15 @@ class BarDisplay:
         )
         self.task = self.progress.add_task("first step ...", total=total, completed=done)
         self.average: float | None = None
+        self.rate = 0.0
         self.progress.start()
 
     def step(self, record: dict[str, Any], eta_seconds: float, peak: int) -> None:
-        # A running mean over about ten steps: the loss of a single sample jumps.
+        # Running means over about ten steps: loss and speed of a single sample jump.
+        first = self.average is None
         self.average = record["loss"] if self.average is None else 0.9 * self.average + 0.1 * record["loss"]
-        text = f"loss {self.average:.3f}  {record['tokens_per_s']:.0f} tokens/s  {clock(eta_seconds)} left  peak {gibibytes(peak)}"
+        self.rate = record["tokens_per_s"] if first else 0.9 * self.rate + 0.1 * record["tokens_per_s"]
+        text = f"loss {self.average:.3f}  {self.rate:.0f} tokens/s  {clock(eta_seconds)} left  peak {memory_size(peak)}"
         self.progress.update(self.task, completed=record["step"], description=text)
 
     def note(self, text: str) -> None:
@@ -176,6 +182,6 @@ def clock(seconds: float) -> str:
     return f"{hours}:{minutes:02d}:{whole % 60:02d}" if hours else f"{minutes}:{whole % 60:02d}"
 
 
-def gibibytes(count: float) -> str:
-    """Bytes in the unit that people compare memory in."""
-    return f"{count / 2**30:.1f} GiB"
+def memory_size(count: float) -> str:
+    """Bytes in GiB, small amounts in MiB."""
+    return f"{count / 2**30:.1f} GiB" if count >= 2**29 else f"{count / 2**20:.0f} MiB"

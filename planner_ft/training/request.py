@@ -9,7 +9,7 @@ from typing import Any
 from planner_ft.candidates import Candidate, resolve_candidate
 from planner_ft.prompts.render import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
-from planner_ft.training.recipe import load_recipe
+from planner_ft.training.recipe import Recipe, load_recipe
 from planner_ft.training.samples import Split
 from planner_ft.training.settings import Resolved, Source, TrainSettings, resolve_settings
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
@@ -59,7 +59,7 @@ def build_request(
     Raises PlannerError that lists every problem, not the first.
     """
     problems: list[str] = []
-    loaded = load_recipe(recipe, problems) if recipe else None
+    loaded: Recipe | None = _attempt(lambda name: load_recipe(name, problems), recipe, "", problems) if recipe else None
     said = {**(loaded.run if loaded else {}), **{key: value for key, value in run.items() if value is not None}}
     if overwrite and resume:
         problems.append("--overwrite and --resume exclude each other")

@@ -8,7 +8,7 @@ from typing import Any
 
 from planner_ft.candidates.adapters import adapter_record
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import sha256_file, write_json, write_text
+from planner_ft.support.files import read_json, sha256_file, write_json, write_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.training.card import model_card
 from planner_ft.training.checkpoint import FOLDER, TrainState
@@ -33,6 +33,8 @@ def write_result(request: TrainRequest, run: Run, state: TrainState, tokenizer: 
         shutil.rmtree(temporary, ignore_errors=True)
         run.trainee.model.save_pretrained(temporary, save_embedding_layers=False)
         tokenizer.save_pretrained(temporary)
+        # safetensors makes files that only their owner may read; as readable as the rest they can be shared.
+        (temporary / "adapter_model.safetensors").chmod((temporary / "adapter_config.json").stat().st_mode)
         for path in sorted(temporary.iterdir()):
             path.replace(output / path.name)
         temporary.rmdir()
@@ -88,7 +90,5 @@ def device_name(device: Any) -> str:
 
 def existing_result(output: Path) -> str:
     """A sentence on a finished run."""
-    from planner_ft.support.files import read_json
-
     result = read_json(output / MANIFEST).get("result", {})
     return f"{output}: this run is complete ({result.get('steps')} steps, {result.get('epochs')} epochs); nothing to resume"

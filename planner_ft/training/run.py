@@ -15,7 +15,7 @@ from planner_ft.training.preflight import CHECKS, Finding, Prepared, run_preflig
 from planner_ft.training.request import TrainRequest, listed
 from planner_ft.training.result import existing_result, write_result
 from planner_ft.training.samples import Sample, Split, read_split, render_split
-from planner_ft.training.session import memory_errors, open_run, ready_model
+from planner_ft.training.session import limited_threads, memory_errors, open_run, ready_model
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -50,7 +50,7 @@ def train(request: TrainRequest, console: Console) -> dict[str, Any] | None:
         _say(console, existing_result(request.output))
         return None
     splits = {"training": prepared.train} | ({"validation": prepared.validation} if prepared.validation else {})
-    with memory_errors(request, prepared):
+    with limited_threads(request, prepared), memory_errors(request, prepared):
         with console.status("loading the model ..."):
             model, finding = ready_model(request, prepared)
         show_finding(console, CHECKS, finding)
@@ -84,7 +84,8 @@ def show_finding(console: Console, number: int, finding: Finding) -> None:
     """One line on a check, and a line for each note."""
     count = f"{len(finding.problems)} problem{'s' if len(finding.problems) > 1 else ''}" if finding.problems else ""
     text = "; ".join(part for part in (count, finding.text) if part)
-    _say(console, f"[{number}/{CHECKS}] {'✗' if finding.problems else '✓'} {finding.title}: {text}", "red" if finding.problems else None)
+    mark = "✗" if finding.problems else "-" if finding.skipped else "✓"
+    _say(console, f"[{number}/{CHECKS}] {mark} {finding.title}: {text}", "red" if finding.problems else None)
     for note in finding.notes:
         _say(console, f"      note: {note}", "yellow")
 

@@ -12,7 +12,7 @@ from planner_ft.candidates.loading import compute_dtype, load_model
 from planner_ft.support.errors import PlannerError
 from planner_ft.training.checkpoint import Trainee, TrainState, checkpoints, load_checkpoint, remove_leftovers
 from planner_ft.training.loop import Run, total_steps
-from planner_ft.training.model import adapter_parameters, attach_adapter, make_optimizer, memory_levers, uses_gradient_checkpointing
+from planner_ft.training.model import SMALL_MODEL, adapter_parameters, attach_adapter, cpu_threads, make_optimizer, memory_levers, uses_gradient_checkpointing
 from planner_ft.training.output import clear, write_run
 from planner_ft.training.preflight import Finding, Prepared
 from planner_ft.training.probe import probe_model
@@ -69,6 +69,18 @@ def _resumed(request: TrainRequest, trainee: Trainee, console: Console) -> Train
     state = load_checkpoint(found[-1], trainee)
     console.print(f"resuming at step {state.step}", highlight=False)
     return state
+
+
+@contextlib.contextmanager
+def limited_threads(request: TrainRequest, prepared: Prepared) -> Iterator[None]:
+    """In the block, a run on the CPU has the threads that its settings say."""
+    before = torch.get_num_threads()
+    if prepared.device and prepared.device.type == "cpu":
+        torch.set_num_threads(cpu_threads(request.settings, request.candidate.parameters or SMALL_MODEL))
+    try:
+        yield
+    finally:
+        torch.set_num_threads(before)
 
 
 @contextlib.contextmanager

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 from collections.abc import Iterable
 from dataclasses import MISSING, Field, asdict, dataclass, field, fields
@@ -58,10 +59,11 @@ class TrainSettings:
         metadata=_about("optimisation", "Compute activations again in the backward pass to save memory: on, off, or auto (on from 500 million parameters)."),
     )
     seed: int = field(default=0, metadata=_about("optimisation", "Seed of adapter weights, dropout and sample order.", low=0, high=2**31 - 1))
-    max_samples: int | None = field(default=None, metadata=_about("optimisation", "Train on the first N samples only.", low=1))
+    max_samples: int | None = field(default=None, metadata=_about("optimisation", "Train on the first N samples of the file only.", low=1))
     max_steps: int | None = field(default=None, metadata=_about("optimisation", "Stop after N optimiser steps; the schedule ends there, too.", low=1))
 
     device: str = field(default="auto", metadata=_about("run", "auto, cpu, cuda or cuda:N."))
+    threads: int | None = field(default=None, metadata=_about("run", "CPU threads. Default: 1 for models below 50 million parameters, else all cores.", low=1))
     checkpoint_minutes: float = field(default=5.0, metadata=_about("run", "Minutes between checkpoints; epoch ends and Ctrl-C make one as well.", above=0))
     checkpoint_steps: int | None = field(default=None, metadata=_about("run", "Also a checkpoint every N optimiser steps.", low=1))
     keep_checkpoints: bool = field(default=False, metadata=_about("run", "Keep the checkpoints folder when training has finished."))
@@ -134,7 +136,9 @@ def resolve_settings(level: Level, sources: Iterable[Source]) -> tuple[Resolved 
     for source in (*sources, Source("published", PUBLISHED[level])):
         for name, value in source.values.items():
             if name not in FIELDS:
-                problems.append(f"{source.style(name)} is no setting; there are {', '.join(FIELDS)}")
+                close = difflib.get_close_matches(name, FIELDS, n=1)
+                hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(FIELDS)}"
+                problems.append(f"{source.style(name)} is no setting; {hint}")
             elif value is not None and name not in values:
                 converted, problem = check_value(name, value)
                 values[name], origin[name] = converted, source.label

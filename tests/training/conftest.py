@@ -1,0 +1,75 @@
+"""Small data and runs for the tests of training."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from rich.console import Console
+
+CURATED = Path(__file__).parents[2] / "data" / "mission" / "train.jsonl"
+STANDIN = "Llama-3.2-1B-Instruct"
+
+
+def records(count: int, skip: int = 0) -> list[dict[str, Any]]:
+    """The shortest curated records, without the first `skip`."""
+    lines = sorted(CURATED.read_text(encoding="utf-8").splitlines(), key=len)
+    return [json.loads(line) for line in lines[skip : skip + count]]
+
+
+def write_records(path: Path, items: list[dict[str, Any]]) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("".join(json.dumps(item) + "\n" for item in items), encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def data(tmp_path: Path) -> Path:
+    """A data folder: eight training and three validation samples."""
+    write_records(tmp_path / "data" / "train.jsonl", records(8))
+    write_records(tmp_path / "data" / "validation.jsonl", records(3, skip=8))
+    return tmp_path / "data"
+
+
+@pytest.fixture
+def quiet() -> Console:
+    """A console whose text can be read back with `export_text()`."""
+    return Console(record=True, quiet=False, file=open("/dev/null", "w"), width=200)
+
+
+@pytest.fixture
+def ask(models: Path, data: Path, tmp_path: Path) -> Callable[..., Any]:
+    """Build a request for the stand-in: keywords are settings, or names of `run` values."""
+    from planner_ft.training.request import build_request
+
+    def build(**values: Any) -> Any:
+        run = {"level": "mission", "candidate": STANDIN, "data_dir": str(data), "output": str(tmp_path / "adapter")}
+        run |= {key: values.pop(key) for key in ("level", "candidate", "data_dir", "output", "vocabulary", "train_file", "validation_file") if key in values}
+        options = {key: values.pop(key) for key in ("recipe", "overwrite", "resume") if key in values}
+        return build_request(run, values, **options)
+
+    return build
+
+
+def losses(output: Path) -> list[float]:
+    """The loss of every step in a run's log."""
+    lines = [json.loads(line) for line in (output / "train_log.jsonl").read_text().splitlines()]
+    return [line["loss"] for line in lines if "loss" in line]
+
+
+@pytest.fixture
+def step_losses() -> Callable[[Path], list[float]]:
+    return losses
+
+
+@pytest.fixture
+def write() -> Callable[[Path, list[dict[str, Any]]], Path]:
+    return write_records
+
+
+@pytest.fixture
+def curated() -> Callable[..., list[dict[str, Any]]]:
+    return records

@@ -1,0 +1,345 @@
+"""Whole runs on stand-ins: the adapter folder, interruption and resuming, and everything that can go wrong on the way."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import jsonschema
+import pytest
+import torch
+from safetensors.torch import load_file
+
+from planner_ft.support.errors import PlannerError
+from planner_ft.training import checkpoint, loop
+from planner_ft.training.loop import InterruptedRunError
+from planner_ft.training.report import PlainDisplay
+from planner_ft.training.run import train
+
+SHORT = {"epochs": 2, "rank": 4, "log_every": 1}
+"""16 steps on the eight samples."""
+
+
+@pytest.fixture
+def reference(ask, quiet, tmp_path, step_losses):
+    """Losses and adapter of an uninterrupted run with dropout."""
+    train(ask(**SHORT, output=str(tmp_path / "reference")), quiet)
+    return step_losses(tmp_path / "reference"), (tmp_path / "reference" / "adapter_model.safetensors").read_bytes()
+
+
+def interrupt_at(monkeypatch, step: int, number: int = signal.SIGINT) -> None:
+    """Send this process a signal while it works on a step."""
+    original = PlainDisplay.step
+
+    def stepping(self, record, eta_seconds, peak):
+        original(self, record, eta_seconds, peak)
+        if record["step"] == step:
+            os.kill(os.getpid(), number)
+
+    monkeypatch.setattr(PlainDisplay, "step", stepping)
+
+
+def test_the_folder_of_a_finished_run(ask, quiet, tmp_path):
+    manifest = train(ask(**SHORT), quiet)
+    output = tmp_path / "adapter"
+    names = {path.name for path in output.iterdir()}
+    assert names == {
+        "adapter_config.json", "adapter_model.safetensors", "tokenizer.json", "tokenizer_config.json", "chat_template.jinja",
+        "manifest.json", "README.md", "train_log.jsonl", "loss.png", "loss.svg",
+    }  # fmt: skip
+    assert json.loads((output / "manifest.json").read_text()) == json.loads(json.dumps(manifest))
+    schema = json.loads((Path(__file__).parents[2] / "schemas" / "manifest.schema.json").read_text())
+    jsonschema.validate(manifest, schema)
+    assert manifest["is_standin"] is True
+    assert manifest["samples"] == {"training": 8, "validation": 3}
+    assert manifest["result"]["steps"] == 16
+    assert manifest["result"]["tokens"] == sum(json.loads(line).get("step_tokens", 0) for line in (output / "train_log.jsonl").read_text().splitlines())
+    assert [entry["epoch"] for entry in manifest["result"]["history"]] == [1, 2]
+    assert manifest["configuration"]["alpha"] == 8
+    assert (output / "loss.png").read_bytes().startswith(b"\x89PNG")
+    card = (output / "README.md").read_text()
+    assert card.startswith("---\nbase_model: meta-llama/Llama-3.2-1B-Instruct\nlibrary_name: peft\n")
+    assert "**Stand-in.**" in card
+
+
+def test_the_adapter_loads_with_plain_peft_and_has_learned(ask, quiet, tmp_path, models):
+    from peft import PeftModel
+    from transformers import AutoModelForCausalLM, AutoTokenizer
+
+    from planner_ft.candidates.adapters import check_adapter
+
+    request = ask(epochs=6, learning_rate=1e-2, quantization="none")
+    manifest = train(request, quiet)
+    config = json.loads((tmp_path / "adapter" / "adapter_config.json").read_text())
+    assert config["base_model_name_or_path"] == str(models / "Llama-3.2-1B-Instruct")
+    base = AutoModelForCausalLM.from_pretrained(config["base_model_name_or_path"])
+    model = PeftModel.from_pretrained(base, str(tmp_path / "adapter")).eval()
+    tokenizer = AutoTokenizer.from_pretrained(tmp_path / "adapter")
+    assert tokenizer.chat_template
+    assert validation(model, request, tokenizer) == pytest.approx(manifest["result"]["validation_loss"], rel=0.01)
+    history = manifest["result"]["history"]
+    assert history[-1]["train_loss"] < history[0]["train_loss"] - 0.3
+    assert check_adapter(tmp_path / "adapter", request.candidate, level="mission", vocabulary=request.vocabulary).rank == 16
+
+
+def validation(model, request, tokenizer) -> float:
+    """Mean loss a completion token of the validation split, with the model's own loss function."""
+    from planner_ft.prompts import render_sample
+
+    total, count = 0.0, 0
+    for line in request.validation_file.read_text().splitlines():
+        rendered = render_sample("mission", json.loads(line), tokenizer, request.vocabulary)
+        ids = torch.tensor([rendered.input_ids])
+        mask = torch.tensor([rendered.completion_mask])
+        with torch.no_grad():
+            total += float(model(input_ids=ids, labels=ids.masked_fill(mask == 0, -100)).loss) * int(mask.sum())
+        count += int(mask.sum())
+    return total / count
+
+
+def test_the_same_seed_gives_the_same_run_and_another_seed_another(ask, quiet, tmp_path, reference, step_losses):
+    train(ask(**SHORT), quiet)
+    assert step_losses(tmp_path / "adapter") == reference[0]
+    train(ask(**SHORT, seed=1, output=str(tmp_path / "other")), quiet)
+    assert step_losses(tmp_path / "other") != reference[0]
+
+
+def test_the_best_adapter_is_kept(ask, quiet, tmp_path, monkeypatch):
+    seen = []
+    values = iter([2.0, 1.0, 3.0])
+
+    def pretended(model, *args):
+        seen.append(checkpoint.adapter_tensors(model))
+        return next(values)
+
+    monkeypatch.setattr(loop, "validation_loss", pretended)
+    manifest = train(ask(epochs=3, rank=4, learning_rate=1e-2), quiet)
+    assert (manifest["result"]["validation_loss"], manifest["result"]["best_epoch"]) == (1.0, 2)
+    saved = load_file(tmp_path / "adapter" / "adapter_model.safetensors")
+    for name, value in seen[1].items():
+        assert torch.equal(saved[name.replace(".default", "")], value)
+
+
+@pytest.mark.parametrize("step", [3, 8, 11])
+def test_ctrl_c_then_resume_gives_the_losses_of_an_uninterrupted_run(ask, quiet, tmp_path, monkeypatch, reference, step_losses, step):
+    """In an epoch, at its end, and after the best adapter was put aside."""
+    with monkeypatch.context() as patch:
+        interrupt_at(patch, step)
+        with pytest.raises(InterruptedRunError) as stop:
+            train(ask(**SHORT), quiet)
+    assert (stop.value.step, stop.value.total, stop.value.signal_number) == (step, 16, signal.SIGINT)
+    assert not (tmp_path / "adapter" / "manifest.json").exists()
+    torch.manual_seed(999)
+    train(ask(**SHORT, resume=True), quiet)
+    assert step_losses(tmp_path / "adapter") == reference[0]
+    assert (tmp_path / "adapter" / "adapter_model.safetensors").read_bytes() == reference[1]
+    assert not (tmp_path / "adapter" / "checkpoints").exists()
+
+
+@pytest.mark.parametrize("values", [{"optimizer": "adamw-8bit", "rank": 64}, {"batch_size": 2, "gradient_accumulation": 2, "gradient_checkpointing": "on"}])
+def test_resuming_is_exact_with_other_optimizers_and_batches(ask, quiet, tmp_path, monkeypatch, step_losses, values):
+    settings = {**SHORT, "epochs": 3, **values}
+    train(ask(**settings, output=str(tmp_path / "whole")), quiet)
+    with monkeypatch.context() as patch:
+        interrupt_at(patch, 3)
+        with pytest.raises(InterruptedRunError):
+            train(ask(**settings), quiet)
+    train(ask(**settings, resume=True), quiet)
+    assert step_losses(tmp_path / "adapter") == step_losses(tmp_path / "whole")
+
+
+COMMAND = ("--level", "mission", "--candidate", "Llama-3.2-1B-Instruct", "--rank", "4", "--epochs", "2", "--log-every", "1", "--checkpoint-steps", "2")
+
+
+def test_kill_9_loses_only_what_came_after_the_last_checkpoint(ask, quiet, data, tmp_path, reference, step_losses):
+    output = tmp_path / "killed"
+    # A pause before each step, so that the kill meets the run in its middle.
+    slow = "import time, planner_ft.training.loop as l; s = l._step; l._step = lambda *a: (time.sleep(0.1), s(*a)); from planner_ft.cli import main; main()"
+    arguments = ["train", *COMMAND, "--data-dir", str(data), "--output", str(output)]
+    process = subprocess.Popen([sys.executable, "-c", slow, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    deadline = time.monotonic() + 100
+    while not list((output / "checkpoints").glob("step-*")) and process.poll() is None and time.monotonic() < deadline:
+        time.sleep(0.02)
+    process.kill()
+    _, errors = process.communicate()
+    assert process.returncode == -signal.SIGKILL, errors.decode()
+    (output / "checkpoints" / ".step-00000099.1.tmp").mkdir()
+    train(ask(**SHORT, checkpoint_steps=2, output=str(output), resume=True), quiet)
+    assert step_losses(output) == reference[0]
+    assert (output / "adapter_model.safetensors").read_bytes() == reference[1]
+
+
+def test_ctrl_c_on_the_command_line_exits_with_130_and_says_how_to_go_on(models, data, tmp_path, monkeypatch, capsys):
+    from planner_ft.cli import main
+
+    output = str(tmp_path / "adapter")
+    monkeypatch.setattr(sys, "argv", ["plannerft", "train", *COMMAND, "--data-dir", str(data), "--output", output, "--overwrite"])
+    with monkeypatch.context() as patch:
+        interrupt_at(patch, 4)
+        with pytest.raises(SystemExit) as stop:
+            main()
+    assert stop.value.code == 130
+    printed = capsys.readouterr().out
+    assert "stopped at step 4 of 16" in printed
+    assert f"plannerft train {' '.join(COMMAND)} --data-dir {data} --output {output} --resume" in printed
+    with monkeypatch.context() as patch:
+        patch.setattr(sys, "argv", ["plannerft", "train", *COMMAND, "--data-dir", str(data), "--output", output])
+        with pytest.raises(SystemExit) as stop:
+            main()
+    assert stop.value.code == 2
+    assert "holds an unfinished run; give --resume to continue it, --overwrite to start again" in capsys.readouterr().err
+
+
+def test_termination_saves_as_well(ask, quiet, monkeypatch):
+    interrupt_at(monkeypatch, 2, signal.SIGTERM)
+    with pytest.raises(InterruptedRunError) as stop:
+        train(ask(**SHORT), quiet)
+    assert stop.value.signal_number == signal.SIGTERM
+
+
+def test_resume_refuses_another_run(ask, quiet, data, monkeypatch, write, curated):
+    with monkeypatch.context() as patch:
+        interrupt_at(patch, 2)
+        with pytest.raises(InterruptedRunError):
+            train(ask(**SHORT), quiet)
+    with pytest.raises(PlannerError, match=r"--learning-rate was 0.0002 and is 0.001; --seed was 0 and is 3"):
+        train(ask(**SHORT, seed=3, learning_rate=1e-3, resume=True), quiet)
+    write(data / "train.jsonl", curated(8, skip=1))
+    with pytest.raises(PlannerError, match="the training data changed since"):
+        train(ask(**SHORT, resume=True), quiet)
+
+
+def test_a_finished_run_is_complete_protected_and_can_be_replaced(ask, quiet, tmp_path):
+    first = train(ask(**SHORT), quiet)
+    (tmp_path / "adapter" / "notes.txt").write_text("mine")
+    assert train(ask(**SHORT, resume=True), quiet) is None
+    assert "this run is complete (16 steps, 2.0 epochs); nothing to resume" in quiet.export_text()
+    with pytest.raises(PlannerError, match="holds a finished adapter; give --overwrite"):
+        train(ask(**SHORT), quiet)
+    second = train(ask(**SHORT, overwrite=True), quiet)
+    assert second["outputs"]["adapter_model.safetensors"] == first["outputs"]["adapter_model.safetensors"]
+    assert (tmp_path / "adapter" / "notes.txt").read_text() == "mine"
+
+
+def test_resume_without_a_run_says_so(ask, quiet):
+    with pytest.raises(PlannerError, match="holds no run to continue; leave --resume out"):
+        train(ask(**SHORT, resume=True), quiet)
+
+
+def fail_at(monkeypatch, call: int, outcome) -> None:
+    """Let the loss of the given optimiser step be `outcome()`."""
+    original, calls = loop.loss_sum, []
+
+    def failing(model, batch, dtype):
+        calls.append(batch.ids)
+        return outcome(model, batch, dtype) if len(calls) == call else original(model, batch, dtype)
+
+    monkeypatch.setattr(loop, "loss_sum", failing)
+
+
+def test_a_loss_that_is_not_finite_stops_the_run_and_leaves_the_checkpoint(ask, quiet, tmp_path, monkeypatch, reference, step_losses):
+    with monkeypatch.context() as patch:
+        original = loop.loss_sum
+        fail_at(patch, 5, lambda *args: original(*args) * float("nan"))
+        with pytest.raises(PlannerError) as caught:
+            train(ask(**SHORT, checkpoint_steps=2), quiet)
+    assert "step 5, sample mission-train-" in str(caught.value)
+    assert "the loss is nan; lower --learning-rate (now 0.0002)" in str(caught.value)
+    assert [path.name for path in checkpoint.checkpoints(tmp_path / "adapter")] == ["step-00000004"]
+    assert "failed" in json.loads((tmp_path / "adapter" / "checkpoints" / "run.json").read_text())["status"]
+    train(ask(**SHORT, resume=True), quiet)
+    assert step_losses(tmp_path / "adapter") == reference[0]
+
+
+def test_a_gradient_that_is_not_finite_stops_before_the_weights_are_lost(ask, quiet, monkeypatch):
+    original = torch.nn.utils.clip_grad_norm_
+    monkeypatch.setattr(torch.nn.utils, "clip_grad_norm_", lambda *args: original(*args) * float("inf"))
+    with pytest.raises(PlannerError, match=r"step 1, sample .*: the gradient norm is inf"):
+        train(ask(**SHORT), quiet)
+
+
+def test_out_of_memory_names_the_next_lever(ask, quiet, monkeypatch):
+    def exhausted(*args):
+        raise torch.OutOfMemoryError("CUDA out of memory. Tried to allocate 2.00 GiB")
+
+    fail_at(monkeypatch, 2, exhausted)
+    with pytest.raises(PlannerError, match=r"out of memory on cpu; next: --gradient-checkpointing on; then --batch-size 1 --gradient-accumulation 2"):
+        train(ask(**SHORT, batch_size=2), quiet)
+
+
+def test_a_full_disk_keeps_the_last_checkpoint(ask, quiet, tmp_path, monkeypatch, reference, step_losses):
+    original = checkpoint._write
+
+    def full(path, content):
+        if "step-00000004" in str(path):
+            raise OSError(errno.ENOSPC, "No space left on device")
+        original(path, content)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(checkpoint, "_write", full)
+        with pytest.raises(PlannerError, match=r"step-00000004: the checkpoint cannot be written \(No space left on device\); free some space"):
+            train(ask(**SHORT, checkpoint_steps=2), quiet)
+    assert [path.name for path in (tmp_path / "adapter" / "checkpoints").glob("*step*")] == ["step-00000002"]
+    train(ask(**SHORT, resume=True), quiet)
+    assert step_losses(tmp_path / "adapter") == reference[0]
+
+
+def test_a_corrupt_checkpoint_is_named(ask, quiet, tmp_path, monkeypatch):
+    with monkeypatch.context() as patch:
+        interrupt_at(patch, 2)
+        with pytest.raises(InterruptedRunError):
+            train(ask(**SHORT), quiet)
+    path = tmp_path / "adapter" / "checkpoints" / "step-00000002" / "tensors.safetensors"
+    path.write_bytes(path.read_bytes()[:100])
+    with pytest.raises(PlannerError, match=r"step-00000002: the checkpoint cannot be read .* start again with --overwrite"):
+        train(ask(**SHORT, resume=True), quiet)
+
+
+def test_checkpoints_can_be_kept(ask, quiet, tmp_path):
+    train(ask(**SHORT, keep_checkpoints=True), quiet)
+    assert [path.name for path in (tmp_path / "adapter" / "checkpoints").iterdir()] == ["step-00000016"]
+    assert train(ask(**SHORT, resume=True), quiet) is None
+
+
+def test_max_steps_ends_the_run_with_a_validation(ask, quiet):
+    manifest = train(ask(**SHORT, max_steps=3), quiet)
+    assert manifest["result"]["steps"] == 3
+    assert [entry["step"] for entry in manifest["result"]["history"]] == [3]
+
+
+def test_without_validation_the_last_adapter_is_kept(ask, quiet, data, tmp_path):
+    manifest = train(ask(**SHORT, data_dir=None, train_file=str(data / "train.jsonl")), quiet)
+    assert manifest["result"]["validation_loss"] is None
+    assert load_file(tmp_path / "adapter" / "adapter_model.safetensors")
+
+
+def test_target_modules_that_fit_nothing_are_an_error(ask, quiet, tmp_path):
+    with pytest.raises(PlannerError, match="--target-modules query,key"):
+        train(ask(**SHORT, target_modules="query,key"), quiet)
+    assert not (tmp_path / "adapter").exists()
+
+
+def test_trackers_get_the_losses(ask, quiet, tmp_path):
+    pytest.importorskip("tensorboard")
+    from tensorboard.backend.event_processing.event_accumulator import EventAccumulator
+
+    train(ask(**SHORT, max_steps=3, report_to="tensorboard"), quiet)
+    events = EventAccumulator(str(tmp_path / "adapter" / "logs" / "Llama-3.2-1B-Instruct-mission"))
+    events.Reload()
+    assert [event.step for event in events.Scalars("loss")] == [1, 2, 3]
+    assert [event.step for event in events.Scalars("validation_loss")] == [3]
+
+
+@pytest.mark.parametrize(
+    "name", ["Llama-3.2-1B", "Llama-3.2-1B-Instruct", "Llama-3.2-3B", "Llama-3.2-3B-Instruct", "Qwen2.5-3B", "Qwen2.5-3B-Instruct", "Llama-3.1-8B"]
+)
+def test_every_published_candidate_trains(ask, quiet, name):
+    manifest = train(ask(candidate=name, max_steps=2, max_samples=2), quiet)
+    assert manifest["base"]["name"] == name
+    assert manifest["result"]["steps"] == 2
