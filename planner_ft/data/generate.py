@@ -15,7 +15,7 @@ from planner_ft.data.output import DataFolder, check_writable, write_folders
 from planner_ft.data.task.sampler import Split, sample_tasks
 from planner_ft.data.validation import canonical_record
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import compact_json, indented_json
+from planner_ft.support.files import compact_json, indented_json, sha256_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import LEVELS, Level
@@ -120,6 +120,8 @@ def _make(level: Level, settings: GenerationSettings, vocabulary: Vocabulary, pr
             texts[f"chat/{split}.jsonl"] = _lines(compact_json({"id": record["id"], "messages": messages(level, record, vocabulary)}) for record in records)
     clock.stop("card and serialisation")
     configuration = {"level": level, "counts": result.counts, "vocabulary": vocabulary.name, "vocabulary_sha256": vocabulary.sha256}
+    if level == "task":
+        configuration["phrases_sha256"] = sha256_text(compact_json(vocabulary.phrases))
     inputs: dict[str, Path | str] = {split: source / f"{split}.jsonl" for split in splits} if source else {}
     manifest = build_manifest("data", seed=seed, configuration={**configuration, "chat": messages is not None}, inputs=inputs)
     return result, DataFolder(result.folder, texts, manifest, source)
