@@ -108,6 +108,8 @@ def check_rendering(request: TrainRequest, prepared: Prepared) -> Finding:
     finding = Finding("rendering")
     if prepared.tokenizer is None or not prepared.splits:
         return replace(finding, text="skipped: no tokenizer or no data", skipped=True)
+    # transformers would warn of samples beyond the model's length, which are errors here, on its own and only of the first.
+    prepared.tokenizer.deprecation_warnings["sequence-length-is-longer-than-the-specified-maximum"] = True
     try:
         rendered = {split.path: render_split(split, request.level, prepared.tokenizer, request.vocabulary) for split in prepared.splits}
     except PlannerError as error:

@@ -154,25 +154,46 @@ def test_resuming_is_exact_with_other_optimizers_and_batches(ask, quiet, tmp_pat
     assert step_losses(tmp_path / "adapter") == step_losses(tmp_path / "whole")
 
 
-COMMAND = ("--level", "mission", "--candidate", "Llama-3.2-1B-Instruct", "--rank", "4", "--epochs", "2", "--log-every", "1", "--checkpoint-steps", "2")
+COMMAND = ("--level", "mission", "--candidate", "Llama-3.2-1B-Instruct", "--rank", "4", "--epochs", "2", "--log-every", "1")
 
 
 def test_kill_9_loses_only_what_came_after_the_last_checkpoint(ask, quiet, data, tmp_path, reference, step_losses):
     output = tmp_path / "killed"
-    # A pause before each step, so that the kill meets the run in its middle.
+    # A pause before each step, so that the kill meets the run between the checkpoint after step 8 and the end.
     slow = "import time, planner_ft.training.loop as l; s = l._step; l._step = lambda *a: (time.sleep(0.1), s(*a)); from planner_ft.cli import main; main()"
     arguments = ["train", *COMMAND, "--data-dir", str(data), "--output", str(output)]
     process = subprocess.Popen([sys.executable, "-c", slow, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     deadline = time.monotonic() + 100
-    while not list((output / "checkpoints").glob("step-*")) and process.poll() is None and time.monotonic() < deadline:
+    while process.poll() is None and time.monotonic() < deadline and not ((output / "train_log.jsonl").exists() and len(step_losses(output)) >= 10):
         time.sleep(0.02)
     process.kill()
     _, errors = process.communicate()
     assert process.returncode == -signal.SIGKILL, errors.decode()
+    assert [path.name for path in checkpoint.checkpoints(output)] == ["step-00000008"]
     (output / "checkpoints" / ".step-00000099.1.tmp").mkdir()
-    train(ask(**SHORT, checkpoint_steps=2, output=str(output), resume=True), quiet)
+    with open(output / "train_log.jsonl", "a") as log:
+        log.write('{"step": 99, "lo')
+    train(ask(**SHORT, output=str(output), resume=True), quiet)
     assert step_losses(output) == reference[0]
     assert (output / "adapter_model.safetensors").read_bytes() == reference[1]
+
+
+def test_a_resumed_run_still_knows_the_best_adapter(ask, quiet, tmp_path, monkeypatch):
+    seen = []
+    values = iter([1.0, 2.0])
+
+    def pretended(model, *args):
+        seen.append(checkpoint.adapter_tensors(model))
+        return next(values)
+
+    monkeypatch.setattr(loop, "validation_loss", pretended)
+    with monkeypatch.context() as patch:
+        interrupt_at(patch, 11)
+        with pytest.raises(InterruptedRunError):
+            train(ask(**SHORT), quiet)
+    assert train(ask(**SHORT, resume=True), quiet)["result"]["best_epoch"] == 1
+    saved = load_file(tmp_path / "adapter" / "adapter_model.safetensors")
+    assert all(torch.equal(saved[name.replace(".default", "")], value) for name, value in seen[0].items())
 
 
 def test_ctrl_c_on_the_command_line_exits_with_130_and_says_how_to_go_on(models, data, tmp_path, monkeypatch, capsys):
@@ -343,3 +364,15 @@ def test_every_published_candidate_trains(ask, quiet, name):
     manifest = train(ask(candidate=name, max_steps=2, max_samples=2), quiet)
     assert manifest["base"]["name"] == name
     assert manifest["result"]["steps"] == 2
+
+
+def test_the_task_level_trains(ask, quiet, write, tmp_path):
+    from planner_ft.data.task.sampler import sample_tasks
+    from planner_ft.vocabulary import load_vocabulary
+
+    records = sorted(sample_tasks(load_vocabulary(), 0, 40, "train"), key=lambda record: len(str(record)))
+    write(tmp_path / "task" / "train.jsonl", records[:4])
+    write(tmp_path / "task" / "validation.jsonl", records[4:6])
+    manifest = train(ask(level="task", data_dir=str(tmp_path / "task")), quiet)
+    assert manifest["level"] == "task"
+    assert (manifest["configuration"]["rank"], manifest["result"]["steps"]) == (8, 8)
