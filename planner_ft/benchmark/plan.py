@@ -16,6 +16,7 @@ from planner_ft.candidates.loading import compute_dtype, require_folder, resolve
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import Quantization
 from planner_ft.decoding.configurations import Configuration, parse_configuration
+from planner_ft.decoding.engine import decoding_threads
 from planner_ft.prompts.render import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import sha256_text, sha256_tree
@@ -35,6 +36,7 @@ class Job:
     with_vocabulary: bool
     parts: dict[str, Any]
     system: System
+    threads: int | None
 
     @property
     def key(self) -> str:
@@ -78,7 +80,8 @@ def make_plan(settings: BenchSettings) -> Plan:
         adapter = adapters.get(candidate.name)
         if adapter is not None:
             check_adapter(adapter, candidate, level=settings.level, vocabulary=vocabulary)
-        jobs += [_job(settings, candidate, configuration, adapter, vocabulary, data, compute) for configuration in configurations]
+        threads = decoding_threads(candidate, device.type)
+        jobs += [_job(settings, candidate, configuration, adapter, vocabulary, data, compute, threads) for configuration in configurations]
     return Plan(settings, data, vocabulary, str(device), tuple(jobs))
 
 
@@ -109,7 +112,14 @@ def _adapters(settings: BenchSettings, candidates: list[Candidate]) -> dict[str,
 
 
 def _job(
-    settings: BenchSettings, candidate: Candidate, configuration: Configuration, adapter: Path | None, vocabulary: Vocabulary, data: BenchData, compute: str
+    settings: BenchSettings,
+    candidate: Candidate,
+    configuration: Configuration,
+    adapter: Path | None,
+    vocabulary: Vocabulary,
+    data: BenchData,
+    compute: str,
+    threads: int | None,
 ) -> Job:
     folder = require_folder(candidate)
     used = adapter if configuration.adapter else None
@@ -135,4 +145,4 @@ def _job(
         candidate.name, configuration.name, label=candidate.row_name, published=candidate.published, is_standin=candidate.is_standin,
         pretrained=candidate.knows(vocabulary), with_vocabulary=with_vocabulary, adapter=str(used) if used else None,
     )  # fmt: skip
-    return Job(candidate, configuration, used, quantization, with_vocabulary, parts, system)
+    return Job(candidate, configuration, used, quantization, with_vocabulary, parts, system, threads)

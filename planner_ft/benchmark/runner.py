@@ -90,7 +90,7 @@ def _loaded(plan: Plan, jobs: list[Job], progress: Progress) -> Iterator[Any]:
     adapter = next((job.adapter for job in jobs if job.adapter), None)
     engine = Engine.load(
         jobs[0].candidate, plan.settings.level, plan.vocabulary, device=plan.device, quantization=jobs[0].quantization, adapter=adapter,
-        max_new_tokens=plan.settings.token_limit,
+        max_new_tokens=plan.settings.token_limit, threads=jobs[0].threads,
     )  # fmt: skip
     try:
         yield engine
@@ -155,7 +155,7 @@ def _results(plan: Plan, predictions: RecordLog, latencies: RecordLog, run: dict
         configuration=configuration,
         inputs={"data": plan.data.path},
         device=plan.device,
-        jobs={job.name: job.parts for job in plan.jobs},
+        jobs={job.name: {**job.parts, "threads": job.threads} for job in plan.jobs},
         run=run,
     )
     return Results(settings.level, plan.data.summary(), tuple(rows), manifest, tuple(scores))

@@ -22,7 +22,10 @@ from planner_ft.vocabulary.plans import Level
 
 @dataclass
 class Engine:
-    """Model and tokenizer of a candidate. One model serves all its configurations: the adapter is switched off for base."""
+    """Model and tokenizer of a candidate. One model serves all its configurations: the adapter is switched off for base.
+
+    `threads` are the CPU threads that it decodes with; None leaves torch's number.
+    """
 
     model: Any
     tokenizer: Any
@@ -30,6 +33,7 @@ class Engine:
     vocabulary: Vocabulary
     limits: Limits
     has_adapter: bool
+    threads: int | None = None
 
     @classmethod
     def load(
@@ -42,12 +46,13 @@ class Engine:
         device: str = "auto",
         quantization: Quantization = "nf4",
         adapter: Path | None = None,
+        threads: int | None = None,
     ) -> Engine:
         """Load a candidate, with its adapter if one is given. Raises PlannerError when it cannot be loaded."""
         tokenizer = load_tokenizer(candidate)
         model = load_model(candidate, device=device, quantization=quantization, adapter=adapter, level=level, vocabulary=vocabulary)
         limits = Limits(end_ids(tokenizer, model), int(tokenizer.pad_token_id), max_new_tokens)
-        return cls(model, tokenizer, level, vocabulary, limits, adapter is not None)
+        return cls(model, tokenizer, level, vocabulary, limits, adapter is not None, threads)
 
     def prompt(self, record: dict[str, Any], *, with_vocabulary: bool) -> list[int]:
         """Prompt ids of a record."""
@@ -83,8 +88,28 @@ class Engine:
     def _configured(self, configuration: Configuration) -> Iterator[None]:
         if configuration.adapter and not self.has_adapter:
             raise PlannerError(f"configuration {configuration.name} needs an adapter; give --adapter")
-        with contextlib.nullcontext() if configuration.adapter or not self.has_adapter else self.model.disable_adapter():
+        with limited_threads(self.threads), contextlib.nullcontext() if configuration.adapter or not self.has_adapter else self.model.disable_adapter():
             yield
+
+
+def decoding_threads(candidate: Candidate, device: str) -> int | None:
+    """CPU threads to decode with: one for small models, as in training, where a busy core would hold up every operation."""
+    from planner_ft.training.model import SMALL_MODEL
+
+    return 1 if device == "cpu" and (candidate.parameters or SMALL_MODEL) < SMALL_MODEL else None
+
+
+@contextlib.contextmanager
+def limited_threads(threads: int | None) -> Iterator[None]:
+    """In the block, torch computes with this number of CPU threads."""
+    import torch
+
+    before = torch.get_num_threads()
+    torch.set_num_threads(threads or before)
+    try:
+        yield
+    finally:
+        torch.set_num_threads(before)
 
 
 def end_ids(tokenizer: Any, model: Any) -> tuple[int, ...]:

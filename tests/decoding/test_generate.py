@@ -190,3 +190,17 @@ def test_every_end_token_of_the_published_candidates_ends_an_answer(models: Any)
         candidate = resolve_candidate(name)
         tokenizer = load_tokenizer(candidate)
         assert {tokenizer.decode([token]) for token in end_ids(tokenizer, load_model(candidate, device="cpu"))} == tokens
+
+
+def test_small_models_decode_with_one_cpu_thread(models: Any) -> None:
+    from planner_ft.candidates import Candidate, resolve_candidate
+    from planner_ft.decoding.engine import decoding_threads, limited_threads
+
+    small = resolve_candidate("Qwen2.5-3B")
+    assert decoding_threads(small, "cpu") == 1
+    assert decoding_threads(small, "cuda") is None
+    assert decoding_threads(Candidate("of unknown size"), "cpu") is None
+    before = torch.get_num_threads()
+    with limited_threads(1):
+        assert torch.get_num_threads() == 1
+    assert torch.get_num_threads() == before
