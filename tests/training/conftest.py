@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -73,3 +75,39 @@ def write() -> Callable[[Path, list[dict[str, Any]]], Path]:
 @pytest.fixture
 def curated() -> Callable[..., list[dict[str, Any]]]:
     return records
+
+
+SHORT = {"epochs": 2, "rank": 4, "log_every": 1}
+"""16 steps on the eight samples."""
+
+
+@pytest.fixture
+def short() -> dict[str, Any]:
+    return dict(SHORT)
+
+
+@pytest.fixture
+def reference(ask: Callable[..., Any], quiet: Console, tmp_path: Path) -> tuple[list[float], bytes]:
+    """Losses and adapter of an uninterrupted run with dropout."""
+    from planner_ft.training.run import train
+
+    train(ask(**SHORT, output=str(tmp_path / "reference")), quiet)
+    return losses(tmp_path / "reference"), (tmp_path / "reference" / "adapter_model.safetensors").read_bytes()
+
+
+@pytest.fixture
+def interrupt_at() -> Callable[..., None]:
+    """Let this process get a signal while a run works on a step: `interrupt_at(patch, step, signal)`."""
+    from planner_ft.training.report import PlainDisplay
+
+    def arrange(monkeypatch: pytest.MonkeyPatch, step: int, number: int = signal.SIGINT) -> None:
+        original = PlainDisplay.step
+
+        def stepping(self: Any, record: dict[str, Any], eta_seconds: float, peak: int) -> None:
+            original(self, record, eta_seconds, peak)
+            if record["step"] == step:
+                os.kill(os.getpid(), number)
+
+        monkeypatch.setattr(PlainDisplay, "step", stepping)
+
+    return arrange
