@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 
 from planner_ft.support.errors import GateError, PlannerError
@@ -9,6 +10,8 @@ from planner_ft.support.errors import GateError, PlannerError
 
 def main() -> None:
     """Entry point. A user's mistake prints one sentence and exits with 2; `--debug` shows the traceback instead."""
+    # OpenMP threads that wait should sleep: spinning ones make a shared machine ten times slower. Read when torch is imported.
+    os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
     from planner_ft.cli.app import app
 
     debug = "--debug" in sys.argv
