@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import warnings
 from collections.abc import Iterator
 
 
 def quiet_libraries() -> None:
-    """Silence notices on import of bitsandbytes. Call it before anything imports peft."""
+    """Silence notices of bitsandbytes and PEFT. Call it before anything imports peft."""
     # It warns that an optional package, with kernels from the hub, is not installed.
     logging.getLogger("bitsandbytes.backends.cpu.ops").setLevel(logging.ERROR)
+    # PEFT asks transformers for an attribute by its former name; a user can do nothing about it.
+    warnings.filterwarnings("ignore", message=".*is_gradient_checkpointing.*", category=FutureWarning)
 
 
 @contextlib.contextmanager
