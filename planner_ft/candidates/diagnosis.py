@@ -160,7 +160,7 @@ def _vocabulary(warnings: list[str]) -> dict[str, Any]:
     schemas = Path(planner_ft.__file__).resolve().parent.parent / "schemas"
     stale = stale_schemas(schemas, vocabulary) if schemas.is_dir() else []
     if stale:
-        warnings.append(f"stale or missing schemas: {', '.join(stale)}; run `plannerft schemas`")
+        warnings.append(f"stale or missing schemas: {', '.join(stale)}; run `plannerft vocabulary --schemas schemas`")
     state = ("stale: " + ", ".join(stale) if stale else "current") if schemas.is_dir() else "not in this installation"
     return {"name": vocabulary.name, "tasks": len(vocabulary.tasks), "skills": len(vocabulary.skills), "sha256": vocabulary.sha256[:12], "schemas": state}
 
