@@ -29,6 +29,9 @@ def tokenizer_of(work: Path, arguments: argparse.Namespace) -> Any:
 
     folder = work / "tokenizer"
     if not (folder / "tokenizer.json").is_file():
+        if arguments.init:
+            PreTrainedTokenizerFast.from_pretrained(arguments.init).save_pretrained(folder)
+            return PreTrainedTokenizerFast.from_pretrained(folder)
         vocabulary = load_vocabulary()
         texts = tokenizer_texts(vocabulary, 999, arguments.tokenizer_samples, arguments.mission_share)
         train_tokenizer(texts, vocabulary, size=arguments.vocabulary_size).save_pretrained(folder)
@@ -51,7 +54,7 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
     """The corpus as shard files, those that are missing written first."""
     paths = [work / "corpus" / f"shard-{index:03d}.npz" for index in range(arguments.shards)]
     jobs = [
-        (path, work / "tokenizer", arguments.corpus_seed + index, arguments.shard_samples, arguments.mission_share, settings.wide)
+        (path, work / "tokenizer", arguments.corpus_seed + index, arguments.shard_samples, arguments.mission_share, settings.longest)
         for index, path in enumerate(paths)
         if not path.is_file()
     ]
@@ -62,7 +65,22 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
     return paths
 
 
-def export(work: Path, folder: Path, tokenizer: Any, model: Any, settings: PretrainSettings) -> None:
+def initialise(model: Any, init: Path) -> None:
+    """Take the weights of the model folder `init`, for a further stage of pretraining."""
+    from transformers import LlamaForCausalLM
+
+    model.load_state_dict(LlamaForCausalLM.from_pretrained(init, dtype=model.dtype).state_dict())
+
+
+def earlier_stages(init: Path | None) -> list[dict[str, Any]]:
+    """What `init` records of its own pretraining, first stage first."""
+    if init is None:
+        return []
+    record = json.loads((init / "pretraining.json").read_text())
+    return [*record.pop("earlier_stages", []), record]
+
+
+def export(work: Path, folder: Path, tokenizer: Any, model: Any, settings: PretrainSettings, stages: list[dict[str, Any]]) -> None:
     """Write the newest checkpoint as a bf16 model folder."""
     import torch
 
@@ -70,7 +88,10 @@ def export(work: Path, folder: Path, tokenizer: Any, model: Any, settings: Pretr
     model.load_state_dict(saved["model"])
     model.to(torch.bfloat16).save_pretrained(folder)
     tokenizer.save_pretrained(folder)
-    write_json(folder / "pretraining.json", {"state": saved["state"], "settings": dataclasses.asdict(settings), "corpus": corpus_summary(work)})
+    write_json(
+        folder / "pretraining.json",
+        {"state": saved["state"], "settings": dataclasses.asdict(settings), "corpus": corpus_summary(work), "earlier_stages": stages},
+    )
 
 
 def corpus_summary(work: Path) -> dict[str, int]:
@@ -84,6 +105,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--work", type=Path, required=True, help="folder for tokenizer, corpus, checkpoint and log")
     parser.add_argument("--export", type=Path, help="write the newest checkpoint as a model folder here and stop")
+    parser.add_argument("--init", type=Path, help="model folder whose weights and tokenizer a further stage starts from")
     parser.add_argument("--shards", type=int, default=20)
     parser.add_argument("--shard-samples", type=int, default=12_000)
     parser.add_argument("--mission-share", type=float, default=0.6)
@@ -102,8 +124,10 @@ def main() -> None:
     special = {"bos": tokenizer.bos_token_id, "eos": tokenizer.eos_token_id, "pad": tokenizer.pad_token_id}
     model: Any = new_model(settings, len(tokenizer), special)
     if arguments.export:
-        export(arguments.work, arguments.export, tokenizer, model, settings)
+        export(arguments.work, arguments.export, tokenizer, model, settings, earlier_stages(arguments.init))
         return
+    if arguments.init:
+        initialise(model, arguments.init)
     print(pretrain(model, shards_of(arguments.work, arguments, settings), settings, pad=special["pad"], folder=arguments.work), flush=True)
 
 

@@ -1,7 +1,7 @@
-"""The pretraining corpus: synthetic samples of both levels, rendered, tokenised and packed into rows.
+"""The pretraining corpus: synthetic samples of both levels, rendered, tokenised and batched by length.
 
 Only the training families of the generators are drawn: the curated mission set and the task level's `test_unseen`
-families never enter. A row holds whole samples side by side; `documents` keeps them apart in attention.
+families never enter.
 """
 
 from __future__ import annotations
@@ -26,16 +26,22 @@ if TYPE_CHECKING:
     from transformers import PreTrainedTokenizerBase
 
 IGNORE = -100
+WIDTH_STEP = 32
+"""Batches are this many positions wide, or a multiple."""
+Sample = tuple[NDArray[np.int64], int]
+"""Token ids and the length of the prompt among them."""
 
 
 @dataclass(frozen=True)
 class Rows:
-    """Packed rows, each array int64 of shape (rows, width); labels are IGNORE outside answers, documents -1 on padding."""
+    """A batch of samples, padded on the right: arrays int64 of shape (samples, width); `labels` are IGNORE outside answers.
+
+    `tokens` counts what is no padding.
+    """
 
     input_ids: NDArray[np.int64]
     labels: NDArray[np.int64]
-    positions: NDArray[np.int64]
-    documents: NDArray[np.int64]
+    tokens: int
 
 
 def stream(vocabulary: Vocabulary, seed: int, mission_share: float) -> Iterator[tuple[Level, dict[str, Any]]]:
@@ -80,7 +86,7 @@ def encode_shard(
     return {"samples": len(ids), "tokens": int(lengths.sum()), "left_out": left_out}
 
 
-def load_shard(path: Path) -> list[tuple[NDArray[np.int64], int]]:
+def load_shard(path: Path) -> list[Sample]:
     """The samples of a shard as (ids, prompt length)."""
     with np.load(path) as data:
         ends = np.cumsum(data["lengths"])
@@ -88,39 +94,35 @@ def load_shard(path: Path) -> list[tuple[NDArray[np.int64], int]]:
         return [(ids[end - length : end], int(prompt)) for end, length, prompt in zip(ends, data["lengths"], data["prompts"], strict=True)]
 
 
-def pack(samples: list[tuple[NDArray[np.int64], int]], width: int, pad: int, seed: int) -> Rows:
-    """Pack samples of at most `width` tokens into rows, in an order drawn from `seed`, filling the first open row that fits."""
-    order = np.random.default_rng(seed).permutation(len(samples))
-    rows: list[list[int]] = []
-    room: list[int] = []
-    first_open = 0
-    for index in order:
-        length = len(samples[index][0])
-        for row in range(first_open, len(rows)):
-            if room[row] >= length:
-                rows[row].append(int(index))
-                room[row] -= length
-                break
-        else:
-            rows.append([int(index)])
-            room.append(width - length)
-        # Only the last rows stay open: older ones have too little room to be worth looking at.
-        first_open = max(first_open, len(rows) - 24)
-    return _fill(rows, samples, width, pad)
+def batched(samples: list[Sample], batch_tokens: int, pad: int, seed: int) -> list[Rows]:
+    """All samples in batches of about `batch_tokens` tokens, samples of like length together, in an order drawn from `seed`.
+
+    Attention then costs what the samples cost: on a CPU, rows of many packed samples spend half of the time on pairs of tokens that do
+    not see each other.
+    """
+    rng = np.random.default_rng(seed)
+    by_width: dict[int, list[int]] = {}
+    for index in rng.permutation(len(samples)):
+        by_width.setdefault(-(-len(samples[index][0]) // WIDTH_STEP) * WIDTH_STEP, []).append(int(index))
+    rows, waiting = [], list[int]()
+    for width in sorted(by_width):
+        # What fills no batch at its own width waits for the next one.
+        members = waiting + by_width[width]
+        size = max(1, batch_tokens // width)
+        whole = len(members) // size * size
+        rows += [rows_of([samples[index] for index in members[start : start + size]], width, pad) for start in range(0, whole, size)]
+        waiting = members[whole:]
+    if waiting:
+        rows.append(rows_of([samples[index] for index in waiting], max(by_width), pad))
+    return [rows[index] for index in rng.permutation(len(rows))]
 
 
-def _fill(rows: list[list[int]], samples: list[tuple[NDArray[np.int64], int]], width: int, pad: int) -> Rows:
-    shape = (len(rows), width)
-    packed = Rows(np.full(shape, pad), np.full(shape, IGNORE), np.zeros(shape, dtype=np.int64), np.full(shape, -1))
-    for row, members in enumerate(rows):
-        start = 0
-        for document, index in enumerate(members):
-            ids, prompt = samples[index]
-            end = start + len(ids)
-            packed.input_ids[row, start:end] = ids
-            # Labels are shifted here: position i predicts token i + 1 of its own sample.
-            packed.labels[row, start + prompt - 1 : end - 1] = ids[prompt:]
-            packed.positions[row, start:end] = np.arange(len(ids))
-            packed.documents[row, start:end] = document
-            start = end
-    return packed
+def rows_of(samples: list[Sample], width: int, pad: int) -> Rows:
+    """One batch of `width` positions."""
+    shape = (len(samples), width)
+    ids, labels = np.full(shape, pad), np.full(shape, IGNORE)
+    for row, (tokens, prompt) in enumerate(samples):
+        ids[row, : len(tokens)] = tokens
+        # Labels are shifted here: position i predicts token i + 1.
+        labels[row, prompt - 1 : len(tokens) - 1] = tokens[prompt:]
+    return Rows(ids, labels, sum(len(tokens) for tokens, _prompt in samples))

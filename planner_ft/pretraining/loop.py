@@ -1,8 +1,13 @@
-"""The pretraining loop: packed rows, bf16 autocast, Muon for matrices and AdamW for the rest, resumable."""
+"""The pretraining loop: batches by length, bf16 autocast, Muon for matrices and AdamW for the rest, resumable.
+
+Started by torchrun with several processes, each takes its share of every batch: the result does not depend on their number,
+up to rounding, and a run may be resumed with another number.
+"""
 
 from __future__ import annotations
 
 import json
+import os
 import time
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
@@ -13,7 +18,7 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from planner_ft.pretraining.corpus import IGNORE, Rows, load_shard, pack
+from planner_ft.pretraining.corpus import IGNORE, Rows, batched, load_shard
 
 SIZE_STEP = 1024
 
@@ -28,9 +33,8 @@ class PretrainSettings:
     layers: int = 8
     heads: int = 4
     feed_forward: int = 704
-    width: int = 512
-    """Row width; samples longer than this go into rows of `wide` tokens."""
-    wide: int = 1024
+    longest: int = 1024
+    """Samples of more tokens are left out of the corpus."""
     batch_tokens: int = 8192
     matrix_lr: float = 3e-3
     other_lr: float = 3e-3
@@ -53,6 +57,8 @@ def new_model(settings: PretrainSettings, vocabulary_size: int, special: dict[st
         vocab_size=vocabulary_size, hidden_size=settings.hidden, intermediate_size=settings.feed_forward, num_hidden_layers=settings.layers,
         num_attention_heads=settings.heads, num_key_value_heads=settings.heads, tie_word_embeddings=True, max_position_embeddings=4096,
         bos_token_id=special["bos"], eos_token_id=special["eos"], pad_token_id=special["pad"],
+        # On a CPU and at these widths plain matrix products train twice as fast as the fused attention, whose backward pass is slow.
+        attn_implementation="eager",
     )  # fmt: skip
     return LlamaForCausalLM(config)
 
@@ -68,39 +74,29 @@ def batches(shards: list[Path], settings: PretrainSettings, pad: int, skip: int)
     number, epoch = 0, 0
     while True:
         for index, shard in enumerate(shards):
-            samples = load_shard(shard)
-            narrow = [sample for sample in samples if len(sample[0]) <= settings.width]
-            wide = [sample for sample in samples if settings.width < len(sample[0]) <= settings.wide]
-            seed = settings.seed + 7919 * epoch + index
-            groups = [
-                (pack(part, width, pad, seed), settings.batch_tokens // width) for part, width in ((narrow, settings.width), (wide, settings.wide)) if part
-            ]
-            chunks = [(rows, start, size) for rows, size in groups for start in range(0, len(rows.input_ids) - size + 1, size)]
-            for choice in np.random.default_rng(seed).permutation(len(chunks)):
+            for rows in batched(load_shard(shard), settings.batch_tokens, pad, settings.seed + 7919 * epoch + index):
                 number += 1
                 if number > skip:
-                    rows, start, size = chunks[choice]
-                    part = slice(start, start + size)
-                    yield Rows(rows.input_ids[part], rows.labels[part], rows.positions[part], rows.documents[part])
+                    yield rows
         epoch += 1
 
 
-def completion_loss(model: Any, body: Any, rows: Rows) -> tuple[Tensor, int]:
-    """Mean cross-entropy over the answer tokens of a batch, and the number of tokens that are no padding."""
-    documents = torch.from_numpy(rows.documents)
-    width = documents.shape[1]
-    causal = torch.ones(width, width, dtype=torch.bool).tril()
-    # Padding attends to itself, so that no row of the softmax is empty.
-    mask = (documents[:, None, :, None] == documents[:, None, None, :]) & causal
-    labels = torch.from_numpy(rows.labels)
+def completion_loss(model: Any, body: Any, rows: Rows, rank: int = 0, world: int = 1) -> Tensor:
+    """Mean cross-entropy over the answer tokens of a batch; of the rows of this rank only, when there are several.
+
+    The sum over the ranks is the loss of the batch.
+    """
+    answers = int((rows.labels != IGNORE).sum())
+    labels = torch.from_numpy(rows.labels[rank::world])
     places = (labels != IGNORE).flatten().nonzero().squeeze(1)
     # The output layer sees few different sizes only: each keeps a kernel with its memory in oneDNN's cache.
     padded = nn.functional.pad(places, (0, -len(places) % SIZE_STEP))
     targets = nn.functional.pad(labels.flatten()[places], (0, -len(places) % SIZE_STEP), value=IGNORE)
     with torch.autocast("cpu", dtype=torch.bfloat16):
-        hidden = body(input_ids=torch.from_numpy(rows.input_ids), position_ids=torch.from_numpy(rows.positions), attention_mask=mask, use_cache=False)[0]
+        # Padding stands on the right, where no token sees it: attention needs no mask but the causal one.
+        hidden = body(input_ids=torch.from_numpy(rows.input_ids[rank::world]), use_cache=False)[0]
         logits = model.lm_head(hidden.flatten(0, 1)[padded])
-    return nn.functional.cross_entropy(logits.float(), targets, ignore_index=IGNORE), int((documents >= 0).sum())
+    return nn.functional.cross_entropy(logits.float(), targets, ignore_index=IGNORE, reduction="sum") / max(1, answers)
 
 
 def optimizers(model: nn.Module, settings: PretrainSettings) -> list[torch.optim.Optimizer]:
@@ -118,9 +114,10 @@ def pretrain(model: Any, shards: list[Path], settings: PretrainSettings, *, pad:
 
     Logs one JSON line per 20 steps to `folder`/log.jsonl and to the terminal.
     """
+    rank, world = _join()
     optims = optimizers(model, settings)
     state = _restore(folder, model, optims)
-    body = torch.compile(model.model) if settings.compile else model.model
+    body = torch.compile(model.model, dynamic=True) if settings.compile else model.model
     started = saved = time.monotonic()
     begin_tokens, losses = state["tokens"], []
     for rows in batches(shards, settings, pad, state["step"]):
@@ -128,26 +125,47 @@ def pretrain(model: Any, shards: list[Path], settings: PretrainSettings, *, pad:
         for optim, peak in zip(optims, (settings.matrix_lr, settings.other_lr), strict=True):
             for group in optim.param_groups:
                 group["lr"] = factor * peak
-        loss, tokens = completion_loss(model, body, rows)
+        loss = completion_loss(model, body, rows, rank, world)
         torch.autograd.backward(loss)
+        losses.append(_summed(model, loss.detach(), world))
         torch.nn.utils.clip_grad_norm_(model.parameters(), settings.gradient_clip)
         for optim in optims:
             optim.step()
             optim.zero_grad(set_to_none=True)
         state["step"] += 1
-        state["tokens"] += tokens
-        losses.append(loss.item())
+        state["tokens"] += rows.tokens
         done = state["tokens"] >= settings.tokens
-        if state["step"] % 20 == 0 or done:
+        if rank == 0 and (state["step"] % 20 == 0 or done):
             seconds = time.monotonic() - started
             _log(folder, state, losses[-20:], settings, (state["tokens"] - begin_tokens) / seconds)
         if done or time.monotonic() - saved > settings.checkpoint_seconds:
-            _save(folder, model, optims, {**state, "seconds": state["seconds"] + time.monotonic() - saved})
+            if rank == 0:
+                _save(folder, model, optims, {**state, "seconds": state["seconds"] + time.monotonic() - saved})
             state["seconds"] += time.monotonic() - saved
             saved = time.monotonic()
         if done:
             break
     return {**state, "loss": float(np.mean(losses[-50:])), "settings": asdict(settings)}
+
+
+def _join() -> tuple[int, int]:
+    """This process's rank and the number of processes, joined when torchrun started several."""
+    world = int(os.environ.get("WORLD_SIZE", "1"))
+    if world > 1 and not torch.distributed.is_initialized():
+        torch.distributed.init_process_group("gloo")
+    return int(os.environ.get("RANK", "0")), world
+
+
+def _summed(model: nn.Module, loss: Tensor, world: int) -> float:
+    """The loss of the whole batch; gradients are summed over the processes, in one message."""
+    if world > 1:
+        gradients = [value.grad for value in model.parameters() if value.grad is not None]
+        message = torch.cat([gradient.flatten() for gradient in gradients] + [loss.reshape(1)])
+        torch.distributed.all_reduce(message)
+        for gradient, part in zip(gradients, message[:-1].split([gradient.numel() for gradient in gradients]), strict=True):
+            gradient.copy_(part.view_as(gradient))
+        loss = message[-1]
+    return float(loss)
 
 
 def _log(folder: Path, state: dict[str, Any], losses: list[float], settings: PretrainSettings, rate: float) -> None:

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 import torch
 
-from planner_ft.pretraining.corpus import IGNORE, encode_shard, load_shard, pack, tokenizer_texts
+from planner_ft.pretraining.corpus import IGNORE, batched, encode_shard, load_shard, rows_of, tokenizer_texts
 from planner_ft.pretraining.loop import PretrainSettings, completion_loss, learning_rate, new_model, pretrain
 from planner_ft.pretraining.tokenizer import train_tokenizer
 from planner_ft.prompts.text import system_text
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()
-TINY = PretrainSettings(hidden=32, layers=1, heads=2, feed_forward=64, width=512, wide=1024, batch_tokens=2048, tokens=6000, compile=False)
+TINY = PretrainSettings(hidden=32, layers=1, heads=2, feed_forward=64, batch_tokens=2048, tokens=6000, compile=False)
 SPECIAL = {"bos": 1, "eos": 2, "pad": 0}
 
 
@@ -48,28 +48,30 @@ def test_the_tokenizer_is_the_same_for_the_same_texts(tokenizer: Any) -> None:
     assert again.get_vocab() == tokenizer.get_vocab()
 
 
-def test_packing_keeps_every_sample_whole(shard: Path) -> None:
+def test_batches_hold_every_sample_once_and_little_padding(shard: Path) -> None:
     samples = load_shard(shard)
-    rows = pack(samples, 1024, 0, seed=3)
-    assert len(rows.input_ids) < len(samples)
-    found = []
-    for row in range(len(rows.input_ids)):
-        for document in range(rows.documents[row].max() + 1):
-            place = rows.documents[row] == document
-            found.append(tuple(rows.input_ids[row][place]))
-            assert list(rows.positions[row][place]) == list(range(place.sum()))
-    assert sorted(found) == sorted(tuple(ids) for ids, _prompt in samples)
-    assert (rows.labels != IGNORE).sum() == sum(len(ids) - prompt for ids, prompt in samples)
+    batches = batched(samples, 2048, 0, seed=3)
+    found = [tuple(row[: len(ids)]) for rows in batches for row in rows.input_ids for ids, _prompt in samples if np.array_equal(row[: len(ids)], ids)]
+    assert sorted(set(found)) == sorted(tuple(ids) for ids, _prompt in samples)
+    assert sum(len(rows.input_ids) for rows in batches) == len(samples)
+    assert sum((rows.labels != IGNORE).sum() for rows in batches) == sum(len(ids) - prompt for ids, prompt in samples)
+    assert sum(rows.tokens for rows in batches) == sum(len(ids) for ids, _prompt in samples)
+    assert all(rows.input_ids.size <= 2048 + 1024 for rows in batches)
 
 
-def test_samples_of_a_row_do_not_see_each_other(shard: Path, tokenizer: Any) -> None:
+def test_padding_does_not_change_the_loss(shard: Path, tokenizer: Any) -> None:
     samples = sorted(load_shard(shard), key=lambda sample: len(sample[0]))[:4]
     model: Any = new_model(TINY, len(tokenizer), SPECIAL)
-    together = pack(samples, 1024, 0, seed=0)
-    assert len(together.input_ids) == 1
     weights = [len(ids) - prompt for ids, prompt in samples]
-    apart = [completion_loss(model, model.model, pack([sample], 1024, 0, seed=0))[0].item() for sample in samples]
-    assert completion_loss(model, model.model, together)[0].item() == pytest.approx(np.average(apart, weights=weights), rel=2e-3)
+    apart = [completion_loss(model, model.model, rows_of([sample], len(sample[0]), 0)).item() for sample in samples]
+    assert completion_loss(model, model.model, rows_of(samples, 256, 0)).item() == pytest.approx(np.average(apart, weights=weights), rel=2e-3)
+
+
+def test_shares_of_a_batch_add_up_to_it(shard: Path, tokenizer: Any) -> None:
+    model: Any = new_model(TINY, len(tokenizer), SPECIAL)
+    rows = rows_of(load_shard(shard)[:5], 1024, 0)
+    shares = [completion_loss(model, model.model, rows, rank, 2).item() for rank in range(2)]
+    assert sum(shares) == pytest.approx(completion_loss(model, model.model, rows).item(), rel=2e-3)
 
 
 def test_the_loss_falls_and_an_interrupted_run_continues(shard: Path, tokenizer: Any, tmp_path: Path) -> None:
@@ -85,8 +87,8 @@ def test_the_loss_falls_and_an_interrupted_run_continues(shard: Path, tokenizer:
     assert resumed["step"] == whole["step"] and resumed["tokens"] == whole["tokens"]
     assert all(torch.equal(a, b) for a, b in zip(first.state_dict().values(), second.state_dict().values(), strict=True))
     fresh: Any = new_model(TINY, len(tokenizer), SPECIAL)
-    rows = pack(load_shard(shard)[:8], 1024, 0, seed=0)
-    assert completion_loss(first, first.model, rows)[0] < 0.9 * completion_loss(fresh, fresh.model, rows)[0]
+    rows = rows_of(load_shard(shard)[:8], 1024, 0)
+    assert completion_loss(first, first.model, rows) < 0.9 * completion_loss(fresh, fresh.model, rows)
 
 
 def test_the_learning_rate_rises_stays_and_falls_to_zero() -> None:
