@@ -9,17 +9,21 @@ from typing import Any
 
 from planner_ft.data.mission.synthetic import discourse, extras, frames, lexicon, words
 from planner_ft.data.mission.synthetic.clauses import Teller
+from planner_ft.data.mission.synthetic.commands import draw_from_templates
 from planner_ft.data.mission.synthetic.corrections import Scene
 from planner_ft.data.mission.synthetic.intents import Intent
 from planner_ft.data.mission.synthetic.labeller import Planned, label
-from planner_ft.data.mission.synthetic.numbers import Style, draw_style
+from planner_ft.data.mission.synthetic.numbers import Style, draw_style, plainer
 from planner_ft.data.mission.synthetic.plan_texts import assumptions, constraints, task_prompt
 from planner_ft.data.mission.synthetic.scene import draw_scene
 from planner_ft.data.mission.synthetic.surface import Register, finished
 
 Record = dict[str, Any]
 
-EMPTY_SHARE = 0.042
+TEMPLATE_SHARE = 0.6
+"""Share of samples drawn from commands written by hand; the others are composed of phrases."""
+EMPTY_SHARE = 0.07
+"""Share of composed samples that lead to no task; some of the written ones do too."""
 LONG = 7
 FORMS = {
     "one-sentence": 26, "sentences": 24, "numbered": 5, "telegram": 9, "but-first": 8, "after-gerund": 6, "last-first": 2, "where-first": 13,
@@ -41,6 +45,13 @@ def sample_missions(seed: int, count: int | None = None) -> Iterator[Record]:
 def draw_mission(rng: Random, name: str) -> Record:
     """One sample drawn from `rng`."""
     style = draw_style(rng)
+    if rng.random() < TEMPLATE_SHARE and (record := draw_from_templates(rng, plainer(rng, style), name)) is not None:
+        return record
+    return compose_mission(rng, style, name)
+
+
+def compose_mission(rng: Random, style: Style, name: str) -> Record:
+    """One sample put together from phrases."""
     if rng.random() < EMPTY_SHARE:
         return _empty(rng, style, name)
     scene, plan = _scene(rng, style)

@@ -6,7 +6,7 @@ converted where the surface has another unit.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from random import Random
 
 Number = int | float
@@ -87,6 +87,14 @@ def draw_style(rng: Random) -> Style:
         hyphen=rng.choice((" ", "-", "-")),
         coordinate=rng.randrange(32),
     )
+
+
+def plainer(rng: Random, style: Style) -> Style:
+    """The same speaker, who more often writes figures and bracketed coordinates."""
+    roll = rng.random()
+    if roll < 0.4:
+        return replace(style, spelled=0.0, coordinate=0 if roll < 0.3 else 9)
+    return replace(style, spelled=min(style.spelled, 0.1)) if roll < 0.6 else style
 
 
 UNITS = {

@@ -55,7 +55,7 @@ def finished(sentences: list[str], rng: Random, register: Register, values: tupl
     if register.spoken:
         text = unpunctuated(text)
     if register.typo_rate or register.texting:
-        protected = _protected(values)
+        protected = protected_words(values)
         if register.texting:
             text = texted(text, rng, {word for value in values for word in value.split(" ")})
         text = typos(text, rng, protected, register.typo_rate)
@@ -148,6 +148,7 @@ NEVER = frozenset(
 )
 
 
-def _protected(values: tuple[str, ...]) -> set[str]:
+def protected_words(values: tuple[str, ...]) -> set[str]:
+    """Words that are never mistyped: those that only copying can tell, codes, numbers and sides."""
     known = _known_words()
     return {word for value in values for word in value.split(" ") if word not in known or CODE.search(value)} | NEVER
