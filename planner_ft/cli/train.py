@@ -101,7 +101,7 @@ def _resume_command() -> str:
 
 
 def _print_result(request: Any, manifest: dict[str, Any], console: Any) -> None:
-    from planner_ft.training.report import clock, memory_size
+    from planner_ft.support.resources import clock, memory_size
 
     result = manifest["result"]
     speed = f"{result['steps']} steps, {result['tokens']:,} tokens in {clock(result['seconds'])} ({result['tokens_per_s']:.0f} tokens/s)"

@@ -14,10 +14,11 @@ from types import FrameType
 import torch
 
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.resources import peak_memory
 from planner_ft.training.batches import Batch, collate, epoch_steps
 from planner_ft.training.checkpoint import Trainee, TrainState, adapter_tensors, save_checkpoint, set_adapter
 from planner_ft.training.model import adapter_parameters, loss_sum, validation_loss
-from planner_ft.training.report import Display, Trackers, TrainLog, peak_memory
+from planner_ft.training.report import Display, Trackers, TrainLog
 from planner_ft.training.samples import Sample
 from planner_ft.training.schedule import learning_rate
 from planner_ft.training.settings import TrainSettings

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, write_jsonl
+from planner_ft.support.resources import clock, memory_size
 from planner_ft.training.settings import TrainSettings
 
 if TYPE_CHECKING:
-    import torch
     from rich.console import Console
 
 LOG = "train_log.jsonl"
@@ -160,28 +160,3 @@ def tracker_problems(settings: TrainSettings) -> list[str]:
     missing = [name for name in settings.trackers if name in LOGGER_TYPE_TO_CLASS and name not in available]
     problems = [f"--report-to {name}: unknown; there are {', '.join(LOGGER_TYPE_TO_CLASS)}" for name in unknown]
     return problems + [f"--report-to {name}: not installed; run `pip install {name}`" for name in missing]
-
-
-def peak_memory(device: torch.device) -> int:
-    """Most bytes in use so far: allocated on the GPU, else resident in this process."""
-    if device.type == "cuda":
-        import torch
-
-        return torch.cuda.max_memory_allocated(device)
-    import resource
-    import sys
-
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return peak if sys.platform == "darwin" else peak * 1024
-
-
-def clock(seconds: float) -> str:
-    """A duration as h:mm:ss or m:ss."""
-    whole = round(seconds)
-    hours, minutes = divmod(whole // 60, 60)
-    return f"{hours}:{minutes:02d}:{whole % 60:02d}" if hours else f"{minutes}:{whole % 60:02d}"
-
-
-def memory_size(count: float) -> str:
-    """Bytes in GiB, small amounts in MiB."""
-    return f"{count / 2**30:.1f} GiB" if count >= 2**29 else f"{count / 2**20:.0f} MiB"

@@ -10,13 +10,14 @@ from planner_ft.candidates.adapters import adapter_record
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, sha256_file, write_json, write_text
 from planner_ft.support.manifest import build_manifest
+from planner_ft.support.resources import peak_memory
 from planner_ft.training.card import model_card
 from planner_ft.training.checkpoint import FOLDER, TrainState
 from planner_ft.training.loop import Run
 from planner_ft.training.model import adapter_parameters
 from planner_ft.training.output import MANIFEST
 from planner_ft.training.plot import plot_losses
-from planner_ft.training.report import LOG, peak_memory, read_log
+from planner_ft.training.report import LOG, read_log
 from planner_ft.training.request import TrainRequest
 from planner_ft.training.samples import Split
 

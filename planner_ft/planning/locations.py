@@ -1,0 +1,111 @@
+"""The places that a mission plan leaves open: their names, and filling them in.
+
+A task at a place that the command gives no coordinates for holds the vocabulary's unresolved location ([-99, -99]). The place is
+called by the target of the search that is to find it; a place that nothing searches (a berth) by the words of the task prompt.
+"""
+
+from __future__ import annotations
+
+import copy
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from planner_ft.data.rules import DOCKING
+from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary import Vocabulary
+
+Position = tuple[float, float]
+
+PLACE_WORDS = re.compile(r"\b(?:at|to|alongside|into|for|on|in)\s+(?P<place>.+?)(?=\s+(?:once|before|after|and|then|with|by)\b|[.,;:]|$)", re.IGNORECASE)
+ARTICLE = re.compile(r"^(?:the|an?|our|your|that|this)\s+", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class OpenPlace:
+    """A place without coordinates, and the numbers (from 1) of the tasks that need it."""
+
+    name: str
+    tasks: tuple[int, ...]
+
+
+def open_places(plan: dict[str, Any], vocabulary: Vocabulary) -> list[OpenPlace]:
+    """The places that a mission plan leaves open, in the order of the first task that needs each."""
+    needed: dict[str, list[int]] = {}
+    searched: list[str] = []
+    for number, entry in enumerate(plan["tasks"], start=1):
+        if entry["title"] == vocabulary.locate:
+            searched.append(_search_target(entry, vocabulary))
+        elif _is_open(entry, vocabulary):
+            needed.setdefault(_name_of(entry, searched, vocabulary), []).append(number)
+    return [OpenPlace(name, tuple(numbers)) for name, numbers in needed.items()]
+
+
+def parse_location(text: str) -> tuple[str, Position]:
+    """Read "NAME=x,y" (metres). Raises PlannerError that says what was expected."""
+    name, equals, place = text.rpartition("=")
+    parts = place.strip().strip("[]()").split(",")
+    try:
+        x, y = (float(part) for part in parts)
+    except ValueError:
+        x = y = math.nan
+    if not equals or not name.strip() or not (math.isfinite(x) and math.isfinite(y)):
+        raise PlannerError(f'--locate {text}: expected "NAME=x,y" in metres east and north of home, such as "green buoy=120,-35"')
+    return name.strip(), (x, y)
+
+
+def resolve(plan: dict[str, Any], locations: Mapping[str, Position], vocabulary: Vocabulary) -> dict[str, Any]:
+    """The plan with the named places filled in; other places stay open.
+
+    A name matches without regard to case and article. Raises PlannerError for a name that the plan does not leave open.
+    """
+    places = open_places(plan, vocabulary)
+    filled = copy.deepcopy(plan)
+    for name, position in locations.items():
+        for number in _matching(name, places).tasks:
+            entry = filled["tasks"][number - 1]
+            entry["parameters"][vocabulary.task[entry["title"]].position_parameter] = [_whole(value) for value in position]
+    return filled
+
+
+def _matching(name: str, places: Sequence[OpenPlace]) -> OpenPlace:
+    wanted = _plain(name)
+    found = [place for place in places if _plain(place.name) == wanted] or [place for place in places if wanted in _plain(place.name)]
+    if len(found) == 1:
+        return found[0]
+    names = ", ".join(f'"{place.name}"' for place in found or places)
+    if not places:
+        raise PlannerError(f"--locate {name}: this plan leaves no place open; leave it out")
+    raise PlannerError(f"--locate {name}: {'fits several places' if found else 'no such place is open'}; there is {names}")
+
+
+def _is_open(entry: dict[str, Any], vocabulary: Vocabulary) -> bool:
+    parameter = vocabulary.task[entry["title"]].position_parameter
+    return parameter is not None and list(entry["parameters"].get(parameter, ())) == list(vocabulary.unresolved)
+
+
+def _search_target(entry: dict[str, Any], vocabulary: Vocabulary) -> str:
+    texts = [parameter.name for parameter in vocabulary.task[entry["title"]].parameters if parameter.type == "text"]
+    return next((str(entry["parameters"][name]) for name in texts if name in entry["parameters"]), entry["title"])
+
+
+def _name_of(entry: dict[str, Any], searched: Sequence[str], vocabulary: Vocabulary) -> str:
+    """The searched target that the task prompt speaks of, else the last one; a berth, which is never searched, in the prompt's own words."""
+    prompt = entry["task_prompt"]
+    spoken = [target for target in searched if target.lower() in prompt.lower()]
+    if spoken:
+        return max(spoken, key=len)
+    if searched and vocabulary.task[entry["title"]].pattern != DOCKING:
+        return searched[-1]
+    said = PLACE_WORDS.search(prompt)
+    return ARTICLE.sub("", said["place"]) if said else str(entry["title"])
+
+
+def _plain(name: str) -> str:
+    return ARTICLE.sub("", " ".join(name.lower().split()))
+
+
+def _whole(value: float) -> float | int:
+    return int(value) if value.is_integer() else value

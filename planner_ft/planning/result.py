@@ -1,0 +1,116 @@
+"""What planning gives: the mission plan, the skills of each task, and what they cost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from planner_ft.planning.locations import OpenPlace
+
+
+@dataclass(frozen=True)
+class Answer:
+    """One answer of an agent, and what it cost.
+
+    `plan` is None when the text does not parse or is not strictly valid: `problems` says why. `cut` is True when the answer met the
+    token limit. `seconds` is the time from prompt ids to the complete answer.
+    """
+
+    text: str
+    plan: dict[str, Any] | None
+    problems: tuple[str, ...]
+    notes: tuple[str, ...]
+    prompt_tokens: int
+    tokens: int
+    forward_passes: int
+    seconds: float
+    cut: bool = False
+
+
+@dataclass(frozen=True)
+class AgentUse:
+    """What one agent did in all. Seconds leave out loading, which `load_seconds` holds."""
+
+    candidate: str
+    configuration: str
+    load_seconds: float
+    queries: int
+    prompt_tokens: int
+    tokens: int
+    forward_passes: int
+    seconds: float
+
+    @classmethod
+    def of(cls, candidate: str, configuration: str, load_seconds: float, answers: Iterable[Answer]) -> AgentUse:
+        """Sums over `answers`."""
+        given = list(answers)
+        sums = (sum(getattr(answer, name) for answer in given) for name in ("prompt_tokens", "tokens", "forward_passes"))
+        return cls(candidate, configuration, round(load_seconds, 3), len(given), *sums, round(sum(answer.seconds for answer in given), 3))
+
+
+@dataclass(frozen=True)
+class PlannedTask:
+    """A task of the mission with its skills. `answer` is None while its place is open: `waits_for` names it."""
+
+    title: str
+    parameters: dict[str, Any]
+    task_prompt: str
+    answer: Answer | None = None
+    waits_for: str | None = None
+
+
+@dataclass(frozen=True)
+class Planned:
+    """A command with everything that was planned for it.
+
+    `mission` is the Mission Agent's answer, its plan with the places filled in that were given. `open_places` are those that no position
+    is known for. `peak_memory` is the most memory of the whole process, in bytes (of the GPU, where there is one).
+    """
+
+    command: str
+    mission: Answer
+    tasks: tuple[PlannedTask, ...]
+    open_places: tuple[OpenPlace, ...]
+    usage: dict[str, AgentUse] = field(default_factory=dict)
+    peak_memory: int = 0
+
+    @property
+    def valid(self) -> bool:
+        """Whether every answer parses and is strictly valid."""
+        return self.mission.plan is not None and all(task.answer is None or task.answer.plan is not None for task in self.tasks)
+
+    @property
+    def complete(self) -> bool:
+        """Whether every task has its skills, so that nothing is left to fill in."""
+        return self.valid and not self.open_places
+
+    def as_json(self) -> dict[str, Any]:
+        """Everything as one JSON object. A task's `skill_sequence` is null while its place is open or its answer is not valid."""
+        plan = self.mission.plan or {}
+        return {
+            "command": self.command,
+            "valid": self.valid,
+            "complete": self.complete,
+            "tasks": [_task_json(task) for task in self.tasks],
+            "assumptions": [*plan.get("assumptions", []), *self.mission.notes],
+            "constraints": list(plan.get("constraints", [])),
+            "open_places": [asdict(place) for place in self.open_places],
+            **_problems(self.mission),
+            "usage": {agent: asdict(use) for agent, use in self.usage.items()},
+            "peak_memory_bytes": self.peak_memory,
+        }
+
+
+def _task_json(task: PlannedTask) -> dict[str, Any]:
+    answer = task.answer
+    told = {"title": task.title, "parameters": task.parameters, "task_prompt": task.task_prompt}
+    if answer is None:
+        return {**told, "skill_sequence": None, "waits_for": task.waits_for}
+    skills = answer.plan["skill_sequence"] if answer.plan is not None else None
+    return {**told, "skill_sequence": skills, **({"assumptions": list(answer.notes)} if answer.notes else {}), **_problems(answer)}
+
+
+def _problems(answer: Answer) -> dict[str, Any]:
+    """What is wrong with an answer, with its raw text; nothing for a valid one."""
+    return {} if answer.plan is not None else {"problems": list(answer.problems), "output": answer.text}
