@@ -2,9 +2,10 @@
 
     for record in sample_tasks(load_vocabulary(), seed=0, count=500, split="test"): ...
 
-A sample is drawn as a script (movements, filters, perception skills), said in a prompt, and its label is derived from
-the script: exactly what the prompt says. A prompt's skeleton, the prompt without its values, decides which of train,
-validation and test may hold it, so that the splits share no sample even when numbers and names are masked.
+About half of the samples are drawn as a script (movements, filters, perception skills), said in a prompt, and the label
+is derived from the script: exactly what the prompt says. The others come from whole-prompt templates (prompts/). A
+prompt's skeleton, the prompt without its values, decides which of train, validation and test may hold it, so that the
+splits share no sample even when numbers and names are masked; a template belongs to one of them as a whole besides.
 """
 
 from __future__ import annotations
@@ -22,6 +23,9 @@ from planner_ft.data.task.noise import noisy
 from planner_ft.data.task.patterns import EXTRA, main_movement
 from planner_ft.data.task.phrasebook import Call, Phrasebook, Saying
 from planner_ft.data.task.phrasing import Script, Speaker
+from planner_ft.data.task.prompts.binding import Bound
+from planner_ft.data.task.prompts.draw import draw_template, pick
+from planner_ft.data.task.prompts.library import bound_lines, normal
 from planner_ft.data.task.shapes import go_back, home
 from planner_ft.data.task.steps import expected_plan
 from planner_ft.data.task.template import close_gaps, plain, skeleton
@@ -36,6 +40,7 @@ EXTRA_MOVEMENTS = (0.56, 0.2, 0.13, 0.07, 0.04)  # how often a prompt has that m
 PERCEPTIONS = (0.14, 0.36, 0.28, 0.15, 0.07)
 FILTERS = (0.56, 0.34, 0.1)
 LONGEST = 24  # steps; longer answers are drawn anew
+TEMPLATES = 0.5  # share of the draws that come from a whole-prompt template
 HELD_OUT = 6  # percent of the skeletons that belong to validation, and as many to test
 
 
@@ -49,12 +54,14 @@ def sample_tasks(vocabulary: Vocabulary, seed: int, count: int | None, split: Sp
         raise PlannerError(f"split {split}: must be {', '.join(SPLITS)}")
     rng = random.Random(f"{vocabulary.name}:{seed}:{split}")
     book = Phrasebook(vocabulary, unseen=split == "test_unseen")
+    templates = templates_of(book, split)
     seen: set[int] = set()
     misses = 0
     numbers = itertools.count() if count is None else range(count)
     for number in numbers:
         while True:
-            drawn = draw_sample(book, rng, split)
+            from_template = templates and rng.random() < TEMPLATES
+            drawn = draw_from_template(templates, book, rng, split) if from_template else draw_sample(book, rng, split)
             key = hash_of(drawn["task"], drawn["parameters"], drawn["prompt"]) if drawn else 0
             if drawn and key not in seen:
                 break
@@ -77,6 +84,35 @@ def split_of(text: str) -> Split:
     return "test" if bucket < HELD_OUT else "validation" if bucket < 2 * HELD_OUT else "train"
 
 
+def templates_of(book: Phrasebook, split: Split) -> list[tuple[Bound, ...]]:
+    """The whole-prompt templates of this split; none for test_unseen."""
+    return [bound for source, bound in bound_lines(book) if split_of(normal(source)) == split] if split != "test_unseen" else []
+
+
+def draw_from_template(templates: Sequence[Sequence[Bound]], book: Phrasebook, rng: random.Random, split: Split) -> dict[str, Any] | None:
+    """One record without id from a whole-prompt template, or None when the draw came to nothing or belongs to another split."""
+    bound = pick(templates, rng)
+    context = Context(book, bound.task, rng)
+    drawn = draw_template(bound, context)
+    if drawn is None or len(drawn[1]["skill_sequence"]) > LONGEST:
+        return None
+    text, expected, skills = drawn
+    text = close_gaps(aside(Speaker(rng, book), text, skills, context))
+    if split_of(f"{bound.task.title} {skeleton(text)}") != split:
+        return None
+    return record(f"template/{len(expected['skill_sequence'])}", context, plain(noisy(text, rng)), expected)
+
+
+def record(family: str, context: Context, prompt: str, expected: dict[str, Any]) -> dict[str, Any]:
+    """The sample without its id. Raises PlannerError when the plan is not strictly valid."""
+    vocabulary = context.book.vocabulary
+    problems = plan_problems("task", expected, vocabulary, strict=True)
+    if problems:
+        raise PlannerError(f"vocabulary {vocabulary.name}: a sample of {context.task.title} is not valid ({problems[0]}); correct the phrase file's ranges")
+    parameters = canonical_parameters(context.parameters(), context.task)
+    return {"family": family, "task": context.task.title, "parameters": parameters, "prompt": prompt, "expected": expected}
+
+
 def draw_sample(book: Phrasebook, rng: random.Random, split: Split) -> dict[str, Any] | None:
     """One record without id, or None when the draw came to nothing or belongs to another split."""
     tasks = book.vocabulary.tasks
@@ -87,21 +123,13 @@ def draw_sample(book: Phrasebook, rng: random.Random, split: Split) -> dict[str,
         return None
     say = Speaker(rng, book)
     frame, text = say_it(say, script, context)
-    text = close_gaps(aside(say, text, script, context))
+    said = {call.skill for calls in (script.perceptions, *(movement.perceptions for movement in script.movements)) for call in calls}
+    text = close_gaps(aside(say, text, {name for name in said if name}, context))
     if split != "test_unseen" and split_of(f"{task.title} {skeleton(text)}") != split:
         return None
     prompt = plain(noisy(text, rng)) if split != "test_unseen" else plain(text)
-    expected = expected_plan(script, book.vocabulary)
-    problems = plan_problems("task", expected, book.vocabulary, strict=True)
-    if problems:
-        raise PlannerError(f"vocabulary {book.vocabulary.name}: a sample of {task.title} is not valid ({problems[0]}); correct the phrase file's ranges")
-    return {
-        "family": f"{'unseen-' if split == 'test_unseen' else ''}{frame}/{script.movements[0].kind}{len(script.movements)}",
-        "task": task.title,
-        "parameters": canonical_parameters(context.parameters(), task),
-        "prompt": prompt,
-        "expected": expected,
-    }
+    family = f"{'unseen-' if split == 'test_unseen' else ''}{frame}/{script.movements[0].kind}{len(script.movements)}"
+    return record(family, context, prompt, expected_plan(script, book.vocabulary))
 
 
 def draw_script(context: Context) -> Script | None:
@@ -239,7 +267,7 @@ def opened(say: Speaker, text: str, context: Context) -> str:
     return phrasing.sentence(opener + text[0].lower() + text[1:])
 
 
-def aside(say: Speaker, text: str, script: Script, context: Context) -> str:
+def aside(say: Speaker, text: str, said: set[str], context: Context) -> str:
     """The prompt, now and then with a sentence that changes nothing: background, a reason, what is not wanted."""
     roll = say.rng.random()
     sentences = context.book.sentences
@@ -249,7 +277,6 @@ def aside(say: Speaker, text: str, script: Script, context: Context) -> str:
     if roll < 0.05 and sentences.get("reason"):
         return f"{text[:-1]} {context.book.say(say.pick(*sentences['reason']), say.rng)}."
     if roll < 0.08 and sentences.get("negation"):
-        said = {call.skill for calls in (script.perceptions, *(movement.perceptions for movement in script.movements)) for call in calls}
         others = [name for name in context.task.skills.get("perception", ()) if name not in said]
         if others:
             templates = context.book.skills[say.pick(*others)].fitting(frozenset())

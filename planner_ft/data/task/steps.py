@@ -17,7 +17,7 @@ def expected_plan(script: Script, vocabulary: Vocabulary) -> dict[str, Any]:
     for movement in script.movements:
         filters = _entries([*script.filters, *movement.filters], vocabulary)
         perceptions = _entries([*script.perceptions, *movement.perceptions], vocabulary)
-        steps += [_step(name, parameters, filters, perceptions, vocabulary) for name, parameters in movement.steps]
+        steps += [plan_step(name, parameters, filters, perceptions, vocabulary) for name, parameters in movement.steps]
     return {"skill_sequence": steps}
 
 
@@ -26,7 +26,10 @@ def _entries(calls: list[Call], vocabulary: Vocabulary) -> list[dict[str, Any]]:
     return [{"name": call.skill, "parameters": canonical_parameters(call.parameters, vocabulary.skill[str(call.skill)])} for call in said]
 
 
-def _step(name: str, parameters: dict[str, Any], filters: list[dict[str, Any]], perceptions: list[dict[str, Any]], vocabulary: Vocabulary) -> dict[str, Any]:
+def plan_step(
+    name: str, parameters: dict[str, Any], filters: list[dict[str, Any]], perceptions: list[dict[str, Any]], vocabulary: Vocabulary
+) -> dict[str, Any]:
+    """A step of the plan, with the strings that its skills report. Parameters are brought into canonical form."""
     skill = vocabulary.skill
     running = [name, *(entry["name"] for entry in filters), *(entry["name"] for entry in perceptions)]
     return {

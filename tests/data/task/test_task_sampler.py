@@ -92,7 +92,7 @@ def test_a_definition_without_phrases_falls_back_on_names(tmp_path):
     assert any("run fly to xy with position [" in record["prompt"].lower() for record in records)
 
 
-def label(prompt_part, seed=5, count=20_000):
+def label(prompt_part, seed=5, count=40_000):
     """The first sampled record whose prompt has the text, so that the label can be checked against the words."""
     return next(record for record in sample_tasks(USV, seed, count, "train") if re.search(prompt_part, record["prompt"]))
 
@@ -108,7 +108,7 @@ def test_left_is_negative():
 
 
 def test_a_referred_value_comes_from_the_task_parameters():
-    record = label(r"^Hold[^.]* for the planned time[^.]*\.$")
+    record = label(r"^Hold[^.]* for the (planned|given) time[^.]*\.$")
     assert navigation(record)[0]["parameters"]["time"] == record["parameters"]["duration"]
 
 
