@@ -7,7 +7,7 @@ from typing import Any
 
 from planner_ft.data.task.phrasebook import Phrasebook
 from planner_ft.data.task.prompts.language import COMPASS_WORDS, TURNS, Argument, CallText, LineText, StepText, TemplateError, flags_of, slots_of
-from planner_ft.data.task.prompts.shapes import SHAPES, role_of, value_draw, word_role
+from planner_ft.data.task.prompts.shapes import JOINT, SHAPES, role_of, value_draw, word_role
 from planner_ft.data.task.values import Draw
 from planner_ft.vocabulary.definition import Parameter, Role, Skill, Task
 
@@ -242,15 +242,12 @@ class _Binder:
         place = SHAPES[shape].roles.get(role, "")
         kind = "position" if role == "point" else "number"
         return self._fill(
-            argument, role, Source(value_draw(shape, role, base_of(str(value))) if role not in _JOINT else _no_draw, place, kind, position=role == "point")
+            argument, role, Source(_no_draw if (shape, role) in JOINT else value_draw(shape, role, base_of(str(value))), place, kind, position=role == "point")
         )
 
 
-_JOINT = {"width", "spacing"}
-
-
 def _no_draw(_rng: Any) -> Any:
-    raise TemplateError("width, length and spacing stand in a Grid alone")
+    raise TemplateError("the size of a Grid is drawn as a whole")
 
 
 def _calls(step: StepText) -> list[CallText]:

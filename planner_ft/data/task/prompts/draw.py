@@ -10,7 +10,7 @@ from typing import Any
 from planner_ft.data.task import geometry as g
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.movements import Step as Move
-from planner_ft.data.task.numbers import Value, angle, count_text, length
+from planner_ft.data.task.numbers import Value, angle, count_text, length, rotation
 from planner_ft.data.task.prompts import shapes
 from planner_ft.data.task.prompts.binding import Bound, Call, Fill, Source, Step, base_of
 from planner_ft.data.task.prompts.language import Choice, Flag, Node, Slot, Words
@@ -100,7 +100,7 @@ class Drawing:
         context.used.add(name)
         value = context.values[name]
         if base_of(source.place).endswith("delta_yaw"):
-            return None if not value.value else shapes.rotation(value.value, self.rng)
+            return None if not value.value else rotation(value.value, self.rng)
         return value
 
     def _new(self, key: str, source: Source) -> Value:

@@ -10,7 +10,7 @@ from typing import Any
 from planner_ft.data.task import geometry as g
 from planner_ft.data.task.movements import Step
 from planner_ft.data.task.numbers import COMPASS, Value, bearing, count_text, length, position, rotation
-from planner_ft.data.task.prompts.language import COMPASS_WORDS, TURNS
+from planner_ft.data.task.prompts.language import COMPASS_WORDS, TURNS, TemplateError
 from planner_ft.data.task.values import Draw, draw_bearing, draw_number, draw_point, draw_rotation
 
 Values = Mapping[str, Any]
@@ -154,13 +154,20 @@ DRAWS: Mapping[tuple[str, str], Draw] = {
 }  # fmt: skip
 
 
+JOINT = frozenset({("Grid", role) for role in ("width", "length", "spacing", "count")})
+"""Drawn together, so that the lanes fill the area."""
+
+
 def value_draw(shape: str, role: str, base: str) -> Draw:
     """How the value of a slot in a shape is drawn; the sides and the corners of a square are told apart by the slot's name."""
     if shape == "Square" and role == "start" and base in ("corner", "side"):
         return _words(*(name for name in g.SQUARE_STARTS if ("-" in name) == (base == "corner")))
-    if base == "direction":
+    if base == "direction" and role == "heading":
         return direction
-    return DRAWS.get((shape, role)) or DRAWS["", role]
+    draw = DRAWS.get((shape, role)) or DRAWS.get(("", role))
+    if draw is None:
+        raise TemplateError(f"{shape} cannot draw a {role}")
+    return draw
 
 
 def grid_size(rng: random.Random, *, free: bool) -> tuple[float, float, float]:
