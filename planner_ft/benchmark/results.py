@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from planner_ft.benchmark.changes import Change, changes
+from planner_ft.benchmark.groups import group_figures
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.scoring import SampleScore, failure_counts, score_sample, summarise
 from planner_ft.benchmark.statistics import Estimate
@@ -71,7 +73,18 @@ class Results:
     scores: tuple[dict[str, Any], ...] = ()
 
     def to_json(self) -> dict[str, Any]:
-        return {"level": self.level, "data": self.data, "rows": [row.to_json() for row in self.rows], "manifest": self.manifest}
+        figures = {"rows": [row.to_json() for row in self.rows], "changes": [change.to_json() for change in self.changes], "groups": self.groups}
+        return {"level": self.level, "data": self.data, **figures, "manifest": self.manifest}
+
+    @property
+    def changes(self) -> list[Change]:
+        """What each strength changes against free decoding, paired by sample."""
+        return changes(self.scores, int(self.manifest.get("seed", 0)))
+
+    @property
+    def groups(self) -> list[dict[str, Any]]:
+        """Figures per group of the test data."""
+        return group_figures(self.scores)
 
     def row(self, candidate: str, configuration: str) -> Row:
         """The row of a candidate and configuration."""

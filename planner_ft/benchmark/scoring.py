@@ -46,6 +46,7 @@ class SampleScore:
     parameters_right: int
     parameters_matched: int
     failure: str | None
+    group: str | None = None
     tokens: int | None = None
     latency_s: float | None = None
 
@@ -67,6 +68,7 @@ def score_sample(level: Level, sample: Sample, prediction: Mapping[str, Any] | N
         parameters_right=agreement.right,
         parameters_matched=agreement.matched,
         failure=failure_kind(level, plan, sample.expected, vocabulary),
+        group=sample.group,
         tokens=prediction.get("tokens"),
         latency_s=latency_s,
     )

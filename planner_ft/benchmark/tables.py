@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import io
 
+from planner_ft.benchmark.changes import changes_markdown
+from planner_ft.benchmark.groups import groups_markdown
 from planner_ft.benchmark.layout import (
     COLUMNS,
     MORE_COLUMNS,
@@ -39,7 +41,8 @@ def markdown(results: Results) -> str:
     lines += [f"| {system_name(row)} | {row.n} | " + " | ".join(str(row.failures[kind]) for kind in FAILURES) + " |" for row in results.rows]
     if results.level == "mission" and shows_published(results):
         lines.append("| mission agent (published) | 25 | " + " | ".join(str(PUBLISHED.get(kind, 0)) for kind in FAILURES) + " |")
-    lines += ["", *(f"- {note}" for note in notes(results))]
+    lines += ["", *changes_markdown(results.changes), *groups_markdown(results.groups)]
+    lines += [f"- {note}" for note in notes(results)]
     return "\n".join(lines) + "\n"
 
 

@@ -1,0 +1,48 @@
+"""What enforcing changes, and figures per group."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from planner_ft.benchmark.changes import changes, changes_markdown
+from planner_ft.benchmark.groups import group_figures, groups_markdown
+
+
+def score(name: str, configuration: str, failure: str | None, f1: float, **more: Any) -> dict[str, Any]:
+    figures = {"exact_sequence": failure is None, "strict_valid": failure != "hallucination", "parameters_right": 1, "parameters_matched": 2}
+    return {"id": name, "family": name, "candidate": "c", "configuration": configuration, "failure": failure, "f1": f1, **figures, **more}
+
+
+SCORES = [
+    score("a", "lora", "hallucination", 0.5, latency_s=2.0, group="noise"),
+    score("b", "lora", None, 1.0, latency_s=2.0, group="noise"),
+    score("a", "lora+schema", "substitution", 0.5, latency_s=1.0, group="noise"),
+    score("b", "lora+schema", None, 1.0, latency_s=1.0, group="order"),
+]
+
+
+def test_an_invention_that_became_a_substitution_is_seen() -> None:
+    (change,) = changes(SCORES, seed=0)
+    assert (change.before, change.after, change.n) == ("lora", "lora+schema", 2)
+    assert change.outcomes == {("hallucination", "substitution"): 1, ("right", "right"): 1}
+    assert change.f1.value == 0 and change.whole_plan.value == 0 and change.seconds == 0.5 and change.forward_passes is None
+    text = "\n".join(changes_markdown([change]))
+    assert "| hallucination | substitution | 1 |" in text and "× 0.50" in text and "| right | right |" not in text
+
+
+def test_only_samples_that_both_answered_are_paired() -> None:
+    (change,) = changes(SCORES[:3], seed=0)
+    assert change.n == 1
+
+
+def test_an_enforced_configuration_alone_has_nothing_to_stand_against() -> None:
+    assert changes(SCORES[2:], seed=0) == [] and changes_markdown([]) == []
+
+
+def test_figures_per_group() -> None:
+    noise = next(entry for entry in group_figures(SCORES) if entry["group"] == "noise" and entry["configuration"] == "lora")
+    assert noise["n"] == 2 and noise["f1"] == pytest.approx(0.75) and noise["whole_plan"] == 0.5 and noise["parameters"] == 0.5
+    assert "| noise | 2 | c, lora | 0.75 | 50 | 50 | 50 | 50 |" in groups_markdown(group_figures(SCORES))
+    assert group_figures([score("a", "lora", None, 1.0)]) == [] and groups_markdown([]) == []
