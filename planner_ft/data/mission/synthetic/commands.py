@@ -1,4 +1,4 @@
-"""Commands written by hand as templates: samples of them, and the check of their files.
+"""The check of files with commands written by hand as templates.
 
 python -m planner_ft.data.mission.synthetic.commands FILE... [--show N] [--only LINE]
 """
@@ -9,30 +9,17 @@ import argparse
 import sys
 from pathlib import Path
 from random import Random
-from typing import Any
 
-from planner_ft.data.mission.synthetic.commands_check import FOLDER, Problem, read_templates, shipped_templates
+from planner_ft.data.mission.synthetic.commands_check import FOLDER, Problem, read_templates
 from planner_ft.data.mission.synthetic.commands_draw import draw_command
 from planner_ft.data.mission.synthetic.commands_format import FormatError, Template
-from planner_ft.data.mission.synthetic.commands_noise import noisy
-from planner_ft.data.mission.synthetic.numbers import Style, draw_style
+from planner_ft.data.mission.synthetic.numbers import draw_style
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems
 
 DRAWS = 40
 """A check draws every template so often."""
-
-
-def draw_from_templates(rng: Random, style: Style, name: str) -> dict[str, Any] | None:
-    """A sample of one of the shipped templates, each as likely as the others; None where there are none."""
-    templates = shipped_templates()
-    if not templates:
-        return None
-    template = templates[int(rng.random() * len(templates))]
-    text, expected, values = draw_command(template, rng, style)
-    tags = [] if expected["tasks"] else ["rule.empty"]
-    return {"id": name, "family": f"synthetic-command-{template.subject}", "prompt": noisy(text, rng, values), "expected": expected, "tags": tags}
 
 
 def file_problems(path: Path) -> tuple[list[Template], list[Problem]]:

@@ -120,11 +120,12 @@ def _number(slot: Slot) -> int:
 def _target(draw: Draw, template: Template, lines: tuple[Line, ...], slot: Slot, parts: list[str | Slot], said: set[str]) -> Target:
     name, kind = slot.name, template.kinds[slot.name]
     own = [(index, part) for index, part in enumerate(parts) if isinstance(part, Slot) and part.name == name and not part.wrong]
-    plain = any(part.article or _owns(parts, index) for index, part in own)
+    plain = any(part.article == "bare" or _owns(parts, index) for index, part in own)
+    common = any(part.article == "a" for _, part in own)
     sought = any(line.title == "SearchAndDetect" and name in line.slots for line in lines)
     near_by = next((line.near for line in lines if name in line.slots and line.near), "")
     located = _is_located(draw, own, parts, sought=sought, bound=name in template.places or bool(near_by))
-    target = draw_target(draw.rng, _number(slot), kind, located=located, plain=plain)
+    target = draw_target(draw.rng, _number(slot), kind, located=located, plain=plain, common=common)
     if name in template.places:
         target = replace(target, position=_bound_position(draw, template, name, said))
     if near_by in draw.targets:
@@ -184,7 +185,7 @@ def _wrong_words(draw: Draw, template: Template, slot: Slot, title: str, parts: 
                 say_position(draw.targets[slot.name].position or (0, 0), rng, style),
             )
         elif slot.base == "T":
-            other = draw_target(rng, 0, template.kinds[slot.name], located=False, plain=bool(slot.article))
+            other = draw_target(rng, 0, template.kinds[slot.name], located=False, plain=bool(slot.article), common=slot.article == "a")
             text, right = target_words(other, slot.article), target_words(draw.targets[slot.name], slot.article)
         elif slot.base == "ID":
             text, right = words.call_sign(rng)[0], draw.targets[slot.name].identity or ""

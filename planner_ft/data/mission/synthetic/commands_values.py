@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from random import Random
@@ -38,13 +39,19 @@ LANDINGS = (
 )  # fmt: skip
 
 
-def draw_target(rng: Random, key: int, kind: str, *, located: bool, plain: bool) -> Target:
-    """A target of a kind; `plain` keeps to descriptions that take an article and have no "with ..." phrase."""
+NATIONS = re.compile("German|Dutch|Norwegian|Danish|Polish")
+NAMED = re.compile(r"[A-ZÅØÖÄÉ]|\d")
+
+
+def draw_target(rng: Random, key: int, kind: str, *, located: bool, plain: bool, common: bool = False) -> Target:
+    """A target of a kind; `plain` keeps to descriptions that take an article and have no "with ..." phrase, `common` to those without names."""
     place = draw_position(rng) if located else None
     for _ in range(12):
         target = _TARGETS[kind](rng, key)
         text = target.description or ""
         if _plural(text) or (plain and (not target.article or " with " in text)):
+            continue
+        if common and (not target.article or NAMED.search(NATIONS.sub("", text.replace("ROV", "").replace("RIB", "")))):
             continue
         break
     return replace(target, position=place, whereabouts="")

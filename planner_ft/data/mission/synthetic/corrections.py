@@ -40,7 +40,7 @@ def corrected(rng: Random, style: Style, scene: Scene) -> Scene:
             wrong = say_position(draw_position(rng) if rng.random() < 0.4 else _near(target.position, rng), rng, style)
             return replace(scene, wrong={target.key: wrong + rng.choice(CORRECTIONS)})
         if target is not None and target.must_be_found and target.description is not None and target.article:
-            wrong = f"the {words.adjective(rng)} {target.noun or words.noun(rng)}"
+            wrong = f"the {words.adjective(rng, target.noun)} {target.noun or words.noun(rng)}"
             return replace(scene, wrong={target.key: wrong + rng.choice(CORRECTIONS)})
     if rng.random() < 0.25 and intent.title in PLACE_TASKS | {"SurveyTarget"}:
         title = rng.choice([title for title in PLACE_WEIGHTS if title not in (intent.title, "Transit", "BathymetryGridSurvey")])

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 IMPERATIVE_FRAMES = (
-    *("{}",) * 44, *("please {}",) * 5, "can you {}?", "could you {}?", "could you please {}?", "would you please {}?", "can you please {}?",
+    *("{}",) * 80, *("please {}",) * 9, "can you {}?", "could you {}?", "could you please {}?", "would you please {}?", "can you please {}?",
     "will you {}?", "I want you to {}", "I need you to {}",
     "I'd like you to {}", "we need you to {}", "we want you to {}", "you are to {}", "you're to {}", "go ahead and {}", "have the boat {}",
     "let her {}", "have her {}", "get the boat to {}",
     "the boat should {}", "the boat is to {}", "just {}", "now {}", "{}, please", "your job is to {}", "your task: {}", "it's time to {}",
     "the plan is to {}", "what I want you to do is {}",
-    "can we {}?", "could we {}?", "let's {}", "the harbour master wants you to {}", "control wants you to {}", "control says to {}",
+    "can we {}?", "could we {}?", "the harbour master wants you to {}", "control wants you to {}", "control says to {}",
     "the office asked us to {}", "the skipper says to {}",
-    "control asks that you {}", "the client wants the boat to {}", "they want us to {}", "we have to {}", "we've been asked to {}",
-    "you should {}", "you need to {}", "you can {}", "be so kind as to {}",
-    "would you be so good as to {}?", "make sure you {}", "I'm asking you to {}", "is it possible to {}?", "any chance you could {}?",
+    "control asks that you {}", "the client wants the boat to {}", "they want us to {}", "we've been asked to {}",
+    "you should {}", "you need to {}", 
+    "make sure you {}", "I'm asking you to {}", "any chance you could {}?",
     "do me a favour and {}", "mission for today: {}", "orders: {}",
     "the mission is to {}", "the idea is to {}", "the captain would like you to {}", "the survey team wants you to {}", "tell the boat to {}",
     "next job: {}", "new job: {}", "new task, {}",
-    "we'd be glad if you could {}", "when you get a moment, {}", "right, {}", "ok, {}", "alright, {}", "so {}", "listen, {}", "hey, can you {}?",
-    "need you to {}", "want you to {}",
+    "we'd be glad if you could {}", "when you get a moment, {}", "right, {}", "ok, {}", "alright, {}", "so {}", 
+    
 )  # fmt: skip
 NOUN_FRAMES = (
     "I need {}", "I'd like {}", "we need {}", "we'd like {}", "give me {}", "give us {}", "{}, please", "can I have {}?", "could we get {}?",
@@ -26,13 +26,13 @@ NOUN_FRAMES = (
     "what I need is {}", "what we want is {}", "on the list for today: {}", "today's job: {}", "job: {}", "task: {}", "request {}",
     "requesting {}", "the client wants {}", "control wants {}",
     "the survey team is asking for {}", "the office needs {}", "{} required", "{} wanted", "{} would be great", "how about {}?",
-    "any chance of {}?", "please arrange {}", "I am after {}", "order of the day is {}",
+    "any chance of {}?", "please arrange {}", 
     "the plan: {}", "{}", "{}", "{}", "{}", "next up is {}", "we're looking for {}", "they have asked for {}", "can you do {}?",
     "could you manage {}?", "I want {}",
 )  # fmt: skip
 GERUND_FRAMES = (
-    "would you mind {}?", "how about {}?", "start by {}", "your job today is {}", "what about {}?", "today we're {}", "the plan is {}",
-    "the first thing is {}", "we're thinking of {}", "I suggest {}", "today's work is {}",
+    "would you mind {}?", "how about {}?", "start by {}", "your job today is {}", "the plan is {}",
+    "the first thing is {}", "today's work is {}",
 )  # fmt: skip
 
 NEXT = (
@@ -75,21 +75,17 @@ FIRST = (
     "first {}",
     "first of all, {}",
     "to begin with, {}",
-    "start with this: {}",
     "to start, {}",
-    "for starters {}",
-    "first up, {}",
-    "first off, {}",
     "firstly, {}",
 )
 
 BUT_FIRST = (
-    "{late}, but first {early}", "{late}, but {early} first", "{late} but before that {early}", "{late}, but before you do that, {early}",
-    "{late}. Before that, {early}", "{late}. But first {early}", "{late}, only {early} first",
+    "{late}, but first {early}", "{late}, but {early} first", "{late} but before that {early}",
+    "{late}. Before that, {early}", "{late}. But first {early}", 
     "{late}. Before you do that, {early}", "{late}; before that, {early}", "{late}. Oh, and before that, {early}", "{late} - but first {early}",
-    "{late}, and before it {early}", "{late}. Beforehand, {early}", "{late}, though first {early}",
-    "{late}. {early_cap} before that", "{late}. First, though, {early}", "{late}, however {early} first", "{late} oh but {early} first",
-    "{late}. Prior to that, {early}", "{late}, except {early} first",
+    "{late}. Beforehand, {early}", "{late}, though first {early}",
+    "{late}. {early_cap} before that", "{late}. First, though, {early}", 
+    "{late}. Prior to that, {early}", 
     "before you {late}, {early}", "before you {late} {early}", "{early} before you {late}", "before you {late}, please {early}",
     "{early}, and only then {late}",
     "make sure to {early} before you {late}", "first {early}, then {late}", "{early}. Only after that {late}", "{late}, but not before you {early}",
@@ -127,9 +123,7 @@ TWO = (
     "{}, and then {}",
     "{}, and {}",
     "{}, after that {}",
-    "{} before you {}",
     "{}, and after that {}",
-    "{}, followed by this: {}",
     "{} and afterwards {}",
     "{}; then {}",
     "{}, and once that's done {}",

@@ -9,7 +9,7 @@ from typing import Any
 
 from planner_ft.data.mission.synthetic import discourse, extras, frames, lexicon, words
 from planner_ft.data.mission.synthetic.clauses import Teller
-from planner_ft.data.mission.synthetic.commands import draw_from_templates
+from planner_ft.data.mission.synthetic.commands_sample import draw_from_templates
 from planner_ft.data.mission.synthetic.corrections import Scene
 from planner_ft.data.mission.synthetic.intents import Intent
 from planner_ft.data.mission.synthetic.labeller import Planned, label
@@ -26,8 +26,8 @@ EMPTY_SHARE = 0.07
 """Share of composed samples that lead to no task; some of the written ones do too."""
 LONG = 7
 FORMS = {
-    "one-sentence": 26, "sentences": 24, "numbered": 5, "telegram": 9, "but-first": 8, "after-gerund": 6, "last-first": 2, "where-first": 13,
-    "radio": 6, "questions": 4,
+    "one-sentence": 28, "sentences": 34, "numbered": 4, "telegram": 4, "but-first": 9, "after-gerund": 7, "last-first": 1, "where-first": 12,
+    "radio": 4, "questions": 5,
 }  # fmt: skip
 TWO_NEEDED = frozenset(("but-first", "after-gerund", "last-first", "numbered"))
 
@@ -111,10 +111,10 @@ def _with_extras(rng: Random, style: Style, sentences: list[str], intents: tuple
     titles = {intent.title for intent in intents}
     told = list(sentences)
     added = []
-    if rng.random() < 0.12:
+    if rng.random() < 0.09:
         drawn = extras.no_thing(rng, titles) if rng.random() < 0.35 else extras.exclusion(rng, titles, home=any(intent.home for intent in intents))
         added += [drawn] if drawn else []
-    if rng.random() < 0.14:
+    if rng.random() < 0.08:
         added.append(extras.limit(rng, style))
     if rng.random() < 0.02:
         added.append(extras.impossible(rng))
@@ -129,9 +129,9 @@ def _with_extras(rng: Random, style: Style, sentences: list[str], intents: tuple
         told = _put(rng, told, extra.text)
     if form in ("radio", "telegram", "numbered"):
         return told
-    if rng.random() < 0.05:
+    if rng.random() < 0.015:
         told = _put(rng, told, rng.choice(frames.QUESTIONS) + ("" if rng.random() < 0.5 else "?"), last=True)
-    if rng.random() < 0.07:
+    if rng.random() < 0.03:
         talk = [sentence.rstrip(".") for sentence in rng.sample(lexicon.SMALL_TALK, rng.choice((1, 1, 2)))]
         told = [*talk, *told] if rng.random() < 0.7 else [*told, *talk]
     if rng.random() < 0.03:
@@ -142,9 +142,9 @@ def _with_extras(rng: Random, style: Style, sentences: list[str], intents: tuple
 def _addressed(rng: Random, sentences: list[str], form: str) -> list[str]:
     """Now and then a letter with greeting and name, or a numbered entry of a log."""
     roll = rng.random()
-    if form == "radio" or roll > 0.05:
+    if form == "radio" or roll > 0.025:
         return sentences
-    if roll < 0.018:
+    if roll < 0.009:
         number = rng.choice(
             (
                 str(rng.randint(1, 999)),
@@ -162,12 +162,12 @@ def _addressed(rng: Random, sentences: list[str], form: str) -> list[str]:
 def _put(rng: Random, sentences: list[str], text: str, *, last: bool = False) -> list[str]:
     """The extra clause at the end, at the start or joined to the last sentence."""
     roll = rng.random()
-    if last or roll < 0.5:
+    if last or roll < 0.66:
         return [*sentences, text]
-    if roll < 0.72:
-        joint = rng.choice((", ", ", and ", " and ", "; ", " - ", ", but ", ", "))
+    if roll < 0.78:
+        joint = rng.choice((", and ", "; ", ", but ", " - "))
         return [*sentences[:-1], sentences[-1].rstrip(".?!") + joint + text]
-    return [text, *sentences] if roll < 0.9 else [f"{text}, {rng.choice(('but ', 'just ', '', 'and '))}{sentences[0]}", *sentences[1:]]
+    return [text, *sentences]
 
 
 def _values(scene: Scene) -> tuple[str, ...]:

@@ -61,14 +61,12 @@ def described(target: Target, rng: Random, *, clipped: bool = False) -> str:
     text = target.said_as or target.description or ""
     if clipped or not target.article:
         return text
-    return f"the {text}" if rng.random() < 0.94 else f"that {text}"
+    return f"the {text}" if rng.random() < 0.985 else f"that {text}"
 
 
 PLACED = (
-    *("{text} at {place}",) * 12, "{text} on {place}", "{text}, {place},", "{text}, which is at {place},", "{text} ({place})",
-    "{text} lying at {place}", "{text} standing at {place}",
-    "{text} over at {place}", "{text} out at {place}", "{text} position {place}", "{text} at position {place}", "{text} at grid {place}",
-    "{text}, at {place},", "{text} located at {place}",
+    *("{text} at {place}",) * 20, "{text} ({place})", "{text}, which is at {place},", "{text} lying at {place}", "{text} over at {place}",
+    "{text} out at {place}", "{text} at position {place}", "{text}, at {place},", "{text} located at {place}",
 )  # fmt: skip
 DOUBTS = (
     "{text} somewhere near {place}", "{text} at about {place}", "{text} around {place}", "{text} at roughly {place}", "{text}, at {place} if I remember right,",

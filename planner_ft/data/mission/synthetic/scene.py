@@ -174,7 +174,7 @@ def _several(rng: Random, style: Style, key: int, kind: str) -> Intent:
         targets = [Target(key + 20 * index, None, draw_position(rng)) for index in range(count)]
     elif rng.random() < 0.55:
         base = words.noun(rng)
-        looks = list(dict.fromkeys(words.adjective(rng) for _ in range(count)))
+        looks = list(dict.fromkeys(words.adjective(rng, base) for _ in range(count)))
         targets = [
             Target(
                 key + 20 * index,
@@ -256,7 +256,7 @@ CABLES = (
 
 
 def _cable(rng: Random, style: Style, key: int, count: int) -> list[Intent]:
-    name = rng.choice(CABLES) if rng.random() < 0.9 else f"{words.pseudo_word(rng)} cable"
+    name = rng.choice(CABLES) if rng.random() < 0.9 else f"{words.place_name(rng)} cable"
     if rng.random() < 0.8:
         intents = [draw_task(rng, style, "SubseaCableTrack", Target(key, name, draw_position(rng), noun="cable"))]
         if count > 1 and rng.random() < 0.5:

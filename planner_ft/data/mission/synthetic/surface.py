@@ -11,7 +11,7 @@ from planner_ft.data.mission.synthetic import lexicon
 from planner_ft.data.mission.synthetic.noise import spaced, texted, typos, unpunctuated
 from planner_ft.data.mission.synthetic.numbers import COMPASS, ONES, TENS
 
-ENDS = (". ", ". ", ". ", ". ", "; ", " - ", ", ", "... ", "! ", ". ")
+ENDS = (*(". ",) * 22, "; ", "; ")
 
 
 @dataclass(frozen=True)
@@ -28,16 +28,16 @@ class Register:
 
     @classmethod
     def draw(cls, rng: Random, form: str) -> Register:
-        spoken = rng.random() < 0.08 and form in ("one-sentence", "sentences", "but-first", "after-gerund", "where-first", "questions")
+        spoken = rng.random() < 0.025 and form in ("one-sentence", "sentences", "but-first", "after-gerund", "where-first", "questions")
         terse = form in ("radio", "telegram", "numbered")
         return cls(
             spoken=spoken,
-            texting=not spoken and rng.random() < 0.05,
-            capitals=rng.random() < 0.68 and not spoken,
-            typo_rate=rng.choice((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.02, 0.04, 0.08)),
-            fillers=rng.choice((0, 1, 2, 3)) if spoken else rng.choice((0,) * 12 + (1, 1, 2)),
-            opened=not terse and rng.random() < 0.13,
-            closed=not terse and rng.random() < 0.12,
+            texting=not spoken and rng.random() < 0.015,
+            capitals=rng.random() < 0.92 and not spoken,
+            typo_rate=0.0 if rng.random() < 0.94 else rng.choice((0.015, 0.03, 0.06)),
+            fillers=rng.choice((0, 1, 2)) if spoken else 1 if rng.random() < 0.015 else 0,
+            opened=not terse and rng.random() < 0.06,
+            closed=not terse and rng.random() < 0.05,
         )
 
 
@@ -60,7 +60,7 @@ def finished(sentences: list[str], rng: Random, register: Register, values: tupl
             text = texted(text, rng, {word for value in values for word in value.split(" ")})
         text = typos(text, rng, protected, register.typo_rate)
     text = spaced(text)
-    if rng.random() < 0.012 and not any(mark.isupper() for value in values for mark in value) and "°" not in text:
+    if rng.random() < 0.004 and not any(mark.isupper() for value in values for mark in value) and "°" not in text:
         text = text.upper()
     return text
 
@@ -75,13 +75,13 @@ def _run_together(sentences: list[str], rng: Random, register: Register) -> str:
     parts = []
     for index, sentence in enumerate(sentences):
         text = sentence
-        if register.capitals and (end in (". ", "! ", "... ") or index == 0 or sentences[index - 1][-1] in "?."):
+        if register.capitals and (end == ". " or index == 0 or sentences[index - 1][-1] in "?."):
             text = text[:1].upper() + text[1:]
         if index < len(sentences) - 1:
             text += " " if text[-1] in "?.!" else end
         parts.append(text)
     whole = "".join(parts)
-    if whole[-1] not in ".?!" and rng.random() < (0.8 if register.capitals else 0.3):
+    if whole[-1] not in ".?!" and rng.random() < (0.96 if register.capitals else 0.3):
         whole += "."
     return whole
 

@@ -1,4 +1,4 @@
-"""Targets, features, names and items: from the lexicon, and made up from syllables so that copying is learnt."""
+"""Targets, features, docking places and items: real nouns with words that suit them, names and ids; an invented word is rare."""
 
 from __future__ import annotations
 
@@ -6,209 +6,157 @@ from random import Random
 
 from planner_ft.data.mission.synthetic import lexicon
 from planner_ft.data.mission.synthetic.intents import Target
+from planner_ft.data.mission.synthetic.lexicon_targets import ADJECTIVES, COLOURS, NOUNS, PLACED, STRUCTURE_PREFIXES, WITH_LOOKS, WITH_PARTS
+from planner_ft.data.mission.synthetic.names import (
+    LETTERS,
+    call_sign,
+    code,
+    fill_pattern,
+    person,
+    place_name,
+    proper_name,
+    pseudo_word,
+    ship_name,
+)
 from planner_ft.data.mission.synthetic.positions import Position, draw_position
 
-ONSETS = (
-    "b", "c", "d", "f", "g", "h", "j", "k", "l", "m", "n", "p", "r", "s", "t", "v", "w", "z", "bl", "br", "ch", "cl", "cr", "dr", "fj", "fl", "fr",
-    "gl", "gr", "kl", "kn", "kr", "pl", "pr", "qu", "sc", "sch", "sh", "sk", "sl", "sm", "sn", "sp", "st", "str", "sv", "sw", "th", "tr", "tw", "vr",
-    "y",
-)  # fmt: skip
-NUCLEI = (
-    "a", "e", "i", "o", "u", "a", "e", "i", "o", "u", "a", "e", "i", "o", "u", "a", "e", "i", "o", "u", "ai", "au", "ea", "ee", "ei", "ie", "oa",
-    "oo", "ou", "y", "å", "ø", "ö", "é",
-)  # fmt: skip
-CODAS = (
-    "b", "ck", "d", "f", "g", "k", "l", "m", "n", "p", "r", "s", "t", "x", "ld", "lf", "lk", "lm", "ln", "lt", "mb", "mp", "nd", "ng", "nk", "nn",
-    "nt", "rd", "rg", "rk", "rm", "rn", "rst", "rt", "sk", "ss", "st", "th", "tt", "ts",
-)  # fmt: skip
-ENDINGS = (
-    "",
-    "",
-    "",
-    "a",
-    "e",
-    "o",
-    "en",
-    "er",
-    "y",
-    "ing",
-    "el",
-    "ar",
-    "um",
-    "is",
-    "us",
-    "on",
-    "ley",
-    "ton",
-    "vik",
-    "sund",
-    "holm",
-    "berg",
-    "fjord",
-    "stad",
-    "by",
-    "gate",
-)
-WORD_ENDINGS = ("", "", "er", "el", "le", "ing", "ed", "y", "ish", "al", "ane", "ock", "ard", "ette", "ic", "ous", "board", "line", "head", "post", "ing")
-ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "IX")
-LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ"
+__all__ = [
+    "adjective",
+    "call_sign",
+    "code",
+    "data_item",
+    "description",
+    "dock_mark",
+    "dock_spot",
+    "feature",
+    "fill_pattern",
+    "moving_thing",
+    "noun",
+    "person",
+    "place_name",
+    "proper_name",
+    "pseudo_word",
+    "ship_name",
+    "side",
+    "structure",
+    "with_phrase",
+]
+
+GROUP_OF = {noun: group for group, nouns in NOUNS.items() for noun in nouns}
+GROUPS = ("mark", "vessel", "structure", "thing")
+GROUP_WEIGHTS = (24, 25, 37, 14)
+INVENTED = 0.025
+"""Share of nouns that are invented words."""
 ITEMS = tuple(item for item in lexicon.DATA_ITEMS if "report" not in item and item != "summary")
-PATTERNS = tuple(pattern for pattern in lexicon.CALLSIGN_PATTERNS if not pattern.lower().startswith(("id ", "number", "contact number")))
-MARKS = ("cross", "board", "lamp", "marker", "triangle", "square", "tag", "beacon", "disc", "panel", "diamond", "circle")
-RECORDINGS = ("log", "pictures", "files", "scan", "video", "readings", "frames", "list", "data", "stills", "clips", "track")
-GREEK = (
-    "Alpha",
-    "Beta",
-    "Gamma",
-    "Delta",
-    "Echo",
-    "Bravo",
-    "Charlie",
-    "Foxtrot",
-    "Golf",
-    "Hotel",
-    "Kilo",
-    "Lima",
-    "Mike",
-    "November",
-    "Oscar",
-    "Papa",
-    "Romeo",
-    "Sierra",
-    "Tango",
-    "Victor",
-    "Whisky",
-    "Zulu",
-)
-
-
-def pseudo_word(rng: Random, endings: tuple[str, ...] = WORD_ENDINGS) -> str:
-    """A word that no dictionary has, made of one to three syllables."""
-    text = ""
-    for _ in range(rng.choice((1, 1, 2, 2, 3))):
-        text += rng.choice(ONSETS) + rng.choice(NUCLEI) + (rng.choice(CODAS) if rng.random() < 0.6 else "")
-    text += rng.choice(endings)
-    return text if len(text) > 2 else text + "mel"
-
-
-def proper_name(rng: Random) -> str:
-    """A name of a vessel, a place or a structure, with its capitals."""
-    roll = rng.random()
-    if roll < 0.45:
-        name = rng.choice(lexicon.PROPER_NAMES)
-    else:
-        name = pseudo_word(rng, ENDINGS).capitalize()
-        if roll > 0.9:
-            name += " " + pseudo_word(rng, ENDINGS).capitalize()
-    roll = rng.random()
-    if roll < 0.1:
-        name += f" {rng.choice(ROMAN)}"
-    elif roll < 0.24:
-        name += f" {rng.randint(1, 30)}"
-    elif roll < 0.28:
-        name += f" {rng.choice(GREEK)}"
-    return name
-
-
-def person(rng: Random) -> str:
-    """Somebody's name."""
-    title = rng.choice(("", "", "", "", "Mr ", "Ms ", "Captain "))
-    return title + (rng.choice(lexicon.PROPER_NAMES).split(" ")[0] if rng.random() < 0.7 else pseudo_word(rng, ENDINGS).capitalize())
-
-
-def code(rng: Random) -> str:
-    """A code such as KX-07, B12 or ZB-31."""
-    pattern = rng.choice(("@@-##", "@@-#", "@##", "@-##", "@@##", "@#", "@@ ##", "@##-#", "@@@-##", "@@-###", "##@", "@ #", "##", "#"))
-    return fill_pattern(pattern, rng)
-
-
-def fill_pattern(pattern: str, rng: Random) -> str:
-    """`pattern` with each # a digit and each @ a capital letter."""
-    return "".join(rng.choice("0123456789") if mark == "#" else rng.choice(LETTERS) if mark == "@" else mark for mark in pattern)
-
-
-def call_sign(rng: Random) -> tuple[str, str | None]:
-    """An id or call sign to follow, and what is said ahead of it ("call sign")."""
-    text = _identity(rng)
-    for ahead in ("call sign ", "callsign "):
-        if text.startswith(ahead):
-            return text.removeprefix(ahead), ahead.strip()
-    return text, "call sign" if not text[0].isdigit() and text[0].isupper() and rng.random() < 0.06 else None
-
-
-def _identity(rng: Random) -> str:
-    roll = rng.random()
-    if roll < 0.7:
-        return fill_pattern(rng.choice(PATTERNS), rng)
-    if roll < 0.8:
-        return f"{rng.choice(GREEK)} {rng.randint(1, 40)}"
-    if roll < 0.9:
-        return f"{pseudo_word(rng, ENDINGS).capitalize()} {rng.randint(1, 99)}"
-    return code(rng) if roll < 0.95 else str(rng.randint(2, 999))
+MARKS = ("cross", "board", "lamp", "marker", "triangle", "square", "tag", "beacon", "disc", "panel", "diamond", "circle", "arrow", "stripe", "light")
+MARK_LOOKS = (*COLOURS, "striped", "flashing", "chequered", "reflective", "lit", "upper", "lower", "big", "double", "fluorescent", "round", "infrared")
+RECORDINGS = ("log", "pictures", "files", "scan", "video", "readings", "frames", "data", "stills", "clips", "photos", "close-ups", "images", "footage")
+SUBJECTS = (
+    "weld", "pile", "hull", "deck", "ladder", "mooring", "chain", "anode", "turbine", "blade", "seabed", "quay", "cable", "buoy", "bridge", "net", "wreck",
+    "sonar", "LiDAR", "thermal", "radar", "drift", "wave", "current", "wind", "landing", "intake", "outfall", "crane", "berth", "pier", "fender", "sluice",
+    "scour", "nacelle", "ballast", "battery", "engine", "GPS", "compass", "camera", "harbour", "traffic", "wildlife", "spill", "rudder", "propeller",
+)  # fmt: skip
+FEATURE_LOOKS = (
+    "cracked", "bent", "rusty", "corroded", "loose", "broken", "damaged", "dented", "leaking", "torn", "worn", "missing", "upper", "lower", "outer", "inner",
+    "left", "right", "forward", "aft", "main", "second", "third", "red", "white", "yellow", "blue", "new", "old", "painted", "frayed", "port", "starboard",
+    "middle", "topmost", "lowest", "front", "rear", "northern", "southern", "big", "small", "repaired",
+)  # fmt: skip
+ALIVE = frozenset(
+    ("swimmer", "seal", "surfer", "windsurfer", "kite surfer", "paddle boarder", "whale", "dolphin pod", "porpoise", "basking shark", "turtle",
+     "rescue swimmer", "open-water swimmer", "barge under tow")
+)  # fmt: skip
+AFLOAT = (
+    *COLOURS, "old", "small", "big", "drifting", "unmarked", "unknown", "suspicious", "white-hulled", "grey-hulled", "second", "nearest", "wooden", "unmanned",
+    "abandoned", "empty", "Danish", "Dutch", "listing", "private", "loose", "slow", "fast", "unlit", "overloaded", "two-masted", "inbound", "outbound",
+)  # fmt: skip
 
 
 def noun(rng: Random) -> str:
     """A thing on the water or ashore."""
+    if rng.random() < INVENTED:
+        return pseudo_word(rng) if rng.random() < 0.6 else f"{pseudo_word(rng)} {rng.choice(NOUNS[rng.choice(GROUPS)]).split()[-1]}"
+    return rng.choice(NOUNS[rng.choices(GROUPS, GROUP_WEIGHTS)[0]])
+
+
+def group_of(base: str) -> str:
+    """The group of a noun: mark, vessel, structure or thing."""
+    if base in GROUP_OF:
+        return GROUP_OF[base]
+    return GROUP_OF.get(base.split()[-1], "vessel" if base in lexicon.MOVING_TARGETS else "structure")
+
+
+def adjective(rng: Random, base: str = "") -> str:
+    """A word that tells one thing from another and suits the noun `base`."""
     roll = rng.random()
-    if roll < 0.88:
-        return rng.choice(lexicon.TARGET_NOUNS)
-    return pseudo_word(rng) if roll < 0.95 else f"{pseudo_word(rng)} {rng.choice(lexicon.TARGET_NOUNS).split()[-1]}"
-
-
-def adjective(rng: Random) -> str:
-    """A word that tells one thing from another."""
-    return rng.choice(lexicon.TARGET_ADJECTIVES) if rng.random() < 0.92 else pseudo_word(rng)
+    if roll < 0.3:
+        return rng.choice(COLOURS)
+    if roll < 0.45:
+        return rng.choice(PLACED)
+    if roll < 0.458:
+        return pseudo_word(rng)
+    return rng.choice(ADJECTIVES[group_of(base) if base else rng.choice(GROUPS)])
 
 
 def description(rng: Random, base: str) -> tuple[str, bool]:
     """A target description on the noun `base`, and whether texts put "the" before it."""
     roll = rng.random()
-    if roll < 0.34:
-        return f"{adjective(rng)} {base}", True
-    if roll < 0.42:
-        first, second = adjective(rng), adjective(rng)
-        return (f"{first} {second} {base}" if first != second else f"{first} {base}"), True
-    if roll < 0.56:
-        return f"{base} {proper_name(rng)}", rng.random() < 0.7
-    if roll < 0.66:
-        return f"{base} {code(rng)}", rng.random() < 0.25
-    if roll < 0.7:
+    if roll < 0.32:
+        return f"{adjective(rng, base)} {base}", True
+    if roll < 0.37:
+        return f"{rng.choice((*ADJECTIVES[group_of(base)], *PLACED))} {rng.choice(COLOURS)} {base}", True
+    if roll < 0.51 and group_of(base) != "thing":
+        return f"{base} {proper_name(rng)}", rng.random() < 0.45
+    if roll < 0.65:
+        return f"{base} {code(rng)}", rng.random() < 0.2
+    if roll < 0.69:
         return f"{proper_name(rng)} {base}", True
-    if roll < 0.8:
-        extra = with_phrase(rng)
-        return (f"{adjective(rng)} {base} {extra}" if rng.random() < 0.3 else f"{base} {extra}"), True
-    if roll < 0.83:
-        return f"{adjective(rng)} {base} {proper_name(rng)}", True
+    if roll < 0.79:
+        extra = with_phrase(rng, base)
+        return (f"{adjective(rng, base)} {base} {extra}" if rng.random() < 0.3 else f"{base} {extra}"), True
+    if roll < 0.81:
+        return f"{adjective(rng, base)} {base} {proper_name(rng)}", True
+    if roll < 0.825:
+        return f"{base} number {rng.randint(1, 40)}", False
     return base, True
 
 
-def with_phrase(rng: Random) -> str:
+def with_phrase(rng: Random, base: str = "") -> str:
     """A "with ..." phrase that belongs to a description."""
-    if rng.random() < 0.75:
+    if rng.random() < 0.25:
         return rng.choice(lexicon.WITH_PHRASES)
-    return rng.choice((f"with the {adjective(rng)} {noun(rng).split()[-1]}", f"with {adjective(rng)} stripes", f"with the {pseudo_word(rng)} mark"))
+    look, part = rng.choice(WITH_LOOKS), rng.choice(WITH_PARTS[group_of(base) if base else rng.choice(GROUPS)])
+    article = rng.choice(("the", "an" if look[0] in "aeiou" else "a"))
+    return f"with {article} {look} {part}"
 
 
 def structure(rng: Random, key: int, *, located: bool) -> Target:
     """A structure or vessel, with coordinates when `located`."""
+    if rng.random() < 0.03:
+        name = fill_pattern(rng.choice(STRUCTURE_PREFIXES), rng)
+        return Target(key, name, _place(rng, located), False, noun=name)
     base = noun(rng)
     text, article = description(rng, base)
+    if base == "wreck" and rng.random() < 0.3:
+        text, article = f"wreck of the {proper_name(rng)}", True
     return Target(key, text, _place(rng, located), article, noun=base, whereabouts="" if located or rng.random() > 0.22 else rng.choice(lexicon.WHEREABOUTS))
 
 
 def moving_thing(rng: Random, key: int, *, located: bool) -> Target:
     """Something that drifts or sails and can be stayed with."""
     base = rng.choice(lexicon.MOVING_TARGETS)
-    text, article = (base, True) if rng.random() < 0.3 else description(rng, base.split()[-1] if rng.random() < 0.3 else base)
-    return Target(
-        key,
-        text,
-        _place(rng, located),
-        article,
-        movable=True,
-        noun=base.split()[-1],
-        whereabouts="" if located or rng.random() > 0.3 else rng.choice(lexicon.WHEREABOUTS),
-    )
+    text, article = base, True
+    if base not in ALIVE:
+        roll = rng.random()
+        if roll < 0.38:
+            text = f"{rng.choice(AFLOAT)} {base}" if base.split()[0] not in AFLOAT else base
+        elif roll < 0.6:
+            text, article = f"{base} {proper_name(rng)}", rng.random() < 0.4
+        elif roll < 0.68:
+            text = f"{base} {with_phrase(rng, 'trawler')}"
+        elif roll < 0.74:
+            text, article = f"{base} {code(rng)}", False
+    whereabouts = "" if located or rng.random() > 0.3 else rng.choice(lexicon.WHEREABOUTS)
+    return Target(key, text, _place(rng, located), article, movable=True, noun=base.split()[-1], whereabouts=whereabouts)
 
 
 def _place(rng: Random, located: bool) -> Position | None:
@@ -218,39 +166,53 @@ def _place(rng: Random, located: bool) -> Position | None:
 def dock_spot(rng: Random) -> str:
     """A docking place by name, without article."""
     roll = rng.random()
-    if roll < 0.6:
+    if roll < 0.55:
         return rng.choice(lexicon.DOCK_SPOTS)
     kind = rng.choice(("berth", "pontoon", "jetty", "quay", "slip", "pier", "dock", "mooring", "float", "wharf"))
-    if roll < 0.72:
+    if roll < 0.7:
         return f"{kind} {rng.randint(1, 30)}"
     if roll < 0.8:
         return f"{kind} {rng.choice(LETTERS)}{rng.choice(('', '', str(rng.randint(1, 9))))}"
-    return f"{adjective(rng)} {kind}" if roll < 0.9 else f"{proper_name(rng)} {kind}"
+    if roll < 0.9:
+        return f"{rng.choice(DOCK_LOOKS)} {kind}"
+    return f"{place_name(rng) if rng.random() < 0.5 else rng.choice(lexicon.PROPER_NAMES)} {kind}"
+
+
+DOCK_LOOKS = (
+    "north", "south", "east", "west", "inner", "outer", "visitor", "guest", "pilot", "ferry", "fuel", "service", "fishing", "naval", "customs", "old", "new",
+    "wooden", "floating", "concrete", "stone", "long", "short", "first", "second", "third", "workshop", "charging", "university", "yacht club", "lifeboat",
+    "coal", "timber", "grain", "cruise", "marina", "police", "rescue", "survey", "maintenance",
+)  # fmt: skip
 
 
 def feature(rng: Random) -> str:
     """A part of a structure that a camera can look at, without article."""
-    roll = rng.random()
-    base = rng.choice(lexicon.FEATURES) if roll < 0.9 else pseudo_word(rng) if roll < 0.96 else f"{pseudo_word(rng)} {rng.choice(lexicon.FEATURES).split()[-1]}"
-    if rng.random() < 0.28:
-        base = f"{adjective(rng)} {base}"
-    return f"{base} {rng.choice(lexicon.FEATURE_PHRASES)}" if rng.random() < 0.13 else base
+    base = rng.choice(lexicon.FEATURES)
+    if rng.random() < 0.02:
+        base = f"{pseudo_word(rng)} {base.split()[-1]}"
+    if rng.random() < 0.3:
+        look = rng.choice(FEATURE_LOOKS)
+        base = base if base.startswith(look) else f"{look} {base}"
+    return f"{base} {rng.choice(lexicon.FEATURE_PHRASES)}" if rng.random() < 0.08 else base
 
 
 def dock_mark(rng: Random) -> str:
     """A mark that guides a docking by camera."""
-    if rng.random() < 0.7:
+    if rng.random() < 0.6:
         return rng.choice(lexicon.DOCK_MARKS)
-    return f"{adjective(rng)} {rng.choice((*MARKS, pseudo_word(rng)))}"
+    return f"{rng.choice(MARK_LOOKS)} {pseudo_word(rng) if rng.random() < 0.015 else rng.choice(MARKS)}"
 
 
 def side(rng: Random) -> str:
     """A side of a structure, one bare word."""
-    return rng.choice(lexicon.SIDES)
+    return rng.choice(lexicon.SIDES if rng.random() < 0.5 else COMMON_SIDES)
+
+
+COMMON_SIDES = ("north", "south", "east", "west", "port", "starboard", "seaward", "landward", "north", "south", "east", "west", "northern", "southern")
 
 
 def data_item(rng: Random) -> str:
     """Something to send, without article."""
-    if rng.random() < 0.8:
+    if rng.random() < 0.65:
         return rng.choice(ITEMS)
-    return f"{pseudo_word(rng) if rng.random() < 0.5 else adjective(rng)} {rng.choice(RECORDINGS)}"
+    return f"{rng.choice(SUBJECTS)} {rng.choice(RECORDINGS)}"
