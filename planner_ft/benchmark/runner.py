@@ -73,7 +73,7 @@ def _run_candidate(plan: Plan, jobs: list[Job], predictions: RecordLog, latencie
         for job in jobs:
             _answer(plan, job, missing[job.name], engine, predictions, progress)
         for job in jobs:
-            _time(job, untimed[job.name], len(timed), engine, latencies, progress)
+            _time(plan, job, untimed[job.name], len(timed), engine, latencies, progress)
 
 
 def _without(samples: tuple[Sample, ...], log: RecordLog, job: Job) -> list[Sample]:
@@ -89,8 +89,8 @@ def _loaded(plan: Plan, jobs: list[Job], progress: Progress) -> Iterator[Any]:
     progress(f"{jobs[0].candidate.name}: loading", 0, 0)
     adapter = next((job.adapter for job in jobs if job.adapter), None)
     engine = Engine.load(
-        jobs[0].candidate, plan.settings.level, plan.vocabulary, device=plan.device, quantization=jobs[0].quantization, adapter=adapter,
-        max_new_tokens=plan.settings.token_limit, threads=jobs[0].threads,
+        jobs[0].candidate, plan.vocabulary, adapters={plan.settings.level: adapter} if adapter else None, device=plan.device,
+        quantization=jobs[0].quantization, max_new_tokens=plan.settings.token_limit, threads=jobs[0].threads,
     )  # fmt: skip
     try:
         yield engine
@@ -104,9 +104,9 @@ def _answer(plan: Plan, job: Job, samples: list[Sample], engine: Any, log: Recor
     done = total - len(samples)
     label = f"{job.name}: answers"
     progress(label, done, total)
-    prompts = [engine.prompt(sample.record, with_vocabulary=job.with_vocabulary) for sample in samples]
-    for index, answer in engine.answers(prompts, job.configuration, batch_size=plan.settings.batch_size):
-        log.append(_prediction(job, samples[index], answer, engine.text(answer), len(prompts[index])))
+    queries = [engine.query(plan.settings.level, sample.record, with_vocabulary=job.with_vocabulary) for sample in samples]
+    for index, answer in engine.answers(queries, job.configuration, batch_size=plan.settings.batch_size):
+        log.append(_prediction(job, samples[index], answer, engine.text(answer), len(queries[index].prompt)))
         done += 1
         progress(label, done, total)
 
@@ -120,15 +120,15 @@ def _prediction(job: Job, sample: Sample, answer: Any, text: str, prompt_tokens:
     }  # fmt: skip
 
 
-def _time(job: Job, samples: list[Sample], total: int, engine: Any, log: RecordLog, progress: Progress) -> None:
+def _time(plan: Plan, job: Job, samples: list[Sample], total: int, engine: Any, log: RecordLog, progress: Progress) -> None:
     """Time the queries that are missing, one at a time."""
     if not samples:
         return
     done = total - len(samples)
     label = f"{job.name}: latency"
     progress(label, done, total)
-    prompts = [engine.prompt(sample.record, with_vocabulary=job.with_vocabulary) for sample in samples]
-    for index, latency in engine.latencies(prompts, job.configuration):
+    queries = [engine.query(plan.settings.level, sample.record, with_vocabulary=job.with_vocabulary) for sample in samples]
+    for index, latency in engine.latencies(queries, job.configuration):
         record = {"id": samples[index].id, "candidate": job.candidate.name, "configuration": job.configuration.name}
         log.append({**record, "latency_s": round(latency.seconds, 6), "tokens": latency.tokens, "key": job.key})
         done += 1

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from planner_ft.candidates.registry import Quantization
+from planner_ft.decoding.limits import MAX_NEW_TOKENS
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.plans import Level
 
-MAX_NEW_TOKENS: dict[Level, int] = {"mission": 1024, "task": 2048}
-"""Default limits. The longest expected plan takes well below half of it with the published tokenizers."""
 LONGEST = 16384
 
 

@@ -6,7 +6,7 @@ Only local safetensors files are read, no remote code runs and nothing is downlo
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -120,29 +120,44 @@ def load_model(
     trainable: bool = False,
     level: Level | None = None,
     vocabulary: Vocabulary | None = None,
+    adapters: Mapping[Level, Path] | None = None,
 ) -> PreTrainedModel:
     """The candidate's model in eval mode, ready to generate or, with `trainable`, to get an adapter (or train `adapter` on).
 
     "nf4" stores linear layers as 4-bit NormalFloat with double quantisation; embeddings, output head and norms stay in
     the compute dtype. "none" keeps everything in the compute dtype. With `adapter` the result is a PeftModel, and the
-    adapter is checked first, against `level` and `vocabulary` too where they are given. With `trainable` the 4-bit layers
-    never pack (see `packing`), so that evaluation between training steps leaves gradients whole.
+    adapter is checked first, against `level` and `vocabulary` too where they are given. `adapters` are several on one
+    base, under the names of their levels, to be changed with `set_adapter`. With `trainable` the 4-bit layers never pack
+    (see `packing`), so that evaluation between training steps leaves gradients whole.
     Raises PlannerError, one sentence, when anything is missing, unsafe, corrupt, of another base or too large.
     """
     target = resolve_device(device)
     folder = require_folder(candidate)
     if adapter is not None:
         check_adapter(adapter, candidate, level=level, vocabulary=vocabulary)
+    for its_level, path in (adapters or {}).items():
+        check_adapter(path, candidate, level=its_level, vocabulary=vocabulary)
     quiet_libraries()
     with _loading_errors(candidate, folder, target):
         model = _load_base(folder, target, quantization)
-        if adapter is not None:
-            from peft import PeftModel
-
-            model = PeftModel.from_pretrained(model, str(adapter), is_trainable=trainable, use_safetensors=True)
+        named: dict[str, Path] = {**({"default": adapter} if adapter else {}), **(adapters or {})}
+        if named:
+            model = _attach(model, named, trainable)
     if quantization == "nf4":
         set_packing(model, allowed=not trainable)
     return model.eval()
+
+
+def _attach(model: Any, adapters: Mapping[str, Path], trainable: bool) -> Any:
+    """A PeftModel with these adapters by name, the first of them active; the model itself when there are none."""
+    from peft import PeftModel
+
+    for name, adapter in adapters.items():
+        if isinstance(model, PeftModel):
+            model.load_adapter(str(adapter), name, is_trainable=trainable, use_safetensors=True)
+        else:
+            model = PeftModel.from_pretrained(model, str(adapter), name, is_trainable=trainable, use_safetensors=True)
+    return model
 
 
 def _load_base(folder: Path, device: torch.device, quantization: Quantization) -> Any:

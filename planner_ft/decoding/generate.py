@@ -15,6 +15,7 @@ from typing import Any, Literal
 import torch
 
 from planner_ft.decoding.cache import new_cache
+from planner_ft.decoding.limits import Limits
 from planner_ft.support.errors import PlannerError
 
 FinishReason = Literal["stop", "length", "error"]
@@ -31,15 +32,6 @@ class Generation:
     finish_reason: FinishReason
     seconds: float
     error: str | None = None
-
-
-@dataclass(frozen=True)
-class Limits:
-    """What ends an answer: a token of `end_ids`, or `max_new_tokens`. `pad_id` fills shorter prompts on the left."""
-
-    end_ids: tuple[int, ...]
-    pad_id: int
-    max_new_tokens: int
 
 
 def generate(model: Any, prompts: Sequence[list[int]], limits: Limits, *, batch_size: int = 16) -> list[Generation]:

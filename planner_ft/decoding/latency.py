@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.decoding.generate import Limits, generate
+from planner_ft.decoding.generate import generate
+from planner_ft.decoding.limits import Limits
 
 
 @dataclass(frozen=True)

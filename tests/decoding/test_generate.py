@@ -10,8 +10,9 @@ import torch
 
 from planner_ft.decoding.cache import BLOCK, BlockLayer, new_cache
 from planner_ft.decoding.engine import end_ids
-from planner_ft.decoding.generate import Limits, generate, generate_unordered
+from planner_ft.decoding.generate import generate, generate_unordered
 from planner_ft.decoding.latency import measure_latency
+from planner_ft.decoding.limits import Limits
 from planner_ft.support.errors import PlannerError
 
 VOCABULARY = 64

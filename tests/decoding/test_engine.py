@@ -1,0 +1,82 @@
+"""One loaded base answers as both agents, with the adapter of each or none."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+import torch
+
+from planner_ft.candidates import Candidate, resolve_candidate
+from planner_ft.candidates.adapters import adapter_record
+from planner_ft.candidates.loading import load_model
+from planner_ft.decoding.configurations import Configuration
+from planner_ft.decoding.engine import Engine, Query
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import write_json
+from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.plans import Level
+
+NAME = "Qwen2.5-3B"
+BASE, LORA = Configuration(False), Configuration(True)
+RECORDS: dict[Level, dict[str, Any]] = {
+    "mission": {"prompt": "Find the red buoy and come home."},
+    "task": {"task": "Transit", "parameters": {"target_position": [3, 4]}, "prompt": "Go to [3, 4]."},
+}
+
+
+def adapter_folder(candidate: Candidate, level: Level, seed: int, folder: Path) -> Path:
+    """An untrained adapter that changes the answers."""
+    from peft import LoraConfig, get_peft_model
+
+    torch.manual_seed(seed)
+    config = LoraConfig(r=4, lora_alpha=64, target_modules="all-linear", task_type="CAUSAL_LM", init_lora_weights=False)
+    get_peft_model(load_model(candidate, device="cpu", trainable=True), config).save_pretrained(folder, save_embedding_layers=False)
+    write_json(folder / "manifest.json", adapter_record(candidate, level, load_vocabulary()))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def adapters(standins: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[Level, Path]:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PLANNERFT_MODELS", str(standins))
+        candidate = resolve_candidate(NAME)
+        return {level: adapter_folder(candidate, level, seed, tmp_path_factory.mktemp(level)) for seed, level in enumerate(RECORDS)}
+
+
+def load(**settings: Any) -> Engine:
+    return Engine.load(resolve_candidate(NAME), load_vocabulary(), device="cpu", max_new_tokens=12, **settings)
+
+
+def answers(engine: Engine, level: Level, *configurations: Configuration) -> list[tuple[int, ...]]:
+    return [engine.answer(engine.query(level, RECORDS[level]), configuration).ids for configuration in configurations]
+
+
+def test_one_base_serves_both_adapters_and_none(models: Path, adapters: dict[Level, Path]) -> None:
+    both = load(adapters=adapters)
+    of_both = {level: answers(both, level, BASE, LORA, BASE, LORA) for level in RECORDS}
+    plain = load()
+    for level, (base, lora, base_again, lora_again) in of_both.items():
+        alone = load(adapters={level: adapters[level]})
+        assert [base] == answers(plain, level, BASE)
+        assert [lora] == answers(alone, level, LORA)
+        assert (base, lora) == (base_again, lora_again)
+        assert base != lora
+
+
+def test_a_level_without_an_adapter_has_no_lora_configuration(models: Path, adapters: dict[Level, Path]) -> None:
+    engine = load(adapters={"mission": adapters["mission"]})
+    with pytest.raises(PlannerError, match="lora needs an adapter of the task level"):
+        engine.answer(engine.query("task", RECORDS["task"]), LORA)
+
+
+def test_an_adapter_of_the_other_level_is_refused(models: Path, adapters: dict[Level, Path]) -> None:
+    with pytest.raises(PlannerError, match="adapter of the mission level, not of the task level"):
+        load(adapters={"task": adapters["mission"]})
+
+
+def test_queries_of_two_levels_are_not_mixed(models: Path) -> None:
+    engine = load()
+    with pytest.raises(ValueError, match="one level"):
+        list(engine.answers([Query("mission", {}, (1,)), Query("task", {}, (1,))], BASE))
