@@ -14,8 +14,20 @@ TENS = "zero ten twenty thirty forty fifty sixty seventy eighty ninety".split() 
 COMPASS = {0: "north", 45: "north-east", 90: "east", 135: "south-east", 180: "south", 225: "south-west", 270: "west", 315: "north-west"}
 FINE_COMPASS = {22.5: "north-north-east", 67.5: "east-north-east", 112.5: "east-south-east", 157.5: "south-south-east",
                 202.5: "south-south-west", 247.5: "west-south-west", 292.5: "west-north-west", 337.5: "north-north-west"}  # fmt: skip
-FRACTIONS = {60: "a minute", 90: "a minute and a half", 150: "two and a half minutes", 900: "a quarter of an hour", 1800: "half an hour", 3600: "an hour",
-             5400: "an hour and a half", 30: "half a minute", 2700: "three quarters of an hour"}  # fmt: skip
+FRACTIONS: dict[int, tuple[str, ...]] = {
+    30: ("half a minute",), 45: ("three quarters of a minute", "forty-five seconds"), 60: ("a minute", "one minute", "a full minute"),
+    75: ("a minute and a quarter", "1 minute 15 seconds"),
+    90: ("a minute and a half", "one and a half minutes", "1 min 30 s", "1 minute 30 seconds", "one minute thirty"),
+    150: ("two and a half minutes", "2 min 30 s", "two minutes thirty"), 210: ("three and a half minutes", "3 min 30 s"), 270: ("four and a half minutes",),
+    900: ("a quarter of an hour",), 1800: ("half an hour",), 2700: ("three quarters of an hour",), 3600: ("an hour", "one hour", "a full hour"),
+    5400: ("an hour and a half", "one and a half hours"), 7200: ("two hours", "a couple of hours"),
+}  # fmt: skip
+KILOMETRES = {
+    500: ("half a kilometre", "0.5 km"),
+    1000: ("a kilometre", "one kilometre", "1 km"), 1500: ("one and a half kilometres", "1.5 km", "a kilometre and a half"),
+    
+    2000: ("two kilometres", "2 km"), 2500: ("two and a half kilometres", "2.5 km"), 250: ("a quarter of a kilometre",),
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -50,22 +62,34 @@ def in_words(value: int) -> str:
 
 def count_text(value: float, rng: random.Random) -> str:
     """The number in figures or, now and then and where that is short, in words."""
-    if isinstance(value, int) and 0 <= value <= 20 and rng.random() < 0.3:
+    if isinstance(value, int) and 0 <= value <= 20 and rng.random() < 0.32:
         return in_words(value)
-    if isinstance(value, int) and 20 < value < 1000 and ((value % 10 == 0 and value < 100) or value % 100 == 0) and rng.random() < 0.15:
-        return in_words(value)
-    if isinstance(value, float) and value % 1 == 0.5 and 1 < value < 10 and rng.random() < 0.15:
+    if isinstance(value, int) and 20 < value < 1000:
+        short = (value % 10 == 0 and value < 100) or value % 100 == 0
+        if rng.random() < (0.17 if short else 0.05):
+            words = in_words(value)
+            return f"a{words[3:]}" if words.startswith("one hundred") and rng.random() < 0.5 else words
+    if isinstance(value, float) and value % 1 == 0.5 and 1 < value < 20 and rng.random() < 0.22:
         return f"{ONES[int(value)]} and a half"
     return digits(value)
+
+
+def _one_of(options: tuple[str, ...], rng: random.Random) -> str:
+    return options[int(rng.random() * len(options))]
 
 
 def length(value: float, rng: random.Random) -> Value:
     """Metres: "12 m", "twelve metres", "1.5 km"; short: "12-metre"."""
     figure = digits(value)
-    short = f"{figure}-metre" if rng.random() < 0.6 else f"{figure} m"
+    spelt = in_words(value) if isinstance(value, int) and 0 < value <= 20 and rng.random() < 0.15 else figure
+    short = f"{spelt}-metre" if spelt != figure or rng.random() < 0.6 else f"{figure} m"
+    if value in KILOMETRES and rng.random() < 0.5:
+        return Value(value, _one_of(KILOMETRES[int(value)], rng), short)
+    if value == 0.5 and rng.random() < 0.4:
+        return Value(value, "half a metre", short)
     if value >= 1000 and value % 100 == 0 and rng.random() < 0.5:
         kilometres = f"{digits(value / 1000)} {'km' if rng.random() < 0.6 else 'kilometres'}"
-        return Value(value, "a kilometre" if value == 1000 and rng.random() < 0.4 else kilometres, short)
+        return Value(value, kilometres, short)
     roll = rng.random()
     if roll < 0.5:
         text = f"{figure} m"
@@ -83,18 +107,24 @@ def duration(value: float, rng: random.Random) -> Value:
     """Seconds: "90 s", "two minutes", "half an hour"; short: "90-second"."""
     roll = rng.random()
     whole_minutes = value % 60 == 0 and value < 7200
-    short = f"{digits(value / 60)}-minute" if whole_minutes and roll < 0.5 else f"{digits(value)}-second"
+    size, unit = (value // 60, "minute") if whole_minutes and value and roll < 0.5 else (value, "second")
+    short = f"{in_words(int(size)) if 0 < size <= 20 and rng.random() < 0.15 else digits(size)}-{unit}"
     if value in FRACTIONS and roll < 0.4:
-        text = FRACTIONS[int(value)]
+        text = _one_of(FRACTIONS[int(value)], rng)
     elif value % 3600 == 0 and value and roll < 0.75:
         text = f"{count_text(value // 3600, rng)} hour{'' if value == 3600 else 's'}"
     elif whole_minutes and value and roll < 0.75:
         minutes = value // 60
         text = f"{digits(minutes)} min" if rng.random() < 0.25 else f"{count_text(minutes, rng)} minute{'' if minutes == 1 else 's'}"
+    elif value > 60 and value % 60 and value % 15 == 0 and value < 900 and roll < 0.43:
+        minutes, seconds = (" min", " s") if rng.random() < 0.5 else (" minutes" if value >= 120 else " minute", " seconds")
+        text = f"{digits(value // 60)}{minutes}{' and' if rng.random() < 0.3 else ''} {digits(value % 60)}{seconds}"
     elif value % 30 == 0 and 60 < value < 900 and roll < 0.5:
         text = f"{digits(value / 60)} minutes"
     else:
-        text = f"{digits(value)} s" if rng.random() < 0.4 else f"{count_text(value, rng)} second{'' if value == 1 else 's'}"
+        text = (
+            f"{digits(value)} {'s' if rng.random() < 0.85 else 'sec'}" if rng.random() < 0.42 else f"{count_text(value, rng)} second{'' if value == 1 else 's'}"
+        )
     return Value(value, text, short)
 
 
@@ -104,8 +134,10 @@ def bearing(value: float, rng: random.Random) -> Value:
     figures = f"{int(value):03d}" if roll < 0.35 and isinstance(value, int) else digits(value)
     figures += " degrees" if 0.5 < roll < 0.8 else "°" if roll > 0.95 else ""
     name = COMPASS.get(int(value) if value % 45 == 0 else -1) or FINE_COMPASS.get(value)
+    if isinstance(value, int) and rng.random() < 0.03:
+        return Value(value, f"{in_words(value)} degrees", figures, way=name)
     if name and rng.random() < 0.55:
-        return Value(value, name if rng.random() < 0.85 else f"due {name}", figures, way=name)
+        return Value(value, name if rng.random() < 0.8 else f"due {name}", figures, way=name)
     return Value(value, figures, figures, way=name)
 
 

@@ -1,7 +1,7 @@
 """Text values: words of the trade from the phrase file, and made-up names that can only be copied.
 
 A word list holds entries such as "the {colour} ladder", "camera {n}" or "weld {code}". An entry that begins with "the "
-is said with its article and stored without it. Made-up slots: {n} a number, {code} "KX-07", {name} a pseudo-word,
+is said with its article and stored without it. Made-up slots: {n} a number, {code} "KX-07", {low} a small letter, {name} a pseudo-word,
 {tag} a file tag; any other slot is an entry of the list of that name.
 """
 
@@ -67,6 +67,7 @@ MADE_UP: dict[str, Callable[[random.Random], str]] = {
     "tag": made_up_tag,
     "n": lambda rng: str(rng.randrange(1, 10) if rng.random() < 0.75 else rng.randrange(10, 100)),
     "letter": lambda rng: _pick("ABCDEF", rng),
+    "low": lambda rng: _pick("abcdef", rng),
 }
 
 
