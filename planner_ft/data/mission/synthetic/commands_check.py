@@ -126,8 +126,9 @@ def _check_slots(nodes: tuple[Node, ...], slots: list[Slot], lines: tuple[Line, 
 
 
 def _bound(lines: tuple[Line, ...]) -> dict[str, str]:
-    """The position that a target is said to have, where it stands in a slot of its own: `PerformOrbit T1 P1`."""
-    return {line.of("T")[0]: line.of("P")[0] for line in lines if line.title not in REMARKS and line.of("T") and line.of("P")}
+    """The position that a target or id is said to have, where it stands in a slot of its own: `PerformOrbit T1 P1`."""
+    placed = [(of, line.of("P")[0]) for line in lines if line.title not in REMARKS and line.of("P") for of in (*line.of("T"), *line.of("ID"))]
+    return dict(placed)
 
 
 def _kinds(slots: list[Slot], lines: tuple[Line, ...]) -> dict[str, str]:
