@@ -14,6 +14,7 @@ from planner_ft.data.mission.synthetic.commands_format import (
     PARTED,
     REMARKS,
     VALUE_NAMES,
+    VALUES,
     Choice,
     FormatError,
     Line,
@@ -23,7 +24,7 @@ from planner_ft.data.mission.synthetic.commands_format import (
     base_of,
 )
 from planner_ft.data.mission.synthetic.commands_text import joined, target_words
-from planner_ft.data.mission.synthetic.commands_values import arc_phrase, data_item, draw_target, draw_value, feature, interval_words, near
+from planner_ft.data.mission.synthetic.commands_values import arc_phrase, data_item, draw_look_alikes, draw_target, draw_value, feature, interval_words, near
 from planner_ft.data.mission.synthetic.extras import CANCELLED, NOTHING, RULED_OUT
 from planner_ft.data.mission.synthetic.intents import Intent, Target
 from planner_ft.data.mission.synthetic.labeller import label
@@ -53,6 +54,7 @@ class Draw:
     values: dict[str, Said] = field(default_factory=dict)
     texts: dict[str, str] = field(default_factory=dict)
     wrong: dict[str, str] = field(default_factory=dict)
+    alike: list[Target] = field(default_factory=list)
 
 
 def draw_command(template: Template, rng: Random, style: Style) -> tuple[str, dict[str, Any], tuple[str, ...]]:
@@ -94,13 +96,10 @@ def _draw_slots(draw: Draw, template: Template, lines: tuple[Line, ...], slots: 
                 200 + _number(slot), None, _bound_position(draw, template, slot.name, said), identity=identity, said_as=ahead, movable=True
             )
         elif slot.base in VALUE_NAMES:
-            attributive = any(other.mode == "adj" for other in slots if other.name == slot.name)
-            kind = next((other.kind for other in slots if other.name == slot.name and other.kind), "")
-            draw.values[slot.name] = draw_value(
-                draw.rng, draw.style, owner.get(slot.name, _USUAL_OWNER.get(slot.base, "")), slot.base, attributive=attributive, kind=kind
-            )
+            draw.values[slot.name] = _new_value(draw, slot, slots, owner)
         elif slot.base != "+":
             draw.texts[slot.name] = _new_text(draw, slot, parts)
+    _room_for_readings(draw, lines, slots, owner)
     for slot in slots:
         if slot.wrong:
             draw.wrong[slot.name] = _wrong_words(draw, template, slot, owner.get(slot.name, ""), parts)
@@ -111,6 +110,26 @@ _USUAL_OWNER = {
     "spacing": "BathymetryGridSurvey", "duration": "KeepStation",
 }  # fmt: skip
 """Which task's range a value has that stands in a remark alone."""
+
+
+def _new_value(draw: Draw, slot: Slot, slots: list[Slot], owner: dict[str, str]) -> Said:
+    same = [other for other in slots if other.name == slot.name]
+    attributive, kind = any(other.mode == "adj" for other in same), next((other.kind for other in same if other.kind), "")
+    title = owner.get(slot.name, _USUAL_OWNER.get(slot.base, ""))
+    return draw_value(draw.rng, draw.style, title, slot.base, attributive=attributive, kind=kind)
+
+
+def _room_for_readings(draw: Draw, lines: tuple[Line, ...], slots: list[Slot], owner: dict[str, str]) -> None:
+    """A series of measurements has room for more than one reading."""
+    for line in lines:
+        if line.title != "ThermalTimeLapse":
+            continue
+        both = [slot for slot in slots if slot.base in ("interval", "duration") and slot.name in line.slots and not slot.wrong]
+        while sorted({slot.base for slot in both}) == ["duration", "interval"]:
+            value = {slot.base: float(draw.values[slot.name].value) for slot in both}
+            if 2 * value["interval"] <= value["duration"]:
+                break
+            draw.values |= {slot.name: _new_value(draw, slot, slots, owner) for slot in both}
 
 
 def _number(slot: Slot) -> int:
@@ -125,7 +144,12 @@ def _target(draw: Draw, template: Template, lines: tuple[Line, ...], slot: Slot,
     sought = any(line.title == "SearchAndDetect" and name in line.slots for line in lines)
     near_by = next((line.near for line in lines if name in line.slots and line.near), "")
     located = _is_located(draw, own, parts, sought=sought, bound=name in template.places or bool(near_by))
-    target = draw_target(draw.rng, _number(slot), kind, located=located, plain=plain, common=common)
+    if kind == "pair":
+        located = False
+        draw.alike = draw.alike or draw_look_alikes(draw.rng, 3)
+        target = draw.alike[_number(slot) - 1]
+    else:
+        target = draw_target(draw.rng, _number(slot), kind, located=located, plain=plain, common=common)
     if name in template.places:
         target = replace(target, position=_bound_position(draw, template, name, said))
     if near_by in draw.targets:
@@ -185,7 +209,9 @@ def _wrong_words(draw: Draw, template: Template, slot: Slot, title: str, parts: 
                 say_position(draw.targets[slot.name].position or (0, 0), rng, style),
             )
         elif slot.base == "T":
-            other = draw_target(rng, 0, template.kinds[slot.name], located=False, plain=bool(slot.article), common=slot.article == "a")
+            other = draw_target(
+                rng, 0, template.kinds[slot.name].replace("pair", "structure"), located=False, plain=bool(slot.article), common=slot.article == "a"
+            )
             text, right = target_words(other, slot.article), target_words(draw.targets[slot.name], slot.article)
         elif slot.base == "ID":
             text, right = words.call_sign(rng)[0], draw.targets[slot.name].identity or ""
@@ -277,8 +303,8 @@ def _parameters(draw: Draw, line: Line, target: Target | None) -> dict[str, Any]
     items = [draw.texts[name] for name in line.of("L") if name in draw.texts]
     if items:
         parameters["target_list"] = items
-    parameters |= {PARAMETER_OF.get(base_of(name), base_of(name)): draw.values[name].value for name in line.slots if name in draw.values}
-    return parameters | dict(line.fixed)
+    values = {base_of(name): draw.values[name].value for name in line.slots if name in draw.values} | dict(line.fixed)
+    return parameters | {PARAMETER_OF.get(base, base): values[base] for base in ("side_id", *VALUES[line.title]) if base in values}
 
 
 def _part(draw: Draw, line: Line) -> str:

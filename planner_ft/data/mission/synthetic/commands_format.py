@@ -2,7 +2,8 @@ r"""The form in which whole commands are written by hand: `TEXT => INTENT; INTEN
 
 `(a|b|c)` picks one alternative and `(x|)` leaves x out now and then; `{T1}`, `{duration}` and the like are slots; `\(`, `\|` and
 `\{` are plain characters. Intents stand in the order of execution. A slot `{+x}` says nothing: an intent that has `+x` among
-its arguments is there only where the chosen alternative holds that slot.
+its arguments is there only where the chosen alternative holds that slot. Targets of the kind `pair` share their noun and differ in
+their look: `{look T1}` is "red", `{one T1}` "the red one", `{nouns T1}` "buoys".
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from typing import Any
 
 OBJECTS = ("ID", "T", "P", "F", "S", "K", "L")
 """Slots for targets, positions, features, sides, docking marks, ids and data items; a number tells those of one command apart."""
-KINDS = ("structure", "boat", "buoy", "cable", "area", "landing", "dock")
+KINDS = ("structure", "boat", "buoy", "cable", "area", "landing", "dock", "pair")
 VALUES = {
     "KeepStation": ("duration",), "PerformOrbit": ("radius", "speed", "arc"), "DriftAudit": ("duration",),
     "HorizontalPanorama": ("sectors", "overlap", "wait"), "FeatureStare": ("duration",), "GlareFreeApproach": (),
@@ -96,7 +97,7 @@ class Template:
         return tuple(line for line in self.lines if line.title not in (*REMARKS, "Nothing"))
 
 
-SLOT = re.compile(r"(?P<w>~)?(?:(?P<a>a|an|bare) )?(?P<v>~)?(?P<name>[A-Za-z_]+\d*)(?::(?P<kind>[a-z]+))?(?: (?P<mode>located|lost|adj|bare))?")
+SLOT = re.compile(r"(?P<w>~)?(?:(?P<a>a|an|bare|one|look|nouns) )?(?P<v>~)?(?P<name>[A-Za-z_]+\d*)(?::(?P<kind>[a-z]+))?(?: (?P<mode>located|lost|adj|bare))?")
 MARK = re.compile(r"[(|){}\\]")
 
 
@@ -221,7 +222,7 @@ def _fixed(title: str, word: str) -> tuple[str, int | float | str]:
     if name == "side_id":
         return name, value
     try:
-        return PARAMETER_OF.get(name, name), float(value) if "." in value else int(value)
+        return name, float(value) if "." in value else int(value)
     except ValueError:
         raise FormatError(f"{word}: not a number") from None
 

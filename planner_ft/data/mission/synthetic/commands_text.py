@@ -6,7 +6,7 @@ import re
 from random import Random
 
 from planner_ft.data.mission.synthetic.intents import Target
-from planner_ft.data.mission.synthetic.mentions import described, spoken_identity
+from planner_ft.data.mission.synthetic.mentions import described, plural, spoken_identity
 from planner_ft.data.mission.synthetic.numbers import Style
 from planner_ft.data.mission.synthetic.positions import say_position
 
@@ -33,6 +33,9 @@ def target_words(target: Target, article: str, rng: Random | None = None, style:
     text = target.description or spoken_identity(target)
     if article == "bare":
         return text
+    if article in ("look", "one", "nouns"):
+        look = text.removesuffix(target.noun).strip()
+        return plural(target.noun) if article == "nouns" else look if article == "look" else f"the {look} one"
     if article == "a":
         return f"{article_for(text)} {text}"
     text = described(target, _NEVER_THAT) if target.description else text

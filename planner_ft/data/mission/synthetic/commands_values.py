@@ -9,6 +9,7 @@ from random import Random
 
 from planner_ft.data.mission.synthetic import words
 from planner_ft.data.mission.synthetic.intents import Target
+from planner_ft.data.mission.synthetic.lexicon_targets import COLOURS
 from planner_ft.data.mission.synthetic.numbers import (
     COMPASS,
     Said,
@@ -97,6 +98,26 @@ def _dock(rng: Random, key: int) -> Target:
 _TARGETS: dict[str, Callable[[Random, int], Target]] = {
     "structure": _structure, "boat": _boat, "buoy": _of(BUOYS), "cable": _cable, "area": _area, "landing": _of(LANDINGS), "dock": _dock,
 }  # fmt: skip
+
+LOOK_PAIRS = (
+    ("northern", "southern", "middle"), ("eastern", "western", "middle"), ("inner", "outer", "middle"), ("left-hand", "right-hand", "middle"),
+    ("big", "small", "medium-sized"), ("old", "new", "half-finished"), ("lit", "unlit", "flashing"), ("near", "far", "middle"),
+    ("upstream", "downstream", "middle"), ("tall", "short", "middle"), ("wooden", "steel", "concrete"), ("rusty", "freshly painted", "grey"),
+    ("long", "short", "square"), ("first", "second", "third"),
+)  # fmt: skip
+
+
+def draw_look_alikes(rng: Random, count: int) -> list[Target]:
+    """Up to three targets with one noun that differ in their look; keys from 1."""
+    while True:
+        base = words.noun(rng)
+        if not _plural(base):
+            break
+    looks = rng.choice(LOOK_PAIRS) if rng.random() < 0.4 else tuple(rng.sample(COLOURS[:9], 3))
+    if rng.random() < 0.5:
+        looks = (looks[1], looks[0], looks[2])
+    return [Target(key, f"{look} {base}", noun=base) for key, look in enumerate(looks[:count], 1)]
+
 
 LENGTHS = {
     ("PerformOrbit", "radius"): (4, 80), ("SurveyTarget", "radius"): (4, 60), ("ParallelStructurePass", "length"): (15, 300),

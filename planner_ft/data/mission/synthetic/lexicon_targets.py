@@ -27,7 +27,7 @@ NOUNS: dict[str, tuple[str, ...]] = {
         sewage outfall; storm drain; intake; intake screen; cooling outlet; discharge pipe; pipeline; culvert; manifold; sluice; sluice gate; lock gate
         weir; dam face; spillway; flood gate; tide gate; dock gate; caisson; cofferdam; dry dock; slipway; boat ramp; boat lift; jetty; fuel jetty; pier
         wharf; quay wall; quay; mole; breakwater; groyne; sea wall; revetment; embankment; retaining wall; bridge; bridge pier; footbridge; rail bridge
-        abutment; viaduct pier; aqueduct; lighthouse; range board; radar tower; water tower; chimney; camera pole; cliff; boathouse; pump house; hut
+        abutment; viaduct pier; aqueduct; lighthouse; range board; radar tower; water tower; chimney; camera pole; boathouse; pump house; hut
         bird hide; stilt house; diving platform; swimming raft; transformer; switch cabinet; junction box; battery container; solar array; power pylon
         exhaust stack; loading arm; crane; gantry crane; ship loader; conveyor; silo; gangway; landing stage; passenger float; fender pile
         pumping station; valve station; offshore platform; wave energy converter; floating turbine; service platform; suction bucket; test rig
@@ -37,10 +37,11 @@ NOUNS: dict[str, tuple[str, ...]] = {
     "thing": listed("""
         shipping container; container; barrel; oil drum; drum; crate; pallet; gas bottle; tank; fuel tank; buoyancy tank; bollard; fender; net; ghost net
         trawl net; fish trap; lobster pot; crab pot; pipe; hose string; oil boom; turbidity curtain; silt screen; ROV; underwater drone; glider
-        drone; mooring block; concrete block; sinker; boulder; rock; reef; sandbank; tree trunk; fallen tree; log; anchor; anchor chain; cable drum
+        drone; mooring block; concrete block; sinker; tree trunk; fallen tree; log; anchor; anchor chain; cable drum
         car; van; tyre; mattress; fridge; tarpaulin; life jacket; life ring; surfboard; paddle board; generator; compressor; scaffold; ladder
         engine block; raft; life raft; oil slick; weather balloon; sonar fish; survey sled; crawler; bicycle; shopping trolley; propeller; rudder
     """),
+    "nature": listed("rock; reef; sandbank; boulder; islet; skerry; cliff; headland; sea stack; mussel bank; island; mud bank; cave; sea arch; ledge"),
 }  # fmt: skip
 TARGET_NOUNS = tuple(noun for nouns in NOUNS.values() for noun in nouns)
 COLOURS = listed("red; green; blue; yellow; white; black; grey; orange; brown; silver; dark blue; light green; pale yellow; purple; turquoise")
@@ -67,6 +68,7 @@ ADJECTIVES: dict[str, tuple[str, ...]] = {
         floating; drifting; submerged; half-sunk; loose; dented; broken; rusty; old; big; small; large; lost; abandoned; stranded; unmarked; suspicious
         plastic; steel; wooden; rubber; aluminium; leaking; burst; torn; tangled; long; bent; heavy; oily; unidentified; striped; overturned; barnacled
     """),
+    "nature": listed("big; small; flat; sharp; outer; low; steep; white; black; bare; mossy; weedy; submerged; long; round; split; biggest; smallest"),
 }  # fmt: skip
 TARGET_ADJECTIVES = tuple(dict.fromkeys((*COLOURS, *PLACED, *(word for words in ADJECTIVES.values() for word in words))))
 WITH_LOOKS = listed("""
@@ -84,6 +86,7 @@ WITH_PARTS: dict[str, tuple[str, ...]] = {
         gangway; handrail; brace; cladding; wall
     """),
     "thing": listed("lid; rope; label; handle; stripe; net; strap; marking; tag; chain; valve; corner; flag; cover; frame; warning sign"),
+    "nature": listed("beacon; cross; cairn; pole; flag; perch; tree; hut; crack; cleft; marker"),
 }  # fmt: skip
 WITH_PHRASES = listed("""
     with two masts; with a green light; with solar panels; with a torn sail; with no lamp; with a hole in it; with birds on it; with weed on it

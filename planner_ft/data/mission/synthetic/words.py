@@ -43,8 +43,8 @@ __all__ = [
 ]
 
 GROUP_OF = {noun: group for group, nouns in NOUNS.items() for noun in nouns}
-GROUPS = ("mark", "vessel", "structure", "thing")
-GROUP_WEIGHTS = (24, 25, 37, 14)
+GROUPS = ("mark", "vessel", "structure", "thing", "nature")
+GROUP_WEIGHTS = (24, 25, 36, 12, 3)
 INVENTED = 0.025
 """Share of nouns that are invented words."""
 ITEMS = tuple(item for item in lexicon.DATA_ITEMS if "report" not in item and item != "summary")
