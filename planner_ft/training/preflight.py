@@ -12,6 +12,7 @@ from planner_ft.candidates.memory import MemoryEstimate, adapter_parameters, tra
 from planner_ft.prompts import end_of_turn_ids
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.resources import memory_size
+from planner_ft.training.augment import augmented
 from planner_ft.training.model import LOGIT_VALUES, memory_levers, uses_gradient_checkpointing
 from planner_ft.training.output import folder_problems, nearest_folder, writable_problem
 from planner_ft.training.report import tracker_problems
@@ -91,11 +92,16 @@ def check_data(request: TrainRequest, prepared: Prepared) -> Finding:
     finding = Finding("data")
     limit = request.settings.max_samples
     prepared.train = read_split(request.train_file, request.level, request.vocabulary, finding.problems, limit)
+    count = request.settings.augment
+    if prepared.train and count:
+        prepared.train = augmented(prepared.train, request.level, request.vocabulary, request.settings.seed, count)
     if request.validation_file:
         prepared.validation = read_split(request.validation_file, request.level, request.vocabulary, finding.problems)
     else:
         finding.notes.append("no validation split: the last adapter is kept, not the best one")
     finding.text = ", ".join(f"{len(split.records)} samples in {split.path}" for split in prepared.splits)
+    if count:
+        finding.text += f", {count} of the training samples synthetic"
     if prepared.train and prepared.validation:
         trained = {record.value["prompt"] for record in prepared.train.records}
         shared = [record.id for record in prepared.validation.records if record.value["prompt"] in trained]

@@ -60,6 +60,7 @@ class TrainSettings:
     )
     seed: int = field(default=0, metadata=_about("optimisation", "Seed of adapter weights, dropout and sample order.", low=0, high=2**31 - 1))
     max_samples: int | None = field(default=None, metadata=_about("optimisation", "Train on the first N samples of the file only.", low=1))
+    augment: int = field(default=0, metadata=_about("optimisation", "Add N synthetic samples of this level to the training split.", low=0))
     max_steps: int | None = field(default=None, metadata=_about("optimisation", "Stop after N optimiser steps; the schedule ends there, too.", low=1))
 
     device: str = field(default="auto", metadata=_about("run", "auto, cpu, cuda or cuda:N."))

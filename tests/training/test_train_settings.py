@@ -112,7 +112,7 @@ def test_a_bundled_recipe_runs_by_its_first_line_and_says_every_setting(name):
     assert first == f"# plannerft train --recipe {name}"
     request = build_request({}, {}, recipe=name)
     for setting in FIELDS:
-        if FIELDS[setting].metadata["panel"] != "run" and setting not in ("max_samples", "max_steps"):
+        if FIELDS[setting].metadata["panel"] != "run" and setting not in ("max_samples", "max_steps", "augment"):
             assert request.resolved.origin[setting].endswith(f"{name}.toml"), setting
     assert request.resolved.departures(request.level) == []
     assert request.settings.learned() == TrainSettings(**PUBLISHED[request.level]).learned()
