@@ -27,7 +27,7 @@ VALUE_OPEN, VALUE_CLOSE = "\x02", "\x03"
 
 _TOKEN = re.compile(r"~[A-Za-z-]+|\{[a-z_]+[!^+#]?\}|[()\[\]|]|[^~{}()\[\]|]+")
 _DOUBLING = frozenset(
-    "begin clip cut dip drop fit flag get hug jot let log map pan pin plan put run scan set shut sit skim spin spot step stop tag trim".split()  # noqa: SIM905
+    "begin clip cut dip drop fit flag get grab hug jot let log map pan pin plan put run scan set shut sit skim snap spin spot step stop tag trim".split()  # noqa: SIM905
 )
 _GERUND = {"be": "being", "lie": "lying", "tie": "tying", "see": "seeing", "flee": "fleeing"}
 
