@@ -19,8 +19,8 @@ def split() -> Split:
 
 def test_synthetic_samples_join_the_training_split_and_change_its_digest(ask) -> None:
     plain, mixed = Prepared(), Prepared()
-    run_preflight(ask(), plain)
-    found = run_preflight(ask(augment=5), mixed)
+    list(run_preflight(ask(), plain))
+    found = list(run_preflight(ask(augment=5), mixed))
     assert mixed.train and plain.train and mixed.validation and plain.validation
     assert (len(plain.train.samples), len(mixed.train.samples)) == (8, 13)
     assert mixed.train.sha256 != plain.train.sha256 and len(mixed.validation.samples) == len(plain.validation.samples)
