@@ -327,7 +327,7 @@ def _remarks(draw: Draw, lines: tuple[Line, ...], *, empty: bool) -> tuple[list[
             (notes if line.title == "Note" else taken).append(f"{text[:1].upper()}{text[1:]}.")
     if empty and any(line.title == "Not" for line in lines):
         notes.append(CANCELLED)
-    elif empty and not any(line.title == "Cannot" for line in lines):
+    elif empty and not notes:
         notes.append(NOTHING)
     return notes, taken
 

@@ -14,7 +14,7 @@ from typing import Any
 
 OBJECTS = ("ID", "T", "P", "F", "S", "K", "L")
 """Slots for targets, positions, features, sides, docking marks, ids and data items; a number tells those of one command apart."""
-KINDS = ("structure", "boat", "buoy", "cable", "area", "landing", "dock", "pair")
+KINDS = ("structure", "boat", "buoy", "cable", "area", "landing", "dock", "thing", "pair")
 VALUES = {
     "KeepStation": ("duration",), "PerformOrbit": ("radius", "speed", "arc"), "DriftAudit": ("duration",),
     "HorizontalPanorama": ("sectors", "overlap", "wait"), "FeatureStare": ("duration",), "GlareFreeApproach": (),

@@ -95,8 +95,15 @@ def _dock(rng: Random, key: int) -> Target:
     return Target(key, spot, article=not spot[-1].isdigit() and not spot[-1].isupper(), spot=True)
 
 
+FLOATING = (
+    "shipping container", "container", "barrel", "oil drum", "crate", "pallet", "buoyancy tank", "fender", "fishing net", "ghost net", "tree trunk", "log",
+    "raft", "life raft", "life jacket", "life ring", "surfboard", "paddle board", "tarpaulin", "pontoon", "dinghy", "canoe", "kayak", "plank", "tank",
+    "buoy", "mooring buoy", "drum", "refrigerator", "sail bag", "oil boom", "gas bottle", "cable drum", "fish box", "lobster pot", "inflatable", "float",
+)  # fmt: skip
+
+
 _TARGETS: dict[str, Callable[[Random, int], Target]] = {
-    "structure": _structure, "boat": _boat, "buoy": _of(BUOYS), "cable": _cable, "area": _area, "landing": _of(LANDINGS), "dock": _dock,
+    "structure": _structure, "boat": _boat, "buoy": _of(BUOYS), "cable": _cable, "area": _area, "landing": _of(LANDINGS), "dock": _dock, "thing": _of(FLOATING),
 }  # fmt: skip
 
 LOOK_PAIRS = (
