@@ -15,6 +15,10 @@ def gen_data(
     train: Annotated[int | None, typer.Option(help="Training records.", show_default="125 mission, 10000 task")] = None,
     validation: Annotated[int | None, typer.Option(help="Validation records.", show_default="25 mission, 500 task")] = None,
     test: Annotated[int | None, typer.Option(help="Test records; at task level test_unseen gets as many.", show_default="25 mission, 500 task")] = None,
+    synthetic: Annotated[
+        int | None,
+        typer.Option(help="Also N synthetic commands with their plans, in OUT/mission-synthetic.", show_default=False),
+    ] = None,
     vocabulary: Annotated[str, typer.Option(help="Vocabulary: a bundled name or a TOML file.")] = "usv",
     source: Annotated[Path | None, typer.Option(help="Folder with the curated mission set.", show_default="data/mission, or the copy in the package")] = None,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace data in --out that is different.")] = False,
@@ -31,7 +35,7 @@ def gen_data(
     from planner_ft.data.generate import GenerationSettings, generate
     from planner_ft.prompts.chat import chat_messages
 
-    settings = GenerationSettings(level, out, seed, train, validation, test, vocabulary, source, overwrite, chat)
+    settings = GenerationSettings(level, out, seed, train, validation, test, vocabulary, source, overwrite, chat, synthetic)
     bars: dict[str, TaskID] = {}
     columns = (TextColumn("{task.description:<34}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as shown:

@@ -12,6 +12,7 @@ from planner_ft.data.card import dataset_card
 from planner_ft.data.leakage import leakage_report
 from planner_ft.data.mission.source import curated_splits, find_source
 from planner_ft.data.output import DataFolder, check_writable, write_folders
+from planner_ft.data.synthetic_set import FOLDER, synthetic_folder
 from planner_ft.data.task.sampler import Split, sample_tasks
 from planner_ft.data.validation import canonical_record
 from planner_ft.support.errors import PlannerError
@@ -46,6 +47,8 @@ class GenerationSettings:
     source: Path | None = None
     overwrite: bool = False
     chat: bool = False
+    synthetic: int | None = None
+    """Records of the synthetic mission set, which lies beside the curated one; None makes none."""
 
     def __post_init__(self) -> None:
         if self.level not in (*LEVELS, "all"):
@@ -54,6 +57,9 @@ class GenerationSettings:
             count = getattr(self, split)
             if count is not None and count < 1:
                 raise PlannerError(f"--{split} {count}: at least one record is needed")
+        if self.synthetic is not None and (self.synthetic < 1 or self.level == "task"):
+            wrong = "it belongs to the mission level" if self.level == "task" else "at least one record is needed"
+            raise PlannerError(f"--synthetic {self.synthetic}: {wrong}")
         if self.seed < 0:
             raise PlannerError(f"--seed {self.seed}: must be 0 or more")
 
@@ -91,6 +97,11 @@ def generate(settings: GenerationSettings, progress: Progress = lambda _label, _
         result, folder = _make(level, settings, vocabulary, progress, messages if settings.chat else None)
         results.append(result)
         folders.append(folder)
+    if settings.synthetic:
+        started = time.perf_counter()
+        folders.append(synthetic_folder(settings.out, vocabulary, settings.seed, settings.synthetic, progress))
+        seconds = {"sampling and validation": time.perf_counter() - started}
+        results.append(Generated("mission", settings.out / FOLDER, {"train": settings.synthetic}, seconds=seconds))
     started = time.perf_counter()
     for result, written in zip(results, write_folders(folders, overwrite=settings.overwrite), strict=True):
         result.written = written

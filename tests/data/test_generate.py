@@ -211,3 +211,18 @@ def test_a_folder_that_cannot_be_written_is_named_before_the_work(tmp_path: Path
     monkeypatch.setattr(os, "access", lambda *_arguments: False)
     with pytest.raises(PlannerError, match=r"--out .*data: .* cannot be written"):
         generate(GenerationSettings(out=tmp_path / "data"))
+
+
+def test_a_synthetic_mission_set_lies_beside_the_curated_one(tmp_path: Path) -> None:
+    results = generate(GenerationSettings(level="mission", out=tmp_path, synthetic=40))
+    assert [result.folder.name for result in results] == ["mission", "mission-synthetic"]
+    lines = (tmp_path / "mission-synthetic" / "train.jsonl").read_text(encoding="utf-8").splitlines()
+    assert len(lines) == 40 and "40 commands" in (tmp_path / "mission-synthetic" / "README.md").read_text(encoding="utf-8")
+    assert json.loads((tmp_path / "mission-synthetic" / "manifest.json").read_text())["configuration"]["synthetic"] == 40
+    curated = {json.loads(line)["prompt"] for path in (tmp_path / "mission").glob("*.jsonl") for line in path.read_text(encoding="utf-8").splitlines()}
+    assert not curated & {json.loads(line)["prompt"] for line in lines}
+
+
+def test_a_synthetic_set_belongs_to_the_mission_level(tmp_path: Path) -> None:
+    with pytest.raises(PlannerError, match="--synthetic 5: it belongs to the mission level"):
+        GenerationSettings(level="task", out=tmp_path, synthetic=5)
