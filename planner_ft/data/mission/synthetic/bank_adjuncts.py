@@ -19,7 +19,6 @@ SPEED = listed("""
     at {speed} over ground; keeping to {speed}; holding {speed}; going {speed}; with speed set to {speed}; throttled to {speed}
 """)
 DURATION = listed("""
-    for {duration}; for {duration}; for {duration}; for {duration}; for {duration}; for {duration}; for {duration}; for {duration}
-    for the next {duration}; for about {duration}; for a good {duration}; for exactly {duration}; for {duration} straight
+    for {duration}; for the next {duration}; for about {duration}; for a good {duration}; for exactly {duration}; for {duration} straight
     for a total of {duration}; for {duration} in all
 """)

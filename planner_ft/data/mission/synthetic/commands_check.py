@@ -61,7 +61,7 @@ def shipped_templates() -> tuple[Template, ...]:
 
 def parse_template(row: str, subject: str, number: int) -> Template:
     """The template of one line. Raises FormatError."""
-    text, arrow, intents = row.strip().rpartition("=> ")
+    text, arrow, intents = row.strip().rpartition("=>")
     if not arrow:
         raise FormatError("no ` => ` between the text and the intents")
     nodes = parse_text(text.strip())

@@ -15,7 +15,7 @@ SOUNDS_VOWEL = re.compile(r"(?:[aeioåøöäéAEIO]|u(?!ni|se|su|ti|ri|to|ro)|U(
 SOUNDS_CONSONANT = re.compile(r"(?:one\b|once\b|eu|Eu|one-|ROV|RIB|SAR|NATO|LED\b|USV|UAV)")
 ABBREVIATED = ("approx.", "no.", "nr.", "e.g.", "i.e.", "ca.", "vs.", "max.", "min.", "sec.", "hr.", "ref.", "dr.", "mr.", "ms.", "st.", "capt.", "...")
 SENTENCE = re.compile(r"(^|[.!?]\s+|[.!?][\"”)]\s+|\n)([a-zåøöäé])(?=[\w'’-]*)")
-KEEP_SMALL = re.compile(r"[xy][=: ]?-?\d|x[=: ]|[a-z]\d")
+KEEP_SMALL = re.compile(r"[a-z]\)|[xy][=: ]?-?\d|x[=: ]|[a-z]\d")
 
 PLACED = (
     *("{text} at {place}",) * 26, "{text} ({place})", "{text}, position {place},", "{text}, at {place},", "{text} at position {place}",

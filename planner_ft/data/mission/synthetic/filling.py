@@ -14,6 +14,8 @@ from planner_ft.data.mission.synthetic.positions import say_position
 from planner_ft.data.mission.synthetic.templates import Template, forms
 
 Mood = Literal["imp", "np", "ger"]
+PLAIN_DURATION = 0.6
+"""Share of durations said in the first, plain way ("for ten minutes")."""
 
 
 class Filler:
@@ -102,7 +104,7 @@ class Filler:
             usable = [item for item in pool if item.slots <= words.keys()]
             if not usable:
                 continue
-            adjunct = rng.choice(usable).fill(words)
+            adjunct = (usable[0] if name == "duration" and rng.random() < PLAIN_DURATION else rng.choice(usable)).fill(words)
             if (
                 index == 0
                 and mood == "imp"

@@ -88,12 +88,13 @@ WITH_PARTS: dict[str, tuple[str, ...]] = {
     "thing": listed("lid; rope; label; handle; stripe; net; strap; marking; tag; chain; valve; corner; flag; cover; frame; warning sign"),
     "nature": listed("beacon; cross; cairn; pole; flag; perch; tree; hut; crack; cleft; marker"),
 }  # fmt: skip
-WITH_PHRASES = listed("""
+WITH_OTHERS = listed("""
     with two masts; with a green light; with solar panels; with a torn sail; with no lamp; with a hole in it; with birds on it; with weed on it
     with a tarpaulin over it; with twin engines; with graffiti; with a patch on it; with a flag; with barnacles; with scaffolding; with peeling paint
     with three legs; with a radar dome; with a number on it; with a wooden deck; with a satellite dish; with chains all round; with tyres on its sides
     with a red light on top; with a dent in it; with a cross on top; with no markings; with a broken rail; with a seal on top; with a wind vane
 """)
+WITH_PHRASES = (*WITH_OTHERS, *dict.fromkeys(f"with the {look} {part}" for look in WITH_LOOKS for parts in WITH_PARTS.values() for part in parts))
 STRUCTURE_PREFIXES = listed("WTG ##; WTG-##; OSS #; OSS-#; TP ##; MP ##; MM-#; T-##; WT-##; MOB #; PLEM #; SBM #; FPSO @#; SPM #; BH-##; DP #")
 MOVING_TARGETS = listed("""
     survey launch; drifting container; swimmer; seal; kayak; red kayak; canoe; dinghy; grey RIB; RIB; inflatable; rowing boat; sailing boat; yacht

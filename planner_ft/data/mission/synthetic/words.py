@@ -6,7 +6,7 @@ from random import Random
 
 from planner_ft.data.mission.synthetic import lexicon
 from planner_ft.data.mission.synthetic.intents import Target
-from planner_ft.data.mission.synthetic.lexicon_targets import ADJECTIVES, COLOURS, NOUNS, PLACED, STRUCTURE_PREFIXES, WITH_LOOKS, WITH_PARTS
+from planner_ft.data.mission.synthetic.lexicon_targets import ADJECTIVES, COLOURS, NOUNS, PLACED, STRUCTURE_PREFIXES, WITH_LOOKS, WITH_OTHERS, WITH_PARTS
 from planner_ft.data.mission.synthetic.names import (
     LETTERS,
     call_sign,
@@ -61,6 +61,7 @@ FEATURE_LOOKS = (
     "left", "right", "forward", "aft", "main", "second", "third", "red", "white", "yellow", "blue", "new", "old", "painted", "frayed", "port", "starboard",
     "middle", "topmost", "lowest", "front", "rear", "northern", "southern", "big", "small", "repaired",
 )  # fmt: skip
+MATERIALS = frozenset(("steel", "wooden", "concrete", "stone", "brick", "plastic", "rubber", "aluminium", "fibreglass", "sheet", "floating", "brick"))
 ALIVE = frozenset(
     ("swimmer", "seal", "surfer", "windsurfer", "kite surfer", "paddle boarder", "whale", "dolphin pod", "porpoise", "basking shark", "turtle",
      "rescue swimmer", "open-water swimmer", "barge under tow")
@@ -94,7 +95,10 @@ def adjective(rng: Random, base: str = "") -> str:
         return rng.choice(PLACED)
     if roll < 0.458:
         return pseudo_word(rng)
-    return rng.choice(ADJECTIVES[group_of(base) if base else rng.choice(GROUPS)])
+    while True:
+        word = rng.choice(ADJECTIVES[group_of(base) if base else rng.choice(GROUPS)])
+        if not (word in MATERIALS and base.split(" ")[0] in MATERIALS):
+            return word
 
 
 def description(rng: Random, base: str) -> tuple[str, bool]:
@@ -123,7 +127,7 @@ def description(rng: Random, base: str) -> tuple[str, bool]:
 def with_phrase(rng: Random, base: str = "") -> str:
     """A "with ..." phrase that belongs to a description."""
     if rng.random() < 0.25:
-        return rng.choice(lexicon.WITH_PHRASES)
+        return rng.choice(WITH_OTHERS)
     look, part = rng.choice(WITH_LOOKS), rng.choice(WITH_PARTS[group_of(base) if base else rng.choice(GROUPS)])
     article = rng.choice(("the", "an" if look[0] in "aeiou" else "a"))
     return f"with {article} {look} {part}"

@@ -1,0 +1,35 @@
+"""Noise on written commands: mostly none, and never where only copying can tell."""
+
+from random import Random
+
+from planner_ft.data.mission.synthetic import sample_missions
+from planner_ft.data.mission.synthetic.commands_noise import greeted, noisy, slipped, uncapitalised
+
+
+def test_most_commands_stay_clean():
+    text = "Circle the old lightvessel Theodora at 30 metres, then come home."
+    kept = sum(noisy(text, Random(seed), ("old lightvessel Theodora",)) == text for seed in range(2000))
+    assert 0.76 < kept / 2000 < 0.88
+
+
+def test_slips_spare_names_ids_and_numbers():
+    text = "Follow barge skrimvold KX-07 for twenty minutes."
+    for seed in range(200):
+        told = slipped(text, Random(seed), ("barge skrimvold KX-07",), 2)
+        assert "skrimvold KX-07" in told and "twenty" in told
+
+
+def test_small_letters_leave_names_alone():
+    assert uncapitalised("Go to Barge Theodora B7 At Once.", ("Theodora B7",)) == "go to barge Theodora B7 at once."
+
+
+def test_a_greeting_stands_once():
+    assert greeted("Hello, come home.", Random(1)) == "Hello, come home."
+    assert greeted("Come home.", Random(1)).endswith((", come home.", ". Come home."))
+    assert greeted("Barge Theodora is adrift.", Random(1)).endswith(". Barge Theodora is adrift.")
+
+
+def test_more_than_half_of_the_samples_are_written_commands():
+    families = [record["family"] for record in sample_missions(9, 1500)]
+    written = sum(family.startswith("synthetic-command-") for family in families)
+    assert 0.55 < written / len(families) < 0.65
