@@ -97,11 +97,8 @@ class Context:
             templates = [template for template in self.entry.phrases if template.fits(given)] or templates
         if entry.repeats and rng.random() < REPEATED and self.book.sentences.get("repeat"):
             return Call(name, parameters, Saying(templates, slots, suffix=" " + self._repeat()))
-        after_with, nouns = entry.after_with(given), entry.nouns(given)
-        return Call(
-            name, parameters, Saying(templates, slots),
-            Saying(after_with, slots) if after_with else None, Saying(nouns, slots) if nouns else None,
-        )  # fmt: skip
+        after_with, nouns, passive = (Saying(found, slots) if found else None for found in (entry.after_with(given), entry.nouns(given), entry.passive(given)))
+        return Call(name, parameters, Saying(templates, slots), after_with, nouns, passive)
 
     def _repeat(self) -> str:
         phrases = self.book.sentences["repeat"]

@@ -15,11 +15,11 @@ COMPASS = {0: "north", 45: "north-east", 90: "east", 135: "south-east", 180: "so
 FINE_COMPASS = {22.5: "north-north-east", 67.5: "east-north-east", 112.5: "east-south-east", 157.5: "south-south-east",
                 202.5: "south-south-west", 247.5: "west-south-west", 292.5: "west-north-west", 337.5: "north-north-west"}  # fmt: skip
 FRACTIONS: dict[int, tuple[str, ...]] = {
-    30: ("half a minute",), 45: ("three quarters of a minute", "forty-five seconds"), 60: ("a minute", "one minute", "a full minute"),
+    30: ("half a minute",), 45: ("three quarters of a minute", "forty-five seconds"), 60: ("a minute", "one minute"),
     75: ("a minute and a quarter", "1 minute 15 seconds"),
     90: ("a minute and a half", "one and a half minutes", "1 min 30 s", "1 minute 30 seconds", "one minute thirty"),
     150: ("two and a half minutes", "2 min 30 s", "two minutes thirty"), 210: ("three and a half minutes", "3 min 30 s"), 270: ("four and a half minutes",),
-    900: ("a quarter of an hour",), 1800: ("half an hour",), 2700: ("three quarters of an hour",), 3600: ("an hour", "one hour", "a full hour"),
+    900: ("a quarter of an hour",), 1800: ("half an hour",), 2700: ("three quarters of an hour",), 3600: ("an hour", "one hour"),
     5400: ("an hour and a half", "one and a half hours"), 7200: ("two hours", "a couple of hours"),
 }  # fmt: skip
 KILOMETRES = {
@@ -117,8 +117,8 @@ def duration(value: float, rng: random.Random) -> Value:
         minutes = value // 60
         text = f"{digits(minutes)} min" if rng.random() < 0.25 else f"{count_text(minutes, rng)} minute{'' if minutes == 1 else 's'}"
     elif value > 60 and value % 60 and value % 15 == 0 and value < 900 and roll < 0.43:
-        minutes, seconds = (" min", " s") if rng.random() < 0.5 else (" minutes" if value >= 120 else " minute", " seconds")
-        text = f"{digits(value // 60)}{minutes}{' and' if rng.random() < 0.3 else ''} {digits(value % 60)}{seconds}"
+        first, second = (" min", " s") if rng.random() < 0.5 else (" minutes" if value >= 120 else " minute", " seconds")
+        text = f"{digits(value // 60)}{first}{' and' if rng.random() < 0.3 else ''} {digits(value % 60)}{second}"
     elif value % 30 == 0 and 60 < value < 900 and roll < 0.5:
         text = f"{digits(value / 60)} minutes"
     else:

@@ -81,6 +81,7 @@ class Call:
     saying: Saying
     with_saying: Saying | None = None
     noun_saying: Saying | None = None
+    passive_saying: Saying | None = None
     order: int = field(default=0)
 
 
@@ -99,6 +100,7 @@ class SkillEntry:
         self._layers = [layer for layer in (new, seen, [compile_template(text) for text in fallback]) if layer]
         self._with = [compile_template(text) for text in config.get("with", [])]
         self._nouns = [] if unseen else [compile_template(text) for text in config.get("nouns", [])]
+        self._passive = [] if unseen else [compile_template(text) for text in config.get("passive", [])]
         self.during = [compile_template(text) for text in config.get("during", [])]
         self.repeats = bool(config.get("repeats"))
         self._cache: dict[tuple[Given, str], list[Template]] = {}
@@ -114,6 +116,10 @@ class SkillEntry:
     def nouns(self, given: Given) -> list[Template]:
         """What stands after "log"; empty if nothing says exactly `given`."""
         return self._fitting(given, "nouns", [self._nouns])
+
+    def passive(self, given: Given) -> list[Template]:
+        """Clauses that say that the skill runs; empty if nothing says exactly `given`."""
+        return self._fitting(given, "passive", [self._passive])
 
     def _fitting(self, given: Given, kind: str, layers: list[list[Template]]) -> list[Template]:
         key = (given, kind)

@@ -7,21 +7,32 @@ for several are apart; those in UNSEEN_* appear in no split but test_unseen.
 from __future__ import annotations
 
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from planner_ft.data.task.movements import Movement
 from planner_ft.data.task.phrasebook import Call, Phrasebook
 from planner_ft.data.task.template import Form, compile_template
 
 
+@dataclass(frozen=True)
+class Scoped:
+    """A skill that runs in some of the movements, given by their places."""
+
+    call: Call
+    role: str
+    steps: frozenset[int]
+
+
 @dataclass
 class Script:
-    """What a prompt has to say: movements in order, and what runs in every step."""
+    """What a prompt has to say: movements in order, what runs in every step, and what runs in some of them."""
 
     movements: list[Movement]
     filters: list[Call] = field(default_factory=list)
     perceptions: list[Call] = field(default_factory=list)
+    scoped: list[Scoped] = field(default_factory=list)
 
 
 class Speaker:
@@ -47,6 +58,12 @@ class Speaker:
         """The skill in words."""
         self._mention(call)
         return call.saying.render(self.rng, form)
+
+    def passive(self, call: Call) -> str:
+        """A clause that says that the skill runs: "the depth is logged"."""
+        self._mention(call)
+        assert call.passive_saying is not None
+        return call.passive_saying.render(self.rng)
 
     def calls(self, calls: list[Call], form: Form = "base") -> str:
         """Several skills, joined: "record the sonar, log the depth and take a fix"."""
@@ -92,7 +109,19 @@ def sentence(text: str) -> str:
     """The text with a capital and a full stop; a value at its beginning keeps its case."""
     if text[:1].isalpha():
         text = text[0].upper() + text[1:]
+    elif text[1:].startswith(("the ", "a ", "an ")):
+        text = text[0] + text[1].upper() + text[2:]
     return text if text[-1] in ".!?" else f"{text}."
+
+
+def pick_weighted(items: Sequence[tuple[Any, float]], rng: random.Random) -> Any:
+    """One of the items, in proportion to its weight."""
+    roll = rng.random() * sum(weight for _item, weight in items)
+    for item, weight in items:
+        if roll < weight:
+            return item
+        roll -= weight
+    return items[-1][0]
 
 
 def can_with(calls: list[Call]) -> bool:

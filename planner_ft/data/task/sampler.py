@@ -20,9 +20,10 @@ from planner_ft.data.task import phrasing, sequences
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.movements import Movement, implied_hold, simple
 from planner_ft.data.task.noise import noisy
+from planner_ft.data.task.outline import outline
 from planner_ft.data.task.patterns import EXTRA, main_movement
 from planner_ft.data.task.phrasebook import Call, Phrasebook, Saying
-from planner_ft.data.task.phrasing import Script, Speaker
+from planner_ft.data.task.phrasing import Scoped, Script, Speaker, pick_weighted
 from planner_ft.data.task.prompts.binding import Bound
 from planner_ft.data.task.prompts.draw import draw_template, pick
 from planner_ft.data.task.prompts.library import bound_lines, normal
@@ -40,6 +41,7 @@ EXTRA_MOVEMENTS = (0.56, 0.2, 0.13, 0.07, 0.04)  # how often a prompt has that m
 PERCEPTIONS = (0.14, 0.36, 0.28, 0.15, 0.07)
 FILTERS = (0.56, 0.34, 0.1)
 LONGEST = 24  # steps; longer answers are drawn anew
+SCOPED = 0.5  # share of prompts with several movements that say first these and then what runs in which of them
 TEMPLATES = 0.5  # share of the draws that come from a whole-prompt template
 HELD_OUT = 6  # percent of the skeletons that belong to validation, and as many to test
 
@@ -123,7 +125,8 @@ def draw_sample(book: Phrasebook, rng: random.Random, split: Split) -> dict[str,
         return None
     say = Speaker(rng, book)
     frame, text = say_it(say, script, context)
-    said = {call.skill for calls in (script.perceptions, *(movement.perceptions for movement in script.movements)) for call in calls}
+    groups = (script.perceptions, [scoped.call for scoped in script.scoped], *(movement.perceptions for movement in script.movements))
+    said = {call.skill for calls in groups for call in calls}
     text = close_gaps(aside(say, text, {name for name in said if name}, context))
     if split != "test_unseen" and split_of(f"{task.title} {skeleton(text)}") != split:
         return None
@@ -146,14 +149,29 @@ def draw_script(context: Context) -> Script | None:
     filters = _draw_calls(context, "filter", _count(rng, FILTERS), script)
     if movements[0].saying is None and not script.perceptions and not perceptions:
         return None
+    scoped = len(movements) > 1 and not context.book.unseen and not lead and rng.random() < SCOPED
     for calls, name in ((perceptions, "perceptions"), (filters, "filters")):
         for call in calls:
+            if scoped:
+                script.scoped.append(Scoped(call, name, _steps(len(movements), rng)))
+                continue
             if len(movements) > 1 and rng.random() < 0.6:
                 getattr(movements[int(rng.random() * len(movements))], name).append(call)
             else:
                 getattr(script, name).append(call)
     _at_each(context, script)
     return script
+
+
+def _steps(count: int, rng: random.Random) -> frozenset[int]:
+    """The movements beside which a skill runs: all, one, all but one, or any."""
+    roll = rng.random()
+    one = frozenset({int(rng.random() * count)})
+    if roll < 0.3:
+        return frozenset(range(count))
+    if roll < 0.75 or count == 2:
+        return one
+    return frozenset(range(count)) - one if roll < 0.88 else one | {int(rng.random() * count)}
 
 
 def _at_each(context: Context, script: Script) -> None:
@@ -251,6 +269,8 @@ def say_it(say: Speaker, script: Script, context: Context) -> tuple[str, str]:
         single = pick_weighted(phrasing.UNSEEN_SINGLE if unseen else phrasing.SINGLE, say.rng)
         text = single(say, script.movements[0], script.filters, script.perceptions)
         return single.__name__, opened(say, text, context)
+    if script.scoped:
+        return "outline", opened(say, outline(say, script), context)
     sequence = pick_weighted(sequences.UNSEEN_SEQUENCES if unseen else sequences.SEQUENCES, say.rng)
     return sequence.__name__, opened(say, sequences.say_script(say, script, sequence), context)
 
@@ -283,13 +303,3 @@ def aside(say: Speaker, text: str, said: set[str], context: Context) -> str:
             refused = templates[int(say.rng.random() * len(templates))].render(context.slots(), say.rng)
             return f"{text} {say.pick(*sentences['negation']).format(refused)}"
     return text
-
-
-def pick_weighted(items: Sequence[tuple[Any, float]], rng: random.Random) -> Any:
-    """One of the items, in proportion to its weight."""
-    roll = rng.random() * sum(weight for _item, weight in items)
-    for item, weight in items:
-        if roll < weight:
-            return item
-        roll -= weight
-    return items[-1][0]

@@ -14,9 +14,10 @@ from planner_ft.vocabulary.plans import canonical_parameters
 def expected_plan(script: Script, vocabulary: Vocabulary) -> dict[str, Any]:
     """The skill plan in canonical form. Within a step, filters and perception skills stand in the order of mention."""
     steps = []
-    for movement in script.movements:
-        filters = _entries([*script.filters, *movement.filters], vocabulary)
-        perceptions = _entries([*script.perceptions, *movement.perceptions], vocabulary)
+    for index, movement in enumerate(script.movements):
+        here = [scoped for scoped in script.scoped if index in scoped.steps]
+        filters = _entries([*script.filters, *movement.filters, *(scoped.call for scoped in here if scoped.role == "filters")], vocabulary)
+        perceptions = _entries([*script.perceptions, *movement.perceptions, *(scoped.call for scoped in here if scoped.role == "perceptions")], vocabulary)
         steps += [plan_step(name, parameters, filters, perceptions, vocabulary) for name, parameters in movement.steps]
     return {"skill_sequence": steps}
 

@@ -146,9 +146,14 @@ def mark(text: str) -> str:
 _GAPS = re.compile(r" +(?=[ .,;])")
 
 
+# "a image", "an 8-second", "every a minute"
+_BEFORE_VOWEL = re.compile(r"\b([Aa])(?= \x02?(?:8\d?|11|18|8\d\d|eight\w*|eleven|hour|[aei]|o(?!ne\b)|u(?!s|ni))(?![A-Z]))")
+_DOUBLE_ARTICLE = re.compile(r"\b(every|each|last|past|recent|latest|preceding) (\x02?)an? (?=[a-z])")
+
+
 def close_gaps(text: str) -> str:
-    """The text without the double blanks that empty alternatives leave."""
-    return _GAPS.sub("", text)
+    """The text without the double blanks that empty alternatives leave, and with articles that fit what stands behind them."""
+    return _DOUBLE_ARTICLE.sub(r"\1 \2", _BEFORE_VOWEL.sub(r"\1n", _GAPS.sub("", text)))
 
 
 _VALUE = re.compile(f"{VALUE_OPEN}[^{VALUE_CLOSE}]*{VALUE_CLOSE}")

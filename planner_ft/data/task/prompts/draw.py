@@ -252,7 +252,6 @@ def worded(value: Value, slot: Slot, before: str, after: str) -> str:
 
 _GAPS = re.compile(r" +(?=[ .,;:!?)])")
 _SENTENCE = re.compile(r"(?<!i\.e)(?<!e\.g)(?<!approx)(?<=[.!?] )([a-z])")
-_AN = re.compile(r"(?<=\b[Aa])(?= \x02?(?:8\d?|11|18|8\d\d|eight\w*|eleven)\b)")
 _SPOKEN = re.compile(
     r"(^|(?<=[.!?] ))\x02(the |a |an |due |(?:north|south|east|west)(?:-(?:east|west))?|[a-z]+-?[a-z]* (?:metres?|seconds?|minutes?|degrees?))"
 )
@@ -260,7 +259,7 @@ _SPOKEN = re.compile(
 
 def tidy(text: str) -> str:
     """No double blanks; a capital after a full stop where the text begins with one."""
-    text = _AN.sub("n", _GAPS.sub("", text).strip())
+    text = _GAPS.sub("", text).strip()
     if text[:1].isupper() or text[:1] in "\x0212345(":
         text = _SENTENCE.sub(lambda match: match.group(1).upper(), text)
         text = _SPOKEN.sub(lambda match: "\x02" + match.group(2)[0].upper() + match.group(2)[1:], text)
