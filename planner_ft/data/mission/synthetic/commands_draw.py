@@ -1,60 +1,26 @@
-"""One command from a template: alternatives picked, slots filled, the plan made by the labelling rules."""
+"""One command from a template: alternatives picked and slots filled; commands_plan makes the plan for it."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from random import Random
 from typing import Any
 
 from planner_ft.data.mission.synthetic import words
-from planner_ft.data.mission.synthetic.commands_format import (
-    PARAMETER_OF,
-    PARTED,
-    REMARKS,
-    VALUE_NAMES,
-    VALUES,
-    Choice,
-    FormatError,
-    Line,
-    Node,
-    Slot,
-    Template,
-    base_of,
-)
+from planner_ft.data.mission.synthetic.commands_format import VALUE_NAMES, Line, Slot, Template, picked
+from planner_ft.data.mission.synthetic.commands_plan import Draw, copied_values, make_plan
 from planner_ft.data.mission.synthetic.commands_text import joined, target_words
 from planner_ft.data.mission.synthetic.commands_values import arc_phrase, data_item, draw_look_alikes, draw_target, draw_value, feature, interval_words, near
-from planner_ft.data.mission.synthetic.extras import CANCELLED, NOTHING, RULED_OUT
-from planner_ft.data.mission.synthetic.intents import Intent, Target
-from planner_ft.data.mission.synthetic.labeller import label
-from planner_ft.data.mission.synthetic.mentions import name_of, spoken_identity
+from planner_ft.data.mission.synthetic.intents import Target
+from planner_ft.data.mission.synthetic.mentions import spoken_identity
 from planner_ft.data.mission.synthetic.numbers import Said, Style
-from planner_ft.data.mission.synthetic.plan_texts import assumptions, constraints, task_prompt
 from planner_ft.data.mission.synthetic.positions import draw_position, position_words, say_position
 
 LOCATED_SHARE = 0.5
 SOUGHT_SHARE = 0.12
 """Targets that a command looks for have a position as seldom as this."""
-NOT_DONE = {
-    "Home": "The vehicle does not return home.", "Transit": "The vehicle does not go there.", "FollowTarget": "Nothing is followed.",
-    "SearchAndDetect": "No search is made.", "GlareFreeApproach": "No glare-free pictures are taken.", "SubseaCableTrack": "The cable is not tracked.",
-    "VisualDockingApproach": "The vehicle does not dock.",
-}  # fmt: skip
 SINGULAR = re.compile(r"\b(?:it|its|it's|is|isn't|has|was|looks|one|a|an|that|this)\b", re.IGNORECASE)
-
-
-@dataclass
-class Draw:
-    """What one command speaks of, by slot: targets, positions, values and other words; `wrong` holds what is taken back."""
-
-    rng: Random
-    style: Style
-    targets: dict[str, Target] = field(default_factory=dict)
-    values: dict[str, Said] = field(default_factory=dict)
-    texts: dict[str, str] = field(default_factory=dict)
-    wrong: dict[str, str] = field(default_factory=dict)
-    alike: list[Target] = field(default_factory=list)
 
 
 def draw_command(template: Template, rng: Random, style: Style) -> tuple[str, dict[str, Any], tuple[str, ...]]:
@@ -67,17 +33,8 @@ def draw_command(template: Template, rng: Random, style: Style) -> tuple[str, di
     draw = Draw(rng, style)
     _draw_slots(draw, template, lines, slots, parts, said)
     text = _rendered(draw, template, parts)
-    plan, expected = _plan(draw, template, lines, said)
-    return text, expected, _copied(plan)
-
-
-def picked(nodes: Iterable[Node], rng: Random) -> Iterable[str | Slot]:
-    """The parts of the text with one alternative of each choice."""
-    for node in nodes:
-        if isinstance(node, Choice):
-            yield from picked(node.options[int(rng.random() * len(node.options))], rng)
-        else:
-            yield node
+    plan, expected = make_plan(draw, lines, said)
+    return text, expected, copied_values(plan)
 
 
 def _draw_slots(draw: Draw, template: Template, lines: tuple[Line, ...], slots: list[Slot], parts: list[str | Slot], said: set[str]) -> None:
@@ -263,94 +220,3 @@ def _value_words(rng: Random, slot: Slot, said: Said, before: str) -> str:
     if slot.base == "arc":
         return arc_phrase(rng, said)
     return interval_words(said, before) if slot.base == "interval" else said.text
-
-
-def _plan(draw: Draw, template: Template, lines: tuple[Line, ...], said: set[str]) -> tuple[list[Any], dict[str, Any]]:
-    intents = [_intent(draw, line, said) for line in lines if line.title not in (*REMARKS, "Nothing")]
-    plan = label(intents)
-    notes, taken = _remarks(draw, lines, empty=not intents)
-    expected = {
-        "tasks": [{"title": planned.title, "parameters": planned.parameters, "task_prompt": task_prompt(planned, draw.rng)} for planned in plan],
-        "assumptions": list(dict.fromkeys([*assumptions(plan), *taken])),
-        "constraints": list(dict.fromkeys([*constraints(plan), *notes])),
-    }
-    return plan, expected
-
-
-def _intent(draw: Draw, line: Line, said: set[str]) -> Intent:
-    if line.title == "Home":
-        return Intent("Transit", home=True)
-    place = next((name for base in ("ID", "T", "P") for name in line.of(base) if base != "P" or name in said), None)
-    if place is not None and place not in draw.targets:
-        raise FormatError(f"{line.title} needs {{{place}}}, which one alternative does not say")
-    target = draw.targets[place] if place is not None else None
-    if line.title == "SubseaCableTrack" and target is not None and target.description is None:
-        target = replace(target, description="cable")
-    return Intent(line.title, target, _parameters(draw, line, target), part=_part(draw, line))
-
-
-def _parameters(draw: Draw, line: Line, target: Target | None) -> dict[str, Any]:
-    parameters: dict[str, Any] = {}
-    features = [draw.texts[name] for name in line.of("F") if name in draw.texts]
-    if line.title in ("FeatureStare", "GlareFreeApproach"):
-        thing = features[0] if features else target.description if target is not None else None
-        if thing is not None:
-            parameters["feature_type" if line.title == "FeatureStare" else "target_feature"] = thing
-    for base, parameter in (("S", "side_id"), ("K", "target_feature")):
-        for name in line.of(base):
-            if name in draw.texts and line.title not in PARTED:
-                parameters[parameter] = draw.texts[name]
-    items = [draw.texts[name] for name in line.of("L") if name in draw.texts]
-    if items:
-        parameters["target_list"] = items
-    values = {base_of(name): draw.values[name].value for name in line.slots if name in draw.values} | dict(line.fixed)
-    return parameters | {PARAMETER_OF.get(base, base): values[base] for base in ("side_id", *VALUES[line.title]) if base in values}
-
-
-def _part(draw: Draw, line: Line) -> str:
-    if line.title not in PARTED:
-        return ""
-    parts = [draw.texts[name] for name in line.of("F") if name in draw.texts]
-    return parts[0] if parts else next((f"{draw.texts[name]} side" for name in line.of("S") if name in draw.texts), "")
-
-
-def _remarks(draw: Draw, lines: tuple[Line, ...], *, empty: bool) -> tuple[list[str], list[str]]:
-    """Constraints and assumptions of the command's own remarks."""
-    notes, taken = [], []
-    for line in lines:
-        if line.title == "Not":
-            notes.append(RULED_OUT[line.slots[0]][1] if line.slots[0] in RULED_OUT else NOT_DONE[line.slots[0]])
-        elif line.title == "Cannot":
-            notes.append(f"The vehicle has no task for {_remark(draw, line)}.")
-        elif line.title in ("Note", "Assume"):
-            text = _remark(draw, line)
-            (notes if line.title == "Note" else taken).append(f"{text[:1].upper()}{text[1:]}.")
-    if empty and any(line.title == "Not" for line in lines):
-        notes.append(CANCELLED)
-    elif empty and not notes:
-        notes.append(NOTHING)
-    return notes, taken
-
-
-def _remark(draw: Draw, line: Line) -> str:
-    told = []
-    for part in picked(line.remark, draw.rng):
-        if isinstance(part, str):
-            told.append(part)
-        elif part.base == "P":
-            told.append(position_words(draw.targets[part.name].position or (0, 0)))
-        elif part.base in ("T", "ID"):
-            told.append(name_of(draw.targets[part.name]))
-        else:
-            told.append(draw.values[part.name].text if part.name in draw.values else draw.texts[part.name])
-    return "".join(told).strip().rstrip(".")
-
-
-def _copied(plan: list[Any]) -> tuple[str, ...]:
-    values: list[str] = []
-    for planned in plan:
-        values += [value for value in planned.parameters.values() if isinstance(value, str)]
-        values += planned.parameters.get("target_list", [])
-        if planned.target is not None:
-            values += [text for text in (planned.target.description, planned.target.identity) if text]
-    return tuple(dict.fromkeys(values))

@@ -9,7 +9,9 @@ their look: `{look T1}` is "red", `{one T1}` "the red one", `{nouns T1}` "buoys"
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from random import Random
 from typing import Any
 
 OBJECTS = ("ID", "T", "P", "F", "S", "K", "L")
@@ -95,6 +97,15 @@ class Template:
     def tasks(self) -> tuple[Line, ...]:
         """The intents that stand for tasks."""
         return tuple(line for line in self.lines if line.title not in (*REMARKS, "Nothing"))
+
+
+def picked(nodes: Iterable[Node], rng: Random) -> Iterator[str | Slot]:
+    """The parts of the text with one alternative of each choice."""
+    for node in nodes:
+        if isinstance(node, Choice):
+            yield from picked(node.options[int(rng.random() * len(node.options))], rng)
+        else:
+            yield node
 
 
 SLOT = re.compile(r"(?P<w>~)?(?:(?P<a>a|an|bare|one|look|nouns) )?(?P<v>~)?(?P<name>[A-Za-z_]+\d*)(?::(?P<kind>[a-z]+))?(?: (?P<mode>located|lost|adj|bare))?")

@@ -41,7 +41,7 @@ def target_words(target: Target, article: str, rng: Random | None = None, style:
     text = described(target, _NEVER_THAT) if target.description else text
     if rng is None or style is None or target.position is None:
         return text
-    pool = DOUBTS if target.doubtful else TRACKED if target.noun == "cable" else PLACED
+    pool: tuple[str, ...] = DOUBTS if target.doubtful else TRACKED if target.noun == "cable" else PLACED
     place = say_position(target.position, rng, style)
     if place[0] in "[(":
         pool = tuple(form for form in pool if "({" not in form)

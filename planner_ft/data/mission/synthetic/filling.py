@@ -115,7 +115,7 @@ class Filler:
             ):
                 text = f"{adjunct} {text}" if rng.random() < 0.5 else f"{adjunct}, {text}"
             else:
-                text += ("," if self.clipped or rng.random() < 0.25 else "") + " " + adjunct
+                text += ("," if self.clipped or rng.random() < _comma_share(adjunct) else "") + " " + adjunct
         return text
 
     def _adjuncts(self, adjuncts: dict[str, tuple[Template, ...]], name: str, intent: Intent) -> tuple[Template, ...]:
@@ -129,3 +129,12 @@ class Filler:
             word = intent.said["heading"].text.replace("due ", "")
             return adjuncts["heading:word"] if word in BEARINGS and self.rng.random() < 0.7 else adjuncts["heading"]
         return adjuncts.get(name, ())
+
+
+JOINING_WORDS = "at for with from in on over to every each until up keeping staying holding doing making going along through out towards taking leaving"
+JOINING = frozenset(JOINING_WORDS.split(" "))
+
+
+def _comma_share(adjunct: str) -> float:
+    """How often a comma stands before an adjunct: seldom where it starts with a preposition."""
+    return 0.12 if adjunct.split(" ", 1)[0] in JOINING else 0.85
