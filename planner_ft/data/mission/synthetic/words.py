@@ -107,7 +107,7 @@ def description(rng: Random, base: str) -> tuple[str, bool]:
     if roll < 0.32:
         return f"{adjective(rng, base)} {base}", True
     if roll < 0.37:
-        return f"{rng.choice((*ADJECTIVES[group_of(base)], *PLACED))} {rng.choice(COLOURS)} {base}", True
+        return f"{_uncoloured(rng, base)} {rng.choice(COLOURS)} {base}", True
     if roll < 0.51 and group_of(base) != "thing":
         return f"{base} {proper_name(rng)}", rng.random() < 0.45
     if roll < 0.65:
@@ -122,6 +122,13 @@ def description(rng: Random, base: str) -> tuple[str, bool]:
     if roll < 0.825:
         return f"{base} number {rng.randint(1, 40)}", False
     return base, True
+
+
+def _uncoloured(rng: Random, base: str) -> str:
+    while True:
+        look = rng.choice((*ADJECTIVES[group_of(base)], *PLACED))
+        if "-hulled" not in look and "-and-" not in look and not (look in MATERIALS and base.split(" ")[0] in MATERIALS):
+            return look
 
 
 def with_phrase(rng: Random, base: str = "") -> str:
