@@ -102,6 +102,8 @@ class SkillEntry:
         self._nouns = [] if unseen else [compile_template(text) for text in config.get("nouns", [])]
         self._passive = [] if unseen else [compile_template(text) for text in config.get("passive", [])]
         self.during = [compile_template(text) for text in config.get("during", [])]
+        self.none: list[str] = config.get("none", [])
+        self.several = bool(config.get("several", True))
         self.repeats = bool(config.get("repeats"))
         self._cache: dict[tuple[Given, str], list[Template]] = {}
 

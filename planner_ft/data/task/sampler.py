@@ -30,9 +30,12 @@ from planner_ft.data.task.prompts.library import bound_lines, normal
 from planner_ft.data.task.shapes import go_back, home
 from planner_ft.data.task.steps import expected_plan
 from planner_ft.data.task.template import close_gaps, plain, skeleton
+from planner_ft.data.task.terse import TERSE, unmoved
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.definition import Vocabulary
 from planner_ft.vocabulary.plans import canonical_parameters, plan_problems
+
+SINGLE = (*phrasing.SINGLE, *TERSE)
 
 Split = Literal["train", "validation", "test", "test_unseen"]
 SPLITS: tuple[Split, ...] = get_args(Split)
@@ -41,6 +44,7 @@ EXTRA_MOVEMENTS = (0.56, 0.2, 0.13, 0.07, 0.04)  # how often a prompt has that m
 PERCEPTIONS = (0.14, 0.36, 0.28, 0.15, 0.07)
 FILTERS = (0.56, 0.34, 0.1)
 LONGEST = 24  # steps; longer answers are drawn anew
+AGAIN = 0.15  # share of skills that stand a second time with other parameters
 SCOPED = 0.5  # share of prompts with several movements that say first these and then what runs in which of them
 TEMPLATES = 0.5  # share of the draws that come from a whole-prompt template
 HELD_OUT = 6  # percent of the skeletons that belong to validation, and as many to test
@@ -125,7 +129,8 @@ def draw_sample(book: Phrasebook, rng: random.Random, split: Split) -> dict[str,
         return None
     say = Speaker(rng, book)
     frame, text = say_it(say, script, context)
-    groups = (script.perceptions, [scoped.call for scoped in script.scoped], *(movement.perceptions for movement in script.movements))
+    groups = [script.filters, script.perceptions, [scoped.call for scoped in script.scoped]]
+    groups += [calls for movement in script.movements for calls in (movement.filters, movement.perceptions)]
     said = {call.skill for calls in groups for call in calls}
     text = close_gaps(aside(say, text, {name for name in said if name}, context))
     if split != "test_unseen" and split_of(f"{task.title} {skeleton(text)}") != split:
@@ -147,13 +152,15 @@ def draw_script(context: Context) -> Script | None:
         script.perceptions += lead
     perceptions = _draw_calls(context, "perception", _count(rng, PERCEPTIONS), script)
     filters = _draw_calls(context, "filter", _count(rng, FILTERS), script)
+    if perceptions and rng.random() < AGAIN / 2 and (again := _another(context, perceptions[-1])):
+        perceptions.append(again)
     if movements[0].saying is None and not script.perceptions and not perceptions:
         return None
     scoped = len(movements) > 1 and not context.book.unseen and not lead and rng.random() < SCOPED
     for calls, name in ((perceptions, "perceptions"), (filters, "filters")):
         for call in calls:
             if scoped:
-                script.scoped.append(Scoped(call, name, _steps(len(movements), rng)))
+                script.scoped += _scoped(context, call, name, len(movements))
                 continue
             if len(movements) > 1 and rng.random() < 0.6:
                 getattr(movements[int(rng.random() * len(movements))], name).append(call)
@@ -161,6 +168,22 @@ def draw_script(context: Context) -> Script | None:
                 getattr(script, name).append(call)
     _at_each(context, script)
     return script
+
+
+def _scoped(context: Context, call: Call, role: str, count: int) -> list[Scoped]:
+    """The skill in some of the steps and, now and then, once more with other parameters in the others: "5 m on the first leg, 10 m on the second"."""
+    steps = _steps(count, context.rng)
+    others = frozenset(range(count)) - steps
+    other = _another(context, call) if others and context.rng.random() < AGAIN else None
+    return [Scoped(call, role, steps), *([Scoped(other, role, others)] if other else [])]
+
+
+def _another(context: Context, call: Call) -> Call | None:
+    """The same skill with other parameters."""
+    if call.skill is None or not call.parameters or not context.book.skills[call.skill].several:
+        return None
+    other = context.call(call.skill)
+    return other if other.parameters and other.parameters != call.parameters else None
 
 
 def _steps(count: int, rng: random.Random) -> frozenset[int]:
@@ -217,7 +240,9 @@ def _extra(context: Context) -> Movement | None:
     roll = rng.random()
     if roll < 0.1:
         return EXTRA[int(rng.random() * len(EXTRA))](context)
-    names = context.task.skills["navigation"] if roll < 0.5 else context.book.by_role["navigation"]
+    if roll < 0.3 and (goto := context.book.motions.get("goto")):
+        return simple(context, goto)
+    names = context.task.skills["navigation"] if roll < 0.6 else context.book.by_role["navigation"]
     return simple(context, names[int(rng.random() * len(names))])
 
 
@@ -261,12 +286,13 @@ def say_it(say: Speaker, script: Script, context: Context) -> tuple[str, str]:
     """The name of the frame, and the prompt with its values marked."""
     unseen = context.book.unseen
     if script.movements[0].saying is None and len(script.movements) == 1:
-        text = phrasing.no_movement(say, script.filters, script.perceptions)
+        terse = not unseen and all(call.skill for call in script.perceptions) and say.chance(0.5)
+        text = (unmoved if terse else phrasing.no_movement)(say, script.filters, script.perceptions)
         if unseen:
             text = f"Here is what is wanted: {text[0].lower()}{text[1:]}" if text[0].isalpha() else text
         return "no_movement", opened(say, text, context)
     if len(script.movements) == 1:
-        single = pick_weighted(phrasing.UNSEEN_SINGLE if unseen else phrasing.SINGLE, say.rng)
+        single = pick_weighted(phrasing.UNSEEN_SINGLE if unseen else SINGLE, say.rng)
         text = single(say, script.movements[0], script.filters, script.perceptions)
         return single.__name__, opened(say, text, context)
     if script.scoped:
@@ -296,10 +322,25 @@ def aside(say: Speaker, text: str, said: set[str], context: Context) -> str:
         return f"{text} {remark}" if say.chance(0.5) else f"{remark} {phrasing.sentence(text)}"
     if roll < 0.05 and sentences.get("reason"):
         return f"{text[:-1]} {context.book.say(say.pick(*sentences['reason']), say.rng)}."
-    if roll < 0.08 and sentences.get("negation"):
+    if roll < 0.075 and sentences.get("nothing"):
+        return f"{text} {say.pick(*sentences['nothing'])}"
+    if roll < 0.115:
+        return _refusal(say, text, said, context)
+    if roll < 0.14 and sentences.get("negation"):
         others = [name for name in context.task.skills.get("perception", ()) if name not in said]
         if others:
             templates = context.book.skills[say.pick(*others)].fitting(frozenset())
             refused = templates[int(say.rng.random() * len(templates))].render(context.slots(), say.rng)
             return f"{text} {say.pick(*sentences['negation']).format(refused)}"
     return text
+
+
+def _refusal(say: Speaker, text: str, said: set[str], context: Context) -> str:
+    """The prompt with a remark that a skill which it does not ask for is not wanted: "No recording."."""
+    refused = [phrase for name, entry in context.book.skills.items() if name not in said for phrase in entry.none]
+    if not refused:
+        return text
+    phrase = say.pick(*refused)
+    if text[-1] != "." or say.chance(0.5):
+        return f"{text} {phrasing.sentence(phrase)}"
+    return f"{text[:-1]}{say.pick(', ', '; ', ' - ')}{phrase}."

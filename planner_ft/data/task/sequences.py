@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from planner_ft.data.task.movements import Movement
+from planner_ft.data.task.numbers import in_words
 from planner_ft.data.task.phrasebook import Call
 from planner_ft.data.task.phrasing import Script, Speaker, can_with, join, sentence
+from planner_ft.data.task.scopes import ALL_THE_TIME, ORDINALS, group_of
 from planner_ft.data.task.template import Form
+from planner_ft.data.task.terse import can_passive, noun
 
 Sequence = Callable[[Speaker, list[Movement]], str]
 
@@ -129,6 +132,56 @@ def followed_by(say: Speaker, movements: list[Movement]) -> str:
     return f"{sentence(clause(say, movements[0]))} {opener}{_rest(say, movements[1:])}."
 
 
+def noted(say: Speaker, movements: list[Movement]) -> str:
+    """Go to A (depth logging); turn to 090; hold for 60 s - GPS fix."""
+    bracket = say.chance(0.5)
+    parts = []
+    for movement in movements:
+        calls = movement.filters + movement.perceptions
+        words = join([noun(say, call) for call in calls], say.pick(", ", " and ")) if calls else ""
+        parts.append(f"{say.move(movement)}{f' ({words})' if bracket else f' - {words}'}" if words else say.move(movement))
+    if say.chance(0.4):
+        return " ".join(f"{index}. {part}." for index, part in enumerate(parts, 1))
+    joint = say.pick("; ", ". ", "; then ")
+    return " ".join(sentence(part) for part in parts) if joint == ". " else sentence(joint.join(parts))
+
+
+def what_runs(say: Speaker, movements: list[Movement]) -> str:
+    """Go to A. On the way, log the depth. Then hold for 60 s. Take a GPS fix meanwhile."""
+    parts = []
+    for index, movement in enumerate(movements):
+        opener = "" if index == 0 else say.pick("then ", "then ", "next, ", "after that, ", "")
+        parts.append(sentence(opener + say.move(movement)))
+        calls = movement.perceptions + movement.filters
+        if not calls:
+            continue
+        driving = movement.kind == "goto" and say.chance(0.6)
+        when = say.pick("on the way", "on this leg", "under way") if driving else say.pick("meanwhile", "while doing so", "during this step", "as you do so")
+        if can_passive(calls) and say.chance(0.3):
+            parts.append(sentence(f"{when}, {join([say.passive(call) for call in calls], ' and ')}"))
+        else:
+            parts.append(sentence(f"{when}, {say.calls(calls)}" if say.chance(0.5) else f"{say.calls(calls)} {when}"))
+    return " ".join(parts)
+
+
+def the_first(say: Speaker, movements: list[Movement]) -> str:
+    """Two parts. In the first, go to A with the depth logged. In the second, hold for 60 s."""
+    unit = "leg" if all(movement.kind == "goto" for movement in movements) else say.pick("part", "step", "phase", "part")
+    count = in_words(len(movements))
+    style = say.rng.random()
+    parts = []
+    for index, movement in enumerate(movements):
+        number = "last" if index == len(movements) - 1 and index and say.chance(0.3) else ORDINALS[index]
+        what = clause(say, movement, closed=True)
+        if style < 0.5:
+            parts.append(sentence(f"{'on' if unit == 'leg' else 'in'} the {number}, {what}"))
+        elif style < 0.8:
+            parts.append(sentence(f"{number} {unit}: {what}"))
+        else:
+            parts.append(sentence(f"the {number} {'one' if index and say.chance(0.4) else unit} is to {what}"))
+    return " ".join(([sentence(f"{count} {unit}s")] if say.chance(0.7) else []) + parts)
+
+
 def stages(say: Speaker, movements: list[Movement]) -> str:
     """Unseen: Stage one is to go to A. Stage two is to hold for 60 s."""
     names = ("one", "two", "three", "four", "five", "six", "seven", "eight")
@@ -149,13 +202,12 @@ def moves_on(say: Speaker, movements: list[Movement]) -> str:
 
 SEQUENCES: tuple[tuple[Sequence, float], ...] = (
     (then_chain, 4), (comma_list, 3), (first_then, 3), (numbered, 1), (semicolons, 1), (after_first, 1), (before_last, 1), (but_first, 0.7),
-    (short_sentences, 3), (followed_by, 2),
+    (short_sentences, 3), (followed_by, 2), (noted, 2), (what_runs, 2.5), (the_first, 2.5),
 )  # fmt: skip
 UNSEEN_SEQUENCES: tuple[tuple[Sequence, float], ...] = ((stages, 1), (begin_by, 1), (moves_on, 1))
 
 
-ALL_THE_TIME = ("throughout", "the whole time", "all the time", "all the while", "at all times", "in every step", "from start to finish", "the entire time")
-ALL_THE_TIME_FIRST = ("throughout", "all the while", "during the whole task", "at all times", "the whole time", "in every step", "on every leg")
+ALL_THE_TIME_FIRST = ("throughout", "all the while", "during the whole task", "at all times", "the whole time", "in every step", "all along", "in all steps")
 
 
 def say_script(say: Speaker, script: Script, frame: Sequence) -> str:
@@ -172,21 +224,18 @@ def say_script(say: Speaker, script: Script, frame: Sequence) -> str:
     return " ".join([*front, body, *behind, *back])
 
 
-ORDINALS = ("first", "second", "third", "fourth", "fifth")
-
-
 Taken = tuple[Movement, list[Call], list[Call], str]
 
 
 def _take_out(say: Speaker, script: Script, movement: Movement) -> Taken | None:
     """Take what runs in this step alone out of its clause, with words for the step, to be said behind all movements."""
-    kinds = [other.kind for other in script.movements]
+    kinds = [group_of(other) for other in script.movements]
     if not (movement.perceptions or movement.filters) or len(movement.steps) > 1 or movement.saying is None:
         return None
     slots = movement.saying.slots
     phrases = [template for template in say.book.skills[movement.steps[0][0]].during if template.needed <= slots.given]
     when = ""
-    if phrases and kinds.count(movement.kind) == 1 and say.chance(0.7):
+    if phrases and kinds.count(group_of(movement)) == 1 and say.chance(0.7):
         when = phrases[int(say.rng.random() * len(phrases))].render(slots, say.rng)
     elif all(len(other.steps) == 1 for other in script.movements) and len(kinds) <= len(ORDINALS):
         ordinal = "last" if movement is script.movements[-1] and say.chance(0.5) else ORDINALS[script.movements.index(movement)]
@@ -211,6 +260,10 @@ def everywhere(say: Speaker, calls: list[Call], *, marked: bool) -> str:
     roll = say.rng.random()
     if not marked and roll < 0.5:
         return sentence(say.calls(calls))
+    if can_passive(calls) and 0.5 < roll < 0.6:
+        return sentence(f"{join([say.passive(call) for call in calls], ' and ')} {say.pick(*ALL_THE_TIME)}")
+    if can_with(calls) and 0.6 < roll < 0.68:
+        return sentence(f"{say.with_words(calls)} {say.pick(*ALL_THE_TIME)}")
     if can_with(calls) and roll > 0.93:
         return sentence(f"do all of this with {say.with_words(calls)}")
     if roll < 0.75:

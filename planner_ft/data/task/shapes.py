@@ -74,12 +74,13 @@ def _square_how(context: Context) -> tuple[str, bool, str]:
 
 
 def _grid_size(context: Context) -> tuple[float, float, float]:
-    """Width, length and a spacing that divides both, two to eight lanes across the width."""
+    """Width, length and a spacing that divides both, mostly few lanes across the width."""
     rng = context.rng
     spacing = rng.choice((2, 2.5, 3, 4, 5, 5, 6, 7, 7.5, 8, 10, 10, 12, 15, 20))
-    width, along = (g.tidy(spacing * rng.randrange(1, 8)) for _ in range(2))
-    if rng.random() < 0.15:
-        along = g.tidy(along + rng.choice((1, 2, 3)))
+    width = g.tidy(spacing * rng.choice((1, 1, 2, 2, 2, 3, 3, 4, 5, 6, 7)))
+    along = g.tidy(spacing * rng.randrange(1, 9))
+    if rng.random() < 0.3:
+        along = g.tidy(along + rng.choice((1, 2, 3, 5, 10)))
     return width, along, spacing
 
 
