@@ -3,7 +3,8 @@ r"""The form in which whole commands are written by hand: `TEXT => INTENT; INTEN
 `(a|b|c)` picks one alternative and `(x|)` leaves x out now and then; `{T1}`, `{duration}` and the like are slots; `\(`, `\|` and
 `\{` are plain characters. Intents stand in the order of execution. A slot `{+x}` says nothing: an intent that has `+x` among
 its arguments is there only where the chosen alternative holds that slot. Targets of the kind `pair` share their noun and differ in
-their look: `{look T1}` is "red", `{one T1}` "the red one", `{nouns T1}` "buoys".
+their look: `{look T1}` is "red", `{one T1}` "the red one", `{nouns T1}` "buoys". What TEXT says in fixed words stands after `=`: `arc=180`, `S=north`,
+`F=name_board`.
 """
 
 from __future__ import annotations
@@ -228,10 +229,10 @@ def _remark(title: str, rest: str) -> Line:
 
 def _fixed(title: str, word: str) -> tuple[str, int | float | str]:
     name, _, value = word.partition("=")
-    if name not in VALUES[title] and not (title == "ParallelStructurePass" and name == "side_id"):
+    if name in ("F", "S", "K") and name in HOLDS.get(title, "") and title not in PARTED:
+        return name, value.replace("_", " ")
+    if name not in VALUES[title]:
         raise FormatError(f"{title} has no {name}: it has {', '.join(VALUES[title]) or 'no values'}")
-    if name == "side_id":
-        return name, value
     try:
         return name, float(value) if "." in value else int(value)
     except ValueError:

@@ -62,12 +62,15 @@ def _intent(draw: Draw, line: Line, said: set[str]) -> Intent:
 
 def _parameters(draw: Draw, line: Line, target: Target | None) -> dict[str, Any]:
     parameters: dict[str, Any] = {}
-    features = [draw.texts[name] for name in line.of("F") if name in draw.texts]
+    fixed = {name: str(value) for name, value in line.fixed if name in ("F", "S", "K")}
+    features = [draw.texts[name] for name in line.of("F") if name in draw.texts] or [fixed[name] for name in fixed if name == "F"]
     if line.title in ("FeatureStare", "GlareFreeApproach"):
         thing = features[0] if features else target.description if target is not None else None
         if thing is not None:
             parameters["feature_type" if line.title == "FeatureStare" else "target_feature"] = thing
     for base, parameter in (("S", "side_id"), ("K", "target_feature")):
+        if base in fixed:
+            parameters[parameter] = fixed[base]
         for name in line.of(base):
             if name in draw.texts and line.title not in PARTED:
                 parameters[parameter] = draw.texts[name]
@@ -75,7 +78,7 @@ def _parameters(draw: Draw, line: Line, target: Target | None) -> dict[str, Any]
     if items:
         parameters["target_list"] = items
     values = {base_of(name): draw.values[name].value for name in line.slots if name in draw.values} | dict(line.fixed)
-    return parameters | {PARAMETER_OF.get(base, base): values[base] for base in ("side_id", *VALUES[line.title]) if base in values}
+    return parameters | {PARAMETER_OF.get(base, base): values[base] for base in VALUES[line.title] if base in values}
 
 
 def _part(draw: Draw, line: Line) -> str:

@@ -124,6 +124,12 @@ def test_fixed_values_and_lists_are_planned():
         assert len(set(expected["tasks"][2]["parameters"]["target_list"])) == 2
 
 
+def test_fixed_words_are_planned():
+    row = "Film the name board of {T1 located}, then go down its north side. => FeatureStare T1 F=name_board; ParallelStructurePass T1 S=north"
+    for _, expected in draws(row, 5):
+        assert [parameters for _, parameters in tasks(expected)[1:]] == [{"feature_type": "name board"}, {"side_id": "north"}]
+
+
 def test_texts_are_put_in_order():
     assert joined(["there is a ", "orange buoy", " at [1, 2],", ". ", "then", "  come home ."]) == "There is an orange buoy at [1, 2]. Then come home."
     assert joined(["an ", "USV", ", a ", "8-minute", " wait"]) == "A USV, an 8-minute wait"
