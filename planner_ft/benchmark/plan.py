@@ -11,7 +11,7 @@ from planner_ft.benchmark.results import System
 from planner_ft.benchmark.samples import BenchData, default_data, load_bench_data
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.candidates import Candidate, resolve_candidate
-from planner_ft.candidates.adapters import CONFIG, WEIGHTS, check_adapter
+from planner_ft.candidates.adapters import CONFIG, WEIGHTS, adapter_folder, check_adapter, find_adapter
 from planner_ft.candidates.loading import compute_dtype, require_folder, resolve_device
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import Quantization
@@ -96,7 +96,7 @@ def _candidates(settings: BenchSettings) -> list[Candidate]:
 
 
 def _adapters(settings: BenchSettings, candidates: list[Candidate]) -> dict[str, Path]:
-    """The adapter folder of each candidate: from --adapter, else where `plannerft train` puts it."""
+    """The adapter folder of each candidate: from --adapter, else the one that it has, else where `plannerft train` would put it."""
     chosen: dict[str, Path] = {}
     for text in settings.adapters:
         name, separator, folder = text.partition("=")
@@ -108,7 +108,9 @@ def _adapters(settings: BenchSettings, candidates: list[Candidate]) -> dict[str,
         if target in chosen:
             raise PlannerError(f"--adapter {text}: {target} has the adapter {chosen[target]} already; give one per candidate")
         chosen[target] = Path(folder if matching else text)
-    return {candidate.name: chosen.get(candidate.name, Path("adapters") / candidate.slug / settings.level) for candidate in candidates}
+    level = settings.level
+    found = {candidate.name: find_adapter(candidate, level) or adapter_folder(candidate, level) for candidate in candidates}
+    return {**found, **chosen}
 
 
 def _job(

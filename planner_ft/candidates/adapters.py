@@ -1,4 +1,4 @@
-"""Adapter folders: what is recorded about the base they belong to, and the checks before one is loaded."""
+"""Adapter folders: where they lie, what is recorded about the base they belong to, and the checks before one is loaded."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import planner_ft
 from planner_ft.candidates.location import PICKLED, check_safetensors, weights_sha256
 from planner_ft.candidates.registry import Candidate, Dimensions
 from planner_ft.support.errors import PlannerError
@@ -14,6 +15,11 @@ from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
 CONFIG, WEIGHTS, MANIFEST = "adapter_config.json", "adapter_model.safetensors", "manifest.json"
+ADAPTERS = Path("adapters")
+"""Where `plannerft train` writes adapters: ADAPTERS/CANDIDATE/LEVEL."""
+PACKAGE = Path(planner_ft.__file__).resolve().parent
+SHIPPED = Path("candidates") / "shipped_adapters"
+"""Where a wheel carries the embedded candidate's (tool.hatch.build.targets.wheel.force-include)."""
 
 
 @dataclass(frozen=True)
@@ -25,6 +31,28 @@ class AdapterInfo:
     level: Level | None
     candidate: str | None
     vocabulary: str | None
+
+
+def adapter_folder(candidate: Candidate, level: Level, root: Path = ADAPTERS) -> Path:
+    """The folder of an adapter below `root`."""
+    return root / candidate.slug / level
+
+
+def find_adapter(candidate: Candidate, level: Level, vocabulary: Vocabulary | None = None) -> Path | None:
+    """The adapter that a candidate has without one being named: in ./adapters, else in the checkout that we run from, else in the package.
+
+    None where there is none. With `vocabulary`, an adapter that was trained with another one is passed over.
+    """
+    checkout = PACKAGE.parent if (PACKAGE.parent / "pyproject.toml").is_file() else None
+    for root in (ADAPTERS, *([checkout / ADAPTERS] if checkout else []), PACKAGE / SHIPPED):
+        folder = adapter_folder(candidate, level, root)
+        if (folder / CONFIG).is_file() and (vocabulary is None or _trained_with(folder, vocabulary)):
+            return folder
+    return None
+
+
+def _trained_with(folder: Path, vocabulary: Vocabulary) -> bool:
+    return _manifest(folder).get("vocabulary", {}).get("sha256") in (None, vocabulary.sha256)
 
 
 def adapter_record(candidate: Candidate, level: Level, vocabulary: Vocabulary) -> dict[str, Any]:
