@@ -10,6 +10,7 @@ from planner_ft.cli.bench import bench, score
 from planner_ft.cli.candidates import candidates
 from planner_ft.cli.doctor import doctor
 from planner_ft.cli.gen_data import gen_data
+from planner_ft.cli.plan import plan
 from planner_ft.cli.train import train
 from planner_ft.cli.validate import validate
 from planner_ft.cli.vocabulary import vocabulary
@@ -37,5 +38,5 @@ def options(version: Annotated[bool, typer.Option("--version", callback=_version
     """Options of every command."""
 
 
-for command in (gen_data, validate, candidates, train, bench, score, vocabulary, doctor):
+for command in (plan, gen_data, validate, candidates, train, bench, score, vocabulary, doctor):
     app.command(command.__name__.replace("_", "-"))(command)

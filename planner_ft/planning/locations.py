@@ -16,6 +16,7 @@ from typing import Any
 from planner_ft.data.rules import DOCKING
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import canonical_value
 
 Position = tuple[float, float]
 
@@ -56,17 +57,33 @@ def parse_location(text: str) -> tuple[str, Position]:
     return name.strip(), (x, y)
 
 
+def parse_locations(texts: Sequence[str]) -> dict[str, Position]:
+    """Read several "NAME=x,y". Raises PlannerError, also for a name that is given two positions."""
+    locations: dict[str, Position] = {}
+    for name, position in map(parse_location, texts):
+        if locations.setdefault(name, position) != position:
+            raise PlannerError(f"--locate {name}: two positions are given; leave one of them out")
+    return locations
+
+
 def resolve(plan: dict[str, Any], locations: Mapping[str, Position], vocabulary: Vocabulary) -> dict[str, Any]:
     """The plan with the named places filled in; other places stay open.
 
-    A name matches without regard to case and article. Raises PlannerError for a name that the plan does not leave open.
+    A name matches without regard to case and article, and so does a part of it that fits only one place. Raises PlannerError for a name
+    that the plan does not leave open, for a place that is named twice, and for the position that stands for an unknown place.
     """
     places = open_places(plan, vocabulary)
     filled = copy.deepcopy(plan)
+    named: dict[OpenPlace, str] = {}
     for name, position in locations.items():
-        for number in _matching(name, places).tasks:
+        if tuple(position) == tuple(vocabulary.unresolved):
+            raise PlannerError(f"--locate {name}: {list(vocabulary.unresolved)} stands for an unknown place; give where it is")
+        place = _matching(name, places)
+        if (other := named.setdefault(place, name)) != name:
+            raise PlannerError(f'--locate {name}: "{place.name}" is located by "{other}" already; leave one of them out')
+        for number in place.tasks:
             entry = filled["tasks"][number - 1]
-            entry["parameters"][vocabulary.task[entry["title"]].position_parameter] = [_whole(value) for value in position]
+            entry["parameters"][vocabulary.task[entry["title"]].position_parameter] = canonical_value([float(value) for value in position])
     return filled
 
 
@@ -105,7 +122,3 @@ def _name_of(entry: dict[str, Any], searched: Sequence[str], vocabulary: Vocabul
 
 def _plain(name: str) -> str:
     return ARTICLE.sub("", " ".join(name.lower().split()))
-
-
-def _whole(value: float) -> float | int:
-    return int(value) if value.is_integer() else value

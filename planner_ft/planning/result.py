@@ -30,10 +30,14 @@ class Answer:
 
 @dataclass(frozen=True)
 class AgentUse:
-    """What one agent did in all. Seconds leave out loading, which `load_seconds` holds."""
+    """What one agent did in all.
+
+    `load_seconds` is the time to load its base, 0 where the other agent's serves it too; `seconds` leaves it out.
+    """
 
     candidate: str
     configuration: str
+    adapter: str | None
     load_seconds: float
     queries: int
     prompt_tokens: int
@@ -42,16 +46,19 @@ class AgentUse:
     seconds: float
 
     @classmethod
-    def of(cls, candidate: str, configuration: str, load_seconds: float, answers: Iterable[Answer]) -> AgentUse:
+    def of(cls, candidate: str, configuration: str, adapter: str | None, load_seconds: float, answers: Iterable[Answer]) -> AgentUse:
         """Sums over `answers`."""
         given = list(answers)
         sums = (sum(getattr(answer, name) for answer in given) for name in ("prompt_tokens", "tokens", "forward_passes"))
-        return cls(candidate, configuration, round(load_seconds, 3), len(given), *sums, round(sum(answer.seconds for answer in given), 3))
+        return cls(candidate, configuration, adapter, round(load_seconds, 3), len(given), *sums, round(sum(answer.seconds for answer in given), 3))
 
 
 @dataclass(frozen=True)
 class PlannedTask:
-    """A task of the mission with its skills. `answer` is None while its place is open: `waits_for` names it."""
+    """A task of the mission with its skills.
+
+    `answer` is None where the Task Agent was not asked: because the task's place is open, which `waits_for` names, or at all.
+    """
 
     title: str
     parameters: dict[str, Any]
@@ -64,16 +71,19 @@ class PlannedTask:
 class Planned:
     """A command with everything that was planned for it.
 
-    `mission` is the Mission Agent's answer, its plan with the places filled in that were given. `open_places` are those that no position
-    is known for. `peak_memory` is the most memory of the whole process, in bytes (of the GPU, where there is one).
+    `mission` is the Mission Agent's answer as it was, `tasks` have the places filled in that were given (`located`). `open_places` are those
+    that no position is known for. `peak_memory` is the most memory of the whole process, in bytes (of the GPU, where there is one);
+    `manifest` says what the plan depended on.
     """
 
     command: str
     mission: Answer
     tasks: tuple[PlannedTask, ...]
     open_places: tuple[OpenPlace, ...]
+    located: dict[str, list[float]] = field(default_factory=dict)
     usage: dict[str, AgentUse] = field(default_factory=dict)
     peak_memory: int = 0
+    manifest: dict[str, Any] = field(default_factory=dict)
 
     @property
     def valid(self) -> bool:
@@ -83,10 +93,13 @@ class Planned:
     @property
     def complete(self) -> bool:
         """Whether every task has its skills, so that nothing is left to fill in."""
-        return self.valid and not self.open_places
+        return self.valid and all(task.answer is not None for task in self.tasks)
 
     def as_json(self) -> dict[str, Any]:
-        """Everything as one JSON object. A task's `skill_sequence` is null while its place is open or its answer is not valid."""
+        """Everything as one JSON object (schemas/planned.schema.json).
+
+        A task's `skill_sequence` is null where the Task Agent was not asked, and where its answer is not valid.
+        """
         plan = self.mission.plan or {}
         return {
             "command": self.command,
@@ -95,10 +108,12 @@ class Planned:
             "tasks": [_task_json(task) for task in self.tasks],
             "assumptions": [*plan.get("assumptions", []), *self.mission.notes],
             "constraints": list(plan.get("constraints", [])),
-            "open_places": [asdict(place) for place in self.open_places],
+            "open_places": [{"name": place.name, "tasks": list(place.tasks)} for place in self.open_places],
+            "located": self.located,
             **_problems(self.mission),
             "usage": {agent: asdict(use) for agent, use in self.usage.items()},
             "peak_memory_bytes": self.peak_memory,
+            "manifest": self.manifest,
         }
 
 
@@ -106,7 +121,7 @@ def _task_json(task: PlannedTask) -> dict[str, Any]:
     answer = task.answer
     told = {"title": task.title, "parameters": task.parameters, "task_prompt": task.task_prompt}
     if answer is None:
-        return {**told, "skill_sequence": None, "waits_for": task.waits_for}
+        return {**told, "skill_sequence": None, **({"waits_for": task.waits_for} if task.waits_for else {})}
     skills = answer.plan["skill_sequence"] if answer.plan is not None else None
     return {**told, "skill_sequence": skills, **({"assumptions": list(answer.notes)} if answer.notes else {}), **_problems(answer)}
 

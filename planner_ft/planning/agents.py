@@ -1,0 +1,102 @@
+"""The two agents in one process, with one base in memory at any time."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from planner_ft.benchmark.outputs import parse_output
+from planner_ft.candidates.loading import resolve_device
+from planner_ft.planning.result import AgentUse, Answer
+from planner_ft.planning.settings import Agent
+from planner_ft.support.resources import peak_memory
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import Level, plan_problems
+
+if TYPE_CHECKING:
+    from planner_ft.decoding.engine import Engine
+    from planner_ft.decoding.generate import Generation
+
+Progress = Callable[[str, int, int], None]
+"""Called with what is being done, how many of it are done and how many there are in all (0: not known)."""
+
+
+def silent(_label: str, _done: int, _total: int) -> None:
+    """No progress."""
+
+
+class Agents:
+    """Loads the agents' bases as they are needed and asks them.
+
+    Agents of one base share it, with an adapter each. Of two bases the first is released before the second is loaded: the reference
+    hardware has 6 GB for both.
+    """
+
+    def __init__(self, agents: Mapping[Level, Agent], vocabulary: Vocabulary, device: str = "auto", progress: Progress = silent) -> None:
+        """Raises PlannerError for a device that there is not."""
+        self.agents = agents
+        self.vocabulary = vocabulary
+        self.device = resolve_device(device)
+        self.load_seconds: dict[Level, float] = dict.fromkeys(agents, 0.0)
+        self._progress = progress
+        self._engine: Engine | None = None
+        self._serves: tuple[Level, ...] = ()
+
+    def load(self, level: Level) -> Engine:
+        """The engine that answers for an agent, loaded if it is not. Raises PlannerError."""
+        if self._engine is None or level not in self._serves:
+            self.release()
+            self._serves = tuple(other for other, agent in self.agents.items() if agent.base == self.agents[level].base)
+            started = time.perf_counter()
+            self._engine = self._loaded(self.agents[level])
+            self.load_seconds[level] = time.perf_counter() - started
+        return self._engine
+
+    def release(self) -> None:
+        """Give the memory of what is loaded back."""
+        if self._engine is not None:
+            self._engine.release()
+        self._engine, self._serves = None, ()
+
+    def ask(self, level: Level, record: dict[str, Any]) -> Answer:
+        """The agent's answer to a record ({"prompt", ...}), read and checked."""
+        engine, agent = self.load(level), self.agents[level]
+        query = engine.query(level, record, with_vocabulary=agent.with_vocabulary)
+        generation = engine.answer(query, agent.configuration)
+        return read_answer(level, engine.text(generation), generation, len(query.prompt), self.vocabulary)
+
+    def use(self, level: Level, answers: list[Answer]) -> AgentUse:
+        """What the agent did to give these answers."""
+        agent = self.agents[level]
+        adapter = str(agent.adapter) if agent.adapter else None
+        return AgentUse.of(agent.candidate.row_name, agent.configuration.name, adapter, self.load_seconds[level], answers)
+
+    def peak_memory(self) -> int:
+        """Most bytes in use so far: on the GPU, else in this process."""
+        return peak_memory(self.device)
+
+    def _loaded(self, agent: Agent) -> Engine:
+        from planner_ft.decoding.engine import Engine, decoding_threads
+
+        self._progress(f"{agent.candidate.name}: loading", 0, 0)
+        adapters = {level: adapter for level in self._serves if (adapter := self.agents[level].adapter)}
+        return Engine.load(
+            agent.candidate, self.vocabulary, adapters=adapters or None, device=str(self.device),
+            quantization=agent.quantization, threads=decoding_threads(agent.candidate, self.device.type),
+        )  # fmt: skip
+
+
+def read_answer(level: Level, text: str, generation: Generation, prompt_tokens: int, vocabulary: Vocabulary) -> Answer:
+    """The plan of a generated text, None with the problems when it does not parse or is not strictly valid."""
+    parsed = parse_output(text)
+    problems = plan_problems(level, parsed.plan, vocabulary, strict=True) if parsed.plan is not None else [parsed.problem or "no plan"]
+    if generation.finish_reason == "length":
+        problems.insert(0, f"cut at the limit of {len(generation.ids)} tokens")
+    notes = list(generation.notes)
+    if generation.cut:
+        notes.append(f"The answer met its limit of tokens and was ended after {len(generation.ids)}; something may be missing.")
+    return Answer(
+        text, None if problems else parsed.plan, (generation.error,) if generation.error else tuple(problems), tuple(notes),
+        prompt_tokens, len(generation.ids), generation.forward_passes, generation.seconds, generation.cut or generation.finish_reason == "length",
+    )  # fmt: skip

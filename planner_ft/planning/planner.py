@@ -1,0 +1,132 @@
+"""Planning: the Mission Agent's plan, then the skills of each of its tasks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from planner_ft.planning.agents import Agents, Progress, silent
+from planner_ft.planning.locations import OpenPlace, Position, open_places, resolve
+from planner_ft.planning.result import Answer, Planned, PlannedTask
+from planner_ft.planning.settings import PlanSettings, choose_agents
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.manifest import build_manifest
+from planner_ft.vocabulary import load_vocabulary
+
+
+class Planner:
+    """Plans one command after the other:
+
+        from planner_ft.planning import Planner
+        planned = Planner.load().plan("Find the red buoy and come home.")
+
+    In a `with` block the memory is given back at its end.
+    """
+
+    def __init__(self, settings: PlanSettings, progress: Progress = silent) -> None:
+        """Checks the settings and loads nothing yet. Raises PlannerError."""
+        self.settings = settings
+        self.vocabulary = load_vocabulary(settings.vocabulary)
+        self.agents = Agents(choose_agents(settings, self.vocabulary), self.vocabulary, settings.device, progress)
+        self._progress = progress
+
+    @classmethod
+    def load(cls, candidate: str = PlanSettings.candidate, *, progress: Progress = silent, **settings: Any) -> Planner:
+        """A planner with the Mission Agent's base loaded; the keywords are the fields of PlanSettings. Raises PlannerError."""
+        planner = cls(PlanSettings(candidate, **settings), progress)
+        planner.agents.load("mission")
+        return planner
+
+    def plan(self, command: str, locations: Mapping[str, Position] | None = None) -> Planned:
+        """The plan of a command. `locations` are positions (metres east and north of home) of places that the command leaves open.
+
+        An answer that is not valid is part of what comes back (see `Planned.valid`). Raises PlannerError for a command that is empty or
+        too long, and for a location that the plan does not leave open.
+        """
+        mission = self._mission(check_command(command))
+        tasks: tuple[PlannedTask, ...] = ()
+        places: list[OpenPlace] = []
+        if mission.plan is not None:
+            filled = resolve(mission.plan, locations or {}, self.vocabulary)
+            places = open_places(filled, self.vocabulary)
+            tasks = self._tasks(filled, places)
+        answers = {"mission": [mission], "task": [task.answer for task in tasks if task.answer]}
+        return Planned(
+            command, mission, tasks, tuple(places),
+            located={name: list(position) for name, position in (locations or {}).items()} if mission.plan is not None else {},
+            usage={level: self.agents.use(level, answers[level]) for level in self.agents.agents},
+            peak_memory=self.agents.peak_memory(), manifest=self._manifest(),
+        )  # fmt: skip
+
+    def close(self) -> None:
+        """Give the memory back; a later `plan` loads again."""
+        self.agents.release()
+
+    def __enter__(self) -> Planner:
+        return self
+
+    def __exit__(self, _kind: type[BaseException] | None, _error: BaseException | None, _trace: TracebackType | None) -> None:
+        self.close()
+
+    def _mission(self, command: str) -> Answer:
+        self.agents.load("mission")
+        self._progress("Mission Agent", 0, 0)
+        answer = self.agents.ask("mission", {"prompt": command})
+        if not answer.tokens:
+            raise PlannerError(f"{self.agents.agents['mission'].candidate.name}: {'; '.join(answer.problems)}; shorten the command, or take another candidate")
+        return answer
+
+    def _tasks(self, plan: dict[str, Any], places: Sequence[OpenPlace]) -> tuple[PlannedTask, ...]:
+        """Every task, with its skills unless it waits for a place or there is no Task Agent."""
+        waiting = {number: place.name for place in places for number in place.tasks}
+        total = len(plan["tasks"]) - len(waiting)
+        planned: list[PlannedTask] = []
+        done = 0
+        for number, entry in enumerate(plan["tasks"], start=1):
+            answer = None
+            if number not in waiting and "task" in self.agents.agents:
+                self.agents.load("task")
+                self._progress("Task Agent", done, total)
+                answer = self.agents.ask("task", {"task": entry["title"], "parameters": entry["parameters"], "prompt": entry["task_prompt"]})
+                done += 1
+                self._progress("Task Agent", done, total)
+            planned.append(PlannedTask(entry["title"], entry["parameters"], entry["task_prompt"], answer, waiting.get(number)))
+        return tuple(planned)
+
+    def _manifest(self) -> dict[str, Any]:
+        """What the plan depended on."""
+        vocabulary = self.vocabulary
+        configuration = {"decoding": "greedy", "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256}}
+        agents = {level: agent.record() for level, agent in self.agents.agents.items()}
+        return build_manifest("plan", seed=None, configuration=configuration, device=str(self.agents.device), agents=agents)
+
+
+def check_command(command: str) -> str:
+    """The command itself. Raises PlannerError when there is none in it, or when it is no Unicode text."""
+    if not command.strip():
+        raise PlannerError('the command is empty; say what is to be done, such as plannerft plan "Find the red buoy and come home."')
+    try:
+        command.encode()
+    except UnicodeEncodeError as error:
+        raise PlannerError(f"the command is not UTF-8 text (character {error.start + 1}); write it as UTF-8") from None
+    return command
+
+
+def read_command(stream: Any) -> str:
+    """The command on a stream of bytes. Raises PlannerError when it is not UTF-8."""
+    data: bytes = stream.read()
+    try:
+        return data.decode("utf-8-sig").strip()
+    except UnicodeDecodeError as error:
+        raise PlannerError(f"the command on standard input is not UTF-8 text (byte {error.start}); write it as UTF-8") from None
+
+
+def new_file(path: Path, *, overwrite: bool) -> Path:
+    """The path itself. Raises PlannerError when there is a file already that is not to be replaced, or a folder."""
+    if path.is_dir():
+        raise PlannerError(f"--out {path}: is a folder; give a file")
+    if path.exists() and not overwrite:
+        raise PlannerError(f"--out {path}: exists; give --overwrite to replace it, or another file")
+    return path

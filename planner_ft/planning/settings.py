@@ -1,0 +1,123 @@
+"""Which candidate, adapter and configuration each agent works with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from planner_ft.candidates import Candidate, resolve_candidate
+from planner_ft.candidates.adapters import CONFIG, WEIGHTS, check_adapter, find_adapter
+from planner_ft.candidates.loading import require_folder
+from planner_ft.candidates.location import weights_sha256
+from planner_ft.candidates.registry import Quantization
+from planner_ft.decoding.configurations import STRENGTHS, Configuration, parse_configuration
+from planner_ft.prompts.render import PROMPT_VERSION
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import sha256_tree
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import LEVELS, Level
+
+DEFAULT_CANDIDATE = "embedded"
+
+
+@dataclass(frozen=True)
+class PlanSettings:
+    """What planning is asked to do; what is None is chosen.
+
+    `mission_candidate` and `task_candidate` overrule `candidate` for one agent, and so do the configurations. An adapter that is not
+    given is looked for where `plannerft train` writes it, then in the package. The default configuration is the strongest, with the adapter
+    where there is one. With `mission_only` there is no Task Agent.
+    """
+
+    candidate: str = DEFAULT_CANDIDATE
+    mission_candidate: str | None = None
+    task_candidate: str | None = None
+    mission_adapter: Path | str | None = None
+    task_adapter: Path | str | None = None
+    configuration: str | None = None
+    mission_configuration: str | None = None
+    task_configuration: str | None = None
+    vocabulary: str = "usv"
+    device: str = "auto"
+    quantization: Quantization | None = None
+    mission_only: bool = False
+
+    def __post_init__(self) -> None:
+        """Raise PlannerError for a value that no setting has."""
+        if self.quantization not in (None, "nf4", "none"):
+            raise PlannerError(f"--quantization {self.quantization}: must be nf4 or none")
+
+
+@dataclass(frozen=True)
+class Agent:
+    """One of the two agents: a candidate in a configuration. `with_vocabulary` says whether its prompt lists the vocabulary."""
+
+    level: Level
+    candidate: Candidate
+    configuration: Configuration
+    adapter: Path | None
+    quantization: Quantization
+    with_vocabulary: bool
+
+    @property
+    def base(self) -> tuple[Path | None, Quantization]:
+        """What is the same for agents that one loaded base can serve."""
+        return self.candidate.folder, self.quantization
+
+    def record(self) -> dict[str, Any]:
+        """Everything that its answers depend on beside command, vocabulary and device, for the manifest."""
+        folder = self.candidate.folder
+        return {
+            "candidate": self.candidate.name,
+            "standin": self.candidate.is_standin,
+            "configuration": self.configuration.name,
+            "quantization": self.quantization,
+            "weights_sha256": weights_sha256(folder) if folder else None,
+            "adapter": str(self.adapter) if self.adapter else None,
+            "adapter_sha256": sha256_tree(self.adapter, (WEIGHTS, CONFIG)) if self.adapter else None,
+            "prompt_format": PROMPT_VERSION,
+            "vocabulary_in_the_prompt": self.with_vocabulary,
+        }
+
+
+def choose_agents(settings: PlanSettings, vocabulary: Vocabulary) -> dict[Level, Agent]:
+    """The agents that the settings ask for, checked as far as that goes without loading a model. Raises PlannerError."""
+    levels = LEVELS[:1] if settings.mission_only else LEVELS
+    asked = _asked(settings)
+    unused = [f"--{level}-{what}" for level in LEVELS if level not in levels for what, value in asked[level].items() if value is not None]
+    if unused:
+        raise PlannerError(f"{', '.join(unused)}: there is no Task Agent with --mission-only; leave one of them out")
+    return {level: _agent(level, settings, asked[level], vocabulary) for level in levels}
+
+
+def _asked(settings: PlanSettings) -> dict[Level, dict[str, Any]]:
+    return {level: {what: getattr(settings, f"{level}_{what}") for what in ("candidate", "adapter", "configuration")} for level in LEVELS}
+
+
+def _agent(level: Level, settings: PlanSettings, asked: Mapping[str, Any], vocabulary: Vocabulary) -> Agent:
+    candidate = resolve_candidate(asked["candidate"] or settings.candidate)
+    require_folder(candidate)
+    wanted = asked["configuration"] or settings.configuration
+    configuration = parse_configuration(wanted) if wanted else None
+    if asked["adapter"] and configuration and not configuration.adapter:
+        raise PlannerError(f"--{level}-adapter {asked['adapter']}: configuration {configuration.name} uses no adapter; leave one of them out")
+    adapter = None if configuration and not configuration.adapter else _adapter(level, candidate, asked["adapter"], vocabulary)
+    chosen = configuration or Configuration(adapter is not None, STRENGTHS[-1])
+    if chosen.adapter and adapter is None:
+        train = f"train one with `plannerft train --level {level} --candidate {candidate.name}`, name one with --{level}-adapter"
+        base = Configuration(False, chosen.strength).name
+        raise PlannerError(f"configuration {chosen.name}: {candidate.name} has no adapter of the {level} level here; {train}, or give --configuration {base}")
+    # A fine-tuned model has learned the vocabulary, and so has one that was pretrained on it.
+    with_vocabulary = not chosen.adapter and not candidate.knows(vocabulary)
+    quantization = settings.quantization or candidate.adapter_defaults(level).quantization or "nf4"
+    return Agent(level, candidate, chosen, adapter, quantization, with_vocabulary)
+
+
+def _adapter(level: Level, candidate: Candidate, asked: Path | str | None, vocabulary: Vocabulary) -> Path | None:
+    """The adapter of an agent, checked; None where none is asked for and none is there."""
+    adapter = Path(asked) if asked else find_adapter(candidate, level, vocabulary)
+    if adapter is not None:
+        check_adapter(adapter, candidate, level=level, vocabulary=vocabulary)
+    return adapter
