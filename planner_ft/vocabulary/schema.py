@@ -1,4 +1,4 @@
-"""JSON Schemas (Draft 2020-12) of plans, dataset records and manifests, derived from a vocabulary.
+"""JSON Schemas (Draft 2020-12) of plans, dataset records, planned commands and manifests, derived from a vocabulary.
 
 Key order in `properties` is the order in which plans are serialised. Alternatives are `anyOf` with inline `const`
 names, the form that grammar compilers for constrained decoding take.
@@ -93,11 +93,44 @@ def manifest_schema() -> Schema:
     }
 
 
+def planned_schema(vocabulary: Vocabulary) -> Schema:
+    """The schema of what `plannerft plan --json` prints: a command, its tasks with their skills, and what they cost."""
+    count: Schema = {"type": "integer", "minimum": 0}
+    seconds: Schema = {"type": "number", "minimum": 0}
+    problems = {"problems": TEXTS, "output": {"type": "string"}}
+    place = _object({"name": NON_BLANK, "tasks": {"type": "array", "items": {"type": "integer", "minimum": 1}, "minItems": 1}}, strict=True)
+    use = _object(
+        {
+            "candidate": NON_BLANK, "configuration": NON_BLANK, "adapter": {"type": ["string", "null"]}, "load_seconds": seconds,
+            "queries": count, "prompt_tokens": count, "tokens": count, "forward_passes": count, "seconds": seconds,
+        },
+        strict=True,
+    )  # fmt: skip
+    properties: dict[str, Schema] = {
+        "command": NON_BLANK, "valid": {"type": "boolean"}, "complete": {"type": "boolean"},
+        "tasks": {"type": "array", "items": {"anyOf": [_planned_task(task, problems) for task in vocabulary.tasks]}},
+        "assumptions": TEXTS, "constraints": TEXTS, "open_places": {"type": "array", "items": place},
+        "located": {"type": "object", "additionalProperties": POSITION}, **problems,
+        "usage": _object({"mission": use, "task": use}, strict=True, required=["mission"]), "peak_memory_bytes": count,
+        "manifest": {key: value for key, value in manifest_schema().items() if key != "$schema"},
+    }  # fmt: skip
+    schema = _object(properties, strict=True, required=[name for name in properties if name not in problems])
+    title = f"planned command of the {vocabulary.title}"
+    return {"$schema": DRAFT, "title": title, **schema, "$defs": {"step": _step(vocabulary, strict=True)}}
+
+
+def _planned_task(task: Task, problems: dict[str, Schema]) -> Schema:
+    sequence = {"anyOf": [{"type": "null"}, {"type": "array", "items": {"$ref": "#/$defs/step"}}]}
+    always = {"title": {"const": task.title}, "parameters": _parameters(task), "task_prompt": {"type": "string"}, "skill_sequence": sequence}
+    return _object({**always, "waits_for": NON_BLANK, "assumptions": TEXTS, **problems}, strict=True, required=list(always))
+
+
 def all_schemas(vocabulary: Vocabulary) -> dict[str, Schema]:
     """Every schema by file name."""
     plans = [(level, strict) for level in LEVELS for strict in (False, True)]
     schemas = {f"{level}.{'strict.' if strict else ''}schema.json": plan_schema(level, vocabulary, strict=strict) for level, strict in plans}
-    return {**schemas, "record.schema.json": record_schema(vocabulary), "manifest.schema.json": manifest_schema()}
+    others = {"record": record_schema(vocabulary), "planned": planned_schema(vocabulary), "manifest": manifest_schema()}
+    return {**schemas, **{f"{name}.schema.json": schema for name, schema in others.items()}}
 
 
 def write_schemas(folder: Path, vocabulary: Vocabulary) -> list[Path]:
