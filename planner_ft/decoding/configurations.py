@@ -7,9 +7,10 @@ from typing import Literal, get_args
 
 from planner_ft.support.errors import PlannerError
 
-Strength = Literal["free"]
+Strength = Literal["free", "schema", "state", "grounded"]
 STRENGTHS: tuple[Strength, ...] = get_args(Strength)
-"""free: greedy generation, nothing enforced: the published protocol."""
+"""From weak to strong, each with what the ones before it enforce. free: greedy generation, nothing enforced, the published
+protocol; schema: the strict schema; state: the logic of the plan; grounded: the facts of the command."""
 WEIGHTS = ("base", "lora")
 
 

@@ -48,8 +48,9 @@ class Constraint(Protocol):
 class ConstraintFactory(Protocol):
     """What one answer after the other is constrained with."""
 
-    least_tokens: int
-    """The smallest limit within which every answer ends."""
+    @property
+    def least_tokens(self) -> int:
+        """The smallest limit within which every answer ends."""
 
     def start(self, record: dict[str, Any], limit: int | None = None) -> Constraint:
         """The state before the first token of the answer to `record` ({"prompt", ...}), which always ends within `limit` tokens, its end token included.

@@ -1,0 +1,69 @@
+"""Which constraint belongs to a strength."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+from typing import Any
+
+from planner_ft.decoding.configurations import Strength
+from planner_ft.decoding.constraints import Constraint, ConstraintFactory
+from planner_ft.decoding.constraints.answer import Answer, Whole
+from planner_ft.decoding.constraints.budget import least_limit, reserve
+from planner_ft.decoding.constraints.grammar import SchemaValues, plan_grammar
+from planner_ft.decoding.constraints.tokens import Tokens, tokens_of
+from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import Level
+
+
+def constraint_factory(
+    tokenizer: Any, level: Level, vocabulary: Vocabulary, strength: Strength, *, end_ids: tuple[int, ...], limit: int, n_vocab: int | None = None
+) -> ConstraintFactory | None:
+    """What answers are constrained with; None at strength free.
+
+    `end_ids` are the tokens that may end an answer, `limit` the tokens that it may have, `n_vocab` the width of the
+    model's logits (None takes the tokenizer's size). Raises PlannerError for a limit within which an answer cannot be
+    guaranteed to end.
+    """
+    if strength == "free":
+        return None
+    factory = Factory(tokens_of(tokenizer, tuple(end_ids), n_vocab), level, vocabulary, strength, limit)
+    factory.check(limit)
+    return factory
+
+
+@dataclass(frozen=True, eq=False)
+class Factory:
+    """Starts constraints of one strength, over one tokenizer, for one level and vocabulary."""
+
+    tokens: Tokens
+    level: Level
+    vocabulary: Vocabulary
+    strength: Strength
+    limit: int
+
+    def __post_init__(self) -> None:
+        """Compile what does not depend on the record."""
+        self.tokens.compile(self._schema.opening())
+
+    @property
+    def least_tokens(self) -> int:
+        return least_limit(self.level, self.vocabulary)
+
+    def start(self, record: dict[str, Any], limit: int | None = None) -> Constraint:
+        limit = self.limit if limit is None else limit
+        self.check(limit)
+        return Answer(self.tokens, self._schema, limit, reserve(self.level, self.vocabulary))
+
+    @functools.cached_property
+    def _schema(self) -> Whole:
+        return Whole(plan_grammar(self.level, self.vocabulary, SchemaValues()))
+
+    def check(self, limit: int) -> None:
+        """Raise PlannerError for a limit within which an answer cannot be guaranteed to end."""
+        if limit < self.least_tokens:
+            raise PlannerError(
+                f"--max-new-tokens {limit}: at strength {self.strength} a {self.level} plan of this vocabulary needs room for {self.least_tokens} tokens; "
+                "give at least that, or a shorter prompt"
+            )

@@ -1,0 +1,183 @@
+"""Lark grammars of the two plan forms, put together from a vocabulary and from what its values may be.
+
+`Values` decides what a value may be; the strengths differ in nothing else. Key order, separators and the order of
+parameters are those of `completion_text`.
+"""
+
+from __future__ import annotations
+
+import functools
+from typing import Protocol
+
+from planner_ft.decoding.constraints import patterns
+from planner_ft.decoding.constraints.patterns import literal, regex
+from planner_ft.support.files import compact_json
+from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
+from planner_ft.vocabulary.definition import Role
+from planner_ft.vocabulary.plans import MISSION_KEYS, STEP_KEYS, Level
+
+MOST_TASKS, MOST_STEPS = 32, 128
+MOST_SKILLS = 16
+"""Filters, and perception skills, of one step."""
+MOST_TEXTS = 16
+"""Items of a list of texts: assumptions, target_list, stop_conditions."""
+MOST_CORNERS = 32
+LONGEST_TEXT = 200
+LONGEST_PROSE = 400
+"""Characters of a parameter, and of a task prompt, an assumption or a constraint. The longest labels have 55 and 181."""
+
+TASK_OPENS = '{"title":"'
+SKILL_OPENS = '{"name":"'
+STEP_TAIL = STEP_KEYS[3:]
+
+
+class Grammar:
+    """Rules and terminals under construction; the same body gets the same name."""
+
+    def __init__(self) -> None:
+        self._names: dict[str, str] = {}
+        self._lines: list[str] = []
+
+    def rule(self, body: str) -> str:
+        """The name of a rule with this body."""
+        return self._named(body, "r")
+
+    def terminal(self, body: str) -> str:
+        """The name of a terminal with this body: one lexeme, a regular expression without recursion."""
+        return self._named(body, "T")
+
+    def text(self, start: str) -> str:
+        """The whole grammar; `start` is the body of its first rule."""
+        return "\n".join([f"start: {start}", *self._lines])
+
+    def _named(self, body: str, prefix: str) -> str:
+        name = self._names.get(body)
+        if name is None:
+            name = self._names[body] = f"{prefix}{len(self._names)}"
+            self._lines.append(f"{name}: {body}")
+        return name
+
+
+class Values(Protocol):
+    """What may be written as a value."""
+
+    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, *, identified: bool) -> str | None:
+        """The symbol of a parameter's value; None where there is nothing to write. `identified`: an id of the same owner was written."""
+
+    def prose(self, grammar: Grammar) -> str:
+        """The symbol of a task prompt, an assumption or a constraint."""
+
+    def step_texts(self, grammar: Grammar, key: str) -> str:
+        """The symbol of a step's stop_conditions, failure_modes or expected_outputs."""
+
+
+class SchemaValues:
+    """Every value that the strict schema allows, up to the bounds above."""
+
+    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, *, identified: bool) -> str | None:
+        kind = parameter.type
+        if kind in ("number", "integer"):
+            return grammar.terminal(regex(patterns.number_range(parameter.minimum, parameter.maximum, whole=kind == "integer")))
+        if kind == "position":
+            return grammar.terminal(regex(patterns.ANY_POSITION))
+        if kind == "polygon":
+            return corners(grammar, grammar.terminal(regex(patterns.ANY_POSITION)))
+        text = grammar.terminal(patterns.string(LONGEST_TEXT, blank=False))
+        if kind == "id":
+            return grammar.rule(f"{text} | {grammar.terminal(regex(patterns.ANY_INTEGER))}")
+        return items(grammar, text, MOST_TEXTS) if kind == "texts" else text
+
+    def prose(self, grammar: Grammar) -> str:
+        return grammar.terminal(patterns.string(LONGEST_PROSE, blank=True))
+
+    def step_texts(self, grammar: Grammar, key: str) -> str:
+        return items(grammar, self.prose(grammar), MOST_TEXTS)
+
+
+def plan_grammar(level: Level, vocabulary: Vocabulary, values: Values) -> str:
+    """The grammar of a whole plan."""
+    grammar = Grammar()
+    if level == "mission":
+        task = grammar.rule(f"{literal(TASK_OPENS)} ({' | '.join(filter(None, (task_body(grammar, task, values) for task in vocabulary.tasks)))})")
+        return grammar.text(f"{literal(mission_opens())} {_some(task, MOST_TASKS)} {mission_closes(grammar, values)}")
+    step = _step(grammar, vocabulary, values)
+    return grammar.text(f"{literal('{' + key('skill_sequence') + '[')} {_some(step, MOST_STEPS)} {literal(']}')}")
+
+
+def mission_opens() -> str:
+    """The text before the first task of a mission plan."""
+    return "{" + key(MISSION_KEYS[0]) + "["
+
+
+def mission_closes(grammar: Grammar, values: Values) -> str:
+    """The expression behind the last task of a mission plan."""
+    texts = items(grammar, values.prose(grammar), MOST_TEXTS)
+    assumptions, constraints = (key(name) for name in MISSION_KEYS[1:])
+    return f"{literal('],' + assumptions)} {texts} {literal(',' + constraints)} {texts} {literal('}')}"
+
+
+def task_body(grammar: Grammar, task: Task, values: Values) -> str | None:
+    """The rule of a task behind `{"title":"`, up to its closing brace; None where a required parameter has no value."""
+    parameters = _parameters(grammar, task, values)
+    if parameters is None:
+        return None
+    opens = literal(f'{patterns.quoted(task.title)}",{key("parameters")}{{')
+    return grammar.rule(f"{opens} {parameters} {literal(',' + key('task_prompt'))} {values.prose(grammar)} {literal('}')}")
+
+
+def key(name: str) -> str:
+    """A key with its colon."""
+    return compact_json(name) + ":"
+
+
+def items(grammar: Grammar, item: str | None, most: int) -> str:
+    """The rule of a list of at most `most` items; an empty one where there is no item."""
+    return grammar.rule(f'"[" {_some(item, most)} "]"' if item else literal("[]"))
+
+
+def corners(grammar: Grammar, position: str) -> str:
+    """The rule of a polygon."""
+    return grammar.rule(f'"[" {position} ("," {position}){{2,{MOST_CORNERS - 1}}} "]"')
+
+
+def _some(item: str, most: int) -> str:
+    return f'({item} ("," {item}){{0,{most - 1}}})?'
+
+
+def _step(grammar: Grammar, vocabulary: Vocabulary, values: Values) -> str:
+    navigation = _skills(grammar, vocabulary, "navigation", values)
+    others = [_skills(grammar, vocabulary, role, values) for role in ("filter", "perception")]
+    lists = [f"{literal(',' + key(name))} {items(grammar, skill, MOST_SKILLS)}" for name, skill in zip(STEP_KEYS[1:3], others, strict=True)]
+    lists += [f"{literal(',' + key(name))} {values.step_texts(grammar, name)}" for name in STEP_TAIL]
+    return grammar.rule(f"{literal('{' + key(STEP_KEYS[0]))} {navigation} {' '.join(lists)} {literal('}')}")
+
+
+def _skills(grammar: Grammar, vocabulary: Vocabulary, role: Role, values: Values) -> str | None:
+    """The rule of a skill of this role; None where the vocabulary has none that can be written."""
+    options = []
+    for skill in vocabulary.skills_in_role(role):
+        parameters = _parameters(grammar, skill, values)
+        if parameters is not None:
+            opens = literal(f'{patterns.quoted(skill.name)}",{key("parameters")}{{')
+            options.append(f"{opens} {parameters} {literal('}')}")
+    return grammar.rule(f"{literal(SKILL_OPENS)} ({' | '.join(options)})") if options else None
+
+
+def _parameters(grammar: Grammar, owner: Task | Skill, values: Values) -> str | None:
+    """The rule of an owner's parameters behind their opening brace, up to the closing one; None when none can be written."""
+
+    @functools.cache
+    def rest(index: int, comma: bool, satisfied: bool, identified: bool) -> str | None:
+        if index == len(owner.parameters):
+            return literal("}") if satisfied else None
+        parameter, options = owner.parameters[index], []
+        value = values.parameter(grammar, parameter, owner, identified=identified)
+        if value is not None:
+            behind = rest(index + 1, True, satisfied or parameter.name in owner.require_any, identified or parameter.type == "id")
+            options += [f"{literal(',' * comma + key(parameter.name))} {value} {behind}"] if behind else []
+        if not parameter.required:
+            behind = rest(index + 1, comma, satisfied, identified)
+            options += [behind] if behind else []
+        return grammar.rule(" | ".join(options)) if options else None
+
+    return rest(0, False, not owner.require_any, False)

@@ -1,0 +1,118 @@
+"""A tokenizer as the grammar engine sees it: tokens as bytes, ends of an answer, and masks of tokens as bits."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from planner_ft.decoding.constraints import Mask
+from planner_ft.support.errors import PlannerError
+
+if TYPE_CHECKING:
+    from llguidance import LLMatcher, LLTokenizer
+
+GRAMMARS = 256
+"""Compiled grammars that are kept per tokenizer: the states of a plan come again with every command."""
+
+CONTEXT = 8
+"""Tokens before a forced text that it is spelt with at first; the whole answer where they do not suffice."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tokens:
+    """Tokens of a tokenizer. `n_vocab` is the width of the model's logits, which can be padded; `end_ids` end an answer."""
+
+    engine: LLTokenizer
+    n_vocab: int
+    end_ids: tuple[int, ...]
+
+    @functools.cached_property
+    def ends(self) -> Mask:
+        """The end tokens alone."""
+        return self.mask_of(self.end_ids)
+
+    @functools.cached_property
+    def byte(self) -> dict[str, int | None]:
+        """The tokens that are a single closing sign, or a comma; None where the tokenizer has none."""
+        single = {}
+        for sign in '"]},':
+            ids = self.engine.greedy_tokenize(sign)
+            single[sign] = ids[0] if len(ids) == 1 else None
+        return single
+
+    def mask_of(self, ids: tuple[int, ...]) -> Mask:
+        """The mask that allows these tokens and no others."""
+        words = np.zeros(-(-self.n_vocab // 32), dtype=np.uint32)
+        for token in ids:
+            words[token // 32] |= np.uint32(1 << token % 32)
+        return words.view(np.int32)
+
+    def new_mask(self) -> Mask:
+        """A mask that allows nothing."""
+        return np.zeros(-(-self.n_vocab // 32), dtype=np.int32)
+
+    def bytes_of(self, token: int) -> bytes:
+        """What a token adds to the answer."""
+        return bytes(self.engine.decode_bytes([token]))
+
+    def spelt(self, before: list[int], matcher: LLMatcher) -> list[int]:
+        """The tokens that the text which must follow is spelt with behind the tokens `before`; what may still grow is left out.
+
+        The engine spells it as if it stood alone. A tokenizer that joins `,"sp` and `eed":` would be given tokens there
+        that no training text has. Empty where `before` itself is not spelt as the tokenizer would.
+        """
+        certain = len(self.engine.decode_bytes(matcher.compute_ff_tokens()))
+        if not certain:
+            return []
+        text = matcher.compute_ff_bytes()
+        for context in (before[-CONTEXT:], before):
+            ids = self.engine.tokenize_bytes(self.engine.decode_bytes(context) + text)
+            if ids[: len(context)] == context:
+                return self._within(ids[len(context) :], certain)
+        return []
+
+    def _within(self, ids: list[int], length: int) -> list[int]:
+        """The leading tokens that take no more than `length` bytes."""
+        for count, token in enumerate(ids):
+            length -= len(self.bytes_of(token))
+            if length < 0:
+                return ids[:count]
+        return ids
+
+    def compile(self, grammar: str) -> LLMatcher:
+        """A matcher at the beginning of a grammar."""
+        return self._compiled(grammar).deep_copy()
+
+    @functools.cached_property
+    def _compiled(self) -> Callable[[str], LLMatcher]:
+        return functools.lru_cache(maxsize=GRAMMARS)(functools.partial(_compile, self.engine))
+
+
+def allows(mask: Mask, token: int | None) -> bool:
+    """Whether a mask allows a token."""
+    return token is not None and bool((int(mask[token // 32]) >> token % 32) & 1)
+
+
+@functools.lru_cache(maxsize=4)
+def tokens_of(tokenizer: Any, end_ids: tuple[int, ...], n_vocab: int | None = None) -> Tokens:
+    """The tokens of a Hugging Face tokenizer; seconds for a large vocabulary, so the result is kept. Raises PlannerError for a slow one."""
+    from llguidance.hf import from_tokenizer
+
+    width = max(n_vocab or 0, len(tokenizer))
+    try:
+        return Tokens(from_tokenizer(tokenizer, n_vocab=width, eos_token=list(end_ids)), width, end_ids)
+    except ValueError as error:
+        raise PlannerError(f"the tokenizer cannot be constrained ({error}); decode at strength free, or give a candidate with tokenizer.json") from error
+
+
+def _compile(engine: LLTokenizer, grammar: str) -> LLMatcher:
+    from llguidance import LLMatcher
+
+    matcher = LLMatcher(engine, grammar)
+    if matcher.is_error():
+        raise ValueError(f"the grammar does not compile: {matcher.get_error()}")
+    return matcher
