@@ -206,12 +206,34 @@ def _slot_words(draw: Draw, template: Template, slot: Slot, seen: dict[str, str]
         key = f"{name} {slot.mode}"
         if key not in seen:
             seen[key] = _value_words(rng, slot, draw.values[name], before)
+            if _may_be_bare(parts, index, seen) and rng.random() < BARE_SHARE:
+                seen[key] = METRES.sub("", seen[key])
         return seen[key]
     if slot.base == "P":
         if name not in seen:
             seen[name] = say_position(draw.targets[name].position or (0, 0), rng, draw.style)
         return seen[name]
     return spoken_identity(draw.targets[name]) if slot.base == "ID" else draw.texts[name]
+
+
+def _may_be_bare(parts: list[str | Slot], index: int, told: dict[str, str]) -> bool:
+    """Whether a number is one of "80 by 50", which people often say without units: the first, or the second after a bare first."""
+    if _is_size(parts, index) and parts[index + 1 : index + 2] in JOINTS and _is_size(parts, index + 2):
+        return True
+    if not (_is_size(parts, index - 2) and parts[index - 1 : index] in JOINTS and _is_size(parts, index)):
+        return False
+    first = parts[index - 2]
+    return isinstance(first, Slot) and METRES.search(told[f"{first.name} "]) is None
+
+
+def _is_size(parts: list[str | Slot], index: int) -> bool:
+    part = parts[index] if 0 <= index < len(parts) else ""
+    return isinstance(part, Slot) and part.base in ("width", "length") and not part.mode and not part.wrong
+
+
+JOINTS = ([" by "], [" x "], ["x"], [" times "])
+BARE_SHARE = 0.55
+METRES = re.compile(r"\s*(?:m|met(?:re|er)s?)$")
 
 
 def _value_words(rng: Random, slot: Slot, said: Said, before: str) -> str:
