@@ -20,7 +20,7 @@ from planner_ft.data.mission.synthetic.surface import Register, finished
 
 Record = dict[str, Any]
 
-TEMPLATE_SHARE = 0.6
+TEMPLATE_SHARE = 0.7
 """Share of samples drawn from commands written by hand; the others are composed of phrases."""
 EMPTY_SHARE = 0.07
 """Share of composed samples that lead to no task; some of the written ones do too."""
