@@ -32,4 +32,4 @@ def test_a_greeting_stands_once():
 def test_more_than_half_of_the_samples_are_written_commands():
     families = [record["family"] for record in sample_missions(9, 1500)]
     written = sum(family.startswith("synthetic-command-") for family in families)
-    assert 0.55 < written / len(families) < 0.65
+    assert 0.65 < written / len(families) < 0.75
