@@ -94,7 +94,7 @@ def _matching(name: str, places: Sequence[OpenPlace]) -> OpenPlace:
         return found[0]
     names = ", ".join(f'"{place.name}"' for place in found or places)
     if not places:
-        raise PlannerError(f"--locate {name}: this plan leaves no place open; leave it out")
+        raise PlannerError(f"--locate {name}: the plan of this command leaves no place open; plan without it to see")
     raise PlannerError(f"--locate {name}: {'fits several places' if found else 'no such place is open'}; there is {names}")
 
 
