@@ -98,17 +98,25 @@ def download_command(candidate: Candidate) -> str | None:
 def load_tokenizer(candidate: Candidate) -> PreTrainedTokenizerBase:
     """The candidate's tokenizer, with a padding token and padding on the left, as batched generation needs it."""
     folder = require_folder(candidate)
-    from transformers import AutoTokenizer
-
     try:
-        tokenizer = AutoTokenizer.from_pretrained(str(folder), local_files_only=True, trust_remote_code=False)
+        tokenizer = _tokenizer_class(folder).from_pretrained(str(folder), local_files_only=True, trust_remote_code=False)
     except Exception as error:  # the tokenizers library raises bare Exception for a corrupt tokenizer.json
         raise PlannerError(f"{folder}: the tokenizer cannot be loaded ({_one_line(error)}); download its files again") from error
     if tokenizer.pad_token is None:
         vocabulary = tokenizer.get_vocab()
         tokenizer.pad_token = next((token for token in PAD_TOKENS if token in vocabulary), tokenizer.eos_token)
     tokenizer.padding_side = "left"
+    # It warns of prompts that the model cannot hold. We count them ourselves, and say it in one sentence.
+    tokenizer.deprecation_warnings["sequence-length-is-longer-than-the-specified-maximum"] = True
     return tokenizer
+
+
+def _tokenizer_class(folder: Path) -> Any:
+    """The class that a tokenizer names itself, else the one that finds out. Finding out imports what a model needs, for more than a second."""
+    import transformers
+
+    named = read_config(folder, "tokenizer_config.json").get("tokenizer_class")
+    return transformers.TokenizersBackend if named == "TokenizersBackend" else transformers.AutoTokenizer
 
 
 def load_model(
