@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner_ft.data.mission.synthetic import sample_missions
+from planner_ft.data.task.handed_down import handed_down_tasks
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.prompts.render import render_sample
 from planner_ft.prompts.text import completion_text, user_text
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
     from transformers import PreTrainedTokenizerBase
 
 IGNORE = -100
+HANDED_DOWN, HANDED_DOWN_SEED = 0.1, 50_000_000
+"""Share of the task inputs that come from missions, and what keeps those missions apart from the mission samples."""
 WIDTH_STEP = 32
 """Batches are this many positions wide, or a multiple."""
 Sample = tuple[NDArray[np.int64], int]
@@ -45,14 +48,15 @@ class Rows:
 
 
 def stream(vocabulary: Vocabulary, seed: int, mission_share: float) -> Iterator[tuple[Level, dict[str, Any]]]:
-    """Endless mixed samples of both levels."""
+    """Endless mixed samples of both levels; some of the task inputs are those that a Mission Agent hands down."""
     missions, tasks = sample_missions(seed), sample_tasks(vocabulary, seed, None, "train")
+    handed_down = handed_down_tasks(vocabulary, seed + HANDED_DOWN_SEED)
     draw = np.random.default_rng(seed)
     while True:
         if draw.random() < mission_share:
             yield "mission", next(missions)
         else:
-            yield "task", next(tasks)
+            yield "task", next(handed_down if draw.random() < HANDED_DOWN else tasks)
 
 
 def tokenizer_texts(vocabulary: Vocabulary, seed: int, count: int, mission_share: float) -> Iterator[str]:

@@ -14,7 +14,7 @@ from planner_ft.data.mission.synthetic.commands_text import joined, target_words
 from planner_ft.data.mission.synthetic.commands_values import arc_phrase, data_item, draw_look_alikes, draw_target, draw_value, feature, interval_words, near
 from planner_ft.data.mission.synthetic.intents import Target
 from planner_ft.data.mission.synthetic.mentions import spoken_identity
-from planner_ft.data.mission.synthetic.numbers import Said, Style
+from planner_ft.data.mission.synthetic.numbers import Said, Style, quantity
 from planner_ft.data.mission.synthetic.positions import draw_position, position_words, say_position
 
 LOCATED_SHARE = 0.5
@@ -57,6 +57,7 @@ def _draw_slots(draw: Draw, template: Template, lines: tuple[Line, ...], slots: 
         elif slot.base != "+":
             draw.texts[slot.name] = _new_text(draw, slot, parts)
     _room_for_readings(draw, lines, slots, owner)
+    _lanes_that_fit(draw, lines, slots)
     for slot in slots:
         if slot.wrong:
             draw.wrong[slot.name] = _wrong_words(draw, template, slot, owner.get(slot.name, ""), parts)
@@ -87,6 +88,22 @@ def _room_for_readings(draw: Draw, lines: tuple[Line, ...], slots: list[Slot], o
             if 2 * value["interval"] <= value["duration"]:
                 break
             draw.values |= {slot.name: _new_value(draw, slot, slots, owner) for slot in both}
+
+
+def _lanes_that_fit(draw: Draw, lines: tuple[Line, ...], slots: list[Slot]) -> None:
+    """Mostly a line spacing that divides the width of the grid, as people choose it."""
+    for line in lines:
+        size = {slot.base: slot.name for slot in slots if slot.base in ("width", "spacing") and slot.name in line.slots and not slot.wrong}
+        if line.title != "BathymetryGridSurvey" or len(size) < 2 or draw.rng.random() > FITTING_SHARE:
+            continue
+        width = draw.values[size["width"]].value
+        fitting = [step for step in range(2, 31) if isinstance(width, int) and width % step == 0 and width // step <= 12]
+        if fitting and not any(slot.name == size["spacing"] and slot.mode for slot in slots):
+            step = draw.rng.choice(fitting)
+            draw.values[size["spacing"]] = quantity(step, "metre", step, draw.rng, draw.style)
+
+
+FITTING_SHARE = 0.6
 
 
 def _number(slot: Slot) -> int:

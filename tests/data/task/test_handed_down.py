@@ -1,0 +1,53 @@
+"""Task inputs as the Mission Agent hands them down."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+
+import pytest
+
+from planner_ft.data.task.handed_down import handed_down, handed_down_tasks
+from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.plans import plan_problems
+
+VOCABULARY = load_vocabulary()
+
+
+def steps(title: str, parameters: dict, prompt: str = "Do it.", subject: str | None = None, place: tuple[int, int] = (10, 20)) -> list[tuple[str, dict]] | None:
+    record = handed_down({"title": title, "parameters": parameters, "task_prompt": prompt}, subject, list(place), VOCABULARY)
+    return record and [(step["navigation_skill"]["name"], step["navigation_skill"]["parameters"]) for step in record["expected"]["skill_sequence"]]
+
+
+def test_records_are_valid_and_the_same_for_the_same_seed() -> None:
+    first, again = (list(itertools.islice(handed_down_tasks(VOCABULARY, 4), 200)) for _ in range(2))
+    assert first == again and len({record["task"] for record in first}) > 12
+    assert all(plan_problems("task", record["expected"], VOCABULARY, strict=True) == [] for record in first)
+    assert all([-99, -99] not in record["parameters"].values() for record in first)
+
+
+def test_an_open_place_is_filled_in_and_a_found_boat_is_kept_in_the_picture() -> None:
+    assert steps("Transit", {"target_position": [-99, -99]}) == [("GoToXY", {"x": 10, "y": 20})]
+    assert steps("FollowTarget", {"target_position": [-99, -99]}, subject="red kayak") == [
+        ("GoToXY", {"x": 10, "y": 20}),
+        ("VisualStationKeep", {"target_id": "red kayak"}),
+    ]
+
+
+def test_a_survey_is_eight_waypoints_from_the_middle_of_the_east_side() -> None:
+    found = steps("SurveyTarget", {"target_position": [0, 0], "radius": 10})
+    assert found is not None and len(found) == 8
+    assert [tuple(values.values()) for _name, values in found[:3]] == [(10, 0), (10, 10), (0, 10)]
+
+
+def test_a_grid_of_20_by_20_at_5_metres_has_ten_waypoints_and_without_spacing_none() -> None:
+    size = {"center": [0, 0], "width": 20, "length": 20}
+    found = steps("BathymetryGridSurvey", {**size, "spacing": 5})
+    assert found is not None and len(found) == 10 and found[0] == ("GoToXY", {"x": -10, "y": -10})
+    assert steps("BathymetryGridSurvey", size) is None
+
+
+def test_another_vehicle_has_no_such_tasks(tmp_path: Path) -> None:
+    with pytest.raises(PlannerError, match="inspection_drone"):
+        next(handed_down_tasks(load_vocabulary("inspection_drone"), 0))
