@@ -10,10 +10,11 @@ splits share no sample even when numbers and names are masked; a template belong
 
 from __future__ import annotations
 
+import functools
 import itertools
 import random
 import zlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any, Literal, get_args
 
 from planner_ft.data.task import phrasing, sequences
@@ -22,9 +23,9 @@ from planner_ft.data.task.noise import noisy
 from planner_ft.data.task.outline import outline
 from planner_ft.data.task.phrasebook import Phrasebook
 from planner_ft.data.task.phrasing import Script, Speaker, pick_weighted
-from planner_ft.data.task.prompts.binding import Bound
 from planner_ft.data.task.prompts.draw import draw_template, pick
-from planner_ft.data.task.prompts.library import bound_lines, normal
+from planner_ft.data.task.prompts.library import bound_lines, normal, parsed
+from planner_ft.data.task.prompts.wordings import mask_key, wordings
 from planner_ft.data.task.script import draw_script
 from planner_ft.data.task.steps import expected_plan
 from planner_ft.data.task.template import close_gaps, plain, skeleton
@@ -39,7 +40,8 @@ Split = Literal["train", "validation", "test", "test_unseen"]
 SPLITS: tuple[Split, ...] = get_args(Split)
 
 LONGEST = 24  # steps; longer answers are drawn anew
-TEMPLATES = 0.5  # share of the draws that come from a whole-prompt template
+TRIES = 300  # draws from templates before the sample is drawn as a script instead
+TEMPLATES = 0.5  # share of the samples that come from a whole-prompt template
 HELD_OUT = 6  # percent of the skeletons that belong to validation, and as many to test
 
 
@@ -53,18 +55,19 @@ def sample_tasks(vocabulary: Vocabulary, seed: int, count: int | None, split: Sp
         raise PlannerError(f"split {split}: must be {', '.join(SPLITS)}")
     rng = random.Random(f"{vocabulary.name}:{seed}:{split}")
     book = Phrasebook(vocabulary, unseen=split == "test_unseen")
-    templates = templates_of(book, split)
+    draws = Draws(book, rng, split)
     seen: set[int] = set()
     misses = 0
     numbers = itertools.count() if count is None else range(count)
     for number in numbers:
+        from_template = bool(draws.templates) and rng.random() < TEMPLATES
+        tries = 0
         while True:
-            from_template = templates and rng.random() < TEMPLATES
-            drawn = draw_from_template(templates, book, rng, split) if from_template else draw_sample(book, rng, split)
+            drawn = draws.from_template() if from_template and tries < TRIES else draws.from_script()
             key = hash_of(drawn["task"], drawn["parameters"], drawn["prompt"]) if drawn else 0
             if drawn and key not in seen:
                 break
-            misses += 1
+            tries, misses = tries + 1, misses + 1
             if misses > 2000 + 200 * (number + 1):
                 raise PlannerError(f"vocabulary {vocabulary.name}: split {split} has fewer than {count} different samples; ask for fewer or add phrases")
         seen.add(key)
@@ -83,23 +86,63 @@ def split_of(text: str) -> Split:
     return "test" if bucket < HELD_OUT else "validation" if bucket < 2 * HELD_OUT else "train"
 
 
-def templates_of(book: Phrasebook, split: Split) -> list[tuple[Bound, ...]]:
-    """The whole-prompt templates of this split; none for test_unseen."""
-    return [bound for source, bound in bound_lines(book) if split_of(normal(source)) == split] if split != "test_unseen" else []
+@functools.cache
+def held_out_wordings() -> dict[str, Split]:
+    """The masked wordings of the whole-prompt templates of validation and test, and whose they are."""
+    splits = ((line, split_of(normal(line.source))) for line in parsed())
+    return {key: split for line, split in splits if split != "train" for key in wordings(line)}
 
 
-def draw_from_template(templates: Sequence[Sequence[Bound]], book: Phrasebook, rng: random.Random, split: Split) -> dict[str, Any] | None:
-    """One record without id from a whole-prompt template, or None when the draw came to nothing or belongs to another split."""
-    bound = pick(templates, rng)
-    context = Context(book, bound.task, rng)
-    drawn = draw_template(bound, context)
-    if drawn is None or len(drawn[1]["skill_sequence"]) > LONGEST:
-        return None
-    text, expected, skills = drawn
-    text = close_gaps(aside(Speaker(rng, book), text, skills, context))
-    if split_of(f"{bound.task.title} {skeleton(text)}") != split:
-        return None
-    return record(f"template/{len(expected['skill_sequence'])}", context, plain(noisy(text, rng)), expected)
+class Draws:
+    """Single draws for one split, from scripts and from whole-prompt templates; None when one came to nothing or belongs to another split."""
+
+    def __init__(self, book: Phrasebook, rng: random.Random, split: Split) -> None:
+        self.book, self.rng, self.split = book, rng, split
+        self.unseen = split == "test_unseen"
+        self.templates = [] if self.unseen else [bounds for source, bounds in bound_lines(book) if split_of(normal(source)) == split]
+
+    def from_template(self) -> dict[str, Any] | None:
+        """One record without id from a whole-prompt template."""
+        bound = pick(self.templates, self.rng)
+        context = Context(self.book, bound.task, self.rng)
+        drawn = draw_template(bound, context)
+        if drawn is None or len(drawn[1]["skill_sequence"]) > LONGEST:
+            return None
+        text, expected, skills = drawn
+        said = close_gaps(aside(Speaker(self.rng, self.book), text, skills, context))
+        # A template of a held-out split is that split's in all its wordings; its masked wordings are kept out of the others.
+        whose = split_of(f"{bound.task.title} {skeleton(said)}")
+        if whose not in ("train", self.split) or not self._may_hold(text):
+            return None
+        return record(f"template/{len(expected['skill_sequence'])}", context, plain(noisy(said, self.rng)), expected)
+
+    def from_script(self) -> dict[str, Any] | None:
+        """One record without id from a script."""
+        book, rng = self.book, self.rng
+        tasks = book.vocabulary.tasks
+        context = Context(book, tasks[int(rng.random() * len(tasks))], rng)
+        script = draw_script(context)
+        if script is None or sum(len(movement.steps) for movement in script.movements) > LONGEST:
+            return None
+        say = Speaker(rng, book)
+        frame, text = say_it(say, script, context)
+        said = close_gaps(aside(say, text, said_skills(script), context))
+        if not self.unseen and (split_of(f"{context.task.title} {skeleton(said)}") != self.split or not self._may_hold(text)):
+            return None
+        prompt = plain(said if self.unseen else noisy(said, rng))
+        family = f"{'unseen-' if self.unseen else ''}{frame}/{script.movements[0].kind}{len(script.movements)}"
+        return record(family, context, prompt, expected_plan(script, book.vocabulary))
+
+    def _may_hold(self, text: str) -> bool:
+        """Whether no held-out template of another split has this wording."""
+        return held_out_wordings().get(mask_key(skeleton(text)), self.split) == self.split
+
+
+def said_skills(script: Script) -> set[str]:
+    """The filters and perception skills of the script."""
+    groups = [script.filters, script.perceptions, [scoped.call for scoped in script.scoped]]
+    groups += [calls for movement in script.movements for calls in (movement.filters, movement.perceptions)]
+    return {call.skill for calls in groups for call in calls if call.skill}
 
 
 def record(family: str, context: Context, prompt: str, expected: dict[str, Any]) -> dict[str, Any]:
@@ -110,27 +153,6 @@ def record(family: str, context: Context, prompt: str, expected: dict[str, Any])
         raise PlannerError(f"vocabulary {vocabulary.name}: a sample of {context.task.title} is not valid ({problems[0]}); correct the phrase file's ranges")
     parameters = canonical_parameters(context.parameters(), context.task)
     return {"family": family, "task": context.task.title, "parameters": parameters, "prompt": prompt, "expected": expected}
-
-
-def draw_sample(book: Phrasebook, rng: random.Random, split: Split) -> dict[str, Any] | None:
-    """One record without id, or None when the draw came to nothing or belongs to another split."""
-    tasks = book.vocabulary.tasks
-    task = tasks[int(rng.random() * len(tasks))]
-    context = Context(book, task, rng)
-    script = draw_script(context)
-    if script is None or sum(len(movement.steps) for movement in script.movements) > LONGEST:
-        return None
-    say = Speaker(rng, book)
-    frame, text = say_it(say, script, context)
-    groups = [script.filters, script.perceptions, [scoped.call for scoped in script.scoped]]
-    groups += [calls for movement in script.movements for calls in (movement.filters, movement.perceptions)]
-    said = {call.skill for calls in groups for call in calls}
-    text = close_gaps(aside(say, text, {name for name in said if name}, context))
-    if split != "test_unseen" and split_of(f"{task.title} {skeleton(text)}") != split:
-        return None
-    prompt = plain(noisy(text, rng)) if split != "test_unseen" else plain(text)
-    family = f"{'unseen-' if split == 'test_unseen' else ''}{frame}/{script.movements[0].kind}{len(script.movements)}"
-    return record(family, context, prompt, expected_plan(script, book.vocabulary))
 
 
 def say_it(say: Speaker, script: Script, context: Context) -> tuple[str, str]:
