@@ -8,9 +8,10 @@ from typing import Any
 
 from planner_ft.decoding.configurations import Strength
 from planner_ft.decoding.constraints import Constraint, ConstraintFactory
-from planner_ft.decoding.constraints.answer import Answer, Whole
+from planner_ft.decoding.constraints.answer import Answer, Script, Whole
 from planner_ft.decoding.constraints.budget import least_limit, reserve
 from planner_ft.decoding.constraints.grammar import SchemaValues, plan_grammar
+from planner_ft.decoding.constraints.state import MissionScript, ResolvedValues, names_unresolved
 from planner_ft.decoding.constraints.tokens import Tokens, tokens_of
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
@@ -54,11 +55,7 @@ class Factory:
     def start(self, record: dict[str, Any], limit: int | None = None) -> Constraint:
         limit = self.limit if limit is None else limit
         self.check(limit)
-        return Answer(self.tokens, self._schema, limit, reserve(self.level, self.vocabulary))
-
-    @functools.cached_property
-    def _schema(self) -> Whole:
-        return Whole(plan_grammar(self.level, self.vocabulary, SchemaValues()))
+        return Answer(self.tokens, self._script(record), limit, self._reserve)
 
     def check(self, limit: int) -> None:
         """Raise PlannerError for a limit within which an answer cannot be guaranteed to end."""
@@ -67,3 +64,22 @@ class Factory:
                 f"--max-new-tokens {limit}: at strength {self.strength} a {self.level} plan of this vocabulary needs room for {self.least_tokens} tokens; "
                 "give at least that, or a shorter prompt"
             )
+
+    @functools.cached_property
+    def _reserve(self) -> int:
+        return reserve(self.level, self.vocabulary)
+
+    def _script(self, record: dict[str, Any]) -> Script:
+        if self.strength == "schema" or (self.level == "task" and names_unresolved(record, self.vocabulary)):
+            return self._schema
+        return self._logic
+
+    @functools.cached_property
+    def _schema(self) -> Script:
+        return Whole(plan_grammar(self.level, self.vocabulary, SchemaValues()))
+
+    @functools.cached_property
+    def _logic(self) -> Script:
+        if self.level == "mission":
+            return MissionScript(self.vocabulary, SchemaValues())
+        return Whole(plan_grammar(self.level, self.vocabulary, ResolvedValues(SchemaValues(), self.vocabulary)))

@@ -7,6 +7,7 @@ parameters are those of `completion_text`.
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterable, Sequence
 from typing import Protocol
 
 from planner_ft.decoding.constraints import patterns
@@ -14,7 +15,7 @@ from planner_ft.decoding.constraints.patterns import literal, regex
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.definition import Role
-from planner_ft.vocabulary.plans import MISSION_KEYS, STEP_KEYS, Level
+from planner_ft.vocabulary.plans import MISSION_KEYS, STEP_KEYS, Level, canonical_value
 
 MOST_TASKS, MOST_STEPS = 32, 128
 MOST_SKILLS = 16
@@ -25,6 +26,8 @@ MOST_CORNERS = 32
 LONGEST_TEXT = 200
 LONGEST_PROSE = 400
 """Characters of a parameter, and of a task prompt, an assumption or a constraint. The longest labels have 55 and 181."""
+
+Positions = Sequence[Sequence[float]]
 
 TASK_OPENS = '{"title":"'
 SKILL_OPENS = '{"name":"'
@@ -58,11 +61,28 @@ class Grammar:
         return name
 
 
-class Values(Protocol):
-    """What may be written as a value."""
+Context = frozenset[str]
+"""What was written for the same owner that later parameters depend on."""
+IDENTIFIED: Context = frozenset({"id"})
 
-    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, *, identified: bool) -> str | None:
-        """The symbol of a parameter's value; None where there is nothing to write. `identified`: an id of the same owner was written."""
+
+class Values(Protocol):
+    """What may be written as a value. A symbol is None where there is nothing to write."""
+
+    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
+        """The symbols of a parameter's value, each with the context behind it."""
+
+    def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
+        """Whether a parameter must be written."""
+
+    def position(self, grammar: Grammar, without: Positions) -> str | None:
+        """The symbol of a position, none of `without`."""
+
+    def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str | None:
+        """The symbol of a parameter's number, none of `without`."""
+
+    def text(self, grammar: Grammar, without: Sequence[str]) -> str | None:
+        """The symbol of a parameter's text, none of `without`."""
 
     def prose(self, grammar: Grammar) -> str:
         """The symbol of a task prompt, an assumption or a constraint."""
@@ -74,18 +94,30 @@ class Values(Protocol):
 class SchemaValues:
     """Every value that the strict schema allows, up to the bounds above."""
 
-    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, *, identified: bool) -> str | None:
+    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
         kind = parameter.type
         if kind in ("number", "integer"):
-            return grammar.terminal(regex(patterns.number_range(parameter.minimum, parameter.maximum, whole=kind == "integer")))
-        if kind == "position":
-            return grammar.terminal(regex(patterns.ANY_POSITION))
-        if kind == "polygon":
-            return corners(grammar, grammar.terminal(regex(patterns.ANY_POSITION)))
-        text = grammar.terminal(patterns.string(LONGEST_TEXT, blank=False))
+            return [(self.number(grammar, parameter, ()), context)]
+        if kind in ("position", "polygon"):
+            position = self.position(grammar, ())
+            return [(corners(grammar, position) if kind == "polygon" else position, context)]
+        text = self.text(grammar, ())
         if kind == "id":
-            return grammar.rule(f"{text} | {grammar.terminal(regex(patterns.ANY_INTEGER))}")
-        return items(grammar, text, MOST_TEXTS) if kind == "texts" else text
+            return [(grammar.rule(f"{text} | {grammar.terminal(regex(patterns.ANY_INTEGER))}"), context | IDENTIFIED)]
+        return [(items(grammar, text, MOST_TEXTS) if kind == "texts" else text, context)]
+
+    def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
+        return parameter.required
+
+    def position(self, grammar: Grammar, without: Positions) -> str:
+        return grammar.terminal(f"{regex(patterns.ANY_POSITION)}{_none_of(literal(written(place)) for place in without)}")
+
+    def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str:
+        pattern = patterns.number_range(parameter.minimum, parameter.maximum, whole=parameter.type == "integer")
+        return grammar.terminal(f"{regex(pattern)}{_none_of(literal(written_number(number)) for number in without)}")
+
+    def text(self, grammar: Grammar, without: Sequence[str]) -> str:
+        return grammar.terminal(f"{patterns.string(LONGEST_TEXT, blank=False)}{none_of_texts(without)}")
 
     def prose(self, grammar: Grammar) -> str:
         return grammar.terminal(patterns.string(LONGEST_PROSE, blank=True))
@@ -94,11 +126,59 @@ class SchemaValues:
         return items(grammar, self.prose(grammar), MOST_TEXTS)
 
 
+class Narrowed:
+    """The values of another strength, to be narrowed by overriding."""
+
+    def __init__(self, values: Values) -> None:
+        self._values = values
+
+    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
+        return self._values.parameter(grammar, parameter, owner, context)
+
+    def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
+        return self._values.needs(parameter, owner)
+
+    def position(self, grammar: Grammar, without: Positions) -> str | None:
+        return self._values.position(grammar, without)
+
+    def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str | None:
+        return self._values.number(grammar, parameter, without)
+
+    def text(self, grammar: Grammar, without: Sequence[str]) -> str | None:
+        return self._values.text(grammar, without)
+
+    def prose(self, grammar: Grammar) -> str:
+        return self._values.prose(grammar)
+
+    def step_texts(self, grammar: Grammar, key: str) -> str:
+        return self._values.step_texts(grammar, key)
+
+
+def written_number(number: float) -> str:
+    """A number as plans write it."""
+    return compact_json(canonical_value(number))
+
+
+def written(position: Sequence[float]) -> str:
+    """A position as plans write it."""
+    return compact_json(canonical_value(list(position)))
+
+
+def none_of_texts(texts: Sequence[str]) -> str:
+    """What takes these texts, in capitals or not, out of a terminal of JSON strings."""
+    return _none_of(regex(f'(?i:"{patterns.escaped(patterns.quoted(text))}")') for text in texts)
+
+
+def _none_of(terminals: Iterable[str]) -> str:
+    return "".join(f" & ~{terminal}" for terminal in terminals)
+
+
 def plan_grammar(level: Level, vocabulary: Vocabulary, values: Values) -> str:
     """The grammar of a whole plan."""
     grammar = Grammar()
     if level == "mission":
-        task = grammar.rule(f"{literal(TASK_OPENS)} ({' | '.join(filter(None, (task_body(grammar, task, values) for task in vocabulary.tasks)))})")
+        tasks = [whole for whole in (titled_task(grammar, task, values) for task in vocabulary.tasks) if whole]
+        task = grammar.rule(f"{literal(TASK_OPENS)} ({' | '.join(tasks)})")
         return grammar.text(f"{literal(mission_opens())} {_some(task, MOST_TASKS)} {mission_closes(grammar, values)}")
     step = _step(grammar, vocabulary, values)
     return grammar.text(f"{literal('{' + key('skill_sequence') + '[')} {_some(step, MOST_STEPS)} {literal(']}')}")
@@ -116,15 +196,27 @@ def mission_closes(grammar: Grammar, values: Values) -> str:
     return f"{literal('],' + assumptions)} {texts} {literal(',' + constraints)} {texts} {literal('}')}"
 
 
+def titled_task(grammar: Grammar, task: Task, values: Values) -> str | None:
+    """A task behind `{"title":"`, up to its closing brace; None where a required parameter has no value."""
+    body = task_body(grammar, task, values)
+    return None if body is None else f"{title(task)} {body}"
+
+
+def title(task: Task) -> str:
+    """A task's title, without quotation marks."""
+    return literal(patterns.quoted(task.title))
+
+
 def task_body(grammar: Grammar, task: Task, values: Values) -> str | None:
-    """The rule of a task behind `{"title":"`, up to its closing brace; None where a required parameter has no value."""
+    """The rule of a task behind its title, up to its closing brace; None where a required parameter has no value."""
     parameters = _parameters(grammar, task, values)
     if parameters is None:
         return None
-    opens = literal(f'{patterns.quoted(task.title)}",{key("parameters")}{{')
+    opens = literal(f'",{key("parameters")}{{')
     return grammar.rule(f"{opens} {parameters} {literal(',' + key('task_prompt'))} {values.prose(grammar)} {literal('}')}")
 
 
+@functools.cache
 def key(name: str) -> str:
     """A key with its colon."""
     return compact_json(name) + ":"
@@ -167,17 +259,17 @@ def _parameters(grammar: Grammar, owner: Task | Skill, values: Values) -> str | 
     """The rule of an owner's parameters behind their opening brace, up to the closing one; None when none can be written."""
 
     @functools.cache
-    def rest(index: int, comma: bool, satisfied: bool, identified: bool) -> str | None:
+    def rest(index: int, comma: bool, satisfied: bool, context: Context) -> str | None:
         if index == len(owner.parameters):
             return literal("}") if satisfied else None
         parameter, options = owner.parameters[index], []
-        value = values.parameter(grammar, parameter, owner, identified=identified)
-        if value is not None:
-            behind = rest(index + 1, True, satisfied or parameter.name in owner.require_any, identified or parameter.type == "id")
-            options += [f"{literal(',' * comma + key(parameter.name))} {value} {behind}"] if behind else []
-        if not parameter.required:
-            behind = rest(index + 1, comma, satisfied, identified)
+        opens = literal("," * comma + key(parameter.name))
+        for value, after in values.parameter(grammar, parameter, owner, context):
+            behind = rest(index + 1, True, satisfied or parameter.name in owner.require_any, after)
+            options += [f"{opens} {value} {behind}"] if behind else []
+        if not values.needs(parameter, owner):
+            behind = rest(index + 1, comma, satisfied, context)
             options += [behind] if behind else []
         return grammar.rule(" | ".join(options)) if options else None
 
-    return rest(0, False, not owner.require_any, False)
+    return rest(0, False, not owner.require_any, frozenset())

@@ -6,6 +6,7 @@ without closing zeros. What a grammar allows is written in the same way: one val
 
 from __future__ import annotations
 
+import functools
 import json
 from fractions import Fraction
 
@@ -20,6 +21,7 @@ FIRST = r'([^"\\\s\x00-\x1f\x7f]|\\["\\])'
 """The first character of a text that must not be blank."""
 
 
+@functools.lru_cache(maxsize=4096)
 def literal(text: str) -> str:
     """A Lark string that matches exactly `text`."""
     # json.dumps leaves DEL as it is, and Lark takes no control character.
@@ -55,6 +57,7 @@ ANY_NUMBER = rf"({ANY_INTEGER}|-?(0|[1-9][0-9]{{0,{WHOLE_DIGITS - 1}}}){_FRACTIO
 ANY_POSITION = rf"\[{ANY_NUMBER},{ANY_NUMBER}\]"
 
 
+@functools.lru_cache(maxsize=1024)
 def number_range(minimum: float | None, maximum: float | None, *, whole: bool) -> str:
     """A regular expression for the numbers from `minimum` to `maximum`, both given or neither, with at most DECIMALS decimals."""
     if minimum is None or maximum is None:
