@@ -154,7 +154,7 @@ def _draw_calls(context: Context, role: Literal["filter", "perception"], count: 
             break
         name = names[int(rng.random() * len(names))]
         again = [call for call in calls if call.skill == name]
-        if again and (role == "filter" or rng.random() < 0.7):
+        if again and (role == "filter" or not context.book.skills[name].several or rng.random() < 0.7):
             continue
         call = context.call(name)
         if not any(call.parameters == other.parameters or not call.parameters or not other.parameters for other in again):

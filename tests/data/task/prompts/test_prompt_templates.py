@@ -1,0 +1,146 @@
+"""Whole-prompt templates: what a line says, and the steps that it asks for."""
+
+import random
+import re
+
+import pytest
+
+from planner_ft.data.task.context import Context
+from planner_ft.data.task.phrasebook import Phrasebook
+from planner_ft.data.task.prompts.__main__ import main
+from planner_ft.data.task.prompts.binding import bind
+from planner_ft.data.task.prompts.draw import draw_template
+from planner_ft.data.task.prompts.language import TemplateError, parse_line
+from planner_ft.data.task.prompts.library import FOLDER, bound_lines
+from planner_ft.data.task.prompts.wordings import mask_key, wordings
+from planner_ft.data.task.template import plain, skeleton
+from planner_ft.vocabulary.definition import load_vocabulary
+
+USV = load_vocabulary("usv")
+BOOK = Phrasebook(USV, unseen=False)
+
+
+def samples(source, count=40):
+    """(prompt, task parameters, steps) of a line; a step is (name, parameters, filters, perceptions)."""
+    rng = random.Random(7)
+    line = parse_line(source)
+    bound = bind(line, USV.task[line.tasks[0]], BOOK)
+    for _ in range(count):
+        context = Context(BOOK, bound.task, rng)
+        drawn = draw_template(bound, context)
+        if drawn:
+            steps = [
+                (step["navigation_skill"]["name"], step["navigation_skill"]["parameters"], step["filter_skills"], step["perception_skills"])
+                for step in drawn[1]["skill_sequence"]
+            ]
+            yield plain(drawn[0]), context.parameters(), steps
+
+
+def test_a_value_stands_in_the_text_and_in_its_step():
+    for prompt, _parameters, steps in samples("KeepStation | Hold for {time adj}s, then for {time2}. => StationKeep time; StationKeep time2 &GetGPSLocation"):
+        assert [name for name, *_rest in steps] == ["StationKeep", "StationKeep"]
+        assert steps[0][1]["time"] != steps[1][1]["time"] and "{" not in prompt
+        assert [call["name"] for call in steps[1][3]] == ["GetGPSLocation"] and steps[0][3] == []
+
+
+def test_a_slot_in_an_alternative_counts_only_when_it_was_chosen():
+    seen = set()
+    for prompt, _parameters, [(_name, given, _filters, _calls)] in samples("KeepStation | Stay here(, within {radius}|). => StationKeep radius"):
+        assert ("radius" in given) == ("within" in prompt)
+        seen.add("radius" in given)
+    assert seen == {True, False}
+
+
+def test_a_flag_brings_a_skill_when_its_alternative_was_chosen():
+    for prompt, _parameters, [(*_rest, calls)] in samples("KeepStation | Stay here(, filming{?film}|). => StationKeep &SetStreamRecording?film"):
+        assert bool(calls) == ("filming" in prompt)
+
+
+def test_the_tasks_own_parameter_is_copied():
+    source = "KeepStation | Hold for {param duration}. => StationKeep param.duration"
+    for prompt, parameters, [(_name, given, _filters, _calls)] in samples(source):
+        assert given == {"time": parameters["duration"]}
+        assert not re.search(r"\d", prompt)
+
+
+def test_left_and_right_give_the_sign_and_the_side_is_said_once():
+    for prompt, _parameters, [(_name, given, *_rest)] in samples("FeatureStare | Ease the bow {delta_yaw left} to port. => NudgeYaw delta_yaw"):
+        assert given["delta_yaw"] < 0 and len(re.findall("port|left|anticlockwise", prompt)) == 1
+    for prompt, _parameters, [(_name, given, *_rest)] in samples("FeatureStare | Nudge it {delta_yaw right}. => NudgeYaw delta_yaw"):
+        assert given["delta_yaw"] > 0 and re.search("right|starboard|clockwise", prompt)
+
+
+def test_all_runs_in_every_step_and_in_the_order_of_the_line():
+    source = "Transit | {P1}, then {P2}. => ALL +LockHeading &GetGPSLocation; GoToXY P1; GoToXY P2 &GetSeabedDepth"
+    for _prompt, _parameters, steps in samples(source, 5):
+        assert [[call["name"] for call in filters] for *_rest, filters, _calls in steps] == [["LockHeading"]] * 2
+        assert [[call["name"] for call in calls] for *_rest, calls in steps] == [["GetGPSLocation"], ["GetGPSLocation", "GetSeabedDepth"]]
+
+
+def test_shapes_take_what_they_need_from_the_task():
+    for _prompt, given, steps in samples("PerformOrbit | Four points round the centre. => Ring 4 / StationKeep &GetThermalStats"):
+        (x, y), radius = given["center"], given["radius"]
+        points = [(step[1]["x"], step[1]["y"]) for step in steps[::2]]
+        assert points == [pytest.approx(point, abs=0.006) for point in ((x + radius, y), (x, y + radius), (x - radius, y), (x, y - radius))]
+        assert [name for name, *_rest in steps[1::2]] == ["StationKeep"] * 4
+
+
+def test_a_grid_of_stated_size_is_covered():
+    text = "{width} by {length} about {P1}, {spacing} apart, from the {corner}."
+    source = f"BathymetryGridSurvey | {text} => Grid P1 width length spacing corner &LogEnvironmentState@last"
+    for _prompt, _parameters, steps in samples(source):
+        xs = {step[1]["x"] for step in steps}
+        assert len(steps) == 2 * len(xs)
+        assert [bool(calls) for *_rest, calls in steps] == [False] * (len(steps) - 1) + [True]
+
+
+def test_an_offset_lies_in_the_named_direction():
+    source = "Transit | Go {distance num} {direction} of {param target_position}. => Offset param.target_position distance direction"
+    for prompt, parameters, [(_name, given, *_rest)] in samples(source):
+        east, north = given["x"] - parameters["target_position"][0], given["y"] - parameters["target_position"][1]
+        for word, component in (("north", north), ("south", -north), ("east", east), ("west", -east)):
+            assert (component > 0) == (word in prompt)
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("KeepStation | Hold. StationKeep", "expected TASK"),
+        ("KeepStation | (Hold|Stay for {time}. => StationKeep time", "not closed"),
+        ("KeepStation | Hold for {time}. => StationKeep", "{time} stands in the text"),
+        ("KeepStation | Hold. => StationKeep time", "not in the text"),
+        ("KeepStation | Hold. => Hover", "no skill Hover"),
+        ("KeepStation | Hold. => StationKeep &LockHeading", "is a filter skill"),
+        ("KeepStation | Hold {threshold}. => StationKeep threshold", "StationKeep has no parameter threshold"),
+        ("KeepStation | Hold. => StationKeep param.radius", "KeepStation has no parameter radius"),
+        ("KeepStation | Go round. => Square", "needs a point"),
+        ("KeepStation | Film{?film}. => StationKeep", "the flag ?film"),
+        ("KeepStation | Go. => GoToXY", "needs a position"),
+    ],
+)
+def test_a_wrong_line_is_explained(line, message):
+    with pytest.raises(TemplateError, match=re.escape(message)):
+        list(samples(line))
+
+
+def test_the_checker_names_file_and_line(tmp_path, capsys):
+    path = tmp_path / "some.txt"
+    path.write_text("# a comment\n\nKeepStation | Hold. => Hover\nKeepStation | Hold. => StationKeep\nSwim | Hold. => StationKeep\n")
+    assert main([str(path), "--show", "1"]) == 1
+    out = capsys.readouterr().out
+    assert f"{path}:3: there is no skill Hover" in out and f"{path}:5: there is no task Swim" in out
+    assert "[KeepStation] Hold." in out and "3 lines, 2 wrong" in out
+
+
+def test_the_lines_of_the_package_are_right(capsys):
+    assert main([]) == 0, capsys.readouterr().out
+    assert len(bound_lines(BOOK)) > 500 and (FOLDER / "README.md").is_file()
+
+
+def test_every_wording_of_a_line_is_known_without_its_values():
+    line = parse_line("KeepStation | (Hold|Stay) for {time}(, then for {time2}|). => StationKeep time; StationKeep time2")
+    known = wordings(line)
+    assert known == {"hold for _", "stay for _", "hold for _ then for _", "stay for _ then for _"}
+    bound = bind(line, USV.task["KeepStation"], BOOK)
+    text, _plan, _skills = draw_template(bound, Context(BOOK, bound.task, random.Random(1)))
+    assert mask_key(skeleton(text)) in known
