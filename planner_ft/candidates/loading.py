@@ -148,7 +148,8 @@ def load_model(
     quiet_libraries()
     with _loading_errors(candidate, folder, target):
         model = _load_base(folder, target, quantization)
-        named: dict[str, Path] = {**({"default": adapter} if adapter else {}), **(adapters or {})}
+        named = {"default": adapter} if adapter else {}
+        named |= {str(its_level): path for its_level, path in (adapters or {}).items()}
         if named:
             model = _attach(model, named, trainable)
     if quantization == "nf4":

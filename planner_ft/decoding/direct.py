@@ -58,7 +58,8 @@ def read_directly(candidate: Candidate, adapters: Mapping[Level, Path], *, quant
     base = _Base.read(folder, sizes, config, quantization)
     if base is None:
         return None
-    forms = {None: base.decoder({}), **{level: base.decoder(_corrections(path)) for level, path in adapters.items()}}
+    forms: dict[Level | None, LeanDecoder] = {None: base.decoder({})}
+    forms.update({level: base.decoder(_corrections(path)) for level, path in adapters.items()})
     return Direct(forms, _end_ids(folder, config), sizes.vocabulary)
 
 

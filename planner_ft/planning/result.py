@@ -49,8 +49,11 @@ class AgentUse:
     def of(cls, candidate: str, configuration: str, adapter: str | None, load_seconds: float, answers: Iterable[Answer]) -> AgentUse:
         """Sums over `answers`."""
         given = list(answers)
-        sums = (sum(getattr(answer, name) for answer in given) for name in ("prompt_tokens", "tokens", "forward_passes"))
-        return cls(candidate, configuration, adapter, round(load_seconds, 3), len(given), *sums, round(sum(answer.seconds for answer in given), 3))
+        return cls(
+            candidate, configuration, adapter, round(load_seconds, 3), len(given),
+            prompt_tokens=sum(answer.prompt_tokens for answer in given), tokens=sum(answer.tokens for answer in given),
+            forward_passes=sum(answer.forward_passes for answer in given), seconds=round(sum(answer.seconds for answer in given), 3),
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)
