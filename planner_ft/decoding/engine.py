@@ -3,18 +3,26 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+import functools
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from planner_ft.candidates import Candidate
-from planner_ft.candidates.loading import load_model, load_tokenizer
+from planner_ft.candidates.loading import load_model, load_tokenizer, resolve_device
 from planner_ft.candidates.registry import Quantization
-from planner_ft.decoding.configurations import Configuration
-from planner_ft.decoding.generate import Generation, generate_unordered
+from planner_ft.decoding.configurations import Configuration, Strength
+from planner_ft.decoding.constraints import ConstraintFactory
+from planner_ft.decoding.constraints.factory import constraint_factory
+from planner_ft.decoding.direct import read_directly
+from planner_ft.decoding.drafting import Likeness, PhraseBook
+from planner_ft.decoding.generate import Generation, Method, Query, generate_unordered
 from planner_ft.decoding.latency import Latency, measure_latency
+from planner_ft.decoding.lean import LeanDecoder
 from planner_ft.decoding.limits import MAX_NEW_TOKENS, Limits
+from planner_ft.decoding.passes import Decoder, ModelDecoder
+from planner_ft.decoding.phrases import phrase_book
 from planner_ft.prompts import end_of_turn_ids, render_prompt
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
@@ -22,27 +30,37 @@ from planner_ft.vocabulary.plans import Level
 
 
 @dataclass(frozen=True)
-class Query:
-    """A question to the agent of a level: its record ({"prompt", ...}), and the ids of the prompt that it is rendered into."""
+class Speed:
+    """What saves forward passes; an answer does not depend on it.
 
-    level: Level
-    record: dict[str, Any]
-    prompt: tuple[int, ...]
+    `fast_forward` feeds tokens that a constraint forces together with the choice before them, `drafting` has likely
+    tokens verified by the model (see `drafting`).
+    """
+
+    fast_forward: bool = True
+    drafting: bool = True
 
 
 @dataclass
 class Engine:
     """Model and tokenizer of a candidate. One base serves both levels and every configuration: adapters are switched, none is on for base.
 
-    `adapters` are the levels that have one, `threads` the CPU threads that it decodes with; None leaves torch's number.
+    `lean` holds the lean forms of a small model (see `lean`) by adapter, None for the base; where it is empty, `model`
+    decodes, a model of transformers. `width` is the size of the logits. `adapters` are the levels that have one,
+    `threads` the CPU threads that it decodes with; None leaves torch's number.
     """
 
     model: Any
+    lean: dict[Level | None, LeanDecoder]
     tokenizer: Any
+    width: int
     vocabulary: Vocabulary
     limits: dict[Level, Limits]
     adapters: frozenset[Level]
     threads: int | None = None
+    speed: Speed = field(default_factory=Speed)
+    factories: dict[tuple[Level, Strength], ConstraintFactory | None] = field(default_factory=dict)
+    books: dict[Level, PhraseBook] = field(default_factory=dict)
 
     @classmethod
     def load(
@@ -55,16 +73,28 @@ class Engine:
         device: str = "auto",
         quantization: Quantization = "nf4",
         threads: int | None = None,
+        speed: Speed | None = None,
+        lean: bool | None = None,
     ) -> Engine:
         """Load a candidate, with the adapters of the levels that are given one.
 
-        `max_new_tokens` limits every answer; None takes the level's default. Raises PlannerError when it cannot be loaded.
+        `max_new_tokens` limits every answer; None takes the level's default. `lean` asks for the lean forward pass; None
+        takes it for small models on a CPU, which are then read without transformers where that can be. A model that has no
+        lean form decodes as it is. Raises PlannerError when the candidate cannot be loaded.
         """
-        tokenizer = load_tokenizer(candidate)
-        model = load_model(candidate, device=device, quantization=quantization, adapters=adapters, vocabulary=vocabulary)
-        ends, pad = end_ids(tokenizer, model), int(tokenizer.pad_token_id)
+        tokenizer, target, given = load_tokenizer(candidate), resolve_device(device).type, adapters or {}
+        # A stand-in stands for a large candidate and takes its way.
+        wants_lean = is_small(candidate, target) and not candidate.is_standin if lean is None else lean
+        direct = read_directly(candidate, given, quantization=quantization, vocabulary=vocabulary) if wants_lean and target == "cpu" else None
+        if direct is not None:
+            model, forms, more_ends, width = None, direct.forms, direct.end_ids, direct.tokens
+        else:
+            model = load_model(candidate, device=device, quantization=quantization, adapters=given, vocabulary=vocabulary)
+            forms = _lean_forms(model, given) if wants_lean else {}
+            more_ends, width = named_ends(model), model.config.get_text_config().vocab_size
+        ends, pad = end_ids(tokenizer, more_ends), int(tokenizer.pad_token_id)
         limits = {level: Limits(ends, pad, max_new_tokens or default) for level, default in MAX_NEW_TOKENS.items()}
-        return cls(model, tokenizer, vocabulary, limits, frozenset(adapters or ()), threads)
+        return cls(model, forms, tokenizer, width, vocabulary, limits, frozenset(given), threads, speed or Speed())
 
     def query(self, level: Level, record: dict[str, Any], *, with_vocabulary: bool = False) -> Query:
         """A question to the agent of a level. `with_vocabulary` is for base models, which have not learned it."""
@@ -75,20 +105,26 @@ class Engine:
         return next(answer for _index, answer in self.answers([query], configuration, batch_size=1))
 
     def answers(self, queries: Sequence[Query], configuration: Configuration, *, batch_size: int = 16) -> Iterator[tuple[int, Generation]]:
-        """Yield (index of the query, answer) as answers are completed. The queries are of one level."""
-        if not queries:
-            return
-        level = _only_level(queries)
-        with self._configured(level, configuration):
-            yield from generate_unordered(self.model, [list(query.prompt) for query in queries], self.limits[level], batch_size=batch_size)
+        """Yield (index of the query, answer) as answers are completed. The queries are of one level.
+
+        Raises PlannerError when the level has no adapter that the configuration needs, or the token limit is too small for its strength.
+        """
+        if queries:
+            level = _only_level(queries)
+            with self._configured(level, configuration) as decoder:
+                yield from generate_unordered(decoder, queries, self.limits[level], self.method(level, configuration), batch_size=batch_size)
 
     def latencies(self, queries: Sequence[Query], configuration: Configuration) -> Iterator[tuple[int, Latency]]:
         """Yield (index of the query, latency), one query at a time. The queries are of one level."""
-        if not queries:
-            return
-        level = _only_level(queries)
-        with self._configured(level, configuration):
-            yield from measure_latency(self.model, [list(query.prompt) for query in queries], self.limits[level])
+        if queries:
+            level = _only_level(queries)
+            with self._configured(level, configuration) as decoder:
+                yield from measure_latency(decoder, queries, self.limits[level], self.method(level, configuration))
+
+    def method(self, level: Level, configuration: Configuration) -> Method:
+        """How the answers of a configuration are generated."""
+        constraint, drafting = self._factory(level, configuration.strength), self.speed.drafting
+        return Method(constraint, self.speed.fast_forward, drafting, self._likeness, self._book(level) if drafting else None)
 
     def text(self, answer: Generation) -> str:
         """The raw text of an answer, without the token that ended it; other special tokens stay visible."""
@@ -101,20 +137,55 @@ class Engine:
 
         import torch
 
-        self.model = None
+        self.model, self.lean = None, {}
         gc.collect()
         if torch.cuda.is_available():
             torch.cuda.empty_cache()
 
     @contextlib.contextmanager
-    def _configured(self, level: Level, configuration: Configuration) -> Iterator[None]:
-        """In the block the model has the adapter of the level, or none, as the configuration says."""
+    def _configured(self, level: Level, configuration: Configuration) -> Iterator[Decoder]:
+        """The model with the adapter of the level, or none, as the configuration says."""
         if configuration.adapter and level not in self.adapters:
             raise PlannerError(f"configuration {configuration.name} needs an adapter of the {level} level; give --adapter")
-        if configuration.adapter:
-            self.model.set_adapter(level, inference_mode=True)
-        with limited_threads(self.threads), contextlib.nullcontext() if configuration.adapter or not self.adapters else self.model.disable_adapter():
-            yield
+        adapter = level if configuration.adapter else None
+        with limited_threads(self.threads):
+            if self.lean:
+                yield self.lean[adapter]
+                return
+            if adapter:
+                self.model.set_adapter(adapter, inference_mode=True)
+            with contextlib.nullcontext() if adapter or not self.adapters else self.model.disable_adapter():
+                yield ModelDecoder(self.model, self.limits[level].pad_id)
+
+    def _factory(self, level: Level, strength: Strength) -> ConstraintFactory | None:
+        if (level, strength) not in self.factories:
+            limits = self.limits[level]
+            self.factories[level, strength] = constraint_factory(
+                self.tokenizer, level, self.vocabulary, strength, end_ids=limits.end_ids, limit=limits.max_new_tokens, n_vocab=self.width
+            )
+        return self.factories[level, strength]
+
+    def _book(self, level: Level) -> PhraseBook:
+        if level not in self.books:
+            self.books[level] = phrase_book(level, self.tokenizer, self.vocabulary, self.limits[level].end_ids[0])
+        return self.books[level]
+
+    @functools.cached_property
+    def _likeness(self) -> Likeness:
+        """Tokens are alike that differ in case or in the space before them alone."""
+        decode = self.tokenizer.decode
+
+        @functools.cache
+        def likeness(token: int) -> Hashable:
+            return decode([token]).strip().lower() or token
+
+        return likeness
+
+
+def _lean_forms(model: Any, adapters: Iterable[Level]) -> dict[Level | None, LeanDecoder]:
+    forms = {adapter: LeanDecoder.of(model, adapter) for adapter in (None, *adapters)}
+    found = {adapter: form for adapter, form in forms.items() if form is not None}
+    return found if len(found) == len(forms) else {}
 
 
 def _only_level(queries: Sequence[Query]) -> Level:
@@ -124,11 +195,16 @@ def _only_level(queries: Sequence[Query]) -> Level:
     return levels.pop()
 
 
-def decoding_threads(candidate: Candidate, device: str) -> int | None:
-    """CPU threads to decode with: one for small models, as in training, where a busy core would hold up every operation."""
+def is_small(candidate: Candidate, device: str) -> bool:
+    """Whether a candidate is so small, on a CPU, that a token's time goes to everything but the multiplications."""
     from planner_ft.training.model import SMALL_MODEL
 
-    return 1 if device == "cpu" and (candidate.parameters or SMALL_MODEL) < SMALL_MODEL else None
+    return device == "cpu" and (candidate.parameters or SMALL_MODEL) < SMALL_MODEL
+
+
+def decoding_threads(candidate: Candidate, device: str) -> int | None:
+    """CPU threads to decode with: one for small models, as in training, where a busy core would hold up every operation."""
+    return 1 if is_small(candidate, device) else None
 
 
 @contextlib.contextmanager
@@ -144,8 +220,12 @@ def limited_threads(threads: int | None) -> Iterator[None]:
         torch.set_num_threads(before)
 
 
-def end_ids(tokenizer: Any, model: Any) -> tuple[int, ...]:
-    """Tokens that end an answer: those of the prompt's form, and those that the model's generation settings name."""
-    more = getattr(model.generation_config, "eos_token_id", None)
-    more = [more] if isinstance(more, int) else list(more or [])
+def end_ids(tokenizer: Any, more: Iterable[int] = ()) -> tuple[int, ...]:
+    """Tokens that end an answer: those of the prompt's form, then `more`, which the model's generation settings name."""
     return tuple(dict.fromkeys([*end_of_turn_ids(tokenizer), *more]))
+
+
+def named_ends(model: Any) -> tuple[int, ...]:
+    """End tokens that a model's generation settings name."""
+    named = getattr(model.generation_config, "eos_token_id", None)
+    return (named,) if isinstance(named, int) else tuple(named or ())

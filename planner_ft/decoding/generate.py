@@ -1,24 +1,35 @@
-"""Greedy generation in batches: the most probable token, nothing enforced, sampling settings of the model ignored.
+"""Greedy generation: the most probable token that is allowed, sampling settings of the model ignored.
 
-The loop is our own and not `model.generate`: rows that have ended leave the batch instead of being computed to its
-end, the cache is not copied at every token, and every answer is handed over the moment that it is complete.
+The loop is our own and not `model.generate`: tokens that need no choice or were drafted rightly share a forward pass,
+rows that have ended leave the batch instead of being computed to its end, the cache is not copied at every token, and
+every answer is handed over the moment that it is complete.
 """
 
 from __future__ import annotations
 
-import inspect
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import torch
 
-from planner_ft.decoding.cache import new_cache
+from planner_ft.decoding.constraints import ConstraintFactory
+from planner_ft.decoding.drafting import Drafter, Likeness, PhraseBook
 from planner_ft.decoding.limits import Limits
+from planner_ft.decoding.passes import Decoder
+from planner_ft.decoding.row import FinishReason, Row
 from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary.plans import Level
 
-FinishReason = Literal["stop", "length", "error"]
+
+@dataclass(frozen=True)
+class Query:
+    """A question to the agent of a level: its record ({"prompt", ...}), and the ids of the prompt that it is rendered into."""
+
+    level: Level
+    record: dict[str, Any]
+    prompt: tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -26,93 +37,113 @@ class Generation:
     """One answer. `ids` are the generated tokens with the one that ended it, `seconds` its share of the batch's time.
 
     `finish_reason`: "stop" (an end-of-turn token), "length" (cut at the limit) or "error" (`error` says why).
+    `forward_passes` are those that the answer took part in. Of its tokens, `forced_tokens` left no choice and
+    `drafted_tokens` were drafted rightly. `notes` and `cut` are the constraint's (see `constraints`).
     """
 
     ids: tuple[int, ...]
     finish_reason: FinishReason
     seconds: float
     error: str | None = None
+    forward_passes: int = 0
+    forced_tokens: int = 0
+    drafted_tokens: int = 0
+    notes: tuple[str, ...] = ()
+    cut: bool = False
 
 
-def generate(model: Any, prompts: Sequence[list[int]], limits: Limits, *, batch_size: int = 16) -> list[Generation]:
-    """Answers to prompts (token ids), in the order of the prompts."""
-    answers = dict(generate_unordered(model, prompts, limits, batch_size=batch_size))
-    return [answers[index] for index in range(len(prompts))]
+@dataclass(frozen=True)
+class Method:
+    """How tokens are chosen, and what saves forward passes; an answer depends on `constraint` alone.
+
+    `constraint` is enforced, and with `fast_forward` the tokens that it forces are fed together. With `drafting` likely
+    tokens are verified in one pass, from the prompt, the answer so far and `book` (see `drafting`).
+    """
+
+    constraint: ConstraintFactory | None = None
+    fast_forward: bool = True
+    drafting: bool = True
+    likeness: Likeness = lambda token: token
+    book: PhraseBook | None = None
+
+    def row(self, query: Query, limits: Limits, longest: int) -> Row:
+        """The beginning of an answer. Raises PlannerError when the constraint needs more room than `longest` tokens."""
+        constraint = self.constraint.start(query.record, longest) if self.constraint else None
+        drafter = Drafter(query.prompt, self.likeness, self.book) if self.drafting else None
+        return Row(query.prompt, limits, longest, constraint, drafter, fast_forward=self.fast_forward)
 
 
-def generate_unordered(model: Any, prompts: Sequence[list[int]], limits: Limits, *, batch_size: int = 16) -> Iterator[tuple[int, Generation]]:
-    """Yield (index of the prompt, answer) as answers are completed, batch by batch, longest prompts first.
+PLAIN = Method(fast_forward=False, drafting=False)
+"""Greedy generation, a forward pass per token."""
+
+
+def generate(decoder: Decoder, queries: Sequence[Query], limits: Limits, method: Method = PLAIN, *, batch_size: int = 16) -> list[Generation]:
+    """Answers in the order of the queries."""
+    answers = dict(generate_unordered(decoder, queries, limits, method, batch_size=batch_size))
+    return [answers[index] for index in range(len(queries))]
+
+
+def generate_unordered(
+    decoder: Decoder, queries: Sequence[Query], limits: Limits, method: Method = PLAIN, *, batch_size: int = 16
+) -> Iterator[tuple[int, Generation]]:
+    """Yield (index of the query, answer) as answers are completed, batch by batch, longest prompts first.
 
     Prompts of similar length share a batch, and the largest memory is needed at the start, not after an hour. In
     float32 an answer does not depend on the batch. Raises PlannerError when a batch does not fit the memory.
     """
-    context = getattr(model.config, "max_position_embeddings", None)
-    fitting = []
-    for index, prompt in enumerate(prompts):
-        if context is not None and len(prompt) >= context:
-            yield index, Generation((), "error", 0.0, f"the prompt of {len(prompt)} tokens leaves no room in the model's context of {context}")
-        else:
-            fitting.append(index)
-    fitting.sort(key=lambda index: -len(prompts[index]))
-    for start in range(0, len(fitting), batch_size):
-        batch = fitting[start : start + batch_size]
+    order = sorted(range(len(queries)), key=lambda index: -len(queries[index].prompt))
+    for start in range(0, len(order), batch_size):
+        rows: dict[int, Row] = {}
+        began = time.perf_counter()
+        for index in order[start : start + batch_size]:
+            try:
+                rows[index] = _begin(decoder, queries[index], limits, method)
+            except PlannerError as error:
+                yield index, Generation((), "error", 0.0, str(error))
         try:
-            for row, generation in _generate_batch(model, [prompts[index] for index in batch], limits, context):
-                yield batch[row], generation
+            yield from _generate_batch(decoder, rows, began)
         except torch.OutOfMemoryError as error:
             raise PlannerError(
                 f"the device has too little memory for --batch-size {batch_size}; give a smaller one (what is done is kept for --resume)"
             ) from error
 
 
+def _begin(decoder: Decoder, query: Query, limits: Limits, method: Method) -> Row:
+    room = limits.max_new_tokens if decoder.context is None else min(limits.max_new_tokens, decoder.context - len(query.prompt))
+    if room < 1:
+        raise PlannerError(f"the prompt of {len(query.prompt)} tokens leaves no room in the model's context of {decoder.context}")
+    return method.row(query, limits, room)
+
+
 @torch.inference_mode()
-def _generate_batch(model: Any, prompts: list[list[int]], limits: Limits, context: int | None) -> Iterator[tuple[int, Generation]]:
-    """Yield (row, answer) as rows end."""
-    started, share = time.perf_counter(), 0.0
-    tokens, mask = _padded(prompts, limits.pad_id, model.device)
-    positions = (mask.cumsum(1) - 1).clamp(min=0)
-    ends = torch.tensor(limits.end_ids, device=model.device)
-    cache, options = new_cache(model.config), _forward_options(model)
-    rows = list(range(len(prompts)))
-    answers: list[list[int]] = [[] for _ in prompts]
-    longest = [min(limits.max_new_tokens, (context or 2**62) - len(prompt)) for prompt in prompts]
-    while rows:
-        chosen = _next_tokens(model, tokens, mask, positions, cache, options)
-        ended = torch.isin(chosen, ends).tolist()
+def _generate_batch(decoder: Decoder, batch: dict[int, Row], began: float) -> Iterator[tuple[int, Generation]]:
+    """Yield (index, answer) as rows end. `began` is when the work on the batch did."""
+    share, rows = 0.0, dict(batch)
+    passes = decoder.start(len(rows)) if rows else None
+    while passes and rows:
+        fed = [row.feed(wide=passes.wide) for row in rows.values()]
+        wanted = [count for _ids, count in fed]
+        logits = passes.run([ids for ids, _count in fed], wanted)
         # Reading the tokens waits for the device, so the time below is that of the whole step.
-        for row, token in zip(rows, chosen.tolist(), strict=True):
-            answers[row].append(token)
+        best = logits.argmax(-1).tolist()
+        starts = [sum(wanted[:place]) for place in range(len(wanted))]
+        wrong = [
+            row.choose(best[start : start + count], logits[start : start + count]) for row, start, count in zip(rows.values(), starts, wanted, strict=True)
+        ]
         now = time.perf_counter()
-        share, started = share + (now - started) / len(rows), now
-        kept = [place for place, row in enumerate(rows) if not ended[place] and len(answers[row]) < longest[row]]
-        for place in sorted(set(range(len(rows))) - set(kept)):
-            yield rows[place], Generation(tuple(answers[rows[place]]), "stop" if ended[place] else "length", share)
-        if len(kept) < len(rows):
-            rows = [rows[place] for place in kept]
-            index = torch.tensor(kept, dtype=torch.long, device=model.device)
-            chosen, mask, positions = chosen[index], mask[index], positions[index]
-            cache.batch_select_indices(index)
-        tokens = chosen[:, None]
-        mask = torch.cat([mask, mask.new_ones(len(rows), 1)], 1)
-        positions = positions[:, -1:] + 1
+        share, began = share + (now - began) / len(rows), now
+        kept = [place for place, row in enumerate(rows.values()) if not row.finished]
+        for index, row in list(rows.items()):
+            if row.finished:
+                yield index, _generation(rows.pop(index), share)
+        if rows:
+            passes.forget(wrong)
+            if len(kept) < len(wanted):
+                passes.select(kept)
 
 
-def _next_tokens(model: Any, tokens: torch.Tensor, mask: torch.Tensor, positions: torch.Tensor, cache: Any, options: dict[str, Any]) -> torch.Tensor:
-    """One forward pass over (batch, new positions); return the most probable next token of each row, shape (batch,)."""
-    output = model(input_ids=tokens, attention_mask=mask, position_ids=positions, past_key_values=cache, use_cache=True, **options)
-    chosen: torch.Tensor = output.logits[:, -1].argmax(-1)
-    return chosen
-
-
-def _forward_options(model: Any) -> dict[str, Any]:
-    """Compute the last position's logits alone, if the model can: with a vocabulary of 128k that saves gigabytes."""
-    base = model.get_base_model() if hasattr(model, "get_base_model") else model
-    return {"logits_to_keep": 1} if "logits_to_keep" in inspect.signature(base.forward).parameters else {}
-
-
-def _padded(prompts: list[list[int]], pad_id: int, device: Any) -> tuple[torch.Tensor, torch.Tensor]:
-    """Ids padded on the left, and the attention mask."""
-    width = max(len(prompt) for prompt in prompts)
-    ids = torch.tensor([[pad_id] * (width - len(prompt)) + prompt for prompt in prompts], device=device)
-    mask = torch.tensor([[0] * (width - len(prompt)) + [1] * len(prompt) for prompt in prompts], device=device)
-    return ids, mask
+def _generation(row: Row, seconds: float) -> Generation:
+    assert row.finished is not None
+    constraint = row.constraint
+    notes, cut = (tuple(constraint.notes), constraint.cut) if constraint else ((), False)
+    return Generation(tuple(row.ids), row.finished, seconds, None, row.forward_passes, row.forced_tokens, row.drafted_tokens, notes, cut)

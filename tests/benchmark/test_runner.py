@@ -89,9 +89,9 @@ def work(monkeypatch: pytest.MonkeyPatch) -> dict[str, int]:
         counts["models"] += 1
         return load(*args, **kwargs)
 
-    def counting_batch(model: Any, prompts: Any, *args: Any) -> Any:
-        counts["rows"] += len(prompts)
-        return batch(model, prompts, *args)
+    def counting_batch(decoder: Any, rows: Any, *args: Any) -> Any:
+        counts["rows"] += len(rows)
+        return batch(decoder, rows, *args)
 
     monkeypatch.setattr(engine_module, "load_model", counting_load)
     monkeypatch.setattr(generate_module, "_generate_batch", counting_batch)

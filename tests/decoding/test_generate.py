@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import pytest
 import torch
 
 from planner_ft.decoding.cache import BLOCK, BlockLayer, new_cache
-from planner_ft.decoding.engine import end_ids
-from planner_ft.decoding.generate import generate, generate_unordered
+from planner_ft.decoding.engine import end_ids, named_ends
+from planner_ft.decoding.generate import Generation, Query
+from planner_ft.decoding.generate import generate as generate_answers
+from planner_ft.decoding.generate import generate_unordered as generate_answers_unordered
 from planner_ft.decoding.latency import measure_latency
 from planner_ft.decoding.limits import Limits
+from planner_ft.decoding.passes import ModelDecoder
 from planner_ft.support.errors import PlannerError
 
 VOCABULARY = 64
@@ -38,6 +42,18 @@ def prompts(count: int, longest: int = 60) -> list[list[int]]:
 
 def limits(*ends: int, most: int = 40) -> Limits:
     return Limits(ends or (2,), 0, most)
+
+
+def asked(queries: Sequence[list[int]]) -> list[Query]:
+    return [Query("mission", {}, tuple(query)) for query in queries]
+
+
+def generate(model: Any, queries: Sequence[list[int]], limits: Limits, **settings: Any) -> list[Generation]:
+    return generate_answers(ModelDecoder(model, 0), asked(queries), limits, **settings)
+
+
+def generate_unordered(model: Any, queries: Sequence[list[int]], limits: Limits, **settings: Any) -> Iterator[tuple[int, Generation]]:
+    return generate_answers_unordered(ModelDecoder(model, 0), asked(queries), limits, **settings)
 
 
 def reference(model: Any, prompt: list[int], limits: Limits) -> list[int]:
@@ -139,19 +155,21 @@ def test_too_little_memory_names_the_flag(model: Any, monkeypatch: pytest.Monkey
 def test_latency_is_of_single_queries_after_one_that_is_not_counted(model: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     from planner_ft.decoding import latency
 
-    calls: list[list[list[int]]] = []
+    calls: list[list[Query]] = []
 
     def counting(*args: Any) -> Any:
         calls.append(args[1])
-        return generate(*args)
+        return generate_answers(*args)
 
     monkeypatch.setattr(latency, "generate", counting)
-    queries = prompts(3)
-    measured = dict(measure_latency(model, queries, limits(5, 9)))
-    assert calls == [[queries[0]], [queries[0]], [queries[1]], [queries[2]]]
+    queries, decoder = prompts(3), ModelDecoder(model, 0)
+    measured = dict(measure_latency(decoder, asked(queries), limits(5, 9)))
+    assert calls == [asked([query]) for query in (queries[0], *queries)]
     assert sorted(measured) == [0, 1, 2]
-    assert all(one.seconds > 0 and one.tokens == len(reference(model, queries[index], limits(5, 9))) for index, one in measured.items())
-    assert not list(measure_latency(model, [], limits()))
+    for index, one in measured.items():
+        assert one.seconds > 0
+        assert one.tokens == one.forward_passes == len(reference(model, queries[index], limits(5, 9)))
+    assert not list(measure_latency(decoder, [], limits()))
 
 
 def test_the_block_cache_holds_what_the_dynamic_one_holds() -> None:
@@ -190,7 +208,7 @@ def test_every_end_token_of_the_published_candidates_ends_an_answer(models: Any)
     for name, tokens in wanted.items():
         candidate = resolve_candidate(name)
         tokenizer = load_tokenizer(candidate)
-        assert {tokenizer.decode([token]) for token in end_ids(tokenizer, load_model(candidate, device="cpu"))} == tokens
+        assert {tokenizer.decode([token]) for token in end_ids(tokenizer, named_ends(load_model(candidate, device="cpu")))} == tokens
 
 
 def test_small_models_decode_with_one_cpu_thread(models: Any) -> None:

@@ -1,0 +1,92 @@
+"""Forward passes over the rows of a batch, their keys and values kept: for any model of transformers."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+import torch
+from torch import Tensor
+
+
+class Passes(Protocol):
+    """The forward passes of one batch. `wide`: after its prompt, a row may be fed several tokens at a time and have some taken back."""
+
+    wide: bool
+
+    def run(self, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:
+        """Feed each row its next tokens; return the logits after the last `wanted` of them (at least 1), row by row: (sum of wanted, tokens)."""
+
+    def forget(self, counts: Sequence[int]) -> None:
+        """Take back the last tokens of each row."""
+
+    def select(self, kept: Sequence[int]) -> None:
+        """Keep only these rows."""
+
+
+class Decoder(Protocol):
+    """A model that batches are started on. `context` is the number of positions that it can hold, None where it does not say."""
+
+    context: int | None
+
+    def start(self, rows: int) -> Passes:
+        """Forward passes for a batch of this many rows."""
+
+
+class ModelDecoder:
+    """A model of transformers, with whatever adapter is active. Shorter prompts of a batch are padded on the left."""
+
+    def __init__(self, model: Any, pad_id: int) -> None:
+        self.model = model
+        self.pad_id = pad_id
+        self.context: int | None = getattr(model.config, "max_position_embeddings", None)
+        base = model.get_base_model() if hasattr(model, "get_base_model") else model
+        # The last positions' logits alone, if the model can: with a vocabulary of 128k that saves gigabytes.
+        self.trims_logits = "logits_to_keep" in inspect.signature(base.forward).parameters
+
+    def start(self, rows: int) -> Passes:
+        return _ModelPasses(self, rows)
+
+
+class _ModelPasses:
+    """A single row is fed as it comes; in a batch all rows are fed one token at a time, so that their positions stay aligned."""
+
+    def __init__(self, decoder: ModelDecoder, rows: int) -> None:
+        from planner_ft.decoding.cache import new_cache
+
+        self.decoder = decoder
+        self.device = decoder.model.device
+        self.cache = new_cache(decoder.model.config)
+        # Layers that keep a window or a state cannot be taken back.
+        self.wide = rows == 1 and all(getattr(layer, "is_croppable", True) and not layer.is_sliding for layer in self.cache.layers)
+        self.mask = torch.zeros(rows, 0, dtype=torch.long, device=self.device)
+
+    def run(self, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:
+        ids, mask = self._padded(feeds)
+        self.mask = torch.cat([self.mask, mask], 1)
+        positions = (self.mask.cumsum(1) - 1).clamp(min=0)[:, -ids.shape[1] :]
+        most = max(wanted)
+        options = {"logits_to_keep": most} if self.decoder.trims_logits else {}
+        output = self.decoder.model(input_ids=ids, attention_mask=self.mask, position_ids=positions, past_key_values=self.cache, use_cache=True, **options)
+        logits: Tensor = output.logits
+        return torch.cat([row[-count:] for row, count in zip(logits, wanted, strict=True)])
+
+    def forget(self, counts: Sequence[int]) -> None:
+        if not any(counts):
+            return
+        (count,) = counts
+        self.cache.crop(-count)
+        self.mask = self.mask[:, :-count]
+
+    def select(self, kept: Sequence[int]) -> None:
+        index = torch.tensor(kept, dtype=torch.long, device=self.device)
+        self.mask = self.mask[index]
+        self.cache.batch_select_indices(index)
+
+    def _padded(self, feeds: Sequence[Sequence[int]]) -> tuple[Tensor, Tensor]:
+        """Ids padded on the left, and their mask."""
+        width = max(len(feed) for feed in feeds)
+        ids = torch.tensor([[self.decoder.pad_id] * (width - len(feed)) + list(feed) for feed in feeds], device=self.device)
+        mask = torch.tensor([[0] * (width - len(feed)) + [1] * len(feed) for feed in feeds], device=self.device)
+        return ids, mask

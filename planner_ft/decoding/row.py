@@ -1,0 +1,128 @@
+"""One answer in the making: what is fed to the model, and what its logits decide."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from planner_ft.decoding.constraints import Constraint
+from planner_ft.decoding.drafting import LONGEST_DRAFT, Drafter
+from planner_ft.decoding.limits import Limits
+
+FinishReason = Literal["stop", "length", "error"]
+
+
+class Row:
+    """An answer of at most `longest` tokens to a prompt.
+
+    `ids` is the answer so far; its last tokens, which the model has not been fed yet, are `pending`, and `draft` stands
+    behind them. With `fast_forward`, tokens that the constraint forces join the answer without a choice by the model.
+    """
+
+    def __init__(
+        self,
+        prompt: Sequence[int],
+        limits: Limits,
+        longest: int,
+        constraint: Constraint | None = None,
+        drafter: Drafter | None = None,
+        *,
+        fast_forward: bool = True,
+    ) -> None:
+        self.end_ids = limits.end_ids
+        self.longest = longest
+        self.constraint = constraint
+        self.drafter = drafter
+        self.fast_forward = fast_forward
+        self.ids: list[int] = []
+        self.pending = list(prompt)
+        self.draft: list[int] = []
+        self.finished: FinishReason | None = None
+        self.forward_passes = self.forced_tokens = self.drafted_tokens = 0
+        self._add_forced()
+        self.pending += self.ids
+        self._propose()
+
+    def feed(self, *, wide: bool) -> tuple[list[int], int]:
+        """The tokens of the next pass, and how many logits at their end are wanted. All rows start with their whole prompt."""
+        width = len(self.pending) if wide or not self.forward_passes else 1
+        fed, self.pending = self.pending[:width], self.pending[width:]
+        self.forward_passes += 1
+        if not wide:
+            self.draft = []
+        return fed + self.draft, len(self.draft) + 1
+
+    def choose(self, best: Sequence[int], logits: Tensor) -> int:
+        """Take what the pass decided: the most probable tokens (`best`) of its wanted logits, shape (wanted, tokens), where they are allowed.
+
+        Returns how many of the fed tokens were a wrong draft.
+        """
+        if self.pending:
+            return 0
+        draft, right = self.draft, 0
+        while True:
+            added = self._add_choice(best[right], logits[right])
+            matched = _common(added, draft[right:])
+            right += matched
+            if self.finished or matched < len(added):
+                break
+        self.drafted_tokens += right
+        self.pending = added[matched:]
+        self._propose()
+        return len(draft) - right
+
+    def _add_choice(self, best: int, logits: Tensor) -> list[int]:
+        """Add the model's choice and what it forces; return both."""
+        before = len(self.ids)
+        self._add(best if self._allows(best) else self._best_allowed(logits))
+        self._add_forced()
+        return self.ids[before:]
+
+    def _allows(self, token: int) -> bool:
+        return self.constraint is None or self.constraint.admits([token]) == 1
+
+    def _best_allowed(self, logits: Tensor) -> int:
+        """The most probable token of those that the constraint allows, even where logits are infinite or no numbers."""
+        assert self.constraint is not None
+        bits = np.unpackbits(self.constraint.mask().view(np.uint8), bitorder="little")[: len(logits)]
+        allowed = torch.from_numpy(np.flatnonzero(bits)).to(logits.device)
+        if not len(allowed):
+            raise RuntimeError("the constraint allows no token")
+        return int(allowed[logits[allowed].float().nan_to_num(nan=-torch.inf).argmax()])
+
+    def _add(self, token: int) -> None:
+        """A token joins the answer."""
+        self.ids.append(token)
+        if self.constraint is not None:
+            self.constraint.accept(token)
+        if token in self.end_ids:
+            self.finished = "stop"
+        elif len(self.ids) >= self.longest:
+            self.finished = "length"
+        if self.drafter is not None:
+            self.drafter.extend(token)
+
+    def _add_forced(self) -> None:
+        """Add the tokens that need no choice."""
+        if self.constraint is None or not self.fast_forward:
+            return
+        while not self.finished and (forced := self.end_ids[:1] if self.constraint.ended else self.constraint.forced()):
+            for token in forced[: self.longest - len(self.ids)]:
+                self._add(token)
+                self.forced_tokens += 1
+
+    def _propose(self) -> None:
+        """Draft what may follow."""
+        self.draft = []
+        if self.drafter is not None and not self.finished:
+            draft = self.drafter.propose(min(LONGEST_DRAFT, self.longest - len(self.ids) - 1))
+            self.draft = draft if self.constraint is None else draft[: self.constraint.admits(draft)]
+
+
+def _common(one: Sequence[int], other: Sequence[int]) -> int:
+    """Length of the beginning that two sequences share."""
+    return next((index for index, (left, right) in enumerate(zip(one, other, strict=False)) if left != right), min(len(one), len(other)))
