@@ -21,6 +21,8 @@ def counted(say: Speaker, movements: list[Movement]) -> str:
     groups = {group_of(movement) for movement in movements}
     noun = COUNTED[groups.pop()] if len(groups) == 1 and set(groups) <= set(COUNTED) else say.pick("step", "part", "stage", "step")
     opener = f"{in_words(len(movements))} {noun}s"
+    if noun == "leg" and (places := [place_of(movement) for movement in movements]) and all(places):
+        return sentence(legs(say, opener, places))
     if say.chance(0.5):
         return sentence(f"{opener}: {join([say.move(movement) for movement in movements], say.pick(', then ', ' and ', ', and then '))}")
     names = ["the first is to", *(["the second is to", "the third is to", "the fourth is to", "the fifth is to", "the sixth is to"][: len(movements) - 1])]
@@ -31,6 +33,22 @@ def counted(say: Speaker, movements: list[Movement]) -> str:
     if joint == ". ":
         return " ".join([sentence(opener), *(sentence(part) for part in parts)])
     return sentence(f"{opener}: {joint.join(parts)}")
+
+
+def place_of(movement: Movement) -> str:
+    """Where a movement to one stated place goes, as it is said; empty for another movement, or one with a heading."""
+    slots = movement.saying.slots if movement.saying else None
+    plain = slots is not None and movement.kind == "goto" and not {"yaw", "away"} & slots.given
+    return slots.get("xy", "") if plain and slots is not None else ""
+
+
+def legs(say: Speaker, opener: str, places: list[str]) -> str:
+    """Three legs: to A, to B, then to C."""
+    if say.chance(0.3):
+        return f"{opener}: {join(places, say.pick(', then ', ' and ', ', '))}"
+    if say.chance(0.3):
+        return say.pick("go to ", "run to ", "head for ", "route: ") + join(places, say.pick(", then ", " and then ", " and on to "))
+    return f"{opener}: {join([f'to {place}' for place in places], say.pick(', then ', ' and ', ', '))}"
 
 
 def in_order(say: Speaker, movements: list[Movement]) -> str:

@@ -111,6 +111,11 @@ class SkillEntry:
         """Phrases that say exactly `given`; never empty."""
         return self._fitting(given, "phrases", self._layers)
 
+    @property
+    def bare(self) -> bool:
+        """Whether a phrase names the skill without any parameter."""
+        return any(template.fits(frozenset()) for template in self._layers[0])
+
     def after_with(self, given: Given) -> list[Template]:
         """What stands after "with"; empty if nothing says exactly `given`."""
         return self._fitting(given, "with", [self._with])

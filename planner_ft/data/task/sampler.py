@@ -200,7 +200,7 @@ def aside(say: Speaker, text: str, said: set[str], context: Context) -> str:
     if roll < 0.115 and not context.book.unseen:
         return _refusal(say, text, said, context)
     if roll < 0.14 and sentences.get("negation"):
-        others = [name for name in context.task.skills.get("perception", ()) if name not in said]
+        others = [name for name in context.task.skills.get("perception", ()) if name not in said and context.book.skills[name].bare]
         if others:
             templates = context.book.skills[say.pick(*others)].fitting(frozenset())
             refused = templates[int(say.rng.random() * len(templates))].render(context.slots(), say.rng)

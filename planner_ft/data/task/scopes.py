@@ -56,10 +56,10 @@ class Scopes:
             return text
         roll = self.rng.random()
         others = frozenset(range(len(self.movements))) - chosen
-        if " but " in text or " except " in text:
+        if " but " in text or " except " in text or " every " in text or " each " in text:
             return text
         if roll < 0.25:
-            return f"{text} {self._pick(('only', 'only', 'alone'))}"
+            return f"{text} {self._pick(('only', 'only', 'alone')) if len(chosen) == 1 else 'only'}"
         if roll < 0.37:
             return f"only {text}"
         if roll < 0.5 and len(others) == 1:

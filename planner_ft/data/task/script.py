@@ -17,6 +17,7 @@ EXTRA_MOVEMENTS = (0.56, 0.2, 0.13, 0.07, 0.04)  # how often a prompt has that m
 PERCEPTIONS = (0.14, 0.36, 0.28, 0.15, 0.07)
 FILTERS = (0.56, 0.34, 0.1)
 AGAIN = 0.15  # share of skills that stand a second time with other parameters
+LEGS = 0.06  # share of prompts that are a route of several legs
 SCOPED = 0.5  # share of prompts with several movements that say first these and then what runs in which of them
 
 
@@ -104,6 +105,8 @@ def _movements(context: Context, lead: list[Call]) -> list[Movement] | None:
     if (lead and rng.random() < 0.55) or (not lead and rng.random() < (0.35 if context.task.arrival == "none" and context.task.pattern == "hold" else 0.02)):
         held = implied_hold(context)
         return [held] if held else None
+    if not lead and rng.random() < LEGS and (route := _route(context)):
+        return route
     main = simple(context, context.book.motions["hold"]) if lead and rng.random() < 0.7 and "hold" in context.book.motions else main_movement(context)
     movements = [main]
     for _ in range(_count(rng, EXTRA_MOVEMENTS)):
@@ -112,6 +115,18 @@ def _movements(context: Context, lead: list[Call]) -> list[Movement] | None:
             movements.insert(int(rng.random() * (len(movements) + 1)), extra)
     if rng.random() < 0.05 and (last := (home if rng.random() < 0.4 else go_back)(context)):
         movements.append(last)
+    return movements
+
+
+def _route(context: Context) -> list[Movement] | None:
+    """Two to four legs, each to a place of its own; the last of them is home now and then."""
+    rng = context.rng
+    goto = context.book.motions.get("goto")
+    if not goto:
+        return None
+    movements = [simple(context, goto) for _ in range(2 + int(rng.random() ** 1.5 * 3))]
+    if rng.random() < 0.15 and (last := home(context)):
+        movements[-1] = last
     return movements
 
 
