@@ -58,12 +58,11 @@ def plan(
         "task_configuration": task_configuration, "vocabulary": vocabulary, "device": device, "quantization": quantization, "mission_only": mission_only,
     }  # fmt: skip
     planned = _plan(command, locate or [], out, overwrite, named)
+    _print(planned, json)
     if out is not None:
         from planner_ft.support.files import write_json
 
         write_json(out, planned.as_json())
-    _print(planned, json)
-    if out is not None:
         typer.echo(str(out), err=True)
     if not planned.valid:
         raise typer.Exit(1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -13,6 +14,7 @@ from planner_ft.planning.result import Answer, Planned, PlannedTask
 from planner_ft.planning.settings import PlanSettings, choose_agents
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.manifest import build_manifest
+from planner_ft.training.output import nearest_folder
 from planner_ft.vocabulary import load_vocabulary
 
 
@@ -124,9 +126,13 @@ def read_command(stream: Any) -> str:
 
 
 def new_file(path: Path, *, overwrite: bool) -> Path:
-    """The path itself. Raises PlannerError when there is a file already that is not to be replaced, or a folder."""
+    """The path itself. Raises PlannerError when there is a file already that is not to be replaced, or a folder, or nothing can be written there."""
     if path.is_dir():
         raise PlannerError(f"--out {path}: is a folder; give a file")
     if path.exists() and not overwrite:
         raise PlannerError(f"--out {path}: exists; give --overwrite to replace it, or another file")
-    return path
+    try:
+        with tempfile.TemporaryFile(dir=nearest_folder(path.parent)):
+            return path
+    except OSError as error:
+        raise PlannerError(f"--out {path}: cannot be written ({error.strerror}); choose another folder") from None

@@ -9,9 +9,10 @@ import pytest
 
 from planner_ft.candidates import adapters as adapters_module
 from planner_ft.candidates import resolve_candidate
-from planner_ft.candidates.adapters import CONFIG, SHIPPED, find_adapter
+from planner_ft.candidates.adapters import CONFIG, SHIPPED, check_adapter, find_adapter
 from planner_ft.support.files import write_json
 from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.plans import LEVELS, Level
 
 ROOT = Path(__file__).parents[2]
 EMBEDDED = resolve_candidate("embedded")
@@ -63,6 +64,15 @@ def test_an_adapter_of_another_vocabulary_is_passed_over(package: Path) -> None:
     adapter(Path("adapters/embedded/mission"), "inspection_drone")
     assert find_adapter(EMBEDDED, "mission", load_vocabulary()) == shipped
     assert find_adapter(EMBEDDED, "mission", load_vocabulary("inspection_drone")) == Path("adapters/embedded/mission")
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_what_ships_fits_the_embedded_candidate(level: Level) -> None:
+    folder = ROOT / "adapters" / "embedded" / level
+    if not (folder / CONFIG).is_file():
+        pytest.skip("no adapter of this level ships")
+    check_adapter(folder, EMBEDDED, level=level, vocabulary=load_vocabulary())
+    assert find_adapter(EMBEDDED, level, load_vocabulary()) is not None
 
 
 def test_a_wheel_carries_the_adapters_where_they_are_looked_for() -> None:

@@ -11,9 +11,14 @@ from typing import Any
 import jsonschema
 import pytest
 
+from planner_ft.candidates import resolve_candidate
+from planner_ft.candidates.adapters import adapter_record
+from planner_ft.candidates.loading import load_model
 from planner_ft.cli import main
+from planner_ft.decoding.configurations import STRENGTHS
 from planner_ft.decoding.engine import Engine
-from planner_ft.support.files import read_json
+from planner_ft.support.files import read_json, write_json
+from planner_ft.vocabulary import load_vocabulary
 
 SCHEMA = jsonschema.Draft202012Validator(read_json(Path(__file__).parents[2] / "schemas" / "planned.schema.json"))
 COMMAND = "Go to [30, -12], then come home."
@@ -45,6 +50,23 @@ def test_a_command_becomes_a_tree(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     assert "    1. GoToXY(x=30, y=-12)" in shown.out
     assert "Mission Agent  embedded base+schema, no adapter: 1 answer, " in shown.out and "\npeak memory " in shown.out
     assert list(tmp_path.iterdir()) == []
+
+
+def test_an_adapter_that_lies_here_is_used_and_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    from peft import LoraConfig, get_peft_model
+
+    embedded, folder = resolve_candidate("embedded"), Path("adapters/embedded/mission")
+    model = get_peft_model(load_model(embedded, device="cpu", trainable=True), LoraConfig(r=2, target_modules=["q_proj"], task_type="CAUSAL_LM"))
+    monkeypatch.chdir(tmp_path)
+    model.save_pretrained(folder, save_embedding_layers=False)
+    write_json(folder / "manifest.json", adapter_record(embedded, "mission", load_vocabulary()))
+    status = run(monkeypatch, COMMAND, "--mission-only", "--device", "cpu", "--json")
+    shown = capsys.readouterr()
+    assert status == 0, shown.err
+    value = json.loads(shown.out)
+    SCHEMA.validate(value)
+    assert value["usage"]["mission"]["configuration"] == f"lora+{STRENGTHS[-1]}" and value["usage"]["mission"]["adapter"] == str(folder)
+    assert len(value["manifest"]["agents"]["mission"]["adapter_sha256"]) == 64
 
 
 def test_the_command_may_come_from_standard_input_and_the_plan_go_to_a_file(
@@ -87,6 +109,7 @@ def test_an_answer_that_is_not_valid_is_shown_and_exits_with_1(models: Path, mon
         ([COMMAND, "--vocabulary", "submarine"], "no bundled vocabulary of that name"),
         ([COMMAND, "--device", "tpu"], "--device tpu: "),
         ([COMMAND, "--out", "."], "--out .: is a folder"),
+        ([COMMAND, "--out", f"{__file__}/plan.json"], "cannot be written (Not a directory)"),
         ([COMMAND, "--mission-only", "--task-candidate", "embedded"], "there is no Task Agent with --mission-only"),
     ],
 )
