@@ -39,7 +39,7 @@ def handed_down_tasks(vocabulary: Vocabulary, seed: int) -> Iterator[dict[str, A
         raise PlannerError(f"vocabulary {vocabulary.name}: has no task {missing[0]}; tasks of synthetic missions can be handed down for usv alone")
     for mission in sample_missions(seed):
         rng = Random(f"{seed}:{mission['id']}")
-        place = [rng.randrange(-200, 201, 5), rng.randrange(-200, 201, 5)]
+        place: list[float] = [rng.randrange(-200, 201, 5), rng.randrange(-200, 201, 5)]
         for number, entry in enumerate(mission["expected"]["tasks"]):
             if entry["title"] == "Transit" and rng.random() > TRANSITS:
                 continue
