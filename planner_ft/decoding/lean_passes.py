@@ -74,7 +74,7 @@ class LeanPasses:
     def _attend(self, layer: Layer, states: Tensor, place: _Place, hidden: Tensor, angles: Sequence[Tensor], memory: tuple[Tensor, Tensor]) -> Tensor:
         """Write the new keys and values into the memory, and let every position look at those up to itself."""
         heads, size, both = self.decoder.heads, self.decoder.head_size, self.decoder.heads + self.decoder.key_heads
-        mixed = linear(states, layer.qkv, layer.qkv_bias).float().view(len(states), -1, size)
+        mixed = linear(states, layer.qkv, layer.qkv_bias).float().view(-1, both + self.decoder.key_heads, size)
         turned = torch.addcmul(mixed[:, :both] * angles[0], mixed[:, :both].roll(size // 2, -1), angles[1])
         for kind, new in zip(memory, (turned[:, heads:], mixed[:, both:]), strict=True):
             kind[place.rows, place.positions] = new
@@ -121,9 +121,9 @@ class _Place:
     def blocks(self, queries: Tensor, key_heads: int) -> Tensor:
         """Queries (tokens, heads, size) as (blocks, key heads, heads per key head * BLOCK, size)."""
         _tokens, heads, size = queries.shape
-        filled = queries.new_zeros(len(self.starts) * BLOCK, heads, size)
+        filled = queries.new_zeros(self.starts.numel() * BLOCK, heads, size)
         filled[self.slots] = queries
-        return filled.view(-1, BLOCK, key_heads, heads // key_heads, size).permute(0, 2, 3, 1, 4).reshape(len(self.starts), key_heads, -1, size)
+        return filled.view(-1, BLOCK, key_heads, heads // key_heads, size).permute(0, 2, 3, 1, 4).reshape(-1, key_heads, heads // key_heads * BLOCK, size)
 
     def flat(self, found: Tensor, heads: int) -> Tensor:
         """The inverse of `blocks`: (tokens, heads * size)."""

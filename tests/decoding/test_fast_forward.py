@@ -1,0 +1,166 @@
+"""Constrained answers and fast-forward, on a small random model and a toy language."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+import torch
+
+from planner_ft.decoding.constraints import Mask
+from planner_ft.decoding.generate import Method, Query, generate
+from planner_ft.decoding.limits import Limits
+from planner_ft.decoding.passes import Decoder
+from planner_ft.decoding.row import Row
+from planner_ft.support.errors import PlannerError
+
+VOCABULARY, END = 64, 2
+LIMITS = Limits((END, 5), 0, 60)
+
+
+class Toy:
+    """Sentences of the toy language: `rounds` times 10, then 11 or 12, then 20 21 22 or 30 31 32 after it; then the end."""
+
+    def __init__(self, rounds: int) -> None:
+        self.notes = ["a note"]
+        self.cut = False
+        self.left = rounds
+        self.waiting = [10]
+
+    @property
+    def ended(self) -> bool:
+        return self.left == 0
+
+    def allowed(self) -> list[int]:
+        """The tokens that may follow."""
+        return [END] if self.ended else self.waiting[:1] or [11, 12]
+
+    def mask(self) -> Mask:
+        bits = np.zeros(VOCABULARY, dtype=np.uint8)
+        bits[self.allowed()] = 1
+        return np.packbits(bits, bitorder="little").view(np.int32)
+
+    def forced(self) -> list[int]:
+        return [] if self.ended else list(self.waiting)
+
+    def accept(self, token: int) -> None:
+        if token not in self.allowed():
+            raise ValueError(f"{token} is not allowed")
+        if self.waiting:
+            self.waiting.pop(0)
+            if not self.waiting and token != 10:
+                self.left -= 1
+                self.waiting = [10] if self.left else []
+        elif not self.ended:
+            self.waiting = [20, 21, 22] if token == 11 else [30, 31, 32]
+
+    def admits(self, tokens: Sequence[int]) -> int:
+        ahead = Toy(0)
+        ahead.left, ahead.waiting = self.left, list(self.waiting)
+        for count, token in enumerate(tokens):
+            if token not in ahead.allowed():
+                return count
+            ahead.accept(token)
+        return len(tokens)
+
+
+class ToyFactory:
+    """Starts sentences with as many rounds as the record says."""
+
+    least_tokens = 1
+
+    def start(self, record: dict[str, Any], limit: int | None = None) -> Toy:
+        return Toy(record["rounds"])
+
+
+def toy_queries(count: int) -> list[Query]:
+    """Random prompts of different lengths, for sentences of one to four rounds."""
+    rng = random.Random(count)
+    return [Query("mission", {"rounds": 1 + index % 4}, tuple(rng.randrange(3, VOCABULARY) for _ in range(rng.randrange(3, 60)))) for index in range(count)]
+
+
+ENFORCED = Method(ToyFactory(), drafting=False)
+STEP_BY_STEP = Method(ToyFactory(), fast_forward=False, drafting=False)
+QUERIES = toy_queries(8)
+ROUNDS = [query.record["rounds"] for query in QUERIES]
+
+
+def reference(model: Any, query: Query) -> list[int]:
+    """The most probable allowed token, one after the other, all computed anew each time."""
+    ids, toy = list(query.prompt), Toy(query.record["rounds"])
+    while ids[-1] != END:
+        with torch.inference_mode():
+            logits = model(input_ids=torch.tensor([ids])).logits[0, -1]
+        ids.append(max(toy.allowed(), key=lambda token: float(logits[token])))
+        toy.accept(ids[-1])
+    return ids[len(query.prompt) :]
+
+
+def test_answers_are_the_most_probable_that_the_constraint_allows(decoder: Decoder, toy_model: Any) -> None:
+    expected = [reference(toy_model, query) for query in QUERIES]
+    assert len({tuple(answer) for answer in expected}) > 4
+    for method in (ENFORCED, STEP_BY_STEP, Method(ToyFactory())):
+        for batch_size in (1, 8):
+            answers = generate(decoder, QUERIES, LIMITS, method, batch_size=batch_size)
+            assert [list(answer.ids) for answer in answers] == expected
+            assert {(answer.finish_reason, answer.notes) for answer in answers} == {("stop", ("a note",))}
+
+
+def test_only_choices_take_a_forward_pass(decoder: Decoder) -> None:
+    answers = generate(decoder, QUERIES, LIMITS, ENFORCED, batch_size=1)
+    # A round is 10, a choice and three tokens after it; the end follows by itself.
+    assert [len(answer.ids) for answer in answers] == [5 * rounds + 1 for rounds in ROUNDS]
+    assert [answer.forward_passes for answer in answers] == ROUNDS
+    assert [answer.forced_tokens for answer in answers] == [4 * rounds + 1 for rounds in ROUNDS]
+    for answer in generate(decoder, QUERIES, LIMITS, STEP_BY_STEP, batch_size=1):
+        assert answer.forward_passes == len(answer.ids)
+
+
+def test_lean_rows_of_a_batch_skip_ahead_on_their_own(decoder: Decoder) -> None:
+    passes = [answer.forward_passes for answer in generate(decoder, QUERIES, LIMITS, ENFORCED, batch_size=8)]
+    # In a batch of transformers, rows move on together: a token at a time once the prompts (and the forced 10) are fed.
+    assert passes == (ROUNDS if type(decoder).__name__ == "LeanDecoder" else [5 * rounds - 4 for rounds in ROUNDS])
+
+
+def test_the_limit_cuts_in_the_middle_of_what_is_forced(decoder: Decoder, toy_model: Any) -> None:
+    expected = [reference(toy_model, query)[:8] for query in QUERIES]
+    answers = generate(decoder, QUERIES, Limits((END,), 0, 8), ENFORCED, batch_size=4)
+    assert [list(answer.ids) for answer in answers] == expected
+    assert [answer.finish_reason for answer in answers] == ["stop" if rounds == 1 else "length" for rounds in ROUNDS]
+
+
+def test_a_token_is_allowed_whatever_the_logits_are() -> None:
+    for logits in (torch.full((1, VOCABULARY), torch.nan), torch.full((1, VOCABULARY), -torch.inf), torch.full((1, VOCABULARY), torch.inf)):
+        row = Row((3,), LIMITS, 9, Toy(1))
+        row.feed(wide=True)
+        row.choose(logits.argmax(-1).tolist(), logits.half())
+        assert row.ids[:2] in ([10, 11], [10, 12])
+
+
+def test_a_constraint_that_needs_more_room_than_there_is_says_so(decoder: Decoder) -> None:
+    class Large(ToyFactory):
+        def start(self, record: dict[str, Any], limit: int | None = None) -> Toy:
+            if limit is not None and limit < 30:
+                raise PlannerError(f"needs room for 30 tokens, not {limit}")
+            return super().start(record, limit)
+
+    near = Query("mission", {"rounds": 1}, (7,) * 490)
+    answers = generate(decoder, [near, QUERIES[0]], LIMITS, Method(Large()))
+    assert [(answer.finish_reason, answer.error) for answer in answers] == [("error", "needs room for 30 tokens, not 22"), ("stop", None)]
+
+
+@pytest.mark.parametrize("ends", [(END, 5), (5, END)])
+def test_what_forced_the_end_is_the_token_that_is_trained(decoder: Decoder, ends: tuple[int, ...]) -> None:
+    class Two(Toy):
+        def allowed(self) -> list[int]:
+            return [END, 5] if self.ended else super().allowed()
+
+    class Factory(ToyFactory):
+        def start(self, record: dict[str, Any], limit: int | None = None) -> Toy:
+            return Two(record["rounds"])
+
+    (answer,) = generate(decoder, QUERIES[:1], Limits(ends, 0, 60), Method(Factory()))
+    assert answer.ids[-1] == ends[0]
