@@ -162,7 +162,7 @@ def _summed(model: nn.Module, loss: Tensor, world: int) -> float:
         gradients = [value.grad for value in model.parameters() if value.grad is not None]
         message = torch.cat([gradient.flatten() for gradient in gradients] + [loss.reshape(1)])
         torch.distributed.all_reduce(message)
-        for gradient, part in zip(gradients, message[:-1].split([gradient.numel() for gradient in gradients]), strict=True):
+        for gradient, part in zip(gradients, torch.split(message[:-1], [gradient.numel() for gradient in gradients]), strict=True):
             gradient.copy_(part.view_as(gradient))
         loss = message[-1]
     return float(loss)
