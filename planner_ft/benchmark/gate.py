@@ -19,7 +19,7 @@ from planner_ft.vocabulary.plans import check_level
 
 REQUIRED = ("level", "candidate", "configuration", "thresholds")
 OPTIONAL = ("data", "adapter", "vocabulary", "limit", "max_new_tokens", "latency_samples")
-NOT_RATES = ("latency_s", "tokens")
+NOT_RATES = ("latency_s", "tokens", "forward_passes")
 
 
 @dataclass(frozen=True)

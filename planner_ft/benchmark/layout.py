@@ -47,6 +47,7 @@ MORE_COLUMNS = (
     Column("exact_sequence", "Exact sequence (%)", "↑", 100, 1, 1),
     Column("parameters", "Parameters right (%)", "↑", 100, 1, 1),
     Column("whole_plan", "Whole plan right (%)", "↑", 100, 1, 1),
+    Column("forward_passes", "Forward passes", "↓", 1, 1, 1),
     Column("parsed", "Parses (%)", "↑", 100, 1, 1),
     Column("hallucination_with_unparsed", "Hallucination, unparsed counted (%)", "↓", 100, 1, 1),
     Column("hallucination_without_unparsed", "Hallucination, unparsed not counted (%)", "↓", 100, 1, 1),

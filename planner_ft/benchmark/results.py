@@ -99,11 +99,11 @@ def score_system(
     vocabulary: Vocabulary,
     *,
     seed: int,
-    latencies: Mapping[str, float] | None = None,
+    timed: Mapping[str, Mapping[str, Any]] | None = None,
 ) -> tuple[Row, list[dict[str, Any]]]:
-    """Score one system's predictions (by sample id); return its row and the scores per sample."""
-    seconds = latencies or {}
-    scores: list[SampleScore] = [score_sample(level, sample, predictions.get(sample.id), vocabulary, seconds.get(sample.id)) for sample in samples]
+    """Score one system's predictions (by sample id); return its row and the scores per sample. `timed` holds its timed queries."""
+    timed = timed or {}
+    scores: list[SampleScore] = [score_sample(level, sample, predictions.get(sample.id), vocabulary, timed.get(sample.id)) for sample in samples]
     reasons = Counter(str(predictions[sample.id]["finish_reason"]) for sample in samples if predictions.get(sample.id, {}).get("finish_reason"))
     row = Row(
         system=system,

@@ -115,7 +115,7 @@ def _prediction(job: Job, sample: Sample, answer: Any, text: str, prompt_tokens:
     parsed = parse_output(text)
     return {
         "id": sample.id, "candidate": job.candidate.name, "configuration": job.configuration.name, "output": text, "parsed": parsed.plan,
-        "tokens": len(answer.ids), "time_s": round(answer.seconds, 4), "finish_reason": answer.finish_reason,
+        "tokens": len(answer.ids), "forward_passes": answer.forward_passes, "time_s": round(answer.seconds, 4), "finish_reason": answer.finish_reason,
         "error": answer.error or parsed.problem, "prompt_tokens": prompt_tokens, "standin": job.candidate.is_standin, "key": job.key,
     }  # fmt: skip
 
@@ -130,7 +130,7 @@ def _time(plan: Plan, job: Job, samples: list[Sample], total: int, engine: Any, 
     queries = [engine.query(plan.settings.level, sample.record, with_vocabulary=job.with_vocabulary) for sample in samples]
     for index, latency in engine.latencies(queries, job.configuration):
         record = {"id": samples[index].id, "candidate": job.candidate.name, "configuration": job.configuration.name}
-        log.append({**record, "latency_s": round(latency.seconds, 6), "tokens": latency.tokens, "key": job.key})
+        log.append({**record, "latency_s": round(latency.seconds, 6), "tokens": latency.tokens, "forward_passes": latency.forward_passes, "key": job.key})
         done += 1
         progress(label, done, total)
 
@@ -139,9 +139,8 @@ def _results(plan: Plan, predictions: RecordLog, latencies: RecordLog, run: dict
     settings = plan.settings
     rows, scores = [], []
     for job in plan.jobs:
-        seconds = {sample: float(record["latency_s"]) for sample, record in latencies.of_key(job.key).items()}
         row, of_samples = score_system(
-            settings.level, job.system, plan.data.samples, predictions.of_key(job.key), plan.vocabulary, seed=settings.seed, latencies=seconds
+            settings.level, job.system, plan.data.samples, predictions.of_key(job.key), plan.vocabulary, seed=settings.seed, timed=latencies.of_key(job.key)
         )
         rows.append(row)
         scores += of_samples

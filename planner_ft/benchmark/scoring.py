@@ -26,7 +26,7 @@ from planner_ft.vocabulary.plans import Level, plan_names
 
 METRICS = (
     "f1", "hallucination", "hallucination_with_unparsed", "hallucination_without_unparsed", "parsed", "schema_valid", "strict_valid",
-    "exact_sequence", "parameters", "whole_plan", "latency_s", "tokens",
+    "exact_sequence", "parameters", "whole_plan", "latency_s", "tokens", "forward_passes",
 )  # fmt: skip
 """Names of the metrics in results.json and in gate files."""
 
@@ -49,11 +49,14 @@ class SampleScore:
     group: str | None = None
     tokens: int | None = None
     latency_s: float | None = None
+    forward_passes: int | None = None
 
 
-def score_sample(level: Level, sample: Sample, prediction: Mapping[str, Any] | None, vocabulary: Vocabulary, latency_s: float | None = None) -> SampleScore:
-    """Score one prediction (`output`, and `tokens` where they are known); None counts as an empty output."""
-    prediction = prediction or {}
+def score_sample(
+    level: Level, sample: Sample, prediction: Mapping[str, Any] | None, vocabulary: Vocabulary, timed: Mapping[str, Any] | None = None
+) -> SampleScore:
+    """Score one prediction (`output`, and `tokens` where they are known); None counts as an empty output. `timed` is the sample's timed query."""
+    prediction, timed = prediction or {}, timed or {}
     plan = parse_output(prediction.get("output")).plan
     agreement = parameter_agreement(level, plan, sample.expected, vocabulary)
     return SampleScore(
@@ -70,7 +73,8 @@ def score_sample(level: Level, sample: Sample, prediction: Mapping[str, Any] | N
         failure=failure_kind(level, plan, sample.expected, vocabulary),
         group=sample.group,
         tokens=prediction.get("tokens"),
-        latency_s=latency_s,
+        latency_s=timed.get("latency_s"),
+        forward_passes=timed.get("forward_passes"),
     )
 
 
@@ -97,6 +101,7 @@ def summarise(level: Level, scores: Sequence[SampleScore], seed: int) -> dict[st
         "whole_plan": wilson(sum(score.failure is None for score in scores), n),
         "latency_s": _mean_of_known([(score.latency_s, score.family) for score in scores], seed),
         "tokens": _mean_of_known([(score.tokens, score.family) for score in scores], seed),
+        "forward_passes": _mean_of_known([(score.forward_passes, score.family) for score in scores], seed),
     }
 
 

@@ -33,9 +33,8 @@ def score_predictions(path: Path, data: BenchData, vocabulary: Vocabulary, *, se
     timed = _timed(path)
     for (candidate, configuration), predictions in groups.items():
         system = _system(candidate, configuration, predictions, vocabulary)
-        given = {key: float(line["latency_s"]) for key, line in predictions.items() if isinstance(line.get("latency_s"), int | float)}
-        latencies = {**timed.get((candidate, configuration), {}), **given}
-        row, of_samples = score_system(data.level, system, data.samples, predictions, vocabulary, seed=seed, latencies=latencies)
+        queries = {**timed.get((candidate, configuration), {}), **{key: line for key, line in predictions.items() if _is_timed(line)}}
+        row, of_samples = score_system(data.level, system, data.samples, predictions, vocabulary, seed=seed, timed=queries)
         rows.append(row)
         scores += of_samples
     manifest = build_manifest(
@@ -80,16 +79,20 @@ def _system(candidate: str, configuration: str, predictions: dict[str, dict[str,
     )  # fmt: skip
 
 
-def _timed(path: Path) -> dict[tuple[str, str], dict[str, float]]:
-    """The latencies of a run by (candidate, configuration) and sample id; none for other files."""
-    timed: dict[tuple[str, str], dict[str, float]] = {}
+def _timed(path: Path) -> Predictions:
+    """The timed queries of a run by (candidate, configuration) and sample id; none for other files."""
+    timed: Predictions = {}
     beside = path.with_name(LATENCY)
     if path.name != PREDICTIONS or not beside.is_file():
         return timed
     for _number, line, _problem_there in iterate_jsonl(beside):
-        if isinstance(line, dict) and isinstance(line.get("latency_s"), int | float):
-            timed.setdefault((str(line.get("candidate")), str(line.get("configuration"))), {})[str(line.get("id"))] = float(line["latency_s"])
+        if isinstance(line, dict) and _is_timed(line):
+            timed.setdefault((str(line.get("candidate")), str(line.get("configuration"))), {})[str(line.get("id"))] = line
     return timed
+
+
+def _is_timed(line: dict[str, Any]) -> bool:
+    return isinstance(line.get("latency_s"), int | float)
 
 
 def _problem(line: Any, known: frozenset[str]) -> str | None:

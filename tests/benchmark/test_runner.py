@@ -136,6 +136,11 @@ def test_a_run_writes_what_is_documented(settings: Any, tmp_path: Path, work: di
     assert [row["with_vocabulary"] for row in results["rows"]] == [True, False]
     assert all(row["metrics"]["latency_s"]["value"] > 0 and row["latency_n"] == TIMED for row in results["rows"])
     assert results["rows"][0]["metrics"]["tokens"]["value"] == 6
+    timed = lines(folder / "latency.jsonl")
+    assert all(0 < line["forward_passes"] <= line["tokens"] for line in [*timed, *written])
+    passes = [line["forward_passes"] for line in timed if line["configuration"] == "base"]
+    assert results["rows"][0]["metrics"]["forward_passes"]["value"] == sum(passes) / len(passes)
+    assert "Forward passes" in (folder / "table.md").read_text()
     assert "stand-in" in (folder / "table.md").read_text()
     # One model for both configurations; every answer once; each configuration's timed queries after one of warm-up.
     assert work == {"models": 1, "rows": 2 * COUNT + 2 * (TIMED + 1)}
