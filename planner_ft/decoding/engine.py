@@ -111,14 +111,14 @@ class Engine:
         """
         if queries:
             level = _only_level(queries)
-            with self._configured(level, configuration) as decoder:
+            with self.configured(level, configuration) as decoder:
                 yield from generate_unordered(decoder, queries, self.limits[level], self.method(level, configuration), batch_size=batch_size)
 
     def latencies(self, queries: Sequence[Query], configuration: Configuration) -> Iterator[tuple[int, Latency]]:
         """Yield (index of the query, latency), one query at a time. The queries are of one level."""
         if queries:
             level = _only_level(queries)
-            with self._configured(level, configuration) as decoder:
+            with self.configured(level, configuration) as decoder:
                 yield from measure_latency(decoder, queries, self.limits[level], self.method(level, configuration))
 
     def method(self, level: Level, configuration: Configuration) -> Method:
@@ -143,7 +143,7 @@ class Engine:
             torch.cuda.empty_cache()
 
     @contextlib.contextmanager
-    def _configured(self, level: Level, configuration: Configuration) -> Iterator[Decoder]:
+    def configured(self, level: Level, configuration: Configuration) -> Iterator[Decoder]:
         """The model with the adapter of the level, or none, as the configuration says."""
         if configuration.adapter and level not in self.adapters:
             raise PlannerError(f"configuration {configuration.name} needs an adapter of the {level} level; give --adapter")

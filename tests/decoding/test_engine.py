@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +12,9 @@ import torch
 from planner_ft.candidates import Candidate, resolve_candidate
 from planner_ft.candidates.adapters import adapter_record
 from planner_ft.candidates.loading import load_model
-from planner_ft.decoding.configurations import Configuration
-from planner_ft.decoding.engine import Engine, Query
+from planner_ft.decoding.configurations import STRENGTHS, Configuration, Strength
+from planner_ft.decoding.engine import Engine, Query, Speed
+from planner_ft.decoding.passes import ModelDecoder
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import write_json
 from planner_ft.vocabulary import load_vocabulary
@@ -53,12 +55,14 @@ def answers(engine: Engine, level: Level, *configurations: Configuration) -> lis
     return [engine.answer(engine.query(level, RECORDS[level]), configuration).ids for configuration in configurations]
 
 
-def test_one_base_serves_both_adapters_and_none(models: Path, adapters: dict[Level, Path]) -> None:
-    both = load(adapters=adapters)
+@pytest.mark.parametrize("lean", [False, True])
+def test_one_base_serves_both_adapters_and_none(models: Path, adapters: dict[Level, Path], lean: bool) -> None:
+    both = load(adapters=adapters, lean=lean)
+    assert set(both.lean) == ({None, "mission", "task"} if lean else set())
     of_both = {level: answers(both, level, BASE, LORA, BASE, LORA) for level in RECORDS}
-    plain = load()
+    plain = load(lean=lean)
     for level, (base, lora, base_again, lora_again) in of_both.items():
-        alone = load(adapters={level: adapters[level]})
+        alone = load(adapters={level: adapters[level]}, lean=lean)
         assert [base] == answers(plain, level, BASE)
         assert [lora] == answers(alone, level, LORA)
         assert (base, lora) == (base_again, lora_again)
@@ -80,3 +84,37 @@ def test_queries_of_two_levels_are_not_mixed(models: Path) -> None:
     engine = load()
     with pytest.raises(ValueError, match="one level"):
         list(engine.answers([Query("mission", {}, (1,)), Query("task", {}, (1,))], BASE))
+
+
+def test_stand_ins_are_decoded_as_what_they_stand_for(models: Path) -> None:
+    engine = load()
+    with engine.configured("mission", BASE) as decoder:
+        assert isinstance(decoder, ModelDecoder)
+
+
+@pytest.fixture(scope="module")
+def embedded() -> Engine:
+    return Engine.load(resolve_candidate("embedded"), load_vocabulary(), device="cpu", threads=1)
+
+
+@pytest.mark.parametrize("strength", STRENGTHS)
+def test_what_saves_passes_changes_no_answer(embedded: Engine, strength: Strength) -> None:
+    commands = ["Find the rusty mooring buoy, film its shackle for two minutes, then come home.", "Orbit the wreck at [30, -45] from 12 m, then report."]
+    queries = [embedded.query("mission", {"prompt": command}) for command in commands]
+    configuration = Configuration(False, strength)
+    slow, forced, fast = (replace(embedded, speed=speed) for speed in (Speed(False, False), Speed(drafting=False), Speed()))
+    expected = [slow.answer(query, configuration) for query in queries]
+    assert all(answer.finish_reason == "stop" and answer.forward_passes == len(answer.ids) for answer in expected)
+    for engine, most in ((forced, 1.0), (fast, 0.5)):
+        answers = [engine.answer(query, configuration) for query in queries]
+        assert [engine.text(answer) for answer in answers] == [slow.text(answer) for answer in expected]
+        assert sum(answer.forward_passes for answer in answers) <= most * sum(len(answer.ids) for answer in answers)
+    assert strength == "free" or sum(forced.answer(query, configuration).forced_tokens for query in queries) > 0
+
+
+def test_batches_and_single_queries_give_the_same_answers(embedded: Engine) -> None:
+    queries = [embedded.query("mission", {"prompt": f"Go to [{x}, {-3 * x}]{' and look around' * (x % 4)}."}) for x in range(6)]
+    together = dict(embedded.answers(queries, BASE, batch_size=6))
+    for index, query in enumerate(queries):
+        alone = embedded.answer(query, BASE)
+        assert (together[index].ids, together[index].forward_passes) == (alone.ids, alone.forward_passes)
