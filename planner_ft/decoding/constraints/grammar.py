@@ -238,21 +238,39 @@ def _some(item: str, most: int) -> str:
 
 def _step(grammar: Grammar, vocabulary: Vocabulary, values: Values) -> str:
     navigation = _skills(grammar, vocabulary, "navigation", values)
+    return grammar.rule(f"{literal('{' + key(STEP_KEYS[0]))} {navigation} {step_rest(grammar, vocabulary, values)}")
+
+
+def step_rest(grammar: Grammar, vocabulary: Vocabulary, values: Values) -> str:
+    """The rule of a step behind its navigation skill, up to its closing brace."""
     others = [_skills(grammar, vocabulary, role, values) for role in ("filter", "perception")]
     lists = [f"{literal(',' + key(name))} {items(grammar, skill, MOST_SKILLS)}" for name, skill in zip(STEP_KEYS[1:3], others, strict=True)]
-    lists += [f"{literal(',' + key(name))} {values.step_texts(grammar, name)}" for name in STEP_TAIL]
-    return grammar.rule(f"{literal('{' + key(STEP_KEYS[0]))} {navigation} {' '.join(lists)} {literal('}')}")
+    return grammar.rule(f"{' '.join(lists)} {step_tail(grammar, values)}")
+
+
+def step_tail(grammar: Grammar, values: Values) -> str:
+    """The rule of a step behind its perception skills, up to its closing brace."""
+    lists = [f"{literal(',' + key(name))} {values.step_texts(grammar, name)}" for name in STEP_TAIL]
+    return grammar.rule(f"{' '.join(lists)} {literal('}')}")
+
+
+def named_skills(grammar: Grammar, vocabulary: Vocabulary, role: Role, values: Values) -> str | None:
+    """The rule of a skill of this role behind `{"name":"`; None where the vocabulary has none that can be written."""
+    bodies = ((skill, skill_body(grammar, skill, values)) for skill in vocabulary.skills_in_role(role))
+    options = [f"{literal(patterns.quoted(skill.name))} {body}" for skill, body in bodies if body]
+    return grammar.rule(" | ".join(options)) if options else None
+
+
+def skill_body(grammar: Grammar, skill: Skill, values: Values) -> str | None:
+    """The rule of a skill behind its name, up to its closing brace; None where a required parameter has no value."""
+    parameters = _parameters(grammar, skill, values)
+    opens = literal(f'",{key("parameters")}{{')
+    return None if parameters is None else grammar.rule(f"{opens} {parameters} {literal('}')}")
 
 
 def _skills(grammar: Grammar, vocabulary: Vocabulary, role: Role, values: Values) -> str | None:
-    """The rule of a skill of this role; None where the vocabulary has none that can be written."""
-    options = []
-    for skill in vocabulary.skills_in_role(role):
-        parameters = _parameters(grammar, skill, values)
-        if parameters is not None:
-            opens = literal(f'{patterns.quoted(skill.name)}",{key("parameters")}{{')
-            options.append(f"{opens} {parameters} {literal('}')}")
-    return grammar.rule(f"{literal(SKILL_OPENS)} ({' | '.join(options)})") if options else None
+    named = named_skills(grammar, vocabulary, role, values)
+    return grammar.rule(f"{literal(SKILL_OPENS)} {named}") if named else None
 
 
 def _parameters(grammar: Grammar, owner: Task | Skill, values: Values) -> str | None:

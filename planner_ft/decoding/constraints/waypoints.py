@@ -1,0 +1,195 @@
+"""Where the facts of a task can send a vehicle: stated places, points a stated way off, and the paths of grids, squares and rings.
+
+A waypoint is derived, not guessed: from a centre, a size and a spacing follow the lanes of a grid. The model still decides what is
+done, where a path begins and which way round it goes; a path that was begun is run to its end. Geometry as in agents' answers
+(planner_ft.data.task.geometry): metres, x east, y north, bearings clockwise from north.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from planner_ft.data.quantities import bearings, quantities
+from planner_ft.data.stated import stated_numbers
+from planner_ft.data.task import geometry as g
+from planner_ft.decoding.constraints.facts import read
+from planner_ft.vocabulary import Vocabulary
+
+Point = g.Point
+Path = tuple[Point, ...]
+
+MOST_LENGTHS, MOST_PLACES, MOST_PATHS = 7, 12, 4000
+MOST_WAYPOINTS = 64
+BEGUN = 2
+"""Waypoints of a path in a row by which it counts as begun."""
+GRID = re.compile(
+    r"\b(?:grid|lawn-?mow\w*|lanes?|lines?|tracks?|legs|runs|swaths?|transects?|strips?|passes|rows?|depths?|box|rectangle|cover|sweep|sound)\b", re.I
+)
+ROUND = re.compile(r"\b(?:square|round|around|about|circle|ring|circuit|perimeter|survey\w*|inspect\w*|points?|waypoints?|stops?|stand-?off|corners?)\b", re.I)
+UNKNOWN = re.compile(r"\b(?:zig-?zag|spiral|triang\w+|hexagon\w*|pentagon\w*|octagon\w*|figure|ellip\w+|oval|diamond|half ?way|midpoint|mirror\w*)\b", re.I)
+"""Shapes whose waypoints are not derived here."""
+AGAIN = re.compile(r"\b(?:back|return\w*|again|revisit|same)\b", re.I)
+
+
+@dataclass(frozen=True)
+class Ground:
+    """The facts that waypoints are derived from. `free`: they cannot be read with certainty, and any waypoint may be meant.
+
+    `stays` says that a waypoint may be the place where the vehicle is.
+    """
+
+    places: tuple[Point, ...]
+    lengths: tuple[float, ...]
+    bearings: tuple[float, ...]
+    paths: tuple[Path, ...]
+    free: bool = False
+    stays: bool = False
+
+    def following(self, before: Path) -> list[Point]:
+        """The waypoints that may follow those `before`: another place than the last one."""
+        begun = self._begun(before)
+        onward = dict.fromkeys(path[done] for path, done in begun if done < len(path))
+        if onward and begun[0][1] >= BEGUN:
+            return list(onward)
+        bases = dict.fromkeys((*before[-1:], *self.places))
+        away = (g.offset(base, bearing, length) for base in bases for length in self.lengths for bearing in self.bearings)
+        options = dict.fromkeys(itertools.chain(self.places, before, self._starts, onward, away))
+        return [point for point in options if self.stays or not before or point != before[-1]]
+
+    def may_end(self, before: Path) -> bool:
+        """Whether no path is left half-way."""
+        begun = self._begun(before)
+        return not begun or begun[0][1] < BEGUN or any(done == len(path) for path, done in begun)
+
+    def _begun(self, before: Path) -> list[tuple[Path, int]]:
+        """Paths of which the last waypoints are the beginning, with how many: those with the most."""
+        found = [
+            (path, place + 1)
+            for path, place in self._passing.get(before[-1] if before else (), ())
+            if place < len(before) and path[: place + 1] == before[len(before) - place - 1 :]
+        ]
+        most = max((done for _path, done in found), default=0)
+        return [(path, done) for path, done in found if done == most]
+
+    @functools.cached_property
+    def _starts(self) -> list[Point]:
+        return list(dict.fromkeys(path[0] for path in self.paths))
+
+    @functools.cached_property
+    def _passing(self) -> dict[tuple[float, ...], list[tuple[Path, int]]]:
+        """The paths by the waypoints that they pass, each with its number on the path."""
+        passing: dict[tuple[float, ...], list[tuple[Path, int]]] = {}
+        for path in self.paths:
+            for place, point in enumerate(path):
+                passing.setdefault(point, []).append((path, place))
+        return passing
+
+
+def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
+    """The facts of a task input. Waypoints are free where its numbers cannot be read with certainty."""
+    reading = read(str(record.get("prompt", "")), vocabulary)
+    given = record.get("parameters")
+    parameters = given if isinstance(given, dict) else {}
+    home = _tidy(vocabulary.home)
+    own = [_tidy(value) for value in parameters.values() if _is_place(value)]
+    stated = [_tidy(place) for place in reading.places if place != vocabulary.unresolved]
+    places = tuple(dict.fromkeys((*own, *(place for place in stated if place != home), home)))
+    said = sorted(value for value in stated_numbers(reading.bare, "m") if value > 0)
+    lengths = tuple(sorted({*_numbers(parameters), *said}))
+    counts = sorted({int(quantity.said) for quantity in quantities(reading.bare) if quantity.unit is None and quantity.said in range(2, 25)})
+    angles = {value % 360 for value in (*bearings(reading.text), *stated_numbers(reading.bare, "deg"), *_angles(parameters))}
+    unread = reading.numbers_free or bool(reading.loose) or UNKNOWN.search(reading.text) is not None
+    free = unread or len(places) > MOST_PLACES or len(lengths) > MOST_LENGTHS
+    paths: Iterator[Path] = iter(())
+    if not free:
+        facts = _Facts(reading.text, parameters, tuple(place for place in places if place != home) or places, lengths, tuple(said), tuple(counts))
+        task = vocabulary.task.get(str(record.get("task")))
+        paths = _paths(facts, task.pattern if task else "", sorted(angles))
+    found = tuple(dict.fromkeys(itertools.islice(paths, MOST_PATHS)))
+    return Ground(places, lengths, tuple(sorted(angles)), found, free=free, stays=AGAIN.search(reading.text) is not None)
+
+
+@dataclass(frozen=True)
+class _Facts:
+    """What paths are made of; `said` are the lengths of the prompt, `lengths` those and the task's own."""
+
+    text: str
+    parameters: dict[str, Any]
+    centres: tuple[Point, ...]
+    lengths: tuple[float, ...]
+    said: tuple[float, ...]
+    counts: tuple[int, ...]
+
+
+def _paths(facts: _Facts, pattern: str, angles: list[float]) -> Iterator[Path]:
+    if pattern == "lawnmower" or GRID.search(facts.text):
+        for centre, (width, length, spacing) in itertools.product(facts.centres, dict.fromkeys(_sizes(facts))):
+            for middle in (centre, *_middles(centre, width, length, facts.text)):
+                yield from _grids(middle, width, length, spacing)
+    if pattern == "square" or ROUND.search(facts.text):
+        for centre, radius in itertools.product(facts.centres, facts.lengths):
+            for start, clockwise in itertools.product(g.SQUARE_STARTS, (False, True)):
+                yield tuple(g.survey_square(centre, radius, start, clockwise=clockwise))
+            for count, bearing, clockwise in itertools.product(facts.counts, dict.fromkeys((*angles, 0, 90)), (False, True)):
+                if count >= 3:
+                    yield tuple(g.circle(centre, radius, count, bearing, clockwise=clockwise))
+
+
+def _sizes(facts: _Facts) -> Iterator[tuple[float, float, float]]:
+    """Width, length and lane spacing: the task's own; else any three stated lengths, or two and a number of lanes."""
+    given = tuple(facts.parameters.get(name) for name in ("width", "length", "spacing"))
+    if all(isinstance(value, int | float) for value in given):
+        yield given  # type: ignore[misc]
+        if not set(facts.said) - set(given):
+            return
+    for width, length in itertools.product(facts.lengths, repeat=2):
+        for spacing in facts.lengths:
+            if spacing <= max(width, length):
+                yield width, length, spacing
+        for lanes in facts.counts:
+            yield width, length, width / (lanes - 1)
+            yield width, length, length / (lanes - 1)
+
+
+def _middles(corner: Point, width: float, length: float, prompt: str) -> list[Point]:
+    """The centres of areas that have a corner at a stated place."""
+    if "corner" not in prompt.lower():
+        return []
+    return [g.point(corner[0] + x * width / 2, corner[1] + y * length / 2) for x, y in itertools.product((1, -1), repeat=2)]
+
+
+def _grids(centre: Point, width: float, length: float, spacing: float) -> Iterator[Path]:
+    axes: tuple[g.Axis, ...] = ("y", "x")
+    for axis in axes:
+        across = width if axis == "y" else length
+        lanes = g.lane_count(across, spacing) if spacing > 0 else None
+        if lanes is None or not 2 <= lanes <= MOST_WAYPOINTS // 2:
+            continue
+        for corner in g.CORNERS:
+            yield tuple(g.lawnmower(centre, width, length, spacing, corner, axis))
+
+
+def _angles(parameters: dict[str, Any]) -> Iterator[float]:
+    value = parameters.get("heading")
+    if isinstance(value, int | float):
+        yield value
+
+
+def _numbers(parameters: dict[str, Any]) -> Iterator[float]:
+    """The lengths among a task's parameters."""
+    for name, value in parameters.items():
+        if name in ("radius", "distance", "length", "width", "spacing", "max_dist") and isinstance(value, int | float) and value > 0:
+            yield value
+
+
+def _is_place(value: Any) -> bool:
+    return isinstance(value, list) and len(value) == 2 and all(isinstance(item, int | float) for item in value)
+
+
+def _tidy(place: Any) -> Point:
+    return g.point(float(place[0]), float(place[1]))

@@ -1,0 +1,60 @@
+"""Skill sequences made as they grow."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import pytest
+
+from planner_ft.candidates import resolve_candidate
+from planner_ft.candidates.loading import load_tokenizer
+from planner_ft.data.task.sampler import sample_tasks
+from planner_ft.decoding.constraints.answer import Answer
+from planner_ft.decoding.constraints.grammar import SchemaValues
+from planner_ft.decoding.constraints.routes import TaskScript
+from planner_ft.decoding.constraints.tokens import allows, tokens_of
+from planner_ft.decoding.constraints.waypoints import read_ground
+from planner_ft.prompts.text import completion_text
+from planner_ft.vocabulary import load_vocabulary
+
+VOCABULARY = load_vocabulary()
+
+
+@pytest.fixture(scope="module")
+def tokenizer() -> Any:
+    return load_tokenizer(resolve_candidate("embedded"))
+
+
+def start(tokenizer: Any, record: dict[str, Any]) -> Answer:
+    tokens = tokens_of(tokenizer, (tokenizer.eos_token_id,), None)
+    return Answer(tokens, TaskScript(VOCABULARY, SchemaValues(), read_ground(record, VOCABULARY)), 2048, 300)
+
+
+def ids(tokenizer: Any, text: str) -> list[int]:
+    return list(tokenizer.encode(text, add_special_tokens=False))
+
+
+def test_the_answers_of_sampled_tasks_are_admitted(tokenizer: Any) -> None:
+    for record in itertools.islice(sample_tasks(VOCABULARY, 91, None, "train"), 60):
+        if read_ground(record, VOCABULARY).free:
+            continue
+        answer = start(tokenizer, record)
+        for token in ids(tokenizer, completion_text("task", record["expected"], VOCABULARY)):
+            answer.accept(token)
+        assert answer.ended, record["prompt"]
+
+
+def test_no_step_repeats_the_place_before_it_and_no_grid_is_left_half_way(tokenizer: Any) -> None:
+    record = {"task": "BathymetryGridSurvey", "parameters": {"center": [0, 0], "width": 20, "length": 40, "spacing": 20}, "prompt": "Run the grid."}
+    step = '{"navigation_skill":{"name":"GoToXY","parameters":{"x":%d,"y":%d}},"filter_skills":[],"perception_skills":[],"stop_conditions":[],'
+    step += '"failure_modes":[],"expected_outputs":[]}'
+    answer = start(tokenizer, record)
+    for token in ids(tokenizer, '{"skill_sequence":[' + step % (-10, -20) + "," + step % (-10, 20)):
+        answer.accept(token)
+    closing, onward = ids(tokenizer, "]}")[0], ids(tokenizer, ',{"navigation_skill":{"name":"')[0]
+    assert not allows(answer.mask(), closing) and allows(answer.mask(), onward)
+    rest = "," + step % (10, 20) + "," + step % (10, -20) + "]}"
+    assert answer.admits(ids(tokenizer, rest)) == len(ids(tokenizer, rest))
+    again = ids(tokenizer, "," + step % (-10, 20))
+    assert answer.admits(again) < len(again)

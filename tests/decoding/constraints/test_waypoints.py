@@ -1,0 +1,56 @@
+"""Where the facts of a task can send a vehicle."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from planner_ft.data.task import geometry as g
+from planner_ft.decoding.constraints.waypoints import Ground, read_ground
+from planner_ft.vocabulary import load_vocabulary
+
+VOCABULARY = load_vocabulary()
+
+
+def ground(task: str, prompt: str, **parameters: Any) -> Ground:
+    return read_ground({"task": task, "prompt": prompt, "parameters": parameters}, VOCABULARY)
+
+
+def follows(facts: Ground, path: list[tuple[float, float]]) -> bool:
+    return all(point in facts.following(tuple(path[:place])) for place, point in enumerate(path)) and facts.may_end(tuple(path))
+
+
+def test_a_grid_that_was_begun_is_run_to_its_end() -> None:
+    facts = ground("BathymetryGridSurvey", "Run the grid.", center=[0, 0], width=20, length=20, spacing=5)
+    lanes = g.lawnmower((0, 0), 20, 20, 5)
+    assert follows(facts, lanes)
+    assert facts.following(tuple(lanes[:2])) == [lanes[2]] and not facts.may_end(tuple(lanes[:4]))
+    assert follows(facts, g.lawnmower((0, 0), 20, 20, 5, "north-east", "x"))
+
+
+def test_a_grid_can_be_stated_in_the_prompt_alone_also_by_a_corner() -> None:
+    facts = ground("BathymetryGridSurvey", "Mow an area 40 m wide and 60 m long from its south-west corner at (10, 10), lanes 20 m apart.")
+    assert follows(facts, g.lawnmower((30, 40), 40, 60, 20))
+
+
+def test_a_survey_square_may_start_anywhere_and_go_either_way_round() -> None:
+    facts = ground("SurveyTarget", "Survey it on a square.", target_position=[30, 40], radius=10)
+    assert follows(facts, g.survey_square((30, 40), 10))
+    square = g.survey_square((30, 40), 10, "north-west", clockwise=True)
+    assert follows(facts, square) and not facts.may_end(tuple(square[:3]))
+
+
+def test_a_stated_way_off_a_stated_place_is_a_waypoint_and_no_other_place_is() -> None:
+    facts = ground("Transit", "Go to the point 30 m due south of (10, 20), then 15 m east.")
+    assert follows(facts, [(10, -10), (25, -10)])
+    assert (10, 50) not in facts.following(()) and (11, 20) not in facts.following(())
+
+
+def test_a_step_goes_somewhere_else_unless_the_prompt_speaks_of_coming_back() -> None:
+    assert (5, 5) not in ground("Transit", "Go to (5, 5).").following(((5, 5),))
+    assert (5, 5) in ground("Transit", "Go to (5, 5), then back to it.").following(((5, 5),))
+
+
+def test_shapes_that_are_not_derived_leave_room() -> None:
+    assert ground("Transit", "Run a zigzag of 20 m from (5, 5).").free
+    assert ground("Transit", "Go to (5, 5) and on for 3 furlongs.").free
+    assert not ground("Transit", "Go to (5, 5).").free
