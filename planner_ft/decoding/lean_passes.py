@@ -79,7 +79,7 @@ class LeanPasses:
         for kind, new in zip(memory, (turned[:, heads:], mixed[:, both:]), strict=True):
             kind[place.rows, place.positions] = new
         queries = place.blocks(turned[:, :heads], self.decoder.key_heads)
-        found = [_attention(queries[part], *place.known(memory, reach), hidden[part, ..., :reach]) for part, reach in place.parts]
+        found = [_attention(queries[part], place.known(memory, reach), hidden[part, ..., :reach]) for part, reach in place.parts]
         return linear(place.flat(torch.cat(found), heads).to(layer.out.dtype), layer.out, layer.out_bias)
 
 
@@ -131,14 +131,15 @@ class _Place:
         spread = found.view(blocks, key_heads, heads // key_heads, BLOCK, size).permute(0, 3, 1, 2, 4)
         return spread.reshape(blocks * BLOCK, heads * size)[self.slots]
 
-    def known(self, memory: tuple[Tensor, Tensor], reach: int) -> list[Tensor]:
+    def known(self, memory: tuple[Tensor, Tensor], reach: int) -> tuple[Tensor, Tensor]:
         """The first `reach` keys and values of the rows: (rows, key heads, reach, size)."""
         rows = slice(self.rows, self.rows + 1) if isinstance(self.rows, int) else slice(None)
-        return [kind[rows, :reach].transpose(1, 2) for kind in memory]
+        return memory[0][rows, :reach].transpose(1, 2), memory[1][rows, :reach].transpose(1, 2)
 
 
-def _attention(queries: Tensor, keys: Tensor, values: Tensor, hidden: Tensor) -> Tensor:
+def _attention(queries: Tensor, known: tuple[Tensor, Tensor], hidden: Tensor) -> Tensor:
     """Attention whose result does not depend on how many hidden keys stand behind the others: values are added up in chunks, in their order."""
+    keys, values = known
     scores = torch.matmul(queries, keys.transpose(2, 3)).mul_(queries.shape[-1] ** -0.5).add_(hidden)
     weights = torch.softmax(scores, -1)
     found = torch.matmul(weights[..., :KEYS], values[:, :, :KEYS])

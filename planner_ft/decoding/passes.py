@@ -28,7 +28,8 @@ class Passes(Protocol):
 class Decoder(Protocol):
     """A model that batches are started on. `context` is the number of positions that it can hold, None where it does not say."""
 
-    context: int | None
+    @property
+    def context(self) -> int | None: ...
 
     def start(self, rows: int) -> Passes:
         """Forward passes for a batch of this many rows."""

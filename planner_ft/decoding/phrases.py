@@ -34,4 +34,4 @@ def _records(level: Level, vocabulary: Vocabulary) -> Iterator[dict[str, Any]]:
         yield from sample_tasks(vocabulary, SEED, TASKS, "train")
     elif vocabulary.name == DEFAULT:
         with contextlib.suppress(PlannerError):
-            yield from (record for _line, record, problem in iterate_jsonl(find_source() / "train.jsonl") if not problem)
+            yield from (record for _line, record, _problem in iterate_jsonl(find_source() / "train.jsonl") if record is not None)

@@ -48,12 +48,15 @@ class Row:
         self._propose()
 
     def feed(self, *, wide: bool) -> tuple[list[int], int]:
-        """The tokens of the next pass, and how many logits at their end are wanted. All rows start with their whole prompt."""
+        """The tokens of the next pass, and how many logits at their end are wanted.
+
+        All rows start with their whole prompt. One that is not `wide` goes on a token at a time, so nothing is drafted for it.
+        """
         width = len(self.pending) if wide or not self.forward_passes else 1
         fed, self.pending = self.pending[:width], self.pending[width:]
         self.forward_passes += 1
         if not wide:
-            self.draft = []
+            self.draft, self.drafter = [], None
         return fed + self.draft, len(self.draft) + 1
 
     def choose(self, best: Sequence[int], logits: Tensor) -> int:
