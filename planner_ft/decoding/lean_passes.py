@@ -79,7 +79,7 @@ class LeanPasses:
         for kind, new in zip(memory, (turned[:, heads:], mixed[:, both:]), strict=True):
             kind[place.rows, place.positions] = new
         queries = place.blocks(turned[:, :heads], self.decoder.key_heads)
-        found = [_attention(queries[part], place.known(memory, reach), hidden[part, ..., :reach]) for part, reach in place.parts]
+        found = [attention(queries[part], place.known(memory, reach), hidden[part, ..., :reach]) for part, reach in place.parts]
         return linear(place.flat(torch.cat(found), heads).to(layer.out.dtype), layer.out, layer.out_bias)
 
 
@@ -137,7 +137,7 @@ class _Place:
         return memory[0][rows, :reach].transpose(1, 2), memory[1][rows, :reach].transpose(1, 2)
 
 
-def _attention(queries: Tensor, known: tuple[Tensor, Tensor], hidden: Tensor) -> Tensor:
+def attention(queries: Tensor, known: tuple[Tensor, Tensor], hidden: Tensor) -> Tensor:
     """Attention whose result does not depend on how many hidden keys stand behind the others: values are added up in chunks, in their order."""
     keys, values = known
     scores = torch.matmul(queries, keys.transpose(2, 3)).mul_(queries.shape[-1] ** -0.5).add_(hidden)

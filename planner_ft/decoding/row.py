@@ -95,7 +95,7 @@ class Row:
         allowed = torch.from_numpy(np.flatnonzero(bits)).to(logits.device)
         if not len(allowed):
             raise RuntimeError("the constraint allows no token")
-        return int(allowed[logits[allowed].float().nan_to_num(nan=-torch.inf).argmax()])
+        return int(allowed[logits[allowed].argmax()])
 
     def _add(self, token: int) -> None:
         """A token joins the answer."""

@@ -14,6 +14,7 @@ from planner_ft.candidates.loading import compute_dtype, load_model
 from planner_ft.candidates.packing import linear_4bit
 from planner_ft.decoding.dense import NotDense, dense_weight
 from planner_ft.decoding.lean import LeanDecoder
+from planner_ft.decoding.lean_passes import BLOCK, KEYS, attention
 
 IDS = [(7 * step * step + 3) % 61 + 3 for step in range(300)]
 LLAMA_3 = {
@@ -33,6 +34,9 @@ MODELS: dict[str, dict[str, Any]] = {
     "heads of another size": {"head_dim": 12},
     "Llama 3 positions": {"rope_parameters": LLAMA_3},
 }
+
+
+bits = pytest.mark.skipif(compute_dtype(torch.device("cpu")) != torch.bfloat16, reason="bit by bit the same only where the CPU multiplies bfloat16")
 
 
 def lean(model: Any, adapter: Any = None) -> LeanDecoder:
@@ -95,7 +99,7 @@ def test_rows_of_a_batch_have_their_own_positions(toy_model: Any) -> None:
     assert torch.allclose(fed, expected, atol=1e-4)
 
 
-@pytest.mark.skipif(compute_dtype(torch.device("cpu")) != torch.bfloat16, reason="needs a CPU that multiplies bfloat16")
+@bits
 @torch.inference_mode()
 def test_in_bfloat16_a_position_has_the_same_bits_in_every_pass(make_llama: Callable[..., Any]) -> None:
     decoder = lean(make_llama(hidden_size=128, intermediate_size=352, initializer_range=0.1).bfloat16())
@@ -108,6 +112,19 @@ def test_in_bfloat16_a_position_has_the_same_bits_in_every_pass(make_llama: Call
     passes.run([IDS[:200], IDS[:30], IDS[:130], IDS[:31]], [1] * 4)
     fed = passes.run([IDS[200:204], IDS[30:37], IDS[130:131], IDS[31:33]], [4, 7, 1, 2])
     assert torch.equal(fed, torch.cat([one_by_one[171:175], one_by_one[1:8], one_by_one[101:102], one_by_one[2:4]]))
+
+
+@bits
+@torch.inference_mode()
+def test_hidden_keys_do_not_change_a_bit_of_attention() -> None:
+    torch.manual_seed(0)
+    keys, values = torch.randn(2, 1, 4, 8 * KEYS, 64)
+    for count in range(60, 1000, 47):
+        queries = torch.randn(1, 4, BLOCK, 64)
+        hidden = torch.zeros(1, 1, BLOCK, 8 * KEYS).masked_fill_(torch.arange(8 * KEYS) >= count, -torch.inf)
+        reaches = range(-(-count // KEYS) * KEYS, 8 * KEYS + 1, KEYS)
+        found = [attention(queries, (keys[:, :, :reach], values[:, :, :reach]), hidden[..., :reach]) for reach in reaches]
+        assert all(torch.equal(one, found[0]) for one in found)
 
 
 @torch.inference_mode()
