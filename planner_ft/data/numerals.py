@@ -15,9 +15,13 @@ UNITS: dict[str, tuple[str, float]] = {
     **dict.fromkeys(("m", "metre", "metres", "meter", "meters"), ("m", 1.0)),
     **dict.fromkeys(("km", "kilometre", "kilometres", "kilometer", "kilometers", "klick", "klicks"), ("m", 1000.0)),
     **dict.fromkeys(("cm", "centimetre", "centimetres", "centimeter", "centimeters"), ("m", 0.01)),
-    **dict.fromkeys(("nm", "mile", "miles"), ("m", 1852.0)),
+    **dict.fromkeys(("mm", "millimetre", "millimetres", "millimeter", "millimeters"), ("m", 0.001)),
+    **dict.fromkeys(("nm", "nmi", "mile", "miles"), ("m", 1852.0)),
     **dict.fromkeys(("ft", "foot", "feet"), ("m", 0.3048)),
+    **dict.fromkeys(("yd", "yds", "yard", "yards"), ("m", 0.9144)),
+    **dict.fromkeys(("fathom", "fathoms"), ("m", 1.8288)),
     **dict.fromkeys(("mps",), ("m/s", 1.0)),
+    **dict.fromkeys(("mph",), ("m/s", 1609.344 / 3600)),
     **dict.fromkeys(("kmh", "kph"), ("m/s", 1 / 3.6)),
     **dict.fromkeys(("kn", "kt", "kts", "knot", "knots"), ("m/s", 1852 / 3600)),
     **dict.fromkeys(("deg", "degree", "degrees", "°"), ("deg", 1.0)),
@@ -35,8 +39,9 @@ SMALL = {
     **{word: 10.0 * value for value, word in enumerate(TENS, 2)},
     "oh": 0.0,
     "fourty": 40.0,
-    "dozen": 12.0,
+    "couple": 2.0,
 }
+SCALES = {"dozen": 12.0, "score": 20.0, "hundred": 100.0, "thousand": 1000.0}
 FRACTIONS = {"half": 0.5, "quarter": 0.25, "third": 1 / 3}
 PARTS = {**FRACTIONS, "quarters": 0.25, "thirds": 1 / 3}
 AND = ("and", "n", "&")
@@ -70,14 +75,15 @@ def number_at(tokens: list[Token], index: int) -> tuple[float, int]:
         above, _, below = word.replace(",", "").partition("/")
         return _and_a_half(tokens, index, float(above) / float(below or 1), 1)
     if word in FRACTIONS:
-        return FRACTIONS[word], 1
+        dozen = index + 1 + (following in ("a", "of"))
+        return (12 * FRACTIONS[word], dozen + 1 - index) if word_at(tokens, dozen) == "dozen" else (FRACTIONS[word], 1)
     if word in ("a", "an", "per", "each", "every"):
-        if following in ("hundred", "thousand", "dozen"):
-            value, used = _in_words(tokens, index + 1, 1.0)
+        if following in (*SCALES, "couple"):
+            value, used = _in_words(tokens, index + 1, 0.0)
             return value, used + 1
         # A letter alone is rather a name or an article than a unit.
         return (1.0, 1) if len(following) > 2 and unit_at(tokens, index + 1)[0] else (0.0, 0)
-    if word not in SMALL and word not in ("hundred", "thousand"):
+    if word not in SMALL and word not in SCALES:
         return 0.0, 0
     value, used = _spelled_out(tokens, index) or _in_words(tokens, index, 0.0)
     if word_at(tokens, index + used) in PARTS:
@@ -102,8 +108,8 @@ def _in_words(tokens: list[Token], index: int, current: float) -> tuple[float, i
             skip, word = 1, word_at(tokens, index + 1)
         if word in SMALL and (not seen or _joins(current, SMALL[word], total)):
             current += SMALL[word]
-        elif word == "hundred":
-            current = max(current, 1) * 100
+        elif word in ("hundred", "dozen", "score"):
+            current = max(current, 1) * SCALES[word]
         elif word == "thousand":
             total, current = total + max(current, 1) * 1000, 0.0
         else:

@@ -11,7 +11,7 @@ import itertools
 import re
 from dataclasses import dataclass
 
-from planner_ft.data.numerals import Token, half_behind, number_at, tokenize, unit_at, word_at
+from planner_ft.data.numerals import Token, half_behind, number_at, tokenize, unit_at, unit_of, word_at
 
 COMPASS = (
     *("north", "north-north-east", "north-east", "east-north-east", "east", "east-south-east", "south-east", "south-south-east"),
@@ -28,10 +28,15 @@ TURNS = {
 ROUNDING = 0.0051
 """Converted values are written with two decimals."""
 
-_REPEATED = re.compile(r"[\s-]*(?:full |complete )?(?:times|turns|laps|rounds|circles|orbits)")
-_DIRECTION = r"east|west|north|south|[ewns](?![a-z])"
-_BETWEEN = re.compile(rf"(?:[\s,;:/=]|comma|and|by|(?<![a-z])[xy](?![a-z])|met(?:re|er)s?|m|{_DIRECTION}|minus|negative|[-−–(])*", re.IGNORECASE)
-_DIRECTED = re.compile(rf"\s*(?:met(?:re|er)s?|m)?\s*({_DIRECTION})", re.IGNORECASE)
+_REPEATED = re.compile(r"[\s-]*(?:full |complete )?(?:times?|turns?|laps?|rounds?|circles?|circuits?|orbits?)")
+_DIRECTION = r"(?:east|west|north|south)(?:ings?|wards?|erly)?|[ewns](?![a-z])"
+_FROM_HOME = r"(?:of|from) (?:home|base|here|(?:the )?origin)"
+_BETWEEN = re.compile(
+    rf"(?:[\s,;:/=]|comma|and|by|(?<![a-z])[xy](?![a-z])|met(?:re|er)s?|m|(?:(?:to )?the |due )?(?:{_DIRECTION})|{_FROM_HOME}|minus|negative|[-−–(])*",
+    re.IGNORECASE,
+)
+_DIRECTED = re.compile(rf"\s*(?:met(?:re|er)s?|m)?\s*(?:(?:to )?the |due )?({_DIRECTION})", re.IGNORECASE)
+_LED = re.compile(rf"(?<![a-z])({_DIRECTION})\s*(?:of|by|[:=])?\s*(?:minus|negative|[-−–])?\s*$", re.IGNORECASE)
 _SPEEDS = (
     (re.compile(r"\s*(?:an? )?(?:m/s|m s-1|m(?:et(?:re|er)s?)?,? (?:per|a) s(?:ec(?:ond)?)?\b)", re.IGNORECASE), 1.0),
     (re.compile(r"\s*(?:km/h|km (?:per|an) hour|kilomet(?:re|er)s (?:per|an) hour)", re.IGNORECASE), 1 / 3.6),
@@ -87,6 +92,10 @@ def _with_unit(text: str, tokens: list[Token], first: int, after: int, value: fl
             behind = next((index for index in range(after, len(tokens)) if tokens[index][1] >= speed.end()), len(tokens))
             return Quantity(value * factor, "m/s", start, speed.end(), value), behind
     unit, behind = unit_at(tokens, after)
+    if unit is not None and unit[0] == "m" and word_at(tokens, behind) in ("per", "a", "an", "each", "every", "/"):
+        rate = unit_of(word_at(tokens, behind + 1))
+        if rate is not None and rate[0] == "s":
+            return Quantity(value * unit[1] / rate[1], "m/s", start, tokens[behind + 1][2], value), behind + 2
     # "40S" is a coordinate.
     if unit is None or text[tokens[behind - 1][1] : tokens[behind - 1][2]] == "S":
         return Quantity(value, None, start, end, value), after
@@ -96,30 +105,7 @@ def _with_unit(text: str, tokens: list[Token], first: int, after: int, value: fl
     return Quantity(value * unit[1], unit[0], start, tokens[behind - 1][2], value), behind
 
 
-# ---------------------------------------------------------------- questions about a value
-
-
-def states_number(text: str, value: float, unit: str | None) -> bool:
-    """Whether `value` in a parameter's `unit` can come from the text. A number said in another unit does not count."""
-    kind = "deg" if unit == "degC" else unit
-    for quantity in quantities(text):
-        if quantity.unit in (kind, None) and close(quantity.value, value):
-            return True
-    if kind == "s" and any(close(total, value) for total in _durations(text)):
-        return True
-    return unit == "deg" and (value % 360 in bearings(text) or any(close(turn, abs(value)) for turn in turns(text)))
-
-
-def _durations(text: str) -> list[float]:
-    """Sums of neighbouring durations: "two minutes and thirty seconds", "1 h 20 min", "5 minutes 30"."""
-    sums = []
-    for first, second in itertools.pairwise(quantities(text)):
-        gap = second.start - first.end
-        if first.unit == second.unit == "s" and gap <= 5:
-            sums.append(first.value + second.value)
-        elif first.unit == "s" and second.unit is None and gap <= 1 and first.said:
-            sums.append(first.value + second.value * first.value / first.said / 60)
-    return sums
+# ---------------------------------------------------------------- directions, turns and places
 
 
 def close(said: float, written: float) -> bool:
@@ -132,8 +118,9 @@ def bearings(text: str) -> frozenset[float]:
     """Compass directions that the text names, in degrees clockwise from north."""
     lowered = re.sub(r"\b(north|south)[\s-]?(east|west)", r"\1-\2", text.lower())
     lowered = re.sub(r"\b(north|south|east|west)[\s-]((?:north|south)-(?:east|west))", r"\1-\2", lowered)
-    found = {22.5 * index for index, name in enumerate(COMPASS) if re.search(rf"(?<![\w-]){name}(?:erly|wards?|ern|bound)?(?![\w-])", lowered)}
-    return frozenset(found | {22.5 * SHORT.index(name) for name in re.findall(rf"\b(?:{'|'.join(sorted(SHORT, key=len, reverse=True))})\b", text)})
+    found = {22.5 * index for index, name in enumerate(COMPASS) if re.search(rf"(?<![\w-]){name}(?:erly|wards?|ern|[ -]?bound)?(?![\w-])", lowered)}
+    short = [name.upper() for name in re.findall(r"\b(?:[NESW]|(?i:[ns][ns]?[ew]|[ew][ns][ew]))\b", text)]
+    return frozenset(found | {22.5 * SHORT.index(name) for name in short if name in SHORT})
 
 
 @functools.lru_cache(maxsize=4096)
@@ -154,7 +141,8 @@ def turns(text: str) -> frozenset[float]:
 def positions(text: str) -> tuple[tuple[float, float, int, int], ...]:
     """Pairs of neighbouring numbers that can be coordinates, as (x, y, start, end), whatever form they are written in.
 
-    A pair is read both as it stands and by its directions: "40 south 12 east" is also (12, -40).
+    A pair is read both as it stands and by its directions, said behind the numbers or before them: "40 south 12 east"
+    and "south 40, east 12" are also (12, -40).
     """
     found = []
     numbers = quantities(text)
@@ -164,8 +152,14 @@ def positions(text: str) -> tuple[tuple[float, float, int, int], ...]:
             continue
         one, two = _directed(first, between), _directed(second, text[_number_end(text, second) :])
         found.append((one[0], two[0], first.start, second.end))
+        if (one[1] is None) != (two[1] is None):
+            # The direction belongs to what follows: "from 22/98 westwards".
+            found.append((first.said, second.said, first.start, second.end))
         if one[1] == "y" or two[1] == "x" or re.search(r"y\s*[=:]?\s*-?$", text[: first.start].lower()):
             found.append((two[0], one[0], first.start, second.end))
+        led = {axis: value for value, axis in (_led(first, text[: first.start]), _led(second, between)) if axis}
+        if len(led) == 2:
+            found.append((led["x"], led["y"], first.start, second.end))
     return tuple(found)
 
 
@@ -182,12 +176,15 @@ def _between(text: str, first: Quantity, second: Quantity) -> str:
 def _directed(quantity: Quantity, behind: str) -> tuple[float, str | None]:
     """The coordinate with the sign of the direction said behind it, and the axis that the direction gives."""
     match = _DIRECTED.match(behind)
-    if match is None:
-        return quantity.said, None
-    direction = match[1][0].lower()
-    return (-1 if direction in "ws" else 1) * quantity.said, "x" if direction in "ew" else "y"
+    return _along(quantity, match[1]) if match else (quantity.said, None)
 
 
-def states_position(text: str, position: list[float]) -> bool:
-    """Whether the coordinates occur in the text as a pair, in this order."""
-    return any(close(x, position[0]) and close(y, position[1]) for x, y, _start, _end in positions(text))
+def _led(quantity: Quantity, before: str) -> tuple[float, str | None]:
+    """The coordinate with the sign of the direction said before it, and the axis that the direction gives."""
+    match = _LED.search(before)
+    return _along(quantity, match[1]) if match else (quantity.said, None)
+
+
+def _along(quantity: Quantity, direction: str) -> tuple[float, str]:
+    letter = direction[0].lower()
+    return (-1 if letter in "ws" else 1) * quantity.said, "x" if letter in "ew" else "y"

@@ -13,7 +13,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.data.quantities import positions, quantities, states_number, states_position
+from planner_ft.data.quantities import positions, quantities
+from planner_ft.data.stated import states_number, states_position
 from planner_ft.data.words import says, words
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
 from planner_ft.vocabulary.plans import value_problem

@@ -11,7 +11,8 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
-from planner_ft.data.quantities import close, states_number
+from planner_ft.data.quantities import close
+from planner_ft.data.stated import states_number
 from planner_ft.data.words import says, words
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills, value_problem

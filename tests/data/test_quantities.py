@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from planner_ft.data.quantities import bearings, positions, quantities, states_number, states_position, turns
+from planner_ft.data.quantities import bearings, positions, quantities, turns
+from planner_ft.data.stated import states_number, states_position
 
 
 @pytest.mark.parametrize(

@@ -6,13 +6,19 @@ import functools
 from dataclasses import dataclass
 from typing import Any
 
+from planner_ft.data.lexicon import known_words
 from planner_ft.decoding.configurations import Strength
 from planner_ft.decoding.constraints import Constraint, ConstraintFactory
 from planner_ft.decoding.constraints.answer import Answer, Script, Whole
 from planner_ft.decoding.constraints.budget import least_limit, reserve
 from planner_ft.decoding.constraints.grammar import SchemaValues, plan_grammar
+from planner_ft.decoding.constraints.grounded import GroundedValues
+from planner_ft.decoding.constraints.grounded_steps import GroundedSteps
+from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, GroundedTaskValues
+from planner_ft.decoding.constraints.routes import TaskScript
 from planner_ft.decoding.constraints.state import MissionScript, ResolvedValues, names_unresolved
 from planner_ft.decoding.constraints.tokens import Tokens, tokens_of
+from planner_ft.decoding.constraints.waypoints import read_ground
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -47,6 +53,8 @@ class Factory:
     def __post_init__(self) -> None:
         """Compile what does not depend on the record."""
         self.tokens.compile(self._schema.opening())
+        if self.strength == "grounded":
+            known_words()
 
     @property
     def least_tokens(self) -> int:
@@ -55,7 +63,21 @@ class Factory:
     def start(self, record: dict[str, Any], limit: int | None = None) -> Constraint:
         limit = self.limit if limit is None else limit
         self.check(limit)
+        if self.strength == "grounded" and self.level == "task":
+            return self._grounded_task(record, limit)
+        if self.strength == "grounded":
+            script, notes = self._grounded(record)
+            return Answer(self.tokens, script, limit, self._reserve, notes)
         return Answer(self.tokens, self._script(record), limit, self._reserve)
+
+    def _grounded_task(self, record: dict[str, Any], limit: int) -> Constraint:
+        if names_unresolved(record, self.vocabulary):
+            return Answer(self.tokens, self._schema, limit, self._reserve)
+        values, ground = GroundedTaskValues(record, self.vocabulary), read_ground(record, self.vocabulary)
+        script: Script = TaskScript(self.vocabulary, values, ground)
+        if ground.free:
+            script = Whole(plan_grammar("task", self.vocabulary, ResolvedValues(FreeWaypoints(values), self.vocabulary)))
+        return Answer(self.tokens, script, limit, self._reserve, values.notes)
 
     def check(self, limit: int) -> None:
         """Raise PlannerError for a limit within which an answer cannot be guaranteed to end."""
@@ -68,6 +90,15 @@ class Factory:
     @functools.cached_property
     def _reserve(self) -> int:
         return reserve(self.level, self.vocabulary)
+
+    def _grounded(self, record: dict[str, Any]) -> tuple[Script, list[str]]:
+        """The script of what a record states, and what could not be read."""
+        if self.level == "mission":
+            values = GroundedValues(str(record.get("prompt", "")), self.vocabulary)
+            return MissionScript(self.vocabulary, values), values.notes
+        steps = GroundedSteps(record, self.vocabulary)
+        resolved = steps if names_unresolved(record, self.vocabulary) else ResolvedValues(steps, self.vocabulary)
+        return Whole(plan_grammar(self.level, self.vocabulary, resolved)), steps.notes
 
     def _script(self, record: dict[str, Any]) -> Script:
         if self.strength == "schema" or (self.level == "task" and names_unresolved(record, self.vocabulary)):

@@ -15,7 +15,7 @@ from planner_ft.decoding.constraints.patterns import literal, regex
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.definition import Role
-from planner_ft.vocabulary.plans import MISSION_KEYS, STEP_KEYS, Level, canonical_value
+from planner_ft.vocabulary.plans import MISSION_KEYS, STEP_KEYS, Level, canonical_value, value_problem
 
 MOST_TASKS, MOST_STEPS = 32, 128
 MOST_SKILLS = 16
@@ -81,6 +81,9 @@ class Values(Protocol):
     def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str | None:
         """The symbol of a parameter's number, none of `without`."""
 
+    def has_number(self, parameter: Parameter, value: float) -> bool:
+        """Whether a parameter's number can be `value`."""
+
     def text(self, grammar: Grammar, without: Sequence[str]) -> str | None:
         """The symbol of a parameter's text, none of `without`."""
 
@@ -116,6 +119,9 @@ class SchemaValues:
         pattern = patterns.number_range(parameter.minimum, parameter.maximum, whole=parameter.type == "integer")
         return grammar.terminal(f"{regex(pattern)}{_none_of(literal(written_number(number)) for number in without)}")
 
+    def has_number(self, parameter: Parameter, value: float) -> bool:
+        return value_problem(value, parameter) is None
+
     def text(self, grammar: Grammar, without: Sequence[str]) -> str:
         return grammar.terminal(f"{patterns.string(LONGEST_TEXT, blank=False)}{none_of_texts(without)}")
 
@@ -143,6 +149,9 @@ class Narrowed:
 
     def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str | None:
         return self._values.number(grammar, parameter, without)
+
+    def has_number(self, parameter: Parameter, value: float) -> bool:
+        return self._values.has_number(parameter, value)
 
     def text(self, grammar: Grammar, without: Sequence[str]) -> str | None:
         return self._values.text(grammar, without)

@@ -129,7 +129,7 @@ class ResolvedValues(Narrowed):
         value, suspect = self._unresolved[axis], frozenset({"unresolved"})
         other = self.number(grammar, parameter, (value,))
         options = [(other, context)] if other else []
-        if axis == 0 and self.number(grammar, parameter, ()):
+        if axis == 0 and self.has_number(parameter, value):
             options.append((literal(written_number(value)), context | suspect))
         elif axis == 1 and not context >= suspect:
             options = [(symbol, context) for symbol in [self.number(grammar, parameter, ())] if symbol]

@@ -18,6 +18,11 @@ if TYPE_CHECKING:
 GRAMMARS = 256
 """Compiled grammars that are kept per tokenizer: the states of a plan come again with every command."""
 
+TEXT_SLICES = [rf'[^0-9"\\\x00-\x1F\x7F]{{1,{longest}}}' for longest in (10, 30)]
+"""Tokens without digits, which the engine allows or refuses together: sentences whose numbers are known allow them all.
+
+With a vocabulary of 128k, a mask takes 0.2 ms instead of 1.5.
+"""
 CONTEXT = 8
 """Tokens before a forced text that it is spelt with at first; the whole answer where they do not suffice."""
 
@@ -100,11 +105,13 @@ def allows(mask: Mask, token: int | None) -> bool:
 @functools.lru_cache(maxsize=4)
 def tokens_of(tokenizer: Any, end_ids: tuple[int, ...], n_vocab: int | None = None) -> Tokens:
     """The tokens of a Hugging Face tokenizer; seconds for a large vocabulary, so the result is kept. Raises PlannerError for a slow one."""
+    from llguidance import LLTokenizer
     from llguidance.hf import from_tokenizer
 
     width = max(n_vocab or 0, len(tokenizer))
+    slices = [*TEXT_SLICES, *LLTokenizer.general_slices()]
     try:
-        return Tokens(from_tokenizer(tokenizer, n_vocab=width, eos_token=list(end_ids)), width, end_ids)
+        return Tokens(from_tokenizer(tokenizer, n_vocab=width, eos_token=list(end_ids), slices=slices), width, end_ids)
     except ValueError as error:
         raise PlannerError(f"the tokenizer cannot be constrained ({error}); decode at strength free, or give a candidate with tokenizer.json") from error
 

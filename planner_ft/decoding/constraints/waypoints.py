@@ -25,8 +25,6 @@ Path = tuple[Point, ...]
 
 MOST_LENGTHS, MOST_PLACES, MOST_PATHS = 7, 12, 4000
 MOST_WAYPOINTS = 64
-BEGUN = 2
-"""Waypoints of a path in a row by which it counts as begun."""
 GRID = re.compile(
     r"\b(?:grid|lawn-?mow\w*|lanes?|lines?|tracks?|legs|runs|swaths?|transects?|strips?|passes|rows?|depths?|box|rectangle|cover|sweep|sound)\b", re.I
 )
@@ -40,7 +38,8 @@ AGAIN = re.compile(r"\b(?:back|return\w*|again|revisit|same)\b", re.I)
 class Ground:
     """The facts that waypoints are derived from. `free`: they cannot be read with certainty, and any waypoint may be meant.
 
-    `stays` says that a waypoint may be the place where the vehicle is.
+    `stays` says that a waypoint may be the place where the vehicle is. A path counts as begun with `begun` of its waypoints in a row: with
+    fewer where the task is about such a path, since two moves can look like the beginning of many.
     """
 
     places: tuple[Point, ...]
@@ -49,12 +48,13 @@ class Ground:
     paths: tuple[Path, ...]
     free: bool = False
     stays: bool = False
+    begun: int = 2
 
     def following(self, before: Path) -> list[Point]:
         """The waypoints that may follow those `before`: another place than the last one."""
         begun = self._begun(before)
         onward = dict.fromkeys(path[done] for path, done in begun if done < len(path))
-        if onward and begun[0][1] >= BEGUN:
+        if onward and begun[0][1] >= self.begun:
             return list(onward)
         bases = dict.fromkeys((*before[-1:], *self.places))
         away = (g.offset(base, bearing, length) for base in bases for length in self.lengths for bearing in self.bearings)
@@ -64,7 +64,7 @@ class Ground:
     def may_end(self, before: Path) -> bool:
         """Whether no path is left half-way."""
         begun = self._begun(before)
-        return not begun or begun[0][1] < BEGUN or any(done == len(path) for path, done in begun)
+        return not begun or begun[0][1] < self.begun or any(done == len(path) for path, done in begun)
 
     def _begun(self, before: Path) -> list[tuple[Path, int]]:
         """Paths of which the last waypoints are the beginning, with how many: those with the most."""
@@ -106,12 +106,13 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     unread = reading.numbers_free or bool(reading.loose) or UNKNOWN.search(reading.text) is not None
     free = unread or len(places) > MOST_PLACES or len(lengths) > MOST_LENGTHS
     paths: Iterator[Path] = iter(())
+    task = vocabulary.task.get(str(record.get("task")))
     if not free:
         facts = _Facts(reading.text, parameters, tuple(place for place in places if place != home) or places, lengths, tuple(said), tuple(counts))
-        task = vocabulary.task.get(str(record.get("task")))
         paths = _paths(facts, task.pattern if task else "", sorted(angles))
     found = tuple(dict.fromkeys(itertools.islice(paths, MOST_PATHS)))
-    return Ground(places, lengths, tuple(sorted(angles)), found, free=free, stays=AGAIN.search(reading.text) is not None)
+    begun = 2 if task and task.pattern in ("lawnmower", "square") else 3
+    return Ground(places, lengths, tuple(sorted(angles)), found, free=free, stays=AGAIN.search(reading.text) is not None, begun=begun)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,213 @@
+"""Every value that an English command can be taken to state, where quantities.py reads the most probable one.
+
+People drop articles ("for hour or so"), write "4" for "for", misspell units and say two numbers in a row, so that
+"seventy one hundred and eighty" is 71 180 or 70 and 180. Each such reading is the text written out in another way
+(`rewritings`); a value is stated when one of them states it.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import re
+from collections.abc import Iterator
+
+from planner_ft.data.lexicon import corrections
+from planner_ft.data.numerals import BESIDE_UNIT, FRACTIONS, PARTS, SCALES, SMALL, UNITS, Token, number_at, tokenize, unit_of, word_at
+from planner_ft.data.quantities import TURNS, Quantity, bearings, close, positions, quantities, turns
+
+MOST_REWRITINGS = 24
+NUMERALS = frozenset([*SMALL, *SCALES, *PARTS, *TURNS])
+ARTICLES = ("a", "an", "per", "each", "every", "one")
+WHOLE = ("full", "whole", "good", "solid")
+BARE_UNITS = ("minute", "hour", "metre", "meter", "kilometre", "kilometer", "day", "mile")
+"""Units that are said without a number in telegram style; "second" is rather an ordinal."""
+VULGAR = {"½": 0.5, "¼": 0.25, "¾": 0.75, "⅓": 1 / 3, "⅔": 2 / 3, "⅛": 0.125}
+
+_VULGAR = re.compile(rf"(\d*)\s?([{''.join(VULGAR)}])")
+_SPEAK = re.compile(rf"(?<![\w.,-])[24](?= (?:an?|the|another|total|space|\d|{'|'.join([*SMALL, *FRACTIONS])})\b)", re.IGNORECASE)
+_THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:,\d{3})+(?![\d.])")
+_CLOCK = re.compile(r"(?<![\d:])(\d{1,3}):([0-5]\d)(?![\d:])")
+_EVERY = re.compile(r"\b(?:every|each|per)\s+$", re.IGNORECASE)
+_SMALL_SOUTH = re.compile(r"(\d\s?[ew]\W{1,5}\d+(?:\.\d+)?\s?)s(?![a-z])|(?<![\w.])(\d+(?:\.\d+)?\s?)s(?=\W{1,5}\d+(?:\.\d+)?\s?[ew](?![a-z]))")
+_HALF = re.compile(r"\band (?:a )?half[ -](hour|minute|kilometre|kilometer|mile|metre|meter)\b", re.IGNORECASE)
+_NUMBER_ARTICLE = re.compile(r"(\d) (an? (?:hour|minute|kilometre|kilometer|mile|metre|meter|day)\b)", re.IGNORECASE)
+_EXPONENT = re.compile(r"(?<![\w.])\d+(?:\.\d+)?e\+?\d{1,2}(?!\w)", re.IGNORECASE)
+
+
+@functools.lru_cache(maxsize=1024)
+def rewritings(text: str) -> tuple[str, ...]:
+    """The text, and the ways in which it can be written out otherwise; at most MOST_REWRITINGS in all."""
+    text = _VULGAR.sub(lambda match: f" {float(match[1] or 0) + VULGAR[match[2]]:g}", text)
+    found = dict.fromkeys([text])
+    makers = (_with_numerals, _with_units, _with_articles, _thousands, _clock, _south, _apart, _speak, _cuts)
+    for maker in makers:
+        for known in list(found) if maker is not _cuts else [*found][:3]:
+            found.update(dict.fromkeys(itertools.islice(maker(known), MOST_REWRITINGS)))
+    return tuple(itertools.islice(found, MOST_REWRITINGS))
+
+
+@functools.lru_cache(maxsize=4096)
+def stated_numbers(text: str, unit: str | None) -> frozenset[float]:
+    """Values of a parameter in `unit` that the text states. A number said in another unit does not count."""
+    return frozenset(value for reading in rewritings(text) for value in _numbers(reading, "deg" if unit == "degC" else unit))
+
+
+@functools.lru_cache(maxsize=1024)
+def stated_positions(text: str) -> tuple[tuple[float, float], ...]:
+    """Coordinates (x, y) that the text states."""
+    return tuple(dict.fromkeys((x, y) for reading in rewritings(text) for x, y, _start, _end in positions(reading)))
+
+
+def states_number(text: str, value: float, unit: str | None) -> bool:
+    """Whether `value` in a parameter's `unit` can come from the text. A bearing counts in any turn of the compass."""
+    if any(close(said, value) for said in stated_numbers(text, unit)):
+        return True
+    return unit == "deg" and (value % 360 in bearings(text) or any(close(turn, abs(value)) for turn in turns(text)))
+
+
+def states_position(text: str, position: list[float]) -> bool:
+    """Whether the coordinates occur in the text as a pair, in this order."""
+    return any(close(x, position[0]) and close(y, position[1]) for x, y in stated_positions(text))
+
+
+def _numbers(text: str, unit: str | None) -> Iterator[float]:
+    numbers = quantities(text)
+    yield from (quantity.value for quantity in numbers if quantity.unit in (unit, None))
+    yield from (float(match) for match in _EXPONENT.findall(text))
+    if unit == "s":
+        yield from _durations(numbers)
+        yield from _repeated(text, numbers)
+    elif unit == "%":
+        yield from (100 * quantity.value for quantity in numbers if quantity.unit is None and quantity.value < 1)
+    elif unit == "m/s":
+        yield from _speeds(text, numbers)
+    elif unit == "deg":
+        yield from bearings(text)
+        yield from turns(text)
+
+
+def _durations(numbers: tuple[Quantity, ...]) -> Iterator[float]:
+    """Sums of neighbouring durations: "two minutes and thirty seconds", "1 h 20 min", "5 minutes 30"."""
+    for first, second in itertools.pairwise(numbers):
+        gap = second.start - first.end
+        if first.unit == second.unit == "s" and gap <= 5:
+            yield first.value + second.value
+        elif first.unit == "s" and second.unit is None and gap <= 1 and first.said:
+            yield first.value + second.value * first.value / first.said / 60
+
+
+def _repeated(text: str, numbers: tuple[Quantity, ...]) -> Iterator[float]:
+    """ "for an hour and ten minutes, a reading every five": minutes, or hours, as said before."""
+    factors = {quantity.value / quantity.said for quantity in numbers if quantity.unit == "s" and quantity.said}
+    for quantity in numbers:
+        if quantity.unit is None and _EVERY.search(text[: quantity.start]):
+            yield from (quantity.value * factor for factor in factors)
+
+
+def _speeds(text: str, numbers: tuple[Quantity, ...]) -> Iterator[float]:
+    """Lengths with a unit of time right behind them: "one metre second"."""
+    for quantity in numbers:
+        behind = re.match(r"[\s,/]*([a-z]+)", text[quantity.end :], re.IGNORECASE)
+        unit = unit_of(behind[1].lower()) if behind and quantity.unit == "m" else None
+        if unit and unit[0] == "s":
+            yield quantity.value / unit[1]
+
+
+# ---------------------------------------------------------------- other ways of writing a text
+
+
+def _thousands(text: str) -> Iterator[str]:
+    if _THOUSANDS.search(text):
+        yield _THOUSANDS.sub(lambda match: match[0].replace(",", ""), text)
+
+
+def _clock(text: str) -> Iterator[str]:
+    """ "2:30" as minutes and as hours."""
+    if _CLOCK.search(text):
+        yield _CLOCK.sub(r"\1 minutes \2 seconds", text)
+        yield _CLOCK.sub(r"\1 hours \2 minutes", text)
+
+
+def _speak(text: str) -> Iterator[str]:
+    """ "4 an hour" as "for an hour", "2 the pier" as "to the pier"."""
+    if _SPEAK.search(text):
+        yield _SPEAK.sub(lambda match: "for" if match[0] == "4" else "to", text)
+
+
+def _south(text: str) -> Iterator[str]:
+    """ "33w 15s" as coordinates, not as seconds."""
+    if _SMALL_SOUTH.search(text):
+        yield _SMALL_SOUTH.sub(lambda match: f"{match[1] or match[2]}S", text)
+
+
+def _with_numerals(text: str) -> Iterator[str]:
+    """Number words with their spelling put right: "quartesr", "thrity", "onec"; and "secotrs", which are no seconds."""
+    for word, start, end in tokenize(text):
+        if len(word) > 3 and word.isalpha() and word not in UNITS:
+            meant = corrections(word)
+            numeral = next((other for other in meant if other in NUMERALS), None)
+            if numeral is None and unit_of(word) and meant and meant[0] not in UNITS:
+                numeral = meant[0]
+            if numeral:
+                yield f"{text[:start]}{numeral}{text[end:]}"
+
+
+def _with_units(text: str) -> Iterator[str]:
+    """Units behind a number or an article that are misspelt beyond what quantities.py takes: "two hous", "500 fewt", "a full hur"."""
+    tokens = tokenize(text)
+    for word, start, end in (tokens[place] for place in _behind_numbers(tokens)):
+        if not unit_of(word):
+            for unit in corrections(word):
+                if unit in UNITS:
+                    yield f"{text[:start]}{unit}{text[end:]}"
+
+
+def _behind_numbers(tokens: list[Token]) -> Iterator[int]:
+    index = 0
+    while index < len(tokens):
+        _value, used = number_at(tokens, index)
+        index += used or 1
+        if used or word_at(tokens, index - 1) in ARTICLES:
+            place = index
+            while word_at(tokens, place) in BESIDE_UNIT and place < index + 3:
+                place += 1
+            if place < len(tokens):
+                yield place
+
+
+def _apart(text: str) -> Iterator[str]:
+    """ "at 4 m and a half hour of film": half an hour, not four and a half metres; "from 22/0 a kilometre": a kilometre, not none."""
+    if _HALF.search(text):
+        yield _HALF.sub(r", half an \1", text)
+    if _NUMBER_ARTICLE.search(text):
+        yield _NUMBER_ARTICLE.sub(r"\1, \2", text)
+
+
+def _with_articles(text: str) -> Iterator[str]:
+    """Telegram style with its articles: "wait minute at each" as "wait a minute at each"."""
+    tokens, places = tokenize(text), []
+    for index, (word, _start, _end) in enumerate(tokens):
+        unit = unit_of(word)
+        if unit is None or len(word) < 3 or not (word in BARE_UNITS or (word not in UNITS and not word.endswith("s"))):
+            continue
+        first = index - 1 if word_at(tokens, index - 1) in WHOLE else index
+        before = word_at(tokens, first - 1)
+        if not (before in (*ARTICLES, *SMALL, *SCALES, *FRACTIONS, "-", "/", "of") or before[:1].isdigit() or _numeric(tokens, first - 1)):
+            places.append(tokens[first][1])
+    if places:
+        cuts = [0, *places, len(text)]
+        yield "a ".join(text[start:end] for start, end in itertools.pairwise(cuts))
+
+
+def _numeric(tokens: list[Token], index: int) -> bool:
+    return index >= 0 and number_at(tokens, index)[1] > 0
+
+
+def _cuts(text: str) -> Iterator[str]:
+    """Numbers in words that stand in a row, apart: "seventy one hundred and eighty" as "seventy / one hundred and eighty"."""
+    tokens = tokenize(text)
+    for (word, _start, end), (following, start, _end) in itertools.pairwise(tokens):
+        apart = text[end:start].isspace() and "\n" not in text[end:start]
+        if apart and (word in SMALL or word in SCALES) and following in SMALL:
+            yield f"{text[:end]} / {text[start:]}"

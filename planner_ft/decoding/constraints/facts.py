@@ -1,0 +1,103 @@
+"""What a command states, read for the strength grounded: numbers by unit, coordinates, and what could not be read."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from planner_ft.data.lexicon import is_known
+from planner_ft.data.quantities import Quantity, positions, quantities
+from planner_ft.data.stated import rewritings, stated_numbers, stated_positions
+from planner_ft.vocabulary import Parameter, Vocabulary
+
+Position = tuple[float, float]
+
+FEWEST_WORDS = 5
+"""Words below which a command is too short to tell its language by."""
+_NUMBER = r"[-−–]?\d+(?:\.\d+)?"
+_PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
+_WRITTEN_PAIR = re.compile(rf"\[\s*{_PAIR}\s*\]|\(\s*{_PAIR}\s*\)|(?<!\w)x\s?[=:]?\s?{_NUMBER}\W{{0,3}}y\s?[=:]?\s?{_NUMBER}", re.IGNORECASE)
+"""Two numbers that are certainly coordinates, and no other values."""
+_UNREAD = re.compile(r"\d+(?:\.\d+){2,}|\d+['’]\d+|\d\^\d|\d{8,}|0x[0-9a-f]+|[×*]\s?10\b", re.IGNORECASE)
+_UNREAD_UNITS = re.compile(
+    r"\b(?:boat|ship|hull|vessel|cable|car|rope)['’s]*[- ]?lengths?\b|\b(?:furlong|league|chain length|fortnight|week|month|inche?)s?\b", re.IGNORECASE
+)
+_AXIS = r"(?:eastings?|northings?|east|north|west|south|latitude|longitude|coordinates?|[xy])"
+_AXIS_CUE = re.compile(rf"(?<![a-z]){_AXIS}\W{{0,3}}(?:minus |negative |of |is )?[-−–]?$", re.IGNORECASE)
+_NO_AXIS = r"(?![a-z-]| (?:side|face|wall|end|edge|corner|of (?!home|base|here)))"
+_CUE_BEHIND = re.compile(rf"^\s?(?:m|met(?:re|er)s?)?\s?(?:to the |due )?{_AXIS}{_NO_AXIS}", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Reading:
+    """The facts of a text.
+
+    `bare` is the text without what certainly is a coordinate. `numbers_free`: numbers could not be read with certainty;
+    `loose` are the numbers that coordinates can be made of, where those could not be.
+    """
+
+    text: str
+    bare: str
+    places: tuple[Position, ...]
+    loose: tuple[float, ...]
+    numbers_free: bool
+    notes: tuple[str, ...]
+
+    def numbers(self, parameter: Parameter) -> list[float] | None:
+        """Values of a parameter that the text states; None where any can be meant."""
+        if self.numbers_free:
+            return None
+        return usable(stated_numbers(self.bare, parameter.unit), parameter)
+
+
+def read(text: str, vocabulary: Vocabulary) -> Reading:
+    """Read a command or a task prompt."""
+    notes = list(_notes(text))
+    places = [(round(x, 2), round(y, 2)) for x, y in stated_positions(text)]
+    loose = () if notes else tuple(_loose(text))
+    if loose:
+        notes.append("The coordinates in the command could not be read with certainty.")
+    known = dict.fromkeys([vocabulary.home, vocabulary.unresolved, *places])
+    bare = _WRITTEN_PAIR.sub(" ; ", text)
+    return Reading(text, bare, tuple(known), loose, any("number" in note for note in notes), tuple(notes))
+
+
+def usable(values: Iterable[float], parameter: Parameter) -> list[float]:
+    """The values that a parameter can have, as they are written, smallest first."""
+    found = {rounded for value in values for rounded in (round(value, 2), round(value, 4))}
+    low, high = parameter.minimum, parameter.maximum
+    within = (value for value in found if low is None or high is None or low <= value <= high)
+    return sorted(value for value in within if parameter.type != "integer" or value == int(value))
+
+
+def _notes(text: str) -> Iterator[str]:
+    """What keeps the numbers of a text from being read with certainty, in words for the operator."""
+    if any(ord(letter) > 0x24F and letter.isalpha() for letter in text):
+        yield "The command has words in another script; its numbers are not checked against it."
+        return
+    words = re.findall(r"[^\W\d_]{2,}", text)
+    if len(words) >= FEWEST_WORDS and sum(map(is_known, words)) * 2 < len(words):
+        yield "The command is mostly in words that are not known; its numbers are not checked against it."
+    unread = [*_UNREAD.findall(text), *_UNREAD_UNITS.findall(text)]
+    if unread:
+        yield f"The command has a number that could not be read ({unread[0][:24]}); numbers are not checked against it."
+
+
+def _loose(text: str) -> Iterator[float]:
+    """The numbers that coordinates can be made of where one that is said as a coordinate has no partner."""
+    found: dict[float, None] = {}
+    alone = False
+    for reading in rewritings(text):
+        paired = {spot for _x, _y, start, end in positions(reading) for spot in range(start, end)}
+        for quantity in quantities(reading):
+            if quantity.unit not in ("m", None):
+                continue
+            found[quantity.said] = None
+            alone = alone or (reading == text and quantity.start not in paired and _said_as_coordinate(reading, quantity))
+    if alone:
+        yield from found
+
+
+def _said_as_coordinate(text: str, quantity: Quantity) -> bool:
+    return bool(_AXIS_CUE.search(text[max(0, quantity.start - 24) : quantity.start]) or _CUE_BEHIND.match(text[quantity.end : quantity.end + 40]))

@@ -1,0 +1,144 @@
+"""Text values as spans of a command: its words in their order, as they stand or with their spelling put right.
+
+A span begins with no article and ends at a word's end. A possessive may be dropped, a comma or a hyphen be a blank, a
+word in capitals be written small, and a word that no list knows be replaced by a known one that is near. Where the
+command leaves words out ("the red buoy and the green one"), a value may be two spans, and a plural its singular.
+"""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from planner_ft.data.lexicon import corrections
+from planner_ft.decoding.constraints.budget import LONGEST_WORD
+from planner_ft.decoding.constraints.grammar import Grammar, none_of_texts
+from planner_ft.decoding.constraints.patterns import literal, quoted
+
+MOST_WORDS = 2000
+"""Words of a command that spans are made of; compiling more takes longer than an answer."""
+BLOCK = 60
+"""Words that a span can have at least: the engine follows a row of words by recursion, so that long rows are cut."""
+
+ARTICLES = frozenset({"the", "a", "an"})
+UNENDING = ARTICLES | {"and", "or", "of", "with"}
+"""Words that no value ends with."""
+MOST_UNENDING = 4
+"""As many of them in a row are no English; a value may end there, since an answer must be able to."""
+
+_ONE_LETTER_SCRIPTS = "\u0e00-\u0eff\u3040-\u30ff\u3400-\u9fff\uf900-\ufaff"
+"""Scripts without blanks between words: each letter counts as a word."""
+_PIECE = re.compile(rf"[{_ONE_LETTER_SCRIPTS}]|(?:(?![{_ONE_LETTER_SCRIPTS}])[^\W_])+")
+_INSIDE = re.compile(r"[-‐–'’./&+_]")
+_AROUND = re.compile(r""" ?[-–,"“”'’&/] ?|[,'’"”] ["“]?|, ["“]""")
+_ELLIPSIS = re.compile(
+    r"\b(?:ones?|others?|same|both|two|three|four|pair|another|second|latter|former|likewise|ditto|respectively|and (?:the |a )?\w+ \w+s)\b", re.IGNORECASE
+)
+
+
+@dataclass
+class Piece:
+    """A word: what may be written for it, and what may follow, as (gap, number of the next word)."""
+
+    forms: tuple[str, ...]
+    begins: bool = True
+    ends: bool = True
+    following: list[tuple[str, int]] = field(default_factory=list)
+
+
+class Spans:
+    """The spans of some texts: a command, and what else values may come from."""
+
+    def __init__(self, texts: Sequence[str]) -> None:
+        self.loose = any(_ELLIPSIS.search(text) for text in texts)
+        self._pieces: list[Piece] = []
+        for text in texts:
+            self._read(text)
+
+    @property
+    def too_long(self) -> bool:
+        """Whether the texts have more words than spans can be made of."""
+        return len(self._pieces) > MOST_WORDS
+
+    def terminal(self, grammar: Grammar, without: Sequence[str] = ()) -> str | None:
+        """The terminal of a span in quotation marks, none of `without`; None where there is no span."""
+        starts = self._chain(grammar, 0) if len(self._pieces) <= BLOCK else self._chain(grammar, 0) | self._chain(grammar, BLOCK // 2)
+        if not starts:
+            return None
+        span = grammar.terminal(" | ".join(sorted(starts)))
+        marks = literal('"')
+        joined = f'(" " {span})?' if self.loose else ""
+        whole = grammar.terminal(f"{marks} {span} {joined} {marks}")
+        return grammar.terminal(f"{whole}{none_of_texts(without)}") if without else whole
+
+    def _chain(self, grammar: Grammar, offset: int) -> set[str]:
+        """The terminals of the spans from each word on; rows are cut at every BLOCK words from `offset`."""
+        cut = len(self._pieces) > BLOCK
+        names: dict[int, str] = {}
+        for index in range(len(self._pieces) - 1, -1, -1):
+            piece = self._pieces[index]
+            block = (index + offset) // BLOCK
+            following = [
+                f"{literal(gap)} {names[place]}" for gap, place in piece.following if place in names and not (cut and (place + offset) // BLOCK != block)
+            ]
+            if piece.forms and (following or piece.ends):
+                forms = " | ".join(literal(form) for form in piece.forms)
+                behind = f"({' | '.join(following)}){'?' if piece.ends else ''}" if following else ""
+                names[index] = grammar.terminal(f"({forms}) {behind}")
+        return {name for index, name in names.items() if self._pieces[index].begins}
+
+    def _read(self, text: str) -> None:
+        first, matches, run = len(self._pieces), list(_PIECE.finditer(text)), 0
+        for match in matches:
+            word = match.group()
+            forms = self._forms(word) if len(quoted(word).encode()) <= LONGEST_WORD // 2 else ()
+            # In "camera A" and "cam_a" the letter is a name.
+            named = word == "A" or text[match.start() - 1 : match.start()] in ("_", "-", ".")
+            run = 0 if named or word.lower() not in UNENDING else run + 1
+            self._pieces.append(Piece(forms, begins=word.lower() not in ARTICLES, ends=run % MOST_UNENDING == 0))
+        gaps = [text[one.end() : two.start()] for one, two in itertools.pairwise(matches)]
+        for number, gap in enumerate(gaps):
+            place = first + number
+            self._link(place, _written_gaps(gap, matches[number].group()), place + 1)
+            if gap in ("'", "’") and matches[number + 1].group().lower() == "s" and number + 1 < len(gaps):
+                self._link(place, _written_gaps(gaps[number + 1], "s"), place + 2)
+
+    def _link(self, place: int, gaps: list[str], following: int) -> None:
+        self._pieces[place].following += [(quoted(gap), following) for gap in gaps]
+
+    def _forms(self, word: str) -> tuple[str, ...]:
+        forms = [word, word.lower()]
+        if word.isupper() and len(word) > 1:
+            forms.append(word.title())
+        forms += corrections(word)
+        if self.loose:
+            forms += [single for form in list(forms) for single in _singular(form)]
+        return tuple(dict.fromkeys(quoted(form) for form in forms))
+
+
+def _written_gaps(gap: str, before: str) -> list[str]:
+    """What may stand between two words that have `gap` between them; nothing where a value cannot go on."""
+    if not gap:
+        return [""]
+    if gap.isspace():
+        return [] if "\n" in gap else [" "]
+    collapsed = " ".join(gap.split(" "))
+    if _INSIDE.fullmatch(gap):
+        return [gap, " "] if gap in "-‐/" else [gap]
+    if gap == ". " and len(before) <= 3:
+        return [gap, " "]
+    return [collapsed, " "] if _AROUND.fullmatch(collapsed) else []
+
+
+def _singular(word: str) -> list[str]:
+    """The singulars that an English plural can have."""
+    if len(word) < 4 or not word.endswith("s") or word.endswith("ss"):
+        return []
+    forms = [word[:-1]]
+    if word.endswith("ies"):
+        forms.append(word[:-3] + "y")
+    elif word.endswith("es"):
+        forms.append(word[:-2])
+    return forms
