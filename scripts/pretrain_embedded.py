@@ -17,6 +17,7 @@ from typing import Any
 
 from planner_ft.pretraining.loop import PretrainSettings
 from planner_ft.support.files import write_json
+from planner_ft.support.manifest import source_commit
 from planner_ft.vocabulary import load_vocabulary
 
 
@@ -58,10 +59,11 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
         for index, path in enumerate(paths)
         if not path.is_file()
     ]
+    commit = source_commit()["commit"]
     with ProcessPoolExecutor(2) as pool:
         for job, counts in zip(jobs, pool.map(make_shard, jobs), strict=True):
             print(f"{job[0].name}: {counts}", flush=True)
-            write_json(job[0].with_suffix(".json"), counts)
+            write_json(job[0].with_suffix(".json"), {**counts, "commit": commit})
     return paths
 
 
@@ -94,10 +96,11 @@ def export(work: Path, folder: Path, tokenizer: Any, model: Any, settings: Pretr
     )
 
 
-def corpus_summary(work: Path) -> dict[str, int]:
-    """Samples and tokens of the corpus in all."""
+def corpus_summary(work: Path) -> dict[str, Any]:
+    """Samples and tokens of the corpus in all, and the commits of the generators that wrote it: shards may be replaced while a run goes on."""
     parts = [json.loads(path.read_text()) for path in sorted((work / "corpus").glob("*.json"))]
-    return {key: sum(part[key] for part in parts) for key in ("samples", "tokens", "left_out")}
+    sums = {key: sum(part[key] for part in parts) for key in ("samples", "tokens", "left_out")}
+    return {**sums, "generators": sorted({part["commit"] for part in parts if part.get("commit")})}
 
 
 def main() -> None:
