@@ -31,14 +31,14 @@ GRID = re.compile(
 ROUND = re.compile(r"\b(?:square|round|around|about|circle|ring|circuit|perimeter|survey\w*|inspect\w*|points?|waypoints?|stops?|stand-?off|corners?)\b", re.I)
 UNKNOWN = re.compile(r"\b(?:zig-?zag|spiral|triang\w+|hexagon\w*|pentagon\w*|octagon\w*|figure|ellip\w+|oval|diamond|half ?way|midpoint|mirror\w*)\b", re.I)
 """Shapes whose waypoints are not derived here."""
-AGAIN = re.compile(r"\b(?:back|return\w*|again|revisit|same)\b", re.I)
+AGAIN = re.compile(r"\b(?:back|return\w*|again|revisit\w*|same|twice|times|repeat\w*|between|patrol\w*|laps?|home|start\w*|once more)\b", re.I)
 
 
 @dataclass(frozen=True)
 class Ground:
     """The facts that waypoints are derived from. `free`: they cannot be read with certainty, and any waypoint may be meant.
 
-    `stays` says that a waypoint may be the place where the vehicle is. A path counts as begun with `begun` of its waypoints in a row: with
+    `stays` says that the vehicle may come to a place again, or stay where it is. A path counts as begun with `begun` of its waypoints in a row: with
     fewer where the task is about such a path, since two moves can look like the beginning of many.
     """
 
@@ -51,7 +51,7 @@ class Ground:
     begun: int = 2
 
     def following(self, before: Path) -> list[Point]:
-        """The waypoints that may follow those `before`: another place than the last one."""
+        """The waypoints that may follow those `before`: other places, unless the text speaks of coming back."""
         begun = self._begun(before)
         onward = dict.fromkeys(path[done] for path, done in begun if done < len(path))
         if onward and begun[0][1] >= self.begun:
@@ -59,7 +59,7 @@ class Ground:
         bases = dict.fromkeys((*before[-1:], *self.places))
         away = (g.offset(base, bearing, length) for base in bases for length in self.lengths for bearing in self.bearings)
         options = dict.fromkeys(itertools.chain(self.places, before, self._starts, onward, away))
-        return [point for point in options if self.stays or not before or point != before[-1]]
+        return [point for point in options if self.stays or point not in before]
 
     def may_end(self, before: Path) -> bool:
         """Whether no path is left half-way."""
