@@ -19,7 +19,7 @@ COMPASS = (
 )
 SHORT = ("N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE", "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW")
 TURNS = {
-    **dict.fromkeys(("full", "complete", "whole", "entire", "once", "lap"), 1.0),
+    **dict.fromkeys(("full", "complete", "completely", "whole", "entire", "once", "lap"), 1.0),
     **dict.fromkeys(("half", "semicircle"), 0.5),
     "quarter": 0.25,
     "third": 1 / 3,

@@ -146,11 +146,10 @@ def _with_numerals(text: str) -> Iterator[str]:
     for word, start, end in tokenize(text):
         if len(word) > 3 and word.isalpha() and word not in UNITS:
             meant = corrections(word)
-            numeral = next((other for other in meant if other in NUMERALS), None)
-            if numeral is None and unit_of(word) and meant and meant[0] not in UNITS:
-                numeral = meant[0]
-            if numeral:
-                yield f"{text[:start]}{numeral}{text[end:]}"
+            numerals = [other for other in meant if other in NUMERALS]
+            if not numerals and unit_of(word) and meant and meant[0] not in UNITS:
+                numerals = [meant[0]]
+            yield from (f"{text[:start]}{numeral}{text[end:]}" for numeral in numerals)
 
 
 def _with_units(text: str) -> Iterator[str]:

@@ -13,7 +13,6 @@ from planner_ft.decoding.constraints.answer import Answer, Script, Whole
 from planner_ft.decoding.constraints.budget import least_limit, reserve
 from planner_ft.decoding.constraints.grammar import SchemaValues, plan_grammar
 from planner_ft.decoding.constraints.grounded import GroundedValues
-from planner_ft.decoding.constraints.grounded_steps import GroundedSteps
 from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, GroundedTaskValues
 from planner_ft.decoding.constraints.routes import TaskScript
 from planner_ft.decoding.constraints.state import MissionScript, ResolvedValues, names_unresolved
@@ -66,8 +65,8 @@ class Factory:
         if self.strength == "grounded" and self.level == "task":
             return self._grounded_task(record, limit)
         if self.strength == "grounded":
-            script, notes = self._grounded(record)
-            return Answer(self.tokens, script, limit, self._reserve, notes)
+            values = GroundedValues(str(record.get("prompt", "")), self.vocabulary)
+            return Answer(self.tokens, MissionScript(self.vocabulary, values), limit, self._reserve, values.notes)
         return Answer(self.tokens, self._script(record), limit, self._reserve)
 
     def _grounded_task(self, record: dict[str, Any], limit: int) -> Constraint:
@@ -90,15 +89,6 @@ class Factory:
     @functools.cached_property
     def _reserve(self) -> int:
         return reserve(self.level, self.vocabulary)
-
-    def _grounded(self, record: dict[str, Any]) -> tuple[Script, list[str]]:
-        """The script of what a record states, and what could not be read."""
-        if self.level == "mission":
-            values = GroundedValues(str(record.get("prompt", "")), self.vocabulary)
-            return MissionScript(self.vocabulary, values), values.notes
-        steps = GroundedSteps(record, self.vocabulary)
-        resolved = steps if names_unresolved(record, self.vocabulary) else ResolvedValues(steps, self.vocabulary)
-        return Whole(plan_grammar(self.level, self.vocabulary, resolved)), steps.notes
 
     def _script(self, record: dict[str, Any]) -> Script:
         if self.strength == "schema" or (self.level == "task" and names_unresolved(record, self.vocabulary)):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from planner_ft.data.lexicon import is_known
 from planner_ft.data.quantities import Quantity, positions, quantities
@@ -69,6 +70,15 @@ def usable(values: Iterable[float], parameter: Parameter) -> list[float]:
     low, high = parameter.minimum, parameter.maximum
     within = (value for value in found if low is None or high is None or low <= value <= high)
     return sorted(value for value in within if parameter.type != "integer" or value == int(value))
+
+
+def number_words(record: dict[str, Any]) -> Iterator[float]:
+    """Every number in a task's parameters."""
+    parameters = record.get("parameters")
+    for value in parameters.values() if isinstance(parameters, dict) else ():
+        for item in value if isinstance(value, list) else [value]:
+            if isinstance(item, int | float) and not isinstance(item, bool):
+                yield item
 
 
 def _notes(text: str) -> Iterator[str]:

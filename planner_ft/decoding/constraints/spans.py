@@ -23,7 +23,7 @@ BLOCK = 60
 """Words that a span can have at least: the engine follows a row of words by recursion, so that long rows are cut."""
 
 ARTICLES = frozenset({"the", "a", "an"})
-UNENDING = ARTICLES | {"and", "or", "of", "with"}
+UNENDING = frozenset({"the", "an", "and", "or", "of", "with"})
 """Words that no value ends with."""
 MOST_UNENDING = 4
 """As many of them in a row are no English; a value may end there, since an answer must be able to."""
@@ -101,6 +101,9 @@ class Spans:
         gaps = [text[one.end() : two.start()] for one, two in itertools.pairwise(matches)]
         for number, gap in enumerate(gaps):
             place = first + number
+            # "A-40" and "region a, top left" have no article.
+            if not gap.isspace() and matches[number].group().lower() == "a":
+                self._pieces[place].begins = self._pieces[place].ends = True
             self._link(place, _written_gaps(gap, matches[number].group()), place + 1)
             if gap in ("'", "’") and matches[number + 1].group().lower() == "s" and number + 1 < len(gaps):
                 self._link(place, _written_gaps(gaps[number + 1], "s"), place + 2)
