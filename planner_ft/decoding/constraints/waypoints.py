@@ -31,7 +31,9 @@ GRID = re.compile(
 ROUND = re.compile(r"\b(?:square|round|around|about|circle|ring|circuit|perimeter|survey\w*|inspect\w*|points?|waypoints?|stops?|stand-?off|corners?)\b", re.I)
 UNKNOWN = re.compile(r"\b(?:zig-?zag|spiral|triang\w+|hexagon\w*|pentagon\w*|octagon\w*|figure|ellip\w+|oval|diamond|half ?way|midpoint|mirror\w*)\b", re.I)
 """Shapes whose waypoints are not derived here."""
-AGAIN = re.compile(r"\b(?:back|return\w*|again|revisit\w*|same|twice|times|repeat\w*|between|patrol\w*|laps?|home|start\w*|once more)\b", re.I)
+FOUR = re.compile(r"\b(?:(?:four|4)\W(?:corner|point|waypoint|mid|side)\w*|corners? (?:only|alone)|only (?:the )?(?:four )?corners)\b", re.I)
+CLOSED = re.compile(r"\b(?:clos(?:e|es|ed|ing)|(?:back|return\w*) (?:at|to|on) (?:the |its |your )?(?:start|first|same))\b", re.I)
+AGAIN = re.compile(r"\b(?:clos\w*|back|return\w*|again|revisit\w*|same|twice|times|repeat\w*|between|patrol\w*|laps?|home|start\w*|once more)\b", re.I)
 
 
 @dataclass(frozen=True)
@@ -135,10 +137,25 @@ def _paths(facts: _Facts, pattern: str, angles: list[float]) -> Iterator[Path]:
     if pattern == "square" or ROUND.search(facts.text):
         for centre, radius in itertools.product(facts.centres, facts.lengths):
             for start, clockwise in itertools.product(g.SQUARE_STARTS, (False, True)):
-                yield tuple(g.survey_square(centre, radius, start, clockwise=clockwise))
+                square = tuple(g.survey_square(centre, radius, start, clockwise=clockwise))
+                yield from _rings(square, facts.text)
             for count, bearing, clockwise in itertools.product(facts.counts, dict.fromkeys((*angles, 0, 90)), (False, True)):
                 if count >= 3:
-                    yield tuple(g.circle(centre, radius, count, bearing, clockwise=clockwise))
+                    yield from _closed(tuple(g.circle(centre, radius, count, bearing, clockwise=clockwise)), facts.text)
+
+
+def _rings(square: Path, text: str) -> Iterator[Path]:
+    """A survey square, or its corners or mid-sides alone."""
+    yield from _closed(square, text)
+    if FOUR.search(text):
+        yield from _closed(square[::2], text)
+
+
+def _closed(ring: Path, text: str) -> Iterator[Path]:
+    """The ring, and also with its first waypoint at the end where the text speaks of closing it."""
+    yield ring
+    if CLOSED.search(text):
+        yield (*ring, ring[0])
 
 
 def _sizes(facts: _Facts) -> Iterator[tuple[float, float, float]]:
