@@ -1,7 +1,8 @@
 """The words that commands are known to use, and what a word that is none of them can be a misspelling of.
 
 They are gathered from the package's own lists and phrases: lexicon modules, command and prompt templates, vocabulary
-files. A word that none of them has is a name, or misspelt.
+files, and things.txt, which names things and how they look beside those that the generator draws. A word that none of
+them has is a name, or misspelt.
 """
 
 from __future__ import annotations
@@ -71,6 +72,7 @@ def known_words() -> dict[str, int]:
     # What stands once in the templates can be misspelt there on purpose.
     counts.update(word for path in sorted(Path(__file__).parent.rglob("*.txt")) for word in _words(path.read_text(encoding="utf-8")))
     known = Counter({word: count for word, count in counts.items() if count > 1})
+    known.update(_words((Path(__file__).parent / "things.txt").read_text(encoding="utf-8")))
     for path in sorted(BUNDLED.glob("*.toml")):
         known.update(_words(path.read_text(encoding="utf-8")))
     known.update(word for text in _texts(_lexicon()) for word in _words(text))

@@ -17,6 +17,8 @@ from planner_ft.data.numerals import BESIDE_UNIT, FRACTIONS, PARTS, SCALES, SMAL
 from planner_ft.data.quantities import TURNS, Quantity, bearings, close, positions, quantities, turns
 
 MOST_REWRITINGS = 24
+LARGEST = 1e9
+"""Longer rows of digits are no values."""
 NUMERALS = frozenset([*SMALL, *SCALES, *PARTS, *TURNS])
 ARTICLES = ("a", "an", "per", "each", "every", "one")
 WHOLE = ("full", "whole", "good", "solid")
@@ -50,13 +52,15 @@ def rewritings(text: str) -> tuple[str, ...]:
 @functools.lru_cache(maxsize=4096)
 def stated_numbers(text: str, unit: str | None) -> frozenset[float]:
     """Values of a parameter in `unit` that the text states. A number said in another unit does not count."""
-    return frozenset(value for reading in rewritings(text) for value in _numbers(reading, "deg" if unit == "degC" else unit))
+    values = (value for reading in rewritings(text) for value in _numbers(reading, "deg" if unit == "degC" else unit))
+    return frozenset(value for value in values if abs(value) < LARGEST)
 
 
 @functools.lru_cache(maxsize=1024)
 def stated_positions(text: str) -> tuple[tuple[float, float], ...]:
     """Coordinates (x, y) that the text states."""
-    return tuple(dict.fromkeys((x, y) for reading in rewritings(text) for x, y, _start, _end in positions(reading)))
+    found = ((x, y) for reading in rewritings(text) for x, y, _start, _end in positions(reading))
+    return tuple(dict.fromkeys((x, y) for x, y in found if max(abs(x), abs(y)) < LARGEST))
 
 
 def states_number(text: str, value: float, unit: str | None) -> bool:

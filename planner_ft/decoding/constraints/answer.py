@@ -27,6 +27,9 @@ class Script(Protocol):
     def following(self, text: str) -> tuple[str, Script] | None:
         """The next grammar, and the script from there, after `text` was matched by the last one; None when the answer is complete."""
 
+    def closing(self) -> Script:
+        """The script for an answer that must come to its end: nothing that was begun has to be gone on with."""
+
 
 class Whole:
     """A script of one grammar."""
@@ -39,6 +42,9 @@ class Whole:
 
     def following(self, text: str) -> tuple[str, Script] | None:
         return None
+
+    def closing(self) -> Script:
+        return self
 
 
 class Answer:
@@ -64,7 +70,7 @@ class Answer:
         self._matcher.unsafe_compute_mask_ptr(self._mask.ctypes.data, self._mask.nbytes)
         if not self._hurried:
             return self._mask
-        narrowed = self._closing.narrow(self._mask)
+        narrowed = self._closing.narrow(self._mask, bytes(self._matcher.compute_ff_bytes()))
         self.cut = self.cut or not np.array_equal(narrowed, self._mask)
         return narrowed
 
@@ -111,7 +117,8 @@ class Answer:
         return self._left <= self._reserve
 
     def _advance(self) -> None:
-        following = self._script.following(self._text.decode())
+        script = self._script.closing() if self._hurried else self._script
+        following = script.following(self._text.decode())
         self._text = b""
         if following is None:
             self._matcher = None

@@ -10,7 +10,7 @@ from planner_ft.data.lexicon import known_words
 from planner_ft.decoding.configurations import Strength
 from planner_ft.decoding.constraints import Constraint, ConstraintFactory
 from planner_ft.decoding.constraints.answer import Answer, Script, Whole
-from planner_ft.decoding.constraints.budget import least_limit, reserve
+from planner_ft.decoding.constraints.budget import Budget
 from planner_ft.decoding.constraints.grammar import SchemaValues, plan_grammar
 from planner_ft.decoding.constraints.grounded import GroundedValues
 from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, GroundedTaskValues
@@ -55,9 +55,9 @@ class Factory:
         if self.strength == "grounded":
             known_words()
 
-    @property
+    @functools.cached_property
     def least_tokens(self) -> int:
-        return least_limit(self.level, self.vocabulary)
+        return self._budget.least_limit(steps=self._steps)
 
     def start(self, record: dict[str, Any], limit: int | None = None) -> Constraint:
         limit = self.limit if limit is None else limit
@@ -88,7 +88,16 @@ class Factory:
 
     @functools.cached_property
     def _reserve(self) -> int:
-        return reserve(self.level, self.vocabulary)
+        return self._budget.reserve(steps=self._steps)
+
+    @functools.cached_property
+    def _budget(self) -> Budget:
+        return Budget(self.level, self.vocabulary, self.tokens)
+
+    @property
+    def _steps(self) -> int:
+        # The grammar of a path that was begun asks for its next waypoint.
+        return 2 if self.strength == "grounded" else 1
 
     def _script(self, record: dict[str, Any]) -> Script:
         if self.strength == "schema" or (self.level == "task" and names_unresolved(record, self.vocabulary)):

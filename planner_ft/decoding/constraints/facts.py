@@ -8,21 +8,26 @@ from dataclasses import dataclass
 from typing import Any
 
 from planner_ft.data.lexicon import is_known
+from planner_ft.data.numerals import SCALES, SMALL
 from planner_ft.data.quantities import Quantity, positions, quantities
 from planner_ft.data.stated import rewritings, stated_numbers, stated_positions
+from planner_ft.decoding.constraints.patterns import WHOLE_DIGITS
 from planner_ft.vocabulary import Parameter, Vocabulary
 
 Position = tuple[float, float]
 
+LARGEST = 10**WHOLE_DIGITS
 FEWEST_WORDS = 5
 """Words below which a command is too short to tell its language by."""
 _NUMBER = r"[-−–]?\d+(?:\.\d+)?"
 _PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
 _WRITTEN_PAIR = re.compile(rf"\[\s*{_PAIR}\s*\]|\(\s*{_PAIR}\s*\)|(?<!\w)x\s?[=:]?\s?{_NUMBER}\W{{0,3}}y\s?[=:]?\s?{_NUMBER}", re.IGNORECASE)
 """Two numbers that are certainly coordinates, and no other values."""
-_UNREAD = re.compile(r"\d+(?:\.\d+){2,}|\d+['’]\d+|\d\^\d|\d{8,}|0x[0-9a-f]+|[×*]\s?10\b", re.IGNORECASE)
+_UNREAD = re.compile(r"\d+(?:\.\d+){2,}|\d+['’]\d+|\d\^\d|0x[0-9a-f]+|[×*]\s?10\b", re.IGNORECASE)
 _UNREAD_UNITS = re.compile(
-    r"\b(?:boat|ship|hull|vessel|cable|car|rope)['’s]*[- ]?lengths?\b|\b(?:furlong|league|chain length|fortnight|week|month|inche?)s?\b", re.IGNORECASE
+    rf"\b(?:\d+|an?|half|{'|'.join([*SMALL, *SCALES])})[ -]"
+    r"((?:(?:boat|ship|hull|vessel|cable|car|rope)['’s]*[- ]?lengths?|furlongs?|leagues?|chain lengths?|fortnights?|weeks?|months?))\b",
+    re.IGNORECASE,
 )
 _AXIS = r"(?:eastings?|northings?|east|north|west|south|latitude|longitude|coordinates?|[xy])"
 _AXIS_CUE = re.compile(rf"(?<![a-z]){_AXIS}\W{{0,3}}(?:minus |negative |of |is )?[-−–]?$", re.IGNORECASE)
@@ -55,7 +60,7 @@ class Reading:
 def read(text: str, vocabulary: Vocabulary) -> Reading:
     """Read a command or a task prompt."""
     notes = list(_notes(text))
-    places = [(round(x, 2), round(y, 2)) for x, y in stated_positions(text)]
+    places = [(round(x, 2), round(y, 2)) for x, y in stated_positions(text) if max(abs(x), abs(y)) < LARGEST]
     loose = () if notes else tuple(_loose(text))
     if loose:
         notes.append("The coordinates in the command could not be read with certainty.")
@@ -66,7 +71,7 @@ def read(text: str, vocabulary: Vocabulary) -> Reading:
 
 def usable(values: Iterable[float], parameter: Parameter) -> list[float]:
     """The values that a parameter can have, as they are written, smallest first."""
-    found = {rounded for value in values for rounded in (round(value, 2), round(value, 4))}
+    found = {rounded for value in values if abs(value) < LARGEST for rounded in (round(value, 2), round(value, 4))}
     low, high = parameter.minimum, parameter.maximum
     within = (value for value in found if low is None or high is None or low <= value <= high)
     return sorted(value for value in within if parameter.type != "integer" or value == int(value))
@@ -103,7 +108,8 @@ def _loose(text: str) -> Iterator[float]:
         for quantity in quantities(reading):
             if quantity.unit not in ("m", None):
                 continue
-            found[quantity.said] = None
+            if abs(quantity.said) < LARGEST:
+                found[quantity.said] = None
             alone = alone or (reading == text and quantity.start not in paired and _said_as_coordinate(reading, quantity))
     if alone:
         yield from found

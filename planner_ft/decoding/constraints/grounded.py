@@ -26,6 +26,8 @@ from planner_ft.decoding.constraints.patterns import literal, regex
 from planner_ft.decoding.constraints.spans import Spans
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 
+LONGEST_NUMBER = 16
+"""Digits of a number in a sentence: an identity at sea has nine."""
 TOO_LONG = "The command is too long to hold texts to its words."
 
 
@@ -108,7 +110,7 @@ class GroundedValues(Narrowed):
                 if parameter.type in ("number", "integer"):
                     said.update(number.lstrip("-") for number in self._written_numbers(parameter) or ())
         said.update(written_number(abs(value)) for place in self._reading.places for value in place)
-        return prose(said)
+        return prose(number for number in said if len(number) <= LONGEST_NUMBER)
 
 
 def one_of(grammar: Grammar, texts: Iterable[str]) -> str | None:

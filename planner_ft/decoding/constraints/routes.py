@@ -91,6 +91,9 @@ class TaskScript:
                 return ahead._beside(role, ends=ahead._behind("").ground.may_end(ahead._behind("").before)), ahead
         return None
 
+    def closing(self) -> Script:
+        return replace(self, ground=replace(self.ground, paths=()))
+
     def _behind(self, text: str) -> TaskScript:
         """The script with the waypoint of the step that is being written."""
         pair = coordinates(self.chosen) if self.chosen else ()

@@ -178,6 +178,9 @@ class MissionScript:
         ahead = replace(self, progress=progress, chosen=None)
         return ahead._titles(), ahead
 
+    def closing(self) -> Script:
+        return self
+
     def _titles(self) -> str:
         """The titles that may follow; with their tasks where a title can be the beginning of another."""
         offered = [task for task in self.vocabulary.tasks if self.progress.offers(task) and self._possible(task)]

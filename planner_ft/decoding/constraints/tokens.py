@@ -49,6 +49,34 @@ class Tokens:
             single[sign] = ids[0] if len(ids) == 1 else None
         return single
 
+    @functools.cached_property
+    def _by_bytes(self) -> tuple[dict[bytes, int], int]:
+        """Ordinary tokens by their bytes, and the length of the longest."""
+        ordinary = (token for token in range(self.engine.vocab_size) if not self.engine.is_special_token(token))
+        found = {self.bytes_of(token): token for token in ordinary}
+        found.pop(b"", None)
+        return found, max(map(len, found))
+
+    def shortest(self, text: bytes) -> list[int]:
+        """The fewest tokens that spell a text."""
+        known, longest = self._by_bytes
+        best: list[tuple[int, int]] = [(0, 0)] * (len(text) + 1)
+        for start in range(len(text) - 1, -1, -1):
+            ends = (end for end in range(start + 1, min(start + longest, len(text)) + 1) if text[start:end] in known)
+            best[start] = min((best[end][0] + 1, end) for end in ends)
+        ids, place = [], 0
+        while place < len(text):
+            end = best[place][1]
+            ids.append(known[text[place:end]])
+            place = end
+        return ids
+
+    @functools.lru_cache(maxsize=4096)  # noqa: B019 - tokens are kept as long as their tokenizer
+    def most_spelt(self, text: str) -> int:
+        """The most tokens that `shortest` needs for what is left of a text, wherever it was begun."""
+        whole = text.encode()
+        return max(len(self.shortest(whole[start:])) for start in range(len(whole)))
+
     def mask_of(self, ids: tuple[int, ...]) -> Mask:
         """The mask that allows these tokens and no others."""
         words = np.zeros(-(-self.n_vocab // 32), dtype=np.uint32)
