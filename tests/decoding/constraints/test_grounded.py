@@ -1,0 +1,144 @@
+"""Strength grounded: a value that nobody said cannot be written, and every right plan can."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import pytest
+
+from planner_ft.data.mission.synthetic import sample_missions
+from planner_ft.data.rules import rule_problems
+from planner_ft.data.task.sampler import sample_tasks
+from planner_ft.data.words import says
+from planner_ft.prompts.text import completion_text
+from planner_ft.support.files import compact_json, read_jsonl
+from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.plans import LEVELS, Level, named_entries, plan_problems
+
+from .conftest import ADVERSARIAL, LIMITS, answer_ids, decoded, make_factory, random_answer
+from .test_schema import CURATED
+
+COMMAND = "Orbit the met mast at [120, -35] 25 metres off for half a circle, drift there for half an hour, then inspect the red buoy and come home."
+UNKNOWN = [-99, -99]
+
+
+def admitted(tokenizer: Any, *entries: tuple[str, dict[str, Any]], prompt: str = COMMAND, sentence: str = "") -> bool:
+    tasks = [{"title": title, "parameters": parameters, "task_prompt": sentence} for title, parameters in entries]
+    ids = answer_ids(tokenizer, compact_json({"tasks": tasks, "assumptions": [], "constraints": []}))
+    return make_factory(tokenizer, "mission", load_vocabulary(), "grounded").start({"prompt": prompt}).admits(ids) == len(ids)
+
+
+@pytest.mark.parametrize(
+    "entry",
+    [
+        ("SurveyTarget", {"target_position": [120, -35], "radius": 25}),
+        ("SurveyTarget", {"target_position": [0, 0]}),
+        ("SearchAndDetect", {"target_description": "red buoy"}),
+        ("KeepStation", {"duration": 1800}),
+        ("ThermalHotspotLocalizer", {"scan_width_degrees": 180}),
+        ("SmartDataHarvest", {"target_list": ["met mast", "red buoy"]}),
+        ("DockingApproach", {"goal_position": UNKNOWN}),
+    ],
+)
+def test_what_was_said_can_be_written(embedded: Any, entry: tuple[str, dict[str, Any]]) -> None:
+    assert admitted(embedded, entry)
+
+
+@pytest.mark.parametrize(
+    "entry",
+    [
+        ("SurveyTarget", {"target_position": [120, 35]}),
+        ("SurveyTarget", {"target_position": [-35, 120]}),
+        ("SurveyTarget", {"target_position": [120, -35], "radius": 30}),
+        ("SurveyTarget", {"target_position": [120, -35], "radius": 1800}),
+        ("SurveyTarget", {"target_position": [120, -35], "radius": 120}),
+        ("SearchAndDetect", {"target_description": "green buoy"}),
+        ("SearchAndDetect", {"target_description": "the red buoy"}),
+        ("KeepStation", {"duration": 30}),
+        ("KeepStation", {"duration": 25}),
+        ("ThermalHotspotLocalizer", {"scan_width_degrees": 90}),
+        ("SmartDataHarvest", {"target_list": ["met mast", "photos"]}),
+    ],
+)
+def test_what_nobody_said_cannot(embedded: Any, entry: tuple[str, dict[str, Any]]) -> None:
+    assert not admitted(embedded, entry)
+
+
+def test_the_logic_of_the_plan_holds_as_well(embedded: Any) -> None:
+    go: tuple[str, dict[str, Any]] = ("Transit", {"target_position": [120, -35]})
+    assert admitted(embedded, go, ("PerformOrbit", {"center": [120, -35], "radius": 25, "arc": 180}), ("DriftAudit", {"duration": 1800}))
+    assert not admitted(embedded, go, ("PerformOrbit", {"center": [0, 0]}))
+    assert not admitted(embedded, ("Transit", {"target_position": UNKNOWN}))
+    assert not admitted(embedded, ("PerformOrbit", {"center": [120, -35]}))
+
+
+def test_sentences_have_no_numbers_that_nobody_said(embedded: Any) -> None:
+    entry = ("KeepStation", {"duration": 1800})
+    assert admitted(embedded, entry, sentence="Hold at [120, -35] for 1800 seconds, 25 m off.")
+    assert admitted(embedded, entry, sentence='Say "hold" at -99 or home, 0.')
+    assert not admitted(embedded, entry, sentence="Hold for 31 minutes.")
+    assert not admitted(embedded, entry, sentence="Hold for 1801 seconds.")
+
+
+def test_where_facts_cannot_be_read_there_is_room_and_a_note(embedded: Any) -> None:
+    factory = make_factory(embedded, "mission", load_vocabulary(), "grounded")
+
+    def notes(prompt: str) -> str:
+        return " ".join(factory.start({"prompt": prompt}).notes)
+
+    assert notes(COMMAND) == ""
+    assert notes("Be done by 14:00 and report, next week we repair the landing.") == ""
+    assert "another script" in notes("请检查位于[12, -40]的红色浮标")
+    assert "not known" in notes("Fahren Sie bitte sofort zum roten Seezeichen und umkreisen Sie es dreimal")
+    assert "1.000.000" in notes("hold at the buoy for 1.000.000 seconds")
+    assert "boat lengths" in notes("circle the buoy at two boat lengths")
+    assert "coordinates" in notes("go to the place with easting 40, the other number you know")
+    assert admitted(embedded, ("KeepStation", {"duration": 777}), prompt="hold at the buoy for 1.000.000 seconds")
+    assert not admitted(embedded, ("KeepStation", {"duration": 777}), prompt="hold at the buoy for 1000 seconds")
+
+
+@pytest.mark.parametrize("name", ADVERSARIAL)
+@pytest.mark.parametrize("level", LEVELS)
+def test_any_command_gives_valid_answers_that_end(tokenizer: Any, level: Level, name: str) -> None:
+    vocabulary = load_vocabulary()
+    factory = make_factory(tokenizer, level, vocabulary, "grounded")
+    record = {"prompt": ADVERSARIAL[name], "task": "FollowTarget", "parameters": {"target_id": 'say "x"', "target_position": [5, 7]}}
+    for seed in range(2):
+        constraint = factory.start(record)
+        plan = decoded(tokenizer, random_answer(constraint, LIMITS[level], seed, busy=tokenizer if seed else None))
+        assert plan_problems(level, plan, vocabulary, strict=True) == []
+    if level == "mission" and not constraint.notes:
+        assert rule_problems(plan, vocabulary) == [] or all("return" in problem or "its place" in problem for problem in rule_problems(plan, vocabulary))
+        texts = [text for _name, values in named_entries(level, plan) for value in values.values() for text in (value if isinstance(value, list) else [value])]
+        assert not any(says(ADVERSARIAL[name], text, misspelt=True) for text in texts if isinstance(text, str))
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_right_plans_can_be_written(embedded: Any, level: Level) -> None:
+    vocabulary = load_vocabulary()
+    factory = make_factory(embedded, level, vocabulary, "grounded")
+    curated = [*read_jsonl(CURATED / "train.jsonl"), *read_jsonl(CURATED / "validation.jsonl")]
+    drawn = list(itertools.islice(sample_missions(9), 300) if level == "mission" else sample_tasks(vocabulary, 9, 200, "train"))
+    for records, share in ((curated if level == "mission" else [], 1.0), (drawn, 0.98)):
+        refused = []
+        for record in records:
+            ids = answer_ids(embedded, completion_text(level, record["expected"], vocabulary))
+            if factory.start(record, 4096).admits(ids) < len(ids):
+                refused.append(record["prompt"])
+        assert len(refused) <= (1 - share) * len(records), refused
+
+
+def test_forced_tokens_are_those_of_training(tokenizer: Any) -> None:
+    vocabulary = load_vocabulary()
+    factory = make_factory(tokenizer, "mission", vocabulary, "grounded")
+    count = 0
+    for record in read_jsonl(CURATED / "validation.jsonl")[:12]:
+        ids = answer_ids(tokenizer, completion_text("mission", record["expected"], vocabulary))
+        constraint = factory.start(record)
+        for place, token in enumerate(ids):
+            forced = constraint.forced()
+            assert forced == ids[place : place + len(forced)]
+            count += len(forced)
+            constraint.accept(token)
+    assert count > 20
