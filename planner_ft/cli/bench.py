@@ -24,7 +24,11 @@ def bench(
         str | None, typer.Option(help="Names, folders or hub ids, separated by commas; `plannerft candidates` lists them.", show_default=False)
     ] = None,
     configurations: Annotated[
-        str | None, typer.Option(help="base (prompted with the vocabulary), lora (fine-tuned), separated by commas.", show_default="base,lora")
+        str | None,
+        typer.Option(
+            help="base (prompted with the vocabulary) or lora (fine-tuned), each alone or with +schema, +state or +grounded; separated by commas.",
+            show_default="base,lora",
+        ),
     ] = None,
     data: Annotated[
         Path | None,
