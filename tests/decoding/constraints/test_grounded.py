@@ -65,6 +65,22 @@ def test_what_nobody_said_cannot(embedded: Any, entry: tuple[str, dict[str, Any]
     assert not admitted(embedded, entry)
 
 
+@pytest.mark.parametrize(
+    ("prompt", "parameters", "possible"),
+    [
+        ("panorama here, sixteen sectors, waiting 5", {"sectors": 16, "wait": 5}, True),
+        ("panorama here, sixteen sectors, waiting 5", {"wait": 16}, False),
+        ("panorama of the two buoys from here, 8 headings, hour at each", {"sectors": 8, "wait": 3600}, True),
+        ("panorama of the two buoys from here, 8 headings, hour at each", {"wait": 2}, False),
+        ("panorama of this one and that one, a quarter overlap", {"overlap": 25}, True),
+        ("panorama of this one and that one, a quarter overlap", {"wait": 1}, False),
+        ("panorama, waiting hour and half each", {"wait": 5400}, True),
+    ],
+)
+def test_a_number_that_counts_things_is_no_measure(embedded: Any, prompt: str, parameters: dict[str, Any], possible: bool) -> None:
+    assert admitted(embedded, ("HorizontalPanorama", parameters), prompt=prompt) is possible
+
+
 def test_the_logic_of_the_plan_holds_as_well(embedded: Any) -> None:
     go: tuple[str, dict[str, Any]] = ("Transit", {"target_position": [120, -35]})
     assert admitted(embedded, go, ("PerformOrbit", {"center": [120, -35], "radius": 25, "arc": 180}), ("DriftAudit", {"duration": 1800}))
