@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from planner_ft.data.lexicon import is_known
-from planner_ft.data.numerals import SCALES, SMALL
+from planner_ft.data.numerals import AND, FRACTIONS, SCALES, SMALL, UNITS
 from planner_ft.data.quantities import Quantity, positions, quantities
 from planner_ft.data.stated import rewritings, stated_numbers, stated_positions
+from planner_ft.data.words import edit_distance
 from planner_ft.decoding.constraints.patterns import WHOLE_DIGITS
 from planner_ft.vocabulary import Parameter, Vocabulary
 
@@ -19,6 +20,12 @@ Position = tuple[float, float]
 LARGEST = 10**WHOLE_DIGITS
 FEWEST_WORDS = 5
 """Words below which a command is too short to tell its language by."""
+MEASURES = ("m", "s", "m/s", "degC")
+BEFORE_NUMBERS = frozenset({"at", "by", "of", "to", "for", "in", "is", "every", "each", "speed", "about", "around", "than", "off", "within"})
+"""Words behind which "one" is a number and no pronoun."""
+NO_THINGS = frozenset({"towards", "across", "as", "this", "is", "less", "plus", "minus", "times", "always", "was", "has", "afterwards", "upwards", "outwards"})
+_WORD_BEFORE = re.compile(r"([a-z]+)\W*$", re.IGNORECASE)
+_WORD_BEHIND = re.compile(r"[ -]([a-z]+s)\b(?!['’])", re.IGNORECASE)
 _NUMBER = r"[-−–]?\d+(?:\.\d+)?"
 _PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
 _WRITTEN_PAIR = re.compile(rf"\[\s*{_PAIR}\s*\]|\(\s*{_PAIR}\s*\)|(?<!\w)x\s?[=:]?\s?{_NUMBER}\W{{0,3}}y\s?[=:]?\s?{_NUMBER}", re.IGNORECASE)
@@ -39,12 +46,14 @@ _CUE_BEHIND = re.compile(rf"^\s?(?:m|met(?:re|er)s?)?\s?(?:to the |due )?{_AXIS}
 class Reading:
     """The facts of a text.
 
-    `bare` is the text without what certainly is a coordinate. `numbers_free`: numbers could not be read with certainty;
+    `bare` is the text without what certainly is a coordinate, `measures` that without what certainly is no measure: "two
+    buoys", "the other one", "half a turn". `numbers_free`: numbers could not be read with certainty;
     `loose` are the numbers that coordinates can be made of, where those could not be.
     """
 
     text: str
     bare: str
+    measures: str
     places: tuple[Position, ...]
     loose: tuple[float, ...]
     numbers_free: bool
@@ -54,7 +63,8 @@ class Reading:
         """Values of a parameter that the text states; None where any can be meant."""
         if self.numbers_free:
             return None
-        return usable(stated_numbers(self.bare, parameter.unit), parameter)
+        text = self.measures if parameter.unit in MEASURES else self.bare
+        return usable(stated_numbers(text, parameter.unit), parameter)
 
 
 def read(text: str, vocabulary: Vocabulary) -> Reading:
@@ -66,7 +76,26 @@ def read(text: str, vocabulary: Vocabulary) -> Reading:
         notes.append("The coordinates in the command could not be read with certainty.")
     known = dict.fromkeys([vocabulary.home, vocabulary.unresolved, *places])
     bare = _WRITTEN_PAIR.sub(" ; ", text)
-    return Reading(text, bare, tuple(known), loose, any("number" in note for note in notes), tuple(notes))
+    return Reading(text, bare, _measures(bare), tuple(known), loose, any("number" in note for note in notes), tuple(notes))
+
+
+def _measures(text: str) -> str:
+    """A text without its numbers that count things, stand for things, or are parts of a turn."""
+    pieces, end = [], 0
+    for quantity in quantities(text):
+        word = text[quantity.start : quantity.end].lower()
+        before, behind = _WORD_BEFORE.search(text[: quantity.start]), _WORD_BEHIND.match(text[quantity.end :])
+        said_before = before[1].lower() if before else ""
+        stands = (word == "one" and said_before not in BEFORE_NUMBERS) or (word in FRACTIONS and said_before not in AND)
+        if quantity.unit is None and (stands or (behind is not None and _is_thing(behind[1].lower()))):
+            pieces.append(text[end : quantity.start])
+            end = quantity.end
+    return ";".join([*pieces, text[end:]])
+
+
+def _is_thing(word: str) -> bool:
+    """Whether a word that ends with "s" names things, and is no unit nor near one."""
+    return is_known(word) and word not in NO_THINGS and not any(edit_distance(word, unit, 2) <= 2 for unit in UNITS)
 
 
 def usable(values: Iterable[float], parameter: Parameter) -> list[float]:

@@ -23,8 +23,14 @@ BLOCK = 60
 """Words that a span can have at least: the engine follows a row of words by recursion, so that long rows are cut."""
 
 ARTICLES = frozenset({"the", "a", "an"})
-UNENDING = frozenset({"the", "an", "and", "or", "of", "with"})
+UNBEGINNING = ARTICLES | frozenset(
+    ("and", "or", "of", "to", "at", "in", "on", "for", "from", "by", "with", "then", "now", "is", "are", "be", "it", "as", "so", "if", "but", "than")
+)
+"""Words that no value begins with."""
+UNENDING = frozenset({"the", "an", "and", "or", "of", "with", "then", "to", "from", "for", "now", "is", "are", "be", "if", "but", "than"})
 """Words that no value ends with."""
+QUOTES = ('"', "'", "“", "‘", "«")
+"""Signs behind which a value begins with any word: a note "as found"."""
 MOST_UNENDING = 4
 """As many of them in a row are no English; a value may end there, since an answer must be able to."""
 
@@ -97,7 +103,8 @@ class Spans:
             # In "camera A" and "cam_a" the letter is a name.
             named = word == "A" or text[match.start() - 1 : match.start()] in ("_", "-", ".")
             run = 0 if named or word.lower() not in UNENDING else run + 1
-            self._pieces.append(Piece(forms, begins=word.lower() not in ARTICLES, ends=run % MOST_UNENDING == 0))
+            quoted_here = text[match.start() - 1 : match.start()] in QUOTES
+            self._pieces.append(Piece(forms, begins=quoted_here or word.lower() not in UNBEGINNING, ends=run % MOST_UNENDING == 0))
         gaps = [text[one.end() : two.start()] for one, two in itertools.pairwise(matches)]
         for number, gap in enumerate(gaps):
             place = first + number
