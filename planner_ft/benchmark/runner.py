@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ from planner_ft.benchmark.predictions import Line, RecordLog, latency_log, predi
 from planner_ft.benchmark.results import Results, score_system
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
+from planner_ft.benchmark.sources import Answered, AnswerSource, open_source
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, write_json
 from planner_ft.support.manifest import build_manifest
@@ -69,11 +69,15 @@ def _run_candidate(plan: Plan, jobs: list[Job], predictions: RecordLog, latencie
     untimed = {job.name: _without(timed, latencies, job) for job in jobs}
     if not any(missing.values()) and not any(untimed.values()):
         return
-    with _loaded(plan, jobs, progress) as engine:
+    progress(f"{jobs[0].candidate.name}: loading", 0, 0)
+    source = open_source(plan, jobs)
+    try:
         for job in jobs:
-            _answer(plan, job, missing[job.name], engine, predictions, progress)
+            _answer(plan, job, missing[job.name], source, predictions, progress)
         for job in jobs:
-            _time(plan, job, untimed[job.name], len(timed), engine, latencies, progress)
+            _time(job, untimed[job.name], len(timed), source, latencies, progress)
+    finally:
+        source.release()
 
 
 def _without(samples: tuple[Sample, ...], log: RecordLog, job: Job) -> list[Sample]:
@@ -81,56 +85,40 @@ def _without(samples: tuple[Sample, ...], log: RecordLog, job: Job) -> list[Samp
     return [sample for sample in samples if sample.id not in done]
 
 
-@contextlib.contextmanager
-def _loaded(plan: Plan, jobs: list[Job], progress: Progress) -> Iterator[Any]:
-    """The candidate's model, with its adapter if any job needs it; released afterwards."""
-    from planner_ft.decoding.engine import Engine
-
-    progress(f"{jobs[0].candidate.name}: loading", 0, 0)
-    adapter = next((job.adapter for job in jobs if job.adapter), None)
-    engine = Engine.load(
-        jobs[0].candidate, plan.vocabulary, adapters={plan.settings.level: adapter} if adapter else None, device=plan.device,
-        quantization=jobs[0].quantization, max_new_tokens=plan.settings.token_limit, threads=jobs[0].threads,
-    )  # fmt: skip
-    try:
-        yield engine
-    finally:
-        engine.release()
-
-
-def _answer(plan: Plan, job: Job, samples: list[Sample], engine: Any, log: RecordLog, progress: Progress) -> None:
-    """Generate and record the answers that are missing, in batches."""
+def _answer(plan: Plan, job: Job, samples: list[Sample], source: AnswerSource, log: RecordLog, progress: Progress) -> None:
+    """Record the answers that are missing, as they come."""
     total = len(plan.data.samples)
     done = total - len(samples)
     label = f"{job.name}: answers"
     progress(label, done, total)
-    queries = [engine.query(plan.settings.level, sample.record, with_vocabulary=job.with_vocabulary) for sample in samples]
-    for index, answer in engine.answers(queries, job.configuration, batch_size=plan.settings.batch_size):
-        log.append(_prediction(job, samples[index], answer, engine.text(answer), len(queries[index].prompt)))
+    for index, answer in source.answers(job, samples):
+        log.append(_prediction(job, samples[index], answer))
         done += 1
         progress(label, done, total)
 
 
-def _prediction(job: Job, sample: Sample, answer: Any, text: str, prompt_tokens: int) -> Line:
-    parsed = parse_output(text)
+def _prediction(job: Job, sample: Sample, answer: Answered) -> Line:
+    parsed = parse_output(answer.output)
     return {
-        "id": sample.id, "candidate": job.candidate.name, "configuration": job.configuration.name, "output": text, "parsed": parsed.plan,
-        "tokens": len(answer.ids), "forward_passes": answer.forward_passes, "time_s": round(answer.seconds, 4), "finish_reason": answer.finish_reason,
-        "error": answer.error or parsed.problem, "prompt_tokens": prompt_tokens, "standin": job.candidate.is_standin, "key": job.key,
+        "id": sample.id, "candidate": job.candidate.name, "configuration": job.configuration.name, "output": answer.output, "parsed": parsed.plan,
+        "tokens": answer.tokens, "forward_passes": answer.forward_passes, "time_s": round(answer.seconds, 4), "finish_reason": answer.finish_reason,
+        "error": answer.error or parsed.problem, "prompt_tokens": answer.prompt_tokens, "standin": job.candidate.is_standin, **answer.more, "key": job.key,
     }  # fmt: skip
 
 
-def _time(plan: Plan, job: Job, samples: list[Sample], total: int, engine: Any, log: RecordLog, progress: Progress) -> None:
+def _time(job: Job, samples: list[Sample], total: int, source: AnswerSource, log: RecordLog, progress: Progress) -> None:
     """Time the queries that are missing, one at a time."""
     if not samples:
         return
     done = total - len(samples)
     label = f"{job.name}: latency"
     progress(label, done, total)
-    queries = [engine.query(plan.settings.level, sample.record, with_vocabulary=job.with_vocabulary) for sample in samples]
-    for index, latency in engine.latencies(queries, job.configuration):
-        record = {"id": samples[index].id, "candidate": job.candidate.name, "configuration": job.configuration.name}
-        log.append({**record, "latency_s": round(latency.seconds, 6), "tokens": latency.tokens, "forward_passes": latency.forward_passes, "key": job.key})
+    for index, timed in source.latencies(job, samples):
+        record: Line = {"id": samples[index].id, "candidate": job.candidate.name, "configuration": job.configuration.name}
+        record |= {"latency_s": round(timed.seconds, 6), "tokens": timed.tokens, "forward_passes": timed.forward_passes}
+        if timed.first_token_s is not None:
+            record["first_token_s"] = round(timed.first_token_s, 6)
+        log.append({**record, **timed.more, "key": job.key})
         done += 1
         progress(label, done, total)
 

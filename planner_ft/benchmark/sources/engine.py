@@ -1,0 +1,60 @@
+"""Answers of a candidate that is loaded here."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from planner_ft.benchmark.samples import Sample
+from planner_ft.benchmark.sources import Answered, Timed
+from planner_ft.decoding.engine import Engine
+
+if TYPE_CHECKING:
+    from planner_ft.benchmark.plan import Job, Plan
+    from planner_ft.decoding.generate import Query
+
+
+class EngineSource:
+    """An engine with the candidate's adapter, if any job needs it; queries are batched."""
+
+    def __init__(self, engine: Engine, plan: Plan, load_seconds: float) -> None:
+        self.engine = engine
+        self.plan = plan
+        self.load_seconds = load_seconds
+
+    @classmethod
+    def load(cls, plan: Plan, jobs: Sequence[Job]) -> EngineSource:
+        """Load the candidate of these jobs. Raises PlannerError."""
+        started = time.perf_counter()
+        adapter = next((job.adapter for job in jobs if job.adapter), None)
+        engine = Engine.load(
+            jobs[0].candidate, plan.vocabulary, adapters={plan.settings.level: adapter} if adapter else None, device=plan.device,
+            quantization=jobs[0].quantization, max_new_tokens=plan.settings.token_limit, threads=jobs[0].threads,
+        )  # fmt: skip
+        return cls(engine, plan, time.perf_counter() - started)
+
+    def answers(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Answered]]:
+        """Batch by batch, longest prompts first."""
+        queries = self._queries(job, samples)
+        for index, answer in self.engine.answers(queries, job.configuration, batch_size=self.plan.settings.batch_size):
+            yield (
+                index,
+                Answered(
+                    output=self.engine.text(answer), seconds=answer.seconds, finish_reason=answer.finish_reason, tokens=len(answer.ids),
+                    prompt_tokens=len(queries[index].prompt), forward_passes=answer.forward_passes, error=answer.error,
+                ),
+            )  # fmt: skip
+
+    def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Timed]]:
+        for index, latency in self.engine.latencies(self._queries(job, samples), job.configuration):
+            yield index, Timed(latency.seconds, latency.tokens, latency.forward_passes)
+
+    def costs(self) -> dict[str, Any]:
+        return {"load_s": round(self.load_seconds, 3)}
+
+    def release(self) -> None:
+        self.engine.release()
+
+    def _queries(self, job: Job, samples: Sequence[Sample]) -> list[Query]:
+        return [self.engine.query(self.plan.settings.level, sample.record, with_vocabulary=job.with_vocabulary) for sample in samples]
