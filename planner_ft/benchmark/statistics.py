@@ -1,17 +1,22 @@
-"""Intervals: Wilson for rates, seeded bootstrap for means, resampled by cluster where samples share a family."""
+"""Intervals: Wilson for rates, seeded bootstrap for means; phrasings of one family are not counted as independent in either."""
 
 from __future__ import annotations
 
+import functools
 import math
+from collections import Counter
 from collections.abc import Hashable, Sequence
 from dataclasses import asdict, dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 CONFIDENCE = 0.95
 Z = 1.959963984540054
 """Normal quantile of (1 + CONFIDENCE) / 2."""
 RESAMPLES = 10_000
+BLOCK = 2**22
+"""Numbers that are worked on at a time."""
 
 
 @dataclass(frozen=True)
@@ -27,13 +32,51 @@ class Estimate:
 
 
 def wilson(successes: int, n: int) -> Estimate:
-    """A rate with its Wilson score interval (Wilson 1927), which stays inside [0, 1] and is not empty at 0 and 1."""
-    if n == 0:
+    """A rate with its Wilson score interval (Wilson 1927), which stays inside [0, 1] and is not empty at 0 and 1. For independent samples."""
+    return _wilson(successes / n, n) if n else Estimate(None)
+
+
+def clustered_rate(successes: Sequence[bool], clusters: Sequence[Hashable]) -> Estimate:
+    """A rate with the Wilson interval of its effective sample size, the Wilson interval itself where no two samples share a cluster.
+
+    The effective size is n over the design effect: the variance of the rate with whole clusters as units over that of independent
+    samples (Kish 1965), with Korn and Graubard's correction for few clusters (Survey Methodology 1998); Dean and Pagano (Journal of
+    Survey Statistics and Methodology 2015) compare such intervals. Samples are never counted for more than they are, and for no less
+    than their clusters are. At 0 and 1, where a variance says nothing, samples of one cluster count as one.
+    """
+    n = len(successes)
+    if not n:
         return Estimate(None)
-    rate = successes / n
+    sizes, hits = Counter(clusters), Counter(cluster for cluster, hit in zip(clusters, successes, strict=True) if hit)
+    rate = hits.total() / n
+    return _wilson(rate, effective_size([(hits[cluster], size) for cluster, size in sizes.items()]))
+
+
+def effective_size(counts: Sequence[tuple[int, int]]) -> float:
+    """As how many independent samples the samples of some clusters count for a rate; `counts` are (successes, samples) of each cluster."""
+    n, clusters = sum(size for _hits, size in counts), len(counts)
+    if clusters == n:
+        return n
+    rate = sum(hits for hits, _size in counts) / n
+    most = sum(size**2 for _hits, size in counts) / n
+    if clusters == 1 or rate in (0, 1):
+        return n / most
+    between = sum((hits - rate * size) ** 2 for hits, size in counts) * clusters / (clusters - 1) / n**2
+    effect = min(most, max(1.0, between * n / (rate * (1 - rate))))
+    return float(max(n / most, 1.0) if clusters < 3 else n / effect * (_student(n - 1) / _student(clusters - 1)) ** 2)
+
+
+def _student(freedom: int) -> float:
+    """Student's quantile of (1 + CONFIDENCE) / 2."""
+    from scipy.special import stdtrit
+
+    return float(stdtrit(freedom, (1 + CONFIDENCE) / 2))
+
+
+def _wilson(rate: float, n: float) -> Estimate:
     centre = (rate + Z**2 / (2 * n)) / (1 + Z**2 / n)
     half = Z * math.sqrt(rate * (1 - rate) / n + Z**2 / (4 * n**2)) / (1 + Z**2 / n)
-    return Estimate(rate, max(0.0, centre - half) if successes else 0.0, min(1.0, centre + half) if successes < n else 1.0)
+    return Estimate(rate, max(0.0, centre - half) if rate else 0.0, min(1.0, centre + half) if rate < 1 else 1.0)
 
 
 def bootstrap_mean(values: Sequence[float], clusters: Sequence[Hashable], seed: int) -> Estimate:
@@ -49,15 +92,40 @@ def bootstrap_ratio(numerators: Sequence[float], denominators: Sequence[float], 
     """
     if sum(denominators) == 0:
         return Estimate(None)
-    order = {cluster: index for index, cluster in enumerate(dict.fromkeys(clusters))}
-    sums = np.zeros((len(order), 2))
-    for numerator, denominator, cluster in zip(numerators, denominators, clusters, strict=True):
-        sums[order[cluster]] += (numerator, denominator)
+    sums = cluster_sums([*zip(numerators, denominators, strict=True)], clusters)
     value = float(sums[:, 0].sum() / sums[:, 1].sum())
-    if len(order) < 2:
+    if len(sums) < 2:
         return Estimate(value)
-    count = len(order)
-    totals = np.random.default_rng(seed).multinomial(count, np.full(count, 1 / count), size=RESAMPLES) @ sums
+    totals = resampled_sums(sums, seed)
     totals = totals[totals[:, 1] > 0]
-    low, high = np.quantile(totals[:, 0] / totals[:, 1], [(1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2])
-    return Estimate(value, float(low), float(high))
+    return Estimate(value, *percentiles(totals[:, 0] / totals[:, 1]))
+
+
+def cluster_sums(values: Sequence[Sequence[float]], clusters: Sequence[Hashable]) -> NDArray[np.float64]:
+    """The sums of `values`, (samples, columns), over each cluster, in the order in which clusters appear: (clusters, columns)."""
+    order = {cluster: index for index, cluster in enumerate(dict.fromkeys(clusters))}
+    sums = np.zeros((len(order), len(values[0])))
+    np.add.at(sums, [order[cluster] for cluster in clusters], np.asarray(values, dtype=float))
+    return sums
+
+
+def resampled_sums(sums: NDArray[np.float64], seed: int) -> NDArray[np.float64]:
+    """The totals of RESAMPLES resamples of the clusters: (RESAMPLES, columns). The same seed draws the same clusters for every metric."""
+    drawn = _drawn(len(sums), seed)
+    rows = max(1, BLOCK // len(sums))
+    return np.concatenate([drawn[start : start + rows].astype(float) @ sums for start in range(0, RESAMPLES, rows)])
+
+
+@functools.lru_cache(maxsize=2)
+def _drawn(count: int, seed: int) -> NDArray[np.int8]:
+    """How often each of `count` clusters is drawn in every resample. Drawing is the slow part, and the rows of a table share it."""
+    generator, rows = np.random.default_rng(seed), max(1, BLOCK // count)
+    blocks = [generator.multinomial(count, np.full(count, 1 / count), size=min(rows, RESAMPLES - start)) for start in range(0, RESAMPLES, rows)]
+    # No cluster is ever drawn 127 times: the chance is under 1e-200.
+    return np.concatenate([block.astype(np.int8) for block in blocks])
+
+
+def percentiles(values: NDArray[np.float64]) -> tuple[float, float]:
+    """The bounds of the middle CONFIDENCE of the values."""
+    low, high = np.quantile(values, [(1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2])
+    return float(low), float(high)

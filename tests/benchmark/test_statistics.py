@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from planner_ft.benchmark.statistics import bootstrap_mean, bootstrap_ratio, wilson
+from planner_ft.benchmark.statistics import bootstrap_mean, bootstrap_ratio, clustered_rate, effective_size, resampled_sums, wilson
 
 
 @pytest.mark.parametrize(
@@ -52,3 +52,54 @@ def test_samples_of_one_family_count_as_one() -> None:
 
 def test_a_ratio_pools_its_samples() -> None:
     assert bootstrap_ratio([1, 9], [2, 10], ["a", "b"], 0).value == pytest.approx(10 / 12)
+
+
+def test_a_rate_of_independent_samples_has_the_wilson_interval() -> None:
+    for hits in (0, 3, 25):
+        flags = [index < hits for index in range(25)]
+        assert clustered_rate(flags, range(25)) == wilson(hits, 25)
+    assert clustered_rate([], []).value is None
+
+
+def test_phrasings_of_a_family_that_agree_count_as_one_sample() -> None:
+    families = [index // 4 for index in range(40)]
+    agree = clustered_rate([family < 5 for family in families], families)
+    differ = clustered_rate([index % 2 == 0 for index in range(40)], families)
+    assert agree.value == differ.value == 0.5
+    assert agree.low is not None and differ.low is not None
+    # Ten families: no narrower than the interval of ten samples; answers that differ within each family are as good as independent.
+    assert agree.low <= wilson(5, 10).low  # type: ignore[operator]
+    assert wilson(5, 10).low < differ.low < wilson(20, 40).low  # type: ignore[operator]
+
+
+def test_nothing_wrong_in_families_is_as_sure_as_in_as_many_samples() -> None:
+    assert clustered_rate([False] * 40, [index // 4 for index in range(40)]).high == pytest.approx(wilson(0, 10).high)
+    assert clustered_rate([True] * 6, ["one"] * 6) == wilson(1, 1)
+
+
+def test_the_effective_size_by_hand() -> None:
+    # Three families of two with 2, 1 and 0 hits: rate 1/2, variance (1 + 0 + 1) * 3/2 / 36 = 1/12, of six independent samples 1/24: effect 2;
+    # Student's quantiles for 5 and 2 degrees of freedom: 2.5706 and 4.3027.
+    assert effective_size([(2, 2), (1, 2), (0, 2)]) == pytest.approx(3 * (2.5706 / 4.3027) ** 2, rel=1e-4)
+
+
+def test_intervals_of_clustered_rates_hold_what_they_promise() -> None:
+    """Repeated families of four with correlated answers: the plain Wilson interval misses the truth far more often than one time in twenty."""
+    generator, families = np.random.default_rng(0), [index // 4 for index in range(80)]
+    plain = clustered = 0
+    for _ in range(300):
+        hits = (generator.random(80) < np.repeat(generator.beta(0.8, 0.2, 20), 4)).tolist()
+        for_all, for_families = wilson(sum(hits), 80), clustered_rate(hits, families)
+        plain += for_all.low <= 0.8 <= for_all.high  # type: ignore[operator]
+        clustered += for_families.low <= 0.8 <= for_families.high  # type: ignore[operator]
+    assert plain < 255 and clustered > 276
+
+
+def test_many_clusters_are_resampled_in_blocks_as_few_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    from planner_ft.benchmark import statistics
+
+    sums = np.random.default_rng(0).random((30, 2))
+    whole = resampled_sums(sums, 5)
+    monkeypatch.setattr(statistics, "BLOCK", 70)
+    statistics._drawn.cache_clear()
+    assert np.allclose(resampled_sums(sums, 5), whole) and whole.shape == (10_000, 2)
