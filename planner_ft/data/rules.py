@@ -18,6 +18,7 @@ from planner_ft.data.stated import states_number, states_position
 from planner_ft.data.words import says, words
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
 from planner_ft.vocabulary.plans import value_problem
+from planner_ft.vocabulary.progress import START
 
 SEARCH_WORDS = re.compile(
     r"\b(?:f[iu]n?d(?:ing)?|fnd|look(?:s|ing)?|search\w*|locat\w*|spot|seek|detect|scout|hunt\w*|track down|trace|comb|sight|eyes on|"
@@ -143,28 +144,23 @@ def _has_coordinates(prompt: str, target: str) -> bool:
 
 def _movement_problems(steps: list[Step], vocabulary: Vocabulary, command: Command) -> Iterator[str]:
     unresolved = list(vocabulary.unresolved)
-    here: list[float] | None = None
-    located = left = False
-    searches = 0
+    progress, left = START, False
     for number, step in enumerate(steps):
         task, following = step.task, steps[number + 1] if number + 1 < len(steps) else None
+        here = None if progress.here is None else list(progress.here)
         if task.title == vocabulary.transit:
             # Two places that are not known yet look the same.
-            unsure = step.place == unresolved and searches > 1
+            unsure = step.place == unresolved and len(progress.searched) > 1
             yield from _transit_problems(step, following, None if unsure else here, left, vocabulary, command)
-        elif task.arrival == "transit":
-            if located:
-                yield f"{step}: {vocabulary.locate} does not arrive; {vocabulary.transit} to {unresolved} comes before this task"
-            elif left and not command.allows("rule.no-transit", STAY_WORDS):
-                yield f"{step}: the task before does not end at its place, so {vocabulary.transit} comes before this task (or tag rule.no-transit)"
-            elif step.place is not None and step.place != here:
-                yield f"{step}: performed at {step.place}, but no {vocabulary.transit} there comes before it"
-        if task.title == vocabulary.locate:
-            located, left, here = True, False, None
-            searches += 1
-        elif step.place is not None:
-            located, left = False, task.leaves and task.position_parameter is not None
-            here = None if task.leaves else step.place
+        elif not progress.offers(task):
+            yield f"{step}: {vocabulary.locate} does not arrive; {vocabulary.transit} to {unresolved} comes before this task"
+        elif task.arrival == "transit" and left and not command.allows("rule.no-transit", STAY_WORDS):
+            yield f"{step}: the task before does not end at its place, so {vocabulary.transit} comes before this task (or tag rule.no-transit)"
+        elif task.arrival == "transit" and step.place is not None and step.place != here:
+            yield f"{step}: performed at {step.place}, but no {vocabulary.transit} there comes before it"
+        progress = progress.after(task, step.parameters, vocabulary)
+        if task.title == vocabulary.locate or step.place is not None:
+            left = task.leaves and task.title != vocabulary.locate
 
 
 def _transit_problems(step: Step, following: Step | None, here: list[float] | None, left: bool, vocabulary: Vocabulary, command: Command) -> Iterator[str]:

@@ -38,37 +38,9 @@ from planner_ft.decoding.constraints.grammar import (
 )
 from planner_ft.decoding.constraints.patterns import literal
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
+from planner_ft.vocabulary.progress import START, Progress, target_parameter
 
 Position = tuple[float, float]
-
-
-@dataclass(frozen=True)
-class Progress:
-    """Where a plan stands behind some of its tasks.
-
-    `here` is the place the vehicle was brought to, None when that is unknown; `found`: a target was located and not gone
-    to yet; `moved`: tasks since then may have taken the vehicle off `here`. `searched` are the targets of all searches.
-    """
-
-    tasks: int = 0
-    searched: tuple[str, ...] = ()
-    here: Position | None = None
-    found: bool = False
-    moved: bool = False
-
-    def after(self, task: Task, parameters: dict[str, Any], vocabulary: Vocabulary) -> Progress:
-        """Where the plan stands behind one more task."""
-        ahead = replace(self, tasks=self.tasks + 1, moved=self.moved or task.leaves)
-        if task.title == vocabulary.locate:
-            return replace(ahead, searched=(*self.searched, _target(task, parameters)), here=None, found=True)
-        place = parameters.get(task.position_parameter or "")
-        if place is None:
-            return ahead
-        return replace(ahead, here=None if task.leaves else (place[0], place[1]), found=False, moved=False)
-
-    def offers(self, task: Task) -> bool:
-        """Whether a task can follow."""
-        return task.arrival != "transit" or not self.found
 
 
 class LogicalValues(Narrowed):
@@ -93,7 +65,7 @@ class LogicalValues(Narrowed):
         return super().needs(parameter, owner) or (self._is_target(parameter, owner) and "" in self._progress.searched)
 
     def _is_target(self, parameter: Parameter, owner: Task | Skill) -> bool:
-        return isinstance(owner, Task) and owner.title == self._vocabulary.locate and parameter == _target_parameter(owner)
+        return isinstance(owner, Task) and owner.title == self._vocabulary.locate and parameter == target_parameter(owner)
 
     def _place(self, grammar: Grammar, task: Task, *, identified: bool) -> str | None:
         progress, unresolved = self._progress, self._vocabulary.unresolved
@@ -157,7 +129,7 @@ class MissionScript:
 
     vocabulary: Vocabulary
     values: Values
-    progress: Progress = Progress()
+    progress: Progress = START
     chosen: Task | None = None
 
     def opening(self) -> str:
@@ -211,13 +183,3 @@ def _prefix_free(vocabulary: Vocabulary) -> bool:
     """Whether no title begins another and none needs an escape."""
     titles = sorted(patterns.quoted(task.title) for task in vocabulary.tasks)
     return set(titles) == set(vocabulary.task) and not any(longer.startswith(shorter) for shorter, longer in itertools.pairwise(titles))
-
-
-def _target_parameter(task: Task) -> Parameter | None:
-    """The parameter of a search that says what is searched."""
-    return next((item for item in task.parameters if item.type == "text"), None)
-
-
-def _target(task: Task, parameters: dict[str, Any]) -> str:
-    parameter = _target_parameter(task)
-    return str(parameters.get(parameter.name, "")) if parameter else ""
