@@ -8,15 +8,15 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark import folder
+from planner_ft.benchmark.assembly import Measured, assemble
 from planner_ft.benchmark.outputs import parse_output
 from planner_ft.benchmark.plan import Job, Plan, make_plan
 from planner_ft.benchmark.predictions import Line, RecordLog, latency_log, prediction_log
-from planner_ft.benchmark.results import Results, score_system
+from planner_ft.benchmark.record import add_costs, begin_run
+from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.sources import Answered, AnswerSource, open_source
-from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_json, write_json
 from planner_ft.support.manifest import build_manifest
 
 Progress = Callable[[str, int, int], None]
@@ -36,30 +36,13 @@ def run_bench(settings: BenchSettings, progress: Progress = lambda _label, _done
     if settings.overwrite:
         folder.clear(settings.folder)
     with prediction_log(settings.folder) as predictions, latency_log(settings.folder) as latencies:
-        _record_run(plan, predictions)
+        begin_run(plan, predictions)
         reused = len(predictions.records)
         for jobs in plan.by_candidate():
             _run_candidate(plan, jobs, predictions, latencies, progress)
         results = _results(plan, predictions, latencies, {"seconds": round(time.time() - started, 1), "reused_predictions": reused})
         folder.write_results(settings.folder, results)
     return results
-
-
-def _record_run(plan: Plan, predictions: RecordLog) -> None:
-    """Write run.json, and refuse to go on with a run that was made with something else."""
-    path = plan.settings.folder / folder.RUN
-    recorded: dict[str, dict[str, Any]] = read_json(path)["jobs"] if path.is_file() else {}
-    for job in plan.jobs:
-        before = recorded.get(job.name, job.parts)
-        changed = [name for name in job.parts if before.get(name) != job.parts[name]]
-        if changed:
-            raise PlannerError(f"{path}: {job.name} was begun with another {' and another '.join(changed)}; give --overwrite to start anew, or another --out")
-    keys = {(job.candidate.name, job.configuration.name): job.key for job in plan.jobs}
-    for record in predictions.records.values():
-        name = str(record.get("candidate")), str(record.get("configuration"))
-        if keys.get(name, record["key"]) != record["key"]:
-            raise PlannerError(f"{predictions.path}: holds answers of {name[0]} {name[1]} that are not of this run; give --overwrite or another --out")
-    write_json(path, {"jobs": {**recorded, **{job.name: job.parts for job in plan.jobs}}})
 
 
 def _run_candidate(plan: Plan, jobs: list[Job], predictions: RecordLog, latencies: RecordLog, progress: Progress) -> None:
@@ -76,6 +59,7 @@ def _run_candidate(plan: Plan, jobs: list[Job], predictions: RecordLog, latencie
             _answer(plan, job, missing[job.name], source, predictions, progress)
         for job in jobs:
             _time(job, untimed[job.name], len(timed), source, latencies, progress)
+        add_costs(plan.settings.folder, jobs[0].candidate.name, source.costs())
     finally:
         source.release()
 
@@ -125,13 +109,6 @@ def _time(job: Job, samples: list[Sample], total: int, source: AnswerSource, log
 
 def _results(plan: Plan, predictions: RecordLog, latencies: RecordLog, run: dict[str, Any]) -> Results:
     settings = plan.settings
-    rows, scores = [], []
-    for job in plan.jobs:
-        row, of_samples = score_system(
-            settings.level, job.system, plan.data.samples, predictions.of_key(job.key), plan.vocabulary, seed=settings.seed, timed=latencies.of_key(job.key)
-        )
-        rows.append(row)
-        scores += of_samples
     configuration = {
         "level": settings.level, "vocabulary": {"name": plan.vocabulary.name, "sha256": plan.vocabulary.sha256}, "limit": settings.limit,
         "batch_size": settings.batch_size, "max_new_tokens": settings.token_limit, "latency_samples": settings.latency_samples, "decoding": "greedy",
@@ -145,7 +122,8 @@ def _results(plan: Plan, predictions: RecordLog, latencies: RecordLog, run: dict
         jobs={job.name: {**job.parts, "threads": job.threads} for job in plan.jobs},
         run=run,
     )
-    return Results(settings.level, plan.data.summary(), tuple(rows), manifest, tuple(scores))
+    measured = [Measured(job.system, predictions.of_key(job.key), latencies.of_key(job.key)) for job in plan.jobs]
+    return assemble(plan.data, plan.vocabulary, measured, seed=settings.seed, manifest=manifest)
 
 
 def resume_hint(path: Path) -> str:

@@ -5,14 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from planner_ft.benchmark.assembly import Measured, assemble
 from planner_ft.benchmark.folder import LATENCY, PREDICTIONS
-from planner_ft.benchmark.results import Results, System, score_system
-from planner_ft.benchmark.samples import BenchData, joined
+from planner_ft.benchmark.record import measured_in, read_run
+from planner_ft.benchmark.results import Results, System
+from planner_ft.benchmark.samples import BenchData, joined, load_bench_data
 from planner_ft.candidates import all_candidates
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import iterate_jsonl
 from planner_ft.support.manifest import build_manifest
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary import Vocabulary, load_vocabulary
 
 CONFIGURATION = "submitted"
 """Configuration of predictions that name none."""
@@ -29,19 +31,37 @@ def score_predictions(path: Path, data: BenchData, vocabulary: Vocabulary, *, se
     Raises PlannerError that names the lines of malformed, double and unknown predictions.
     """
     groups = read_predictions(path, data.ids, name or path.stem)
-    rows, scores = [], []
+    measured = []
     timed = _timed(path)
     for (candidate, configuration), predictions in groups.items():
         system = _system(candidate, configuration, predictions, vocabulary)
         queries = {**timed.get((candidate, configuration), {}), **{key: line for key, line in predictions.items() if _is_timed(line)}}
-        row, of_samples = score_system(data.level, system, data.samples, predictions, vocabulary, seed=seed, timed=queries)
-        rows.append(row)
-        scores += of_samples
+        measured.append(Measured(system, predictions, queries))
     manifest = build_manifest(
         "score", seed=seed, configuration={"level": data.level, "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256}},
         inputs={"predictions": path, "data": data.path},
     )  # fmt: skip
-    return Results(data.level, data.summary(), tuple(rows), manifest, tuple(scores))
+    return assemble(data, vocabulary, measured, seed=seed, manifest=manifest)
+
+
+def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None = None) -> Results:
+    """Score the answers in a run folder again, with the data that they were made for; no model is needed.
+
+    `data_path` says where the data lies now if it was moved. Raises PlannerError when it is not the same data.
+    """
+    record = read_run(folder)
+    settings = record.settings
+    vocabulary = load_vocabulary(settings["vocabulary"])
+    data = load_bench_data(data_path or settings["data"], settings["level"], vocabulary, settings["limit"])
+    if data.sha256 != settings["data_sha256"]:
+        raise PlannerError(f"{data.path}: is not the data that {folder} was run on; give that file with --data")
+    for name, parts in record.jobs.items():
+        if parts.get("vocabulary") != vocabulary.sha256:
+            raise PlannerError(f"{folder}: {name} was run with another version of the vocabulary {vocabulary.name}; restore it to score the run again")
+    seed = settings["seed"] if seed is None else seed
+    configuration = {**settings, "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256}}
+    manifest = build_manifest("score", seed=seed, configuration=configuration, inputs={"data": data.path}, jobs=record.jobs, costs=record.costs)
+    return assemble(data, vocabulary, measured_in(folder, record), seed=seed, manifest=manifest)
 
 
 def read_predictions(path: Path, known: frozenset[str], name: str) -> Predictions:

@@ -77,8 +77,15 @@ def bench(
 
 
 def score(
-    level: Annotated[str, typer.Option(help="mission (commands to tasks) or task (tasks to skills).", show_default=False)],
-    predictions: Annotated[Path, typer.Option(help="JSONL with id and output per line; candidate, configuration, tokens and latency_s are used if given.")],
+    level: Annotated[str | None, typer.Option(help="mission (commands to tasks) or task (tasks to skills).", show_default=False)] = None,
+    predictions: Annotated[
+        Path | None,
+        typer.Option(
+            help="JSONL with id and output per line; candidate, configuration, tokens and latency_s are used if given.",
+            show_default=False,
+        ),
+    ] = None,
+    run: Annotated[Path | None, typer.Option(help="Folder of a bench run to score again: it knows its level, data and vocabulary.", show_default=False)] = None,
     data: Annotated[Path | None, typer.Option(help="Test data that the predictions were made for.", show_default="data/LEVEL/test.jsonl")] = None,
     out: Annotated[Path | None, typer.Option(help="Folder for results.json and the tables; without it the table is only printed.", show_default=False)] = None,
     limit: Annotated[int | None, typer.Option(help="Only the first samples of the data.", show_default="all")] = None,
@@ -87,21 +94,34 @@ def score(
     seed: SEED = 0,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace results that are in --out already.")] = False,
 ) -> None:
-    """Score any system's outputs. No model is needed; a sample without a prediction counts as an empty output."""
+    """Score any system's outputs, or a bench run again. No model is needed; a sample without a prediction counts as an empty output."""
     from planner_ft.benchmark import folder
+    from planner_ft.support.errors import PlannerError
+
+    if out is not None:
+        folder.check_folder(out, () if overwrite else folder.SCORED, "give --overwrite or another --out")
+    if run is not None and predictions is None and level is None:
+        from planner_ft.benchmark.submission import score_run
+
+        results = score_run(run, data, seed=seed)
+    elif level is not None and predictions is not None and run is None:
+        results = _score_predictions(level, predictions, data, limit, name, vocabulary, seed)
+    else:
+        raise PlannerError("score needs either --level and --predictions, or --run alone; try: plannerft score --run eval/runs/mission")
+    if out is not None:
+        folder.write_results(out, results)
+    _show(results, out)
+
+
+def _score_predictions(level: str, predictions: Path, data: Path | None, limit: int | None, name: str | None, vocabulary: str, seed: int) -> Results:
     from planner_ft.benchmark.samples import default_data, load_bench_data
     from planner_ft.benchmark.submission import score_predictions
     from planner_ft.vocabulary import load_vocabulary
     from planner_ft.vocabulary.plans import check_level
 
     checked, definition = check_level(level), load_vocabulary(vocabulary)
-    if out is not None:
-        folder.check_folder(out, () if overwrite else folder.SCORED, "give --overwrite or another --out")
     samples = load_bench_data(data or default_data(checked), checked, definition, limit)
-    results = score_predictions(predictions, samples, definition, seed=seed, name=name)
-    if out is not None:
-        folder.write_results(out, results)
-    _show(results, out)
+    return score_predictions(predictions, samples, definition, seed=seed, name=name)
 
 
 def _split(text: str) -> tuple[str, ...]:

@@ -423,3 +423,26 @@ def test_a_read_only_or_impossible_output_folder_is_one_sentence(settings: Any, 
         run_bench(settings(out=tmp_path / "file" / "out"))
     with pytest.raises(PlannerError, match="--out"):
         run_bench(settings(out=Path("/proc/none")))
+
+
+def test_a_run_folder_is_scored_again_without_a_model(settings: Any, tmp_path: Path, data: Path, work: dict[str, int]) -> None:
+    run_bench(settings())
+    done, app = dict(work), typer.Typer()
+    app.command()(score)
+    again = tmp_path / "again"
+    assert CliRunner().invoke(app, ["--run", str(tmp_path / "out"), "--out", str(again)]).exit_code == 0
+    assert work == done
+    assert (again / "table.csv").read_text() == (tmp_path / "out" / "table.csv").read_text()
+    first, second = (json.loads((folder / "results.json").read_text())["rows"] for folder in (tmp_path / "out", again))
+    assert second == first
+    mission_data(data, COUNT + 1)
+    result = CliRunner().invoke(app, ["--run", str(tmp_path / "out")])
+    assert isinstance(result.exception, PlannerError)
+    assert "is not the data that" in str(result.exception)
+
+
+def test_a_folder_holds_answers_to_one_data_set(settings: Any, data: Path) -> None:
+    run_bench(settings(configurations=("base",), adapters=(), latency_samples=0))
+    mission_data(data, COUNT + 1)
+    with pytest.raises(PlannerError, match="begun with another data"):
+        run_bench(settings(configurations=("base+schema",), adapters=(), latency_samples=0, resume=True))
