@@ -23,6 +23,7 @@ from planner_ft.decoding.lean import LeanDecoder
 from planner_ft.decoding.limits import MAX_NEW_TOKENS, Limits
 from planner_ft.decoding.passes import Decoder, ModelDecoder
 from planner_ft.decoding.phrases import phrase_book
+from planner_ft.decoding.sampling import Sampling
 from planner_ft.prompts import end_of_turn_ids, render_prompt
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
@@ -104,27 +105,29 @@ class Engine:
         """The answer to one query."""
         return next(answer for _index, answer in self.answers([query], configuration, batch_size=1))
 
-    def answers(self, queries: Sequence[Query], configuration: Configuration, *, batch_size: int = 16) -> Iterator[tuple[int, Generation]]:
-        """Yield (index of the query, answer) as answers are completed. The queries are of one level.
+    def answers(
+        self, queries: Sequence[Query], configuration: Configuration, *, batch_size: int = 16, sampling: Sampling | None = None
+    ) -> Iterator[tuple[int, Generation]]:
+        """Yield (index of the query, answer) as answers are completed: greedy ones, or drawn with `sampling`. The queries are of one level.
 
         Raises PlannerError when the level has no adapter that the configuration needs, or the token limit is too small for its strength.
         """
         if queries:
             level = _only_level(queries)
             with self.configured(level, configuration) as decoder:
-                yield from generate_unordered(decoder, queries, self.limits[level], self.method(level, configuration), batch_size=batch_size)
+                yield from generate_unordered(decoder, queries, self.limits[level], self.method(level, configuration, sampling), batch_size=batch_size)
 
-    def latencies(self, queries: Sequence[Query], configuration: Configuration) -> Iterator[tuple[int, Latency]]:
+    def latencies(self, queries: Sequence[Query], configuration: Configuration, *, sampling: Sampling | None = None) -> Iterator[tuple[int, Latency]]:
         """Yield (index of the query, latency), one query at a time. The queries are of one level."""
         if queries:
             level = _only_level(queries)
             with self.configured(level, configuration) as decoder:
-                yield from measure_latency(decoder, queries, self.limits[level], self.method(level, configuration))
+                yield from measure_latency(decoder, queries, self.limits[level], self.method(level, configuration, sampling))
 
-    def method(self, level: Level, configuration: Configuration) -> Method:
+    def method(self, level: Level, configuration: Configuration, sampling: Sampling | None = None) -> Method:
         """How the answers of a configuration are generated."""
         constraint, drafting = self._factory(level, configuration.strength), self.speed.drafting
-        return Method(constraint, self.speed.fast_forward, drafting, self._likeness, self._book(level) if drafting else None)
+        return Method(constraint, self.speed.fast_forward, drafting, self._likeness, self._book(level) if drafting else None, sampling)
 
     def text(self, answer: Generation) -> str:
         """The raw text of an answer, without the token that ended it; other special tokens stay visible."""

@@ -1,4 +1,4 @@
-"""Greedy generation: the most probable token that is allowed, sampling settings of the model ignored.
+"""Greedy generation, or sampling where a method asks for it: settings for sampling that the model brings are ignored.
 
 The loop is our own and not `model.generate`: tokens that need no choice or were drafted rightly share a forward pass,
 rows that have ended leave the batch instead of being computed to its end, the cache is not copied at every token, and
@@ -19,6 +19,7 @@ from planner_ft.decoding.drafting import Drafter, Likeness, PhraseBook
 from planner_ft.decoding.limits import Limits
 from planner_ft.decoding.passes import Decoder
 from planner_ft.decoding.row import FinishReason, Row
+from planner_ft.decoding.sampling import Sampling
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.plans import Level
 
@@ -30,6 +31,11 @@ class Query:
     level: Level
     record: dict[str, Any]
     prompt: tuple[int, ...]
+
+    @property
+    def name(self) -> str:
+        """What tells the query from others: the record's id, or the prompt's."""
+        return str(self.record.get("id") or self.prompt)
 
 
 @dataclass(frozen=True)
@@ -54,10 +60,11 @@ class Generation:
 
 @dataclass(frozen=True)
 class Method:
-    """How tokens are chosen, and what saves forward passes; an answer depends on `constraint` alone.
+    """How tokens are chosen, and what saves forward passes; an answer depends on `constraint` and `sampling` alone.
 
-    `constraint` is enforced, and with `fast_forward` the tokens that it forces are fed together. With `drafting` likely
-    tokens are verified in one pass, from the prompt, the answer so far and `book` (see `drafting`).
+    Without `sampling` the most probable token is taken. `constraint` is enforced, and with `fast_forward` the tokens that it
+    forces are fed together. With `drafting` likely tokens are verified in one pass, from the prompt, the answer so far and
+    `book` (see `drafting`).
     """
 
     constraint: ConstraintFactory | None = None
@@ -65,12 +72,14 @@ class Method:
     drafting: bool = True
     likeness: Likeness = lambda token: token
     book: PhraseBook | None = None
+    sampling: Sampling | None = None
 
     def row(self, query: Query, limits: Limits, longest: int) -> Row:
         """The beginning of an answer. Raises PlannerError when the constraint needs more room than `longest` tokens."""
         constraint = self.constraint.start(query.record, longest) if self.constraint else None
         drafter = Drafter(query.prompt, self.likeness, self.book) if self.drafting else None
-        return Row(query.prompt, limits, longest, constraint, drafter, fast_forward=self.fast_forward)
+        sampler = self.sampling.sampler(query.name, longest) if self.sampling else None
+        return Row(query.prompt, limits, longest, constraint, drafter, fast_forward=self.fast_forward, sampler=sampler)
 
 
 PLAIN = Method(fast_forward=False, drafting=False)

@@ -12,6 +12,7 @@ from torch import Tensor
 from planner_ft.decoding.constraints import Constraint
 from planner_ft.decoding.drafting import LONGEST_DRAFT, Drafter
 from planner_ft.decoding.limits import Limits
+from planner_ft.decoding.sampling import Sampler
 
 FinishReason = Literal["stop", "length", "error"]
 
@@ -21,6 +22,7 @@ class Row:
 
     `ids` is the answer so far; its last tokens, which the model has not been fed yet, are `pending`, and `draft` stands
     behind them. With `fast_forward`, tokens that the constraint forces join the answer without a choice by the model.
+    Choices are the most probable tokens, or drawn by `sampler`.
     """
 
     def __init__(
@@ -32,12 +34,14 @@ class Row:
         drafter: Drafter | None = None,
         *,
         fast_forward: bool = True,
+        sampler: Sampler | None = None,
     ) -> None:
         self.end_ids = limits.end_ids
         self.longest = longest
         self.constraint = constraint
         self.drafter = drafter
         self.fast_forward = fast_forward
+        self.sampler = sampler
         self.ids: list[int] = []
         self.pending = list(prompt)
         self.draft: list[int] = []
@@ -81,7 +85,10 @@ class Row:
     def _add_choice(self, best: int, logits: Tensor) -> list[int]:
         """Add the model's choice and what it forces; return both."""
         before = len(self.ids)
-        self._add(best if self._allows(best) else self._best_allowed(logits))
+        if self.sampler is not None:
+            self._add(self.sampler.draw(before, logits, self.constraint.mask() if self.constraint else None))
+        else:
+            self._add(best if self._allows(best) else self._best_allowed(logits))
         self._add_forced()
         return self.ids[before:]
 
