@@ -10,8 +10,9 @@ from typing import Any
 from planner_ft.benchmark.changes import Change, changes
 from planner_ft.benchmark.groups import group_figures
 from planner_ft.benchmark.samples import Sample
-from planner_ft.benchmark.scoring import SampleScore, failure_counts, score_sample, summarise
+from planner_ft.benchmark.scoring import SampleScore, score_sample
 from planner_ft.benchmark.statistics import Estimate
+from planner_ft.benchmark.summary import failure_counts, summarise
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -108,10 +109,10 @@ def score_system(
     row = Row(
         system=system,
         n=len(scores),
-        metrics=summarise(level, scores, seed),
+        metrics=summarise(scores, seed),
         failures=failure_counts(scores),
         finish_reasons=dict(sorted(reasons.items())),
         missing=tuple(sample.id for sample in samples if sample.id not in predictions),
-        latency_n=sum(score.latency_s is not None for score in scores),
+        latency_n=sum(score.values["latency_s"] is not None for score in scores),
     )
-    return row, [{"candidate": system.candidate, "configuration": system.configuration, **asdict(score)} for score in scores]
+    return row, [{"candidate": system.candidate, "configuration": system.configuration, **score.to_json()} for score in scores]
