@@ -68,6 +68,10 @@ class Plan:
 
 def make_plan(settings: BenchSettings) -> Plan:
     """Check everything that can be checked before a model is loaded. Raises PlannerError."""
+    if settings.endpoint is not None:
+        from planner_ft.benchmark.sources.endpoint import endpoint_plan
+
+        return endpoint_plan(settings, settings.endpoint)
     vocabulary = load_vocabulary(settings.vocabulary)
     configurations = list(dict.fromkeys(parse_configuration(text) for text in settings.configurations))
     candidates = _candidates(settings)

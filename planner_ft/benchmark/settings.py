@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from planner_ft.benchmark.sources.endpoint_settings import EndpointSettings
 from planner_ft.candidates.registry import Quantization
 from planner_ft.decoding.limits import MAX_NEW_TOKENS
 from planner_ft.support.errors import PlannerError
@@ -18,7 +19,8 @@ class BenchSettings:
     """A run. `None` stands for the default that depends on level or candidate.
 
     `candidates` are names, folders or hub ids, `configurations` as `parse_configuration` reads them, `adapters` folders
-    ("DIR", or "NAME=DIR" per candidate). `latency_samples` are the samples whose queries are timed one at a time.
+    ("DIR", or "NAME=DIR" per candidate). `latency_samples` are the samples whose queries are timed one at a time. With
+    `endpoint` a server answers, and the only candidate is its model.
     """
 
     level: Level
@@ -37,6 +39,7 @@ class BenchSettings:
     seed: int = 0
     resume: bool = False
     overwrite: bool = False
+    endpoint: EndpointSettings | None = None
 
     def __post_init__(self) -> None:
         """Raise PlannerError that lists every setting out of its range."""

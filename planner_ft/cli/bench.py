@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from planner_ft.cli.endpoint import with_endpoint
 from planner_ft.cli.progress import interruptible
 
 if TYPE_CHECKING:
@@ -50,6 +51,16 @@ def bench(
     latency_samples: Annotated[int | None, typer.Option(help="Time the queries of this many samples, one at a time; 0: none.", show_default="50")] = None,
     vocabulary: Annotated[str | None, typer.Option(help="Vocabulary: a bundled name or a TOML file.", show_default="usv")] = None,
     seed: SEED = 0,
+    endpoint: Annotated[
+        str | None, typer.Option(help="Root of a server's OpenAI chat API, such as http://127.0.0.1:8000/v1, instead of --candidates.", show_default=False)
+    ] = None,
+    model: Annotated[str | None, typer.Option(help="With --endpoint: the name by which the server knows the model.", show_default=False)] = None,
+    api_key_env: Annotated[
+        str | None, typer.Option(help="With --endpoint: the environment variable that holds the server's key.", show_default=False)
+    ] = None,
+    concurrency: Annotated[int | None, typer.Option(help="With --endpoint: questions that are open at a time.", show_default="4")] = None,
+    timeout: Annotated[float | None, typer.Option(help="With --endpoint: seconds that an answer may take.", show_default="60")] = None,
+    retries: Annotated[int | None, typer.Option(help="With --endpoint: how often a question is asked again after a failure.", show_default="5")] = None,
     gate: Annotated[
         Path | None, typer.Option(help="Gate file (TOML): run what it names and exit with 1 when a figure falls short.", show_default=False)
     ] = None,
@@ -65,9 +76,12 @@ def bench(
     }  # fmt: skip
     named = {name: value for name, value in named.items() if value is not None}
     common = {"device": device, "batch_size": batch_size, "seed": seed, "resume": resume, "overwrite": overwrite}
+    served = {"endpoint": endpoint, "model": model, "api_key_env": api_key_env, "concurrency": concurrency, "timeout": timeout, "retries": retries}
+    served = {name: value for name, value in served.items() if value is not None}
     if gate is not None:
-        _run_gate(gate, out, named, common)
+        _run_gate(gate, out, named | served, common)
         return
+    named, common["endpoint"] = with_endpoint(named, served)
     settings = _settings(named, out=out, **common)
     from planner_ft.benchmark.runner import run_bench
 

@@ -61,6 +61,10 @@ class AnswerSource(Protocol):
 
 def open_source(plan: Plan, jobs: Sequence[Job]) -> AnswerSource:
     """The source that answers these jobs of one candidate, loaded. Raises PlannerError."""
+    if plan.settings.endpoint is not None:
+        from planner_ft.benchmark.sources.endpoint import EndpointSource
+
+        return EndpointSource.open(plan, jobs, plan.settings.endpoint)
     from planner_ft.benchmark.sources.engine import EngineSource
 
     return EngineSource.load(plan, jobs)
