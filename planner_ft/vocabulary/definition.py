@@ -5,12 +5,13 @@ from __future__ import annotations
 import functools
 import tomllib
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text, sha256_text
+from planner_ft.vocabulary.logic import LOGIC, Logic, build_logic, logic_problems
 from planner_ft.vocabulary.shape import ROLES, Arrival, Motion, ParameterType, Role, shape_problems
 
 __all__ = ["BUNDLED", "DEFAULT", "ROLES", "Parameter", "Role", "Skill", "Task", "Vocabulary", "build_vocabulary", "bundled_vocabularies", "load_vocabulary"]
@@ -81,7 +82,8 @@ class Skill:
 class Vocabulary:
     """A vehicle's tasks and skills. Positions are metres in the local frame. Two are the same only when they are one object.
 
-    `phrases` is the content of the companion file NAME.phrases.toml, from which the task sampler words its prompts.
+    `phrases` is the content of the companion file NAME.phrases.toml, from which the task sampler words its prompts, `logic` that of
+    NAME.logic.toml: what tasks give and need when a plan is carried out. `sha256` is the digest of the definition alone.
     """
 
     name: str
@@ -96,6 +98,7 @@ class Vocabulary:
     source: str
     sha256: str
     phrases: dict[str, Any] = field(default_factory=dict)
+    logic: Logic = field(default_factory=Logic)
 
     @functools.cached_property
     def task(self) -> dict[str, Task]:
@@ -114,7 +117,7 @@ class Vocabulary:
 
 def bundled_vocabularies() -> list[str]:
     """Names of the definitions that ship with the package."""
-    return sorted(path.stem for path in BUNDLED.glob("*.toml") if not path.name.endswith(PHRASES))
+    return sorted(path.stem for path in BUNDLED.glob("*.toml") if not path.name.endswith((PHRASES, LOGIC)))
 
 
 @functools.lru_cache(maxsize=16)
@@ -129,20 +132,27 @@ def load_vocabulary(source: str | Path = DEFAULT) -> Vocabulary:
         raise PlannerError(f"--vocabulary {source}: no such file, and no bundled vocabulary of that name ({', '.join(bundled_vocabularies())})")
     text = read_text(path)
     raw = _parse(path, text)
-    companion = path.with_name(path.name.removesuffix(".toml") + PHRASES)
-    phrases = _parse(companion, read_text(companion)) if companion.is_file() else {}
-    return build_vocabulary(raw, phrases, str(path), source=str(source), sha256=sha256_text(text))
+    phrases, logic = _companion(path, PHRASES), _companion(path, LOGIC)
+    return build_vocabulary(raw, phrases, str(path), logic=logic, source=str(source), sha256=sha256_text(text))
 
 
-def build_vocabulary(raw: dict[str, Any], phrases: dict[str, Any], where: str, *, source: str = "", sha256: str = "") -> Vocabulary:
-    """The vocabulary of a parsed definition and its phrases. Raises PlannerError that lists everything wrong, and says `where`."""
+def build_vocabulary(
+    raw: dict[str, Any], phrases: dict[str, Any], where: str, *, logic: dict[str, Any] | None = None, source: str = "", sha256: str = ""
+) -> Vocabulary:
+    """The vocabulary of a parsed definition, its phrases and its logic. Raises PlannerError that lists everything wrong, and says `where`."""
     problems = shape_problems(raw, phrases)
     if not problems:
         vocabulary = _build(raw, phrases, source, sha256)
-        problems = list(_reference_problems(vocabulary))
+        problems = [*_reference_problems(vocabulary), *logic_problems(logic or {}, vocabulary.task)]
     if problems:
         raise PlannerError(f"{where}: " + "; ".join(problems))
-    return vocabulary
+    return replace(vocabulary, logic=build_logic(logic or {}))
+
+
+def _companion(path: Path, ending: str) -> dict[str, Any]:
+    """The content of the file NAME + ending beside a definition NAME.toml; nothing where there is none."""
+    beside = path.with_name(path.name.removesuffix(".toml") + ending)
+    return _parse(beside, read_text(beside)) if beside.is_file() else {}
 
 
 def _parse(path: Path, text: str) -> dict[str, Any]:
