@@ -117,7 +117,7 @@ def notes(results: Results) -> list[str]:
     counted = "as hallucinated" if results.level == "mission" else "as not hallucinated"
     lines = [
         f"{results.level} level, n = {results.data['n']} samples of {results.data['path']}. In brackets: 95 % intervals "
-        "(rates: Wilson; means: bootstrap, whole phrasing families resampled).",
+        "(rates: Wilson, n being the effective number of samples where phrasings of one family agree; means: bootstrap, whole families resampled).",
         f"Hallucination counts an output that does not parse {counted}, as the published table of this level does; "
         "both readings are in the second table of table.md.",
     ]

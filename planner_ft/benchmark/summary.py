@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from planner_ft.benchmark.catalogue import CATALOGUE, Metric
 from planner_ft.benchmark.metrics import FAILURES
 from planner_ft.benchmark.scoring import SampleScore
-from planner_ft.benchmark.statistics import Estimate, bootstrap_mean, bootstrap_ratio, wilson
+from planner_ft.benchmark.statistics import Estimate, bootstrap_mean, bootstrap_ratio, clustered_rate
 
 
 def summarise(scores: Sequence[SampleScore], seed: int) -> dict[str, Estimate]:
-    """Every metric of the catalogue over the scored samples, 95 %: Wilson intervals for rates, bootstrap clustered by family for the others."""
+    """Every metric of the catalogue over the scored samples, 95 %, families counted as such: Wilson intervals for rates, bootstrap for the others."""
     return {metric.name: estimate(metric, scores, seed) for metric in CATALOGUE}
 
 
@@ -23,7 +23,7 @@ def estimate(metric: Metric, scores: Sequence[SampleScore], seed: int) -> Estima
     values = [float(score.values[key] or 0) for score in known]
     families = [score.family for score in known]
     if metric.kind == "rate":
-        return wilson(int(sum(values)), len(values))
+        return clustered_rate([value == 1 for value in values], families)
     if metric.kind == "mean":
         return bootstrap_mean(values, families, seed)
     return bootstrap_ratio([float(score.values[metric.over[0]] or 0) for score in known], values, families, seed)
