@@ -67,9 +67,9 @@ def latex(results: Results) -> str:
     """table.tex: a tabular in the published layout."""
     names = configurations(results)
     width = len(names)
-    first = " & ".join(f"\\multicolumn{{{width}}}{{c}}{{{_tex(f'{column.heading} {column.better}'.strip())}}}" for column in COLUMNS)
+    first = " & ".join(f"\\multicolumn{{{width}}}{{c}}{{{tex_text(f'{column.heading} {column.better}'.strip())}}}" for column in COLUMNS)
     rules = " ".join(f"\\cmidrule(lr){{{2 + index * width}-{1 + (index + 1) * width}}}" for index in range(len(COLUMNS)))
-    second = " & ".join(_tex(heading(name)) for _column in COLUMNS for name in names)
+    second = " & ".join(tex_text(heading(name)) for _column in COLUMNS for name in names)
     lines = [
         "% Needs \\usepackage{booktabs}.",
         f"\\begin{{tabular}}{{l{'r' * width * len(COLUMNS)}}}",
@@ -81,7 +81,7 @@ def latex(results: Results) -> str:
     ]
     for row in table_rows(results):
         cells = [_tex_cell(column, row, name) for column in COLUMNS for name in names]
-        model = f"\\textit{{{_tex(row.model)}}}" if row.source == "published" else _tex(row.model)
+        model = f"\\textit{{{tex_text(row.model)}}}" if row.source == "published" else tex_text(row.model)
         lines.append(f"{model} & {' & '.join(cells)} \\\\")
     lines += ["\\bottomrule", "\\end{tabular}", *(f"% {note}" for note in notes(results))]
     return "\n".join(lines) + "\n"
@@ -114,5 +114,5 @@ TEX = {
 }  # fmt: skip
 
 
-def _tex(text: str) -> str:
+def tex_text(text: str) -> str:
     return "".join(TEX.get(character, character) for character in text)

@@ -8,6 +8,7 @@ import typer
 
 from planner_ft.cli.bench import bench, score
 from planner_ft.cli.candidates import candidates
+from planner_ft.cli.compare import compare
 from planner_ft.cli.doctor import doctor
 from planner_ft.cli.gen_data import gen_data
 from planner_ft.cli.plan import plan
@@ -38,5 +39,5 @@ def options(version: Annotated[bool, typer.Option("--version", callback=_version
     """Options of every command."""
 
 
-for command in (plan, gen_data, validate, candidates, train, bench, score, vocabulary, doctor):
+for command in (plan, gen_data, validate, candidates, train, bench, score, compare, vocabulary, doctor):
     app.command(command.__name__.replace("_", "-"))(command)
