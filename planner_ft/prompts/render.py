@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.prompts.text import completion_text, system_text, user_text
+from planner_ft.prompts.text import PLAIN_FORM, completion_text, system_text, user_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -48,7 +48,7 @@ def render_prompt(level: Level, record: dict[str, Any], tokenizer: PreTrainedTok
         messages = [{"role": "system", "content": system}, {"role": "user", "content": PROBE}]
         text = str(tokenizer.apply_chat_template(messages, tokenize=False, add_generation_prompt=True, date_string=TODAY))
     else:
-        text = f"{_bos(tokenizer)}{system}\n\n### Input\n{PROBE}\n\n### Plan\n"
+        text = _bos(tokenizer) + PLAIN_FORM.format(system=system, user=PROBE)
     before, after = text.split(PROBE)
     # The template or _bos already wrote the beginning-of-text token: special tokens must not be added again. What the
     # operator wrote is text: "<|eot_id|>" in a command is spelt out and ends nothing.

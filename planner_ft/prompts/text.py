@@ -33,6 +33,9 @@ FORMS: dict[Level, str] = {
     ),
 }
 
+PLAIN_FORM = "{system}\n\n### Input\n{user}\n\n### Plan\n"
+"""The prompt of a model without a chat template."""
+
 
 def system_text(level: Level, vocabulary: Vocabulary, *, with_vocabulary: bool) -> str:
     """The instruction of an agent; base models are also told the answer's form and the vocabulary."""
