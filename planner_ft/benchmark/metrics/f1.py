@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from planner_ft.benchmark.metrics.names import set_counts
+
 
 def set_f1(predicted: Iterable[str], expected: Iterable[str]) -> float:
     """F1 between the set of predicted and the set of expected names (task titles or skill names) of one sample.
@@ -11,7 +13,4 @@ def set_f1(predicted: Iterable[str], expected: Iterable[str]) -> float:
     1.0 when both are empty, 0.0 when one is. Order and repetitions do not count; a name outside the vocabulary is a
     false positive like any other. An answer that does not parse predicts no names.
     """
-    ours, theirs = set(predicted), set(expected)
-    if not ours and not theirs:
-        return 1.0
-    return 2 * len(ours & theirs) / (len(ours) + len(theirs))
+    return set_counts(predicted, expected).f1

@@ -7,10 +7,10 @@ from typing import Any, Literal, get_args
 
 from planner_ft.benchmark.metrics.exact_sequence import exact_sequence
 from planner_ft.benchmark.metrics.hallucination import invented_names
-from planner_ft.benchmark.metrics.parameters import parameter_agreement, stated_parameters
 from planner_ft.benchmark.metrics.schema_valid import schema_valid
+from planner_ft.benchmark.metrics.whole_plan import parameters_right
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import Level, list_key, named_entries
+from planner_ft.vocabulary.plans import Level, named_entries
 
 Failure = Literal["prerequisite omission", "parameter propagation", "substitution", "hallucination", "omission", "extra step", "wrong order", "invalid output"]
 FAILURES: tuple[Failure, ...] = get_args(Failure)
@@ -38,7 +38,7 @@ def failure_kind(level: Level, plan: dict[str, Any] | None, expected: dict[str, 
     if invented_names(level, plan, vocabulary):
         return "hallucination"
     if exact_sequence(level, plan, expected):
-        return None if _parameters_right(level, plan, expected, vocabulary) else "parameter propagation"
+        return None if parameters_right(level, plan, expected, vocabulary) else "parameter propagation"
     predicted, wanted = list(named_entries(level, plan)), list(named_entries(level, expected))
     missing = Counter(name for name, _ in wanted) - Counter(name for name, _ in predicted)
     added = Counter(name for name, _ in predicted) - Counter(name for name, _ in wanted)
@@ -49,16 +49,6 @@ def failure_kind(level: Level, plan: dict[str, Any] | None, expected: dict[str, 
     if added:
         return "parameter propagation" if _all_unresolved(predicted, added, vocabulary) else "extra step"
     return "wrong order"
-
-
-def _parameters_right(level: Level, plan: dict[str, Any], expected: dict[str, Any], vocabulary: Vocabulary) -> bool:
-    """Compare step by step: the two targets of two Transits must not be swapped."""
-    key = list_key(level)
-    for ours, theirs in zip(plan[key], expected[key], strict=True):
-        stated = {key: [theirs]}
-        if parameter_agreement(level, {key: [ours]}, stated, vocabulary).right < len(stated_parameters(level, stated)):
-            return False
-    return True
 
 
 def _prerequisite(predicted: list[Entry], wanted: list[Entry], missing: Counter[str], added: Counter[str], vocabulary: Vocabulary) -> bool:

@@ -1,22 +1,19 @@
-"""Parameters of the tasks or skills that were predicted: are the stated values right?"""
+"""Parameters of aligned tasks or skills: entries that are all right, and F1 of keys and of key-value pairs."""
 
 from __future__ import annotations
 
-import math
-import re
-from collections import defaultdict
+from collections import Counter
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.vocabulary import Parameter, Vocabulary
-from planner_ft.vocabulary.plans import Level, list_key, named_entries, step_skills
+from planner_ft.benchmark.metrics.alignment import Alignment, align
+from planner_ft.benchmark.metrics.counts import Counts
+from planner_ft.benchmark.metrics.entries import plan_entries
+from planner_ft.benchmark.metrics.values import agreeing_keys, known_parameters, parameters_agree, values_agree
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import Level
 
-RELATIVE = 0.02
-"""Tolerance of numbers, relative to the expected value (labelling rules: converted values are allowed 2 %)."""
-ABSOLUTE = 0.005
-"""Half a unit of the second decimal, to which converted and computed values are rounded."""
-
-Parameters = dict[str, Any]
+__all__ = ["Agreement", "ParameterCounts", "agreement_by_type", "parameter_agreement", "parameter_counts", "right_entries", "values_agree"]
 
 
 @dataclass(frozen=True)
@@ -27,86 +24,62 @@ class Agreement:
     matched: int
 
 
+@dataclass(frozen=True)
+class ParameterCounts:
+    """Keys, and key-value pairs, that are right, predicted and expected: in aligned entries, and in the whole plan, where the keys of a
+    missing entry are lost and those of an extra one invented."""
+
+    keys: Counts
+    values: Counts
+    keys_overall: Counts
+    values_overall: Counts
+
+
 def parameter_agreement(level: Level, plan: dict[str, Any] | None, expected: dict[str, Any], vocabulary: Vocabulary) -> Agreement:
-    """Match predicted with expected entries of equal name and compare their parameters.
+    """Align the entries of two plans and count those with the expected parameters (`right_entries`)."""
+    return right_entries(level, align(level, plan_entries(level, expected), plan_entries(level, plan), vocabulary), vocabulary)
 
-    Each expected task or skill is matched with at most one predicted of the same name: first with one whose
-    parameters agree, then with what is left, in order. Parameters agree when the keys are the same and every value
-    is (`values_agree`). Expected entries without a `parameters` object are not compared.
+
+def right_entries(level: Level, alignment: Alignment, vocabulary: Vocabulary) -> Agreement:
+    """Aligned entries with the expected keys, every value agreeing in the form that the vehicle reads (`values_agree`).
+
+    Expected entries without a `parameters` object are not compared.
     """
-    predicted: dict[str, list[Parameters]] = defaultdict(list)
-    for name, parameters in named_entries(level, plan):
-        predicted[name].append(parameters)
-    right = 0
-    unmet: list[str] = []
-    for name, parameters in stated_parameters(level, expected):
-        agreeing = next((index for index, given in enumerate(predicted[name]) if parameters_agree(level, name, given, parameters, vocabulary)), None)
-        if agreeing is None:
-            unmet.append(name)
-        else:
-            predicted[name].pop(agreeing)
-            right += 1
-    matched = right
-    for name in unmet:
-        if predicted[name]:
-            predicted[name].pop(0)
-            matched += 1
-    return Agreement(right, matched)
+    pairs = [(alignment.expected[ours], alignment.predicted[theirs]) for ours, theirs in alignment.pairs if alignment.expected[ours].stated]
+    right = sum(parameters_agree(level, ours.name, theirs.parameters, ours.parameters, vocabulary) for ours, theirs in pairs)
+    return Agreement(right, len(pairs))
 
 
-def parameters_agree(level: Level, name: str, given: Parameters, stated: Parameters, vocabulary: Vocabulary) -> bool:
-    """Whether two parameter objects of a task or skill have the same keys with agreeing values."""
-    owner = vocabulary.task.get(name) if level == "mission" else vocabulary.skill.get(name)
-    known = owner.by_name if owner else {}
-    return given.keys() == stated.keys() and all(values_agree(given[key], value, known.get(key), vocabulary) for key, value in stated.items())
+def parameter_counts(level: Level, alignment: Alignment, vocabulary: Vocabulary) -> ParameterCounts:
+    """Counts of keys and of key-value pairs; values agree by their content ("5 min" is 300 s, a list of texts a set).
 
-
-def values_agree(given: Any, stated: Any, parameter: Parameter | None, vocabulary: Vocabulary) -> bool:
-    """Whether a predicted value is the stated one.
-
-    Numbers, also inside positions: within 2 % or half a unit of the second decimal. The unresolved location agrees
-    with itself alone. Texts: without regard to case, spacing and a leading article; lists in order; polygons as
-    rings, from any corner in either direction. An identifier may be a number or its text.
+    Where the expected plan has entries and states no parameters at all, nothing is compared.
     """
-    if parameter is not None and parameter.type == "polygon":
-        return _rings_agree(given, stated, vocabulary)
-    if parameter is not None and parameter.type == "id":
-        given, stated = str(given), str(stated)
-    if isinstance(stated, list):
-        if not isinstance(given, list) or len(given) != len(stated) or _is_unresolved(given, vocabulary) != _is_unresolved(stated, vocabulary):
-            return False
-        return all(values_agree(ours, theirs, None, vocabulary) for ours, theirs in zip(given, stated, strict=True))
-    if _is_number(stated):
-        return _is_number(given) and math.isclose(given, stated, rel_tol=0, abs_tol=max(RELATIVE * abs(stated), ABSOLUTE) + 1e-9)
-    if isinstance(stated, str):
-        return isinstance(given, str) and normalised(given) == normalised(stated)
-    return bool(type(given) is type(stated) and given == stated)
+    expected, predicted = alignment.expected, alignment.predicted
+    keys = values = ours_there = theirs_there = 0
+    for one, other in alignment.pairs:
+        stated, given = expected[one], predicted[other]
+        if stated.stated:
+            keys += len(stated.parameters.keys() & given.parameters.keys())
+            values += len(agreeing_keys(level, stated.name, given.parameters, stated.parameters, vocabulary))
+            ours_there, theirs_there = ours_there + len(stated.parameters), theirs_there + len(given.parameters)
+    labelled = not expected or any(entry.stated for entry in expected)
+    lost = sum(len(expected[index].parameters) for index in alignment.missing)
+    invented = sum(len(predicted[index].parameters) for index in alignment.extra) if labelled else 0
+    there, overall = (theirs_there, ours_there), (theirs_there + invented, ours_there + lost)
+    return ParameterCounts(Counts(keys, *there), Counts(values, *there), Counts(keys, *overall), Counts(values, *overall))
 
 
-def normalised(text: str) -> str:
-    """A text in lower case, with single spaces and without a leading article."""
-    return re.sub(r"^(the|a|an) ", "", " ".join(text.casefold().split()))
-
-
-def stated_parameters(level: Level, expected: dict[str, Any]) -> list[tuple[str, Parameters]]:
-    """Name and parameters of the expected entries that have a `parameters` object, in order."""
-    entries = expected[list_key(level)]
-    if level == "task":
-        entries = [skill for step in entries for _role, skill in step_skills(step)]
-    field = "title" if level == "mission" else "name"
-    return [(entry[field], entry["parameters"]) for entry in entries if isinstance(entry.get("parameters"), dict)]
-
-
-def _rings_agree(given: Any, stated: Any, vocabulary: Vocabulary) -> bool:
-    if not isinstance(given, list) or not isinstance(stated, list) or len(given) != len(stated):
-        return False
-    turns = [ring[start:] + ring[:start] for ring in (given, given[::-1]) for start in range(max(len(ring), 1))]
-    return any(values_agree(turn, stated, None, vocabulary) for turn in turns)
-
-
-def _is_unresolved(value: list[Any], vocabulary: Vocabulary) -> bool:
-    return value == list(vocabulary.unresolved)
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
+def agreement_by_type(level: Level, alignment: Alignment, vocabulary: Vocabulary) -> dict[str, tuple[int, int]]:
+    """Per type of parameter (position, number, text ...): expected values of aligned entries that the answer gives, and how many there are."""
+    right: Counter[str] = Counter()
+    stated: Counter[str] = Counter()
+    for one, other in alignment.pairs:
+        ours, theirs = alignment.expected[one], alignment.predicted[other]
+        known = known_parameters(level, ours.name, vocabulary)
+        agreeing = set(agreeing_keys(level, ours.name, theirs.parameters, ours.parameters, vocabulary))
+        for key in ours.parameters:
+            kind = known[key].type if key in known else "unknown"
+            stated[kind] += 1
+            right[kind] += key in agreeing
+    return {kind: (right[kind], count) for kind, count in stated.items()}
