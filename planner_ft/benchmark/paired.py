@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner_ft.benchmark.catalogue import Metric
-from planner_ft.benchmark.statistics import BLOCK, CONFIDENCE, RESAMPLES, Estimate, cluster_sums, clustered_rate, percentiles, resampled_sums
+from planner_ft.benchmark.statistics import BLOCK, RESAMPLES, Estimate, cluster_sums, clustered_rate, percentiles, resampled_sums
 
 Floats = NDArray[np.float64]
 Score = Mapping[str, Any]
@@ -20,6 +20,7 @@ Score = Mapping[str, Any]
 Answers = Mapping[str, Sequence[Score]]
 """The scores of a system by sample id: one per sample, or one per repeat."""
 
+SIGNIFICANCE = 0.05
 ENUMERATED = 12
 """Families with a difference up to which all ways to swap them are tried (2**12) instead of RESAMPLES random ones."""
 
@@ -160,7 +161,7 @@ def _random_swaps(count: int, seed: int) -> NDArray[np.int8]:
 
 
 def holm(values: Sequence[float | None]) -> list[float | None]:
-    """p-values adjusted for how many there are (Holm 1979): the chance of one false difference among all stays under 1 - CONFIDENCE.
+    """p-values adjusted for how many there are (Holm 1979): the chance of one false difference among all stays under SIGNIFICANCE.
 
     None stands for a comparison that could not be made; it stays None and does not count.
     """
@@ -175,4 +176,4 @@ def holm(values: Sequence[float | None]) -> list[float | None]:
 
 def is_real(p_adjusted: float | None) -> bool:
     """Whether an adjusted p says that a difference is no chance."""
-    return p_adjusted is not None and p_adjusted < 1 - CONFIDENCE
+    return p_adjusted is not None and p_adjusted < SIGNIFICANCE

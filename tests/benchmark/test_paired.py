@@ -1,0 +1,128 @@
+"""Paired differences, exact tests and Holm's adjustment, against values computed by hand and by public packages."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import numpy as np
+import pytest
+
+from planner_ft.benchmark.catalogue import Metric
+from planner_ft.benchmark.paired import exact_mcnemar, exact_swaps, holm, paired, swaps
+from planner_ft.benchmark.statistics import Estimate
+from planner_ft.benchmark.verdicts import adjusted, verdict
+
+RATE, MEAN, RATIO = Metric("right", "rate"), Metric("f1", "mean"), Metric("parameters", "ratio", ("hits", "tries"))
+
+
+def system(values: list[Any], key: str, families: list[int] | None = None) -> dict[str, list[dict[str, Any]]]:
+    return {f"s{index}": [{"id": f"s{index}", "family": str(families[index] if families else index), key: value}] for index, value in enumerate(values)}
+
+
+def test_mcnemar_by_hand_and_by_scipy() -> None:
+    # One lost, five won: 2 * (1 + 6) / 64.
+    assert exact_mcnemar(1, 5) == pytest.approx(14 / 64)
+    assert exact_mcnemar(0, 0) == exact_mcnemar(3, 3) == 1.0
+    from scipy.stats import binomtest
+
+    for lost, won in [(0, 6), (2, 9), (10, 3), (40, 70), (700, 900)]:
+        assert exact_mcnemar(lost, won) == pytest.approx(binomtest(lost, lost + won).pvalue, rel=1e-9)
+
+
+def test_mcnemar_and_holm_by_statsmodels() -> None:
+    from statsmodels.stats import contingency_tables as tables
+    from statsmodels.stats.multitest import multipletests
+
+    for lost, won in [(1, 5), (2, 9), (10, 3), (40, 70)]:
+        assert exact_mcnemar(lost, won) == pytest.approx(tables.mcnemar([[30, lost], [won, 20]], exact=True).pvalue, rel=1e-9)
+    values = np.random.default_rng(0).random(20) ** 3
+    assert holm(values.tolist()) == pytest.approx(multipletests(values, method="holm")[1].tolist())
+
+
+def test_holm_by_hand() -> None:
+    assert holm([0.01, 0.04, 0.03, None, 0.005]) == pytest.approx([0.03, 0.06, 0.06, None, 0.02])
+    assert holm([0.9, 0.8]) == [1.0, 1.0] and holm([]) == []
+
+
+def test_swapping_families_of_one_sample_is_mcnemar() -> None:
+    first, second = [0] * 9 + [1] * 2 + [1] * 10, [1] * 9 + [0] * 2 + [1] * 10
+    found = paired(RATE, system(first, "right"), system(second, "right"), 0)
+    assert found.p == found.p_mcnemar == exact_mcnemar(2, 9)
+    assert (found.n, found.first, found.second) == (21, pytest.approx(12 / 21), pytest.approx(19 / 21))
+    assert found.difference.value == pytest.approx(7 / 21)
+
+
+def test_a_family_that_changes_as_one_counts_once() -> None:
+    first, second, families = [0] * 8 + [1] * 4, [1] * 12, [index // 4 for index in range(12)]
+    apart, together = (paired(RATE, system(first, "right", one), system(second, "right", one), 0) for one in (None, families))
+    assert apart.p == together.p_mcnemar == 2 / 2**8
+    # Two families of three went from wrong to right: 2 of 4 ways to swap them are as extreme.
+    assert together.p == 0.5 and together.families == 3
+
+
+def test_exact_swaps_are_those_of_all_signs() -> None:
+    sizes = [1, -2, 2, 3, 1, -1, 0]
+    sums = [abs(sum(sign * size for sign, size in zip(signs, sizes, strict=True))) for signs in itertools.product((1, -1), repeat=len(sizes))]
+    assert exact_swaps(sizes) == pytest.approx(sum(value >= abs(sum(sizes)) for value in sums) / len(sums))
+
+
+def test_swaps_of_a_mean_agree_with_scipy() -> None:
+    from scipy.stats import permutation_test
+
+    generator = np.random.default_rng(0)
+    for count in (9, 60):
+        first = generator.random(count)
+        second = first + generator.normal(0.12, 0.3, count)
+        ones = np.ones(count)
+        ours = swaps(np.stack([first, ones, second, ones], 1), 0)
+        theirs = permutation_test((first, second), lambda one, two, axis: (two - one).mean(axis), permutation_type="samples", vectorized=True, rng=0)
+        assert ours == pytest.approx(theirs.pvalue, abs=1e-9 if count == 9 else 0.015)
+
+
+def test_a_ratio_is_pooled_and_paired() -> None:
+    first = {"a": [{"id": "a", "hits": 1, "tries": 4}], "b": [{"id": "b", "hits": 2, "tries": 2}]}
+    second = {"a": [{"id": "a", "hits": 3, "tries": 4}], "b": [{"id": "b", "hits": 0, "tries": 0}]}
+    found = paired(RATIO, first, second, 0)
+    assert (found.first, found.second) == (0.5, 0.75)
+    assert found.difference.value == 0.25 and found.p is not None and 0 < found.p <= 1
+
+
+def test_repeats_of_a_sample_are_averaged_and_unmeasured_ones_left_out() -> None:
+    first = {"a": [{"id": "a", "right": True}, {"id": "a", "right": False}], "b": [{"id": "b", "right": None}]}
+    second = {"a": [{"id": "a", "right": True}], "b": [{"id": "b", "right": True}], "c": [{"id": "c", "right": True}]}
+    found = paired(RATE, first, second, 0)
+    assert (found.n, found.first, found.second, found.p_mcnemar) == (1, 0.5, 1.0, None)
+
+
+def test_the_interval_of_a_paired_difference_is_the_bootstrap_of_the_differences() -> None:
+    from planner_ft.benchmark.statistics import bootstrap_mean
+
+    generator = np.random.default_rng(1)
+    first, second = generator.random(40).tolist(), generator.random(40).tolist()
+    families = [index // 2 for index in range(40)]
+    found = paired(MEAN, system(first, "f1", families), system(second, "f1", families), 3)
+    expected = bootstrap_mean([two - one for one, two in zip(first, second, strict=True)], families, 3)
+    for ours, theirs in zip(found.difference.to_json().values(), expected.to_json().values(), strict=True):
+        assert ours == pytest.approx(theirs)
+
+
+def test_no_difference_in_few_samples_is_no_equality() -> None:
+    few, many = (system([1.0] * count, "f1") for count in (10, 200))
+    (small,), (large,) = (adjusted([("a", "b", paired(MEAN, one, one, 0))]) for one in (few, many))
+    assert small.verdict == "not told apart" and large.verdict == "equal"
+    assert small.paired.difference.high == pytest.approx(0.2775, abs=1e-3)
+
+
+def test_verdicts_know_which_way_is_better() -> None:
+    def said(metric: str, value: float, p: float | None) -> str:
+        found = paired(Metric(metric, "mean"), system([0.0, 0.5], metric), system([value, 0.5 + value], metric), 0)
+        return verdict(found, p)
+
+    assert said("f1", 0.4, 0.01) == "better" and said("f1", -0.4, 0.01) == "worse"
+    assert said("hallucination", 0.4, 0.01) == "worse" and said("latency_s", -0.4, 0.01) == "better"
+    assert said("tokens", 3.0, 0.01) == "higher"
+    assert said("f1", 0.4, 0.05) == "not told apart" and said("f1", 0.01, 0.5) == "equal"
+    assert said("latency_s", 0.01, 0.5) == "not told apart"
+    assert verdict(paired(MEAN, {}, {}, 0), None) == "not compared"
+    assert paired(MEAN, {}, {}, 0).difference == Estimate(None)
