@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from planner_ft.benchmark.sources.endpoint_settings import EndpointSettings
+from planner_ft.benchmark.sampled import repeats_problems
 from planner_ft.candidates.registry import Quantization
 from planner_ft.decoding.limits import MAX_NEW_TOKENS
 from planner_ft.support.errors import PlannerError
@@ -19,8 +20,8 @@ class BenchSettings:
     """A run. `None` stands for the default that depends on level or candidate.
 
     `candidates` are names, folders or hub ids, `configurations` as `parse_configuration` reads them, `adapters` folders
-    ("DIR", or "NAME=DIR" per candidate). `latency_samples` are the samples whose queries are timed one at a time. With
-    `endpoint` a server answers, and the only candidate is its model.
+    ("DIR", or "NAME=DIR" per candidate). A `batch_size` of None finds itself. `latency_samples` are the samples whose queries are timed one at a time. With
+    `endpoint` a server answers, and the only candidate is its model. With a `temperature` above 0 every sample is asked `repeats` times.
     """
 
     level: Level
@@ -33,12 +34,15 @@ class BenchSettings:
     vocabulary: str = "usv"
     device: str = "auto"
     quantization: Quantization | None = None
-    batch_size: int = 16
+    batch_size: int | None = None
     max_new_tokens: int | None = None
     latency_samples: int = 50
     seed: int = 0
     resume: bool = False
     overwrite: bool = False
+    repeats: int = 1
+    temperature: float = 0.0
+    top_p: float = 1.0
     endpoint: EndpointSettings | None = None
 
     def __post_init__(self) -> None:
@@ -51,11 +55,12 @@ class BenchSettings:
         if self.quantization not in (None, "nf4", "none"):
             problems.append(f"--quantization {self.quantization}: must be nf4 or none")
         bounds = (
-            ("batch-size", self.batch_size, 1, 1024),
+            ("batch-size", 1 if self.batch_size is None else self.batch_size, 1, 1024),
             ("max-new-tokens", self.token_limit, 1, LONGEST),
             ("latency-samples", self.latency_samples, 0, 10**9),
         )
         problems += [f"--{flag} {value}: must be between {low} and {high}" for flag, value, low, high in bounds if not low <= value <= high]
+        problems += repeats_problems(self.repeats, self.temperature, self.top_p)
         if self.resume and self.overwrite:
             problems.append("--resume keeps former predictions and --overwrite removes them: give one of them")
         if problems:

@@ -44,7 +44,9 @@ def bench(
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Remove an earlier run from --out first.")] = False,
     device: Annotated[str, typer.Option(help="auto, cpu, cuda or cuda:N.")] = "auto",
     quantization: Annotated[str | None, typer.Option(help="nf4 (4-bit base) or none.", show_default="as the candidate is trained: nf4")] = None,
-    batch_size: Annotated[int, typer.Option(help="Queries generated together (quality; latency is always one at a time).")] = 16,
+    batch_size: Annotated[
+        str, typer.Option(help="Queries generated together (quality; latency is always one at a time): a number, or auto. Halved when memory runs out.")
+    ] = "auto",
     max_new_tokens: Annotated[
         int | None, typer.Option(help="Limit of generated tokens per answer; cut answers are counted.", show_default="1024 mission, 2048 task")
     ] = None,
@@ -55,9 +57,7 @@ def bench(
         str | None, typer.Option(help="Root of a server's OpenAI chat API, such as http://127.0.0.1:8000/v1, instead of --candidates.", show_default=False)
     ] = None,
     model: Annotated[str | None, typer.Option(help="With --endpoint: the name by which the server knows the model.", show_default=False)] = None,
-    api_key_env: Annotated[
-        str | None, typer.Option(help="With --endpoint: the environment variable that holds the server's key.", show_default=False)
-    ] = None,
+    api_key_env: Annotated[str | None, typer.Option(help="With --endpoint: the environment variable that holds the server's key.", show_default=False)] = None,
     concurrency: Annotated[int | None, typer.Option(help="With --endpoint: questions that are open at a time.", show_default="4")] = None,
     timeout: Annotated[float | None, typer.Option(help="With --endpoint: seconds that an answer may take.", show_default="60")] = None,
     retries: Annotated[int | None, typer.Option(help="With --endpoint: how often a question is asked again after a failure.", show_default="5")] = None,
@@ -75,7 +75,7 @@ def bench(
         "quantization": quantization, "max_new_tokens": max_new_tokens, "latency_samples": latency_samples, "vocabulary": vocabulary,
     }  # fmt: skip
     named = {name: value for name, value in named.items() if value is not None}
-    common = {"device": device, "batch_size": batch_size, "seed": seed, "resume": resume, "overwrite": overwrite}
+    common = {"device": device, "batch_size": _batch_size(batch_size), "seed": seed, "resume": resume, "overwrite": overwrite}
     served = {"endpoint": endpoint, "model": model, "api_key_env": api_key_env, "concurrency": concurrency, "timeout": timeout, "retries": retries}
     served = {name: value for name, value in served.items() if value is not None}
     if gate is not None:
@@ -136,6 +136,17 @@ def _score_predictions(level: str, predictions: Path, data: Path | None, limit: 
     checked, definition = check_level(level), load_vocabulary(vocabulary)
     samples = load_bench_data(data or default_data(checked), checked, definition, limit)
     return score_predictions(predictions, samples, definition, seed=seed, name=name)
+
+
+def _batch_size(text: str) -> int | None:
+    from planner_ft.support.errors import PlannerError
+
+    if text == "auto":
+        return None
+    try:
+        return int(text)
+    except ValueError:
+        raise PlannerError(f"--batch-size {text}: must be a number or auto") from None
 
 
 def _split(text: str) -> tuple[str, ...]:

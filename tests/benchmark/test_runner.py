@@ -446,3 +446,29 @@ def test_a_folder_holds_answers_to_one_data_set(settings: Any, data: Path) -> No
     mission_data(data, COUNT + 1)
     with pytest.raises(PlannerError, match="begun with another data"):
         run_bench(settings(configurations=("base+schema",), adapters=(), latency_samples=0, resume=True))
+
+
+def test_answers_do_not_depend_on_the_batch_size(settings: Any, tmp_path: Path) -> None:
+    for size in (1, 2, 3, None):
+        run_bench(settings(out=tmp_path / str(size), batch_size=size, latency_samples=0))
+    assert answers(tmp_path / "1") == answers(tmp_path / "2") == answers(tmp_path / "3") == answers(tmp_path / "None")
+    assert {line["batch"] for line in lines(tmp_path / "3" / "predictions.jsonl")} == {3, 2}
+    assert {line["batch"] for line in lines(tmp_path / "None" / "predictions.jsonl")} == {COUNT}
+
+
+def test_a_device_whose_memory_is_full_gets_smaller_batches(settings: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import torch
+
+    run_bench(settings(out=tmp_path / "whole", latency_samples=0))
+    batch, sizes = generate_module._generate_batch, []
+
+    def full(decoder: Any, rows: Any, *args: Any) -> Any:
+        sizes.append(len(rows))
+        if len(rows) > 1:
+            raise torch.OutOfMemoryError("CUDA out of memory")
+        return batch(decoder, rows, *args)
+
+    monkeypatch.setattr(generate_module, "_generate_batch", full)
+    run_bench(settings(batch_size=4, latency_samples=0))
+    assert sizes == [4, 2] + [1] * 2 * COUNT
+    assert answers(tmp_path / "out") == answers(tmp_path / "whole")

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.sources import Answered, Timed
+from planner_ft.benchmark.sources.batching import in_batches, is_out_of_memory, new_batch_size
 from planner_ft.decoding.engine import Engine
 
 if TYPE_CHECKING:
     from planner_ft.benchmark.plan import Job, Plan
-    from planner_ft.decoding.generate import Query
+    from planner_ft.decoding.generate import Generation, Query
 
 
 class EngineSource:
@@ -22,6 +23,7 @@ class EngineSource:
         self.engine = engine
         self.plan = plan
         self.load_seconds = load_seconds
+        self.batch = new_batch_size(plan.settings.batch_size, plan.device)
 
     @classmethod
     def load(cls, plan: Plan, jobs: Sequence[Job]) -> EngineSource:
@@ -37,17 +39,21 @@ class EngineSource:
     def answers(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Answered]]:
         """Batch by batch, longest prompts first."""
         queries = self._queries(job, samples)
-        for index, answer in self.engine.answers(queries, job.configuration, batch_size=self.plan.settings.batch_size):
-            yield (
-                index,
-                Answered(
-                    output=self.engine.text(answer), seconds=answer.seconds, finish_reason=answer.finish_reason, tokens=len(answer.ids),
-                    prompt_tokens=len(queries[index].prompt), forward_passes=answer.forward_passes, error=answer.error,
-                ),
-            )  # fmt: skip
+
+        def ask(indices: list[int]) -> Iterator[tuple[int, Generation]]:
+            return self.engine.answers([queries[index] for index in indices], job.configuration, batch_size=len(indices), sampling=job.sampling)
+
+        for index, answer, size in in_batches(ask, [len(query.prompt) for query in queries], self.batch, is_out_of_memory):
+            yield index, self._answered(answer, len(queries[index].prompt), size)
+
+    def _answered(self, answer: Generation, prompt_tokens: int, size: int) -> Answered:
+        return Answered(
+            output=self.engine.text(answer), seconds=answer.seconds, finish_reason=answer.finish_reason, tokens=len(answer.ids),
+            prompt_tokens=prompt_tokens, forward_passes=answer.forward_passes, error=answer.error, more={"batch": size},
+        )  # fmt: skip
 
     def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Timed]]:
-        for index, latency in self.engine.latencies(self._queries(job, samples), job.configuration):
+        for index, latency in self.engine.latencies(self._queries(job, samples), job.configuration, sampling=job.sampling):
             yield index, Timed(latency.seconds, latency.tokens, latency.forward_passes)
 
     def costs(self) -> dict[str, Any]:
