@@ -90,18 +90,29 @@ def bootstrap_ratio(numerators: Sequence[float], denominators: Sequence[float], 
     The three sequences have one entry per sample. Samples of one cluster (phrasings of one family) are not independent:
     resampling them one by one would make the interval too narrow. Without a second cluster there is no interval.
     """
-    if sum(denominators) == 0:
-        return Estimate(None)
-    sums = cluster_sums([*zip(numerators, denominators, strict=True)], clusters)
-    value = float(sums[:, 0].sum() / sums[:, 1].sum())
+    return bootstrap_ratios([(numerators, denominators)], clusters, seed)[0]
+
+
+def bootstrap_ratios(ratios: Sequence[tuple[Sequence[float], Sequence[float]]], clusters: Sequence[Hashable], seed: int) -> list[Estimate]:
+    """Several ratios of the same samples, each as bootstrap_ratio gives it; one pass over the resamples serves them all."""
+    if not ratios or not clusters:
+        return [Estimate(None)] * len(ratios)
+    sums = cluster_sums(np.array([column for pair in ratios for column in pair], dtype=float).T, clusters)
+    values = [float(top / below) if below else None for top, below in sums.sum(axis=0).reshape(-1, 2)]
     if len(sums) < 2:
-        return Estimate(value)
+        return [Estimate(value) for value in values]
     totals = resampled_sums(sums, seed)
+    return [_resampled_ratio(value, totals[:, 2 * index : 2 * index + 2]) for index, value in enumerate(values)]
+
+
+def _resampled_ratio(value: float | None, totals: NDArray[np.float64]) -> Estimate:
+    if value is None:
+        return Estimate(None)
     totals = totals[totals[:, 1] > 0]
     return Estimate(value, *percentiles(totals[:, 0] / totals[:, 1]))
 
 
-def cluster_sums(values: Sequence[Sequence[float]], clusters: Sequence[Hashable]) -> NDArray[np.float64]:
+def cluster_sums(values: Sequence[Sequence[float]] | NDArray[np.float64], clusters: Sequence[Hashable]) -> NDArray[np.float64]:
     """The sums of `values`, (samples, columns), over each cluster, in the order in which clusters appear: (clusters, columns)."""
     order = {cluster: index for index, cluster in enumerate(dict.fromkeys(clusters))}
     sums = np.zeros((len(order), len(values[0])))
