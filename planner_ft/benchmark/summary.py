@@ -2,34 +2,70 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 
 from planner_ft.benchmark.catalogue import CATALOGUE, Metric
 from planner_ft.benchmark.metrics import FAILURES
 from planner_ft.benchmark.scoring import SampleScore
-from planner_ft.benchmark.statistics import Estimate, bootstrap_mean, bootstrap_ratio, clustered_rate
+from planner_ft.benchmark.statistics import Estimate, bootstrap_ratios, clustered_rate
+
+SHOWN = 5
+"""Examples of each kind of failure."""
 
 
 def summarise(scores: Sequence[SampleScore], seed: int) -> dict[str, Estimate]:
     """Every metric of the catalogue over the scored samples, 95 %, families counted as such: Wilson intervals for rates, bootstrap for the others."""
-    return {metric.name: estimate(metric, scores, seed) for metric in CATALOGUE}
+    rates = {metric.name: rate(metric, scores) for metric in CATALOGUE if metric.kind == "rate"}
+    others = _resampled([metric for metric in CATALOGUE if metric.kind != "rate"], scores, seed)
+    return {metric.name: (rates | others)[metric.name] for metric in CATALOGUE}
 
 
-def estimate(metric: Metric, scores: Sequence[SampleScore], seed: int) -> Estimate:
-    """One metric over those samples that have a value for it."""
-    key = metric.over[1] if metric.kind == "ratio" else metric.name
-    known = [score for score in scores if score.values.get(key) is not None]
-    values = [float(score.values[key] or 0) for score in known]
-    families = [score.family for score in known]
-    if metric.kind == "rate":
-        return clustered_rate([value == 1 for value in values], families)
-    if metric.kind == "mean":
-        return bootstrap_mean(values, families, seed)
-    return bootstrap_ratio([float(score.values[metric.over[0]] or 0) for score in known], values, families, seed)
+def rate(metric: Metric, scores: Sequence[SampleScore]) -> Estimate:
+    """A rate over those samples that have a value for it."""
+    known = [score for score in scores if score.values.get(metric.name) is not None]
+    return clustered_rate([bool(score.values[metric.name]) for score in known], [score.family for score in known])
 
 
 def failure_counts(scores: Sequence[SampleScore]) -> dict[str, int]:
     """Number of wrong answers per kind of failure, every kind named."""
     counts = Counter(score.failure for score in scores)
     return {kind: counts[kind] for kind in FAILURES}
+
+
+def failure_examples(scores: Sequence[SampleScore]) -> dict[str, list[str]]:
+    """The first ids of wrong answers of each kind that there is."""
+    found: dict[str, list[str]] = {kind: [] for kind in FAILURES}
+    for score in scores:
+        if score.failure is not None:
+            found[score.failure].append(score.id)
+    return {kind: ids[:SHOWN] for kind, ids in found.items() if ids}
+
+
+def _resampled(metrics: Sequence[Metric], scores: Sequence[SampleScore], seed: int) -> dict[str, Estimate]:
+    """Means and ratios; those that the same samples have a value for are resampled together."""
+    together: dict[tuple[int, ...], list[Metric]] = defaultdict(list)
+    for metric in metrics:
+        key = metric.over[1] or metric.name
+        together[tuple(index for index, score in enumerate(scores) if score.values.get(key) is not None)].append(metric)
+    found: dict[str, Estimate] = {}
+    for indices, members in together.items():
+        known = [scores[index] for index in indices]
+        families = [score.family for score in known]
+        estimates = bootstrap_ratios([_terms(metric, known) for metric in members], families, seed)
+        found |= {metric.name: _bounded(metric, estimate, families) for metric, estimate in zip(members, estimates, strict=True)}
+    return found
+
+
+def _terms(metric: Metric, scores: Sequence[SampleScore]) -> tuple[list[float], list[float]]:
+    """Numerators and denominators."""
+    if metric.kind == "mean":
+        return [float(score.values[metric.name] or 0) for score in scores], [1.0] * len(scores)
+    return [float(score.values[metric.over[0]] or 0) for score in scores], [float(score.values[metric.over[1]] or 0) for score in scores]
+
+
+def _bounded(metric: Metric, estimate: Estimate, families: Sequence[str]) -> Estimate:
+    """Where every sample is all right, or none is, every resample is the same and the bootstrap knows no doubt: the interval is that of a rate."""
+    if not metric.fraction or estimate.value not in (0, 1):
+        return estimate
+    return clustered_rate([estimate.value == 1] * len(families), families)

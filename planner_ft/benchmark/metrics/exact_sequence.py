@@ -21,6 +21,11 @@ def name_sequence(level: Level, plan: dict[str, Any]) -> Sequence:
     return [_step(step) for step in steps] if isinstance(steps, list) else []
 
 
+def flat_sequence(level: Level, plan: dict[str, Any]) -> list[str]:
+    """The names of `name_sequence` one by one: titles, or per step role and name, in a fixed order within a step."""
+    return [name for step in name_sequence(level, plan) for name in step]
+
+
 def exact_sequence(level: Level, plan: dict[str, Any] | None, expected: dict[str, Any]) -> bool:
     """Whether an answer names the expected tasks, or steps with their skills, in the expected order and nothing else.
 

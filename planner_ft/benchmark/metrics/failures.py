@@ -20,8 +20,10 @@ PUBLISHED: dict[Failure, int] = {"prerequisite omission": 4, "parameter propagat
 Entry = tuple[str, dict[str, Any]]
 
 
-def failure_kind(level: Level, plan: dict[str, Any] | None, expected: dict[str, Any], vocabulary: Vocabulary) -> Failure | None:
-    """Why an answer is wrong, or None when names, order and parameters are all right. The first that holds:
+def failure_kind(level: Level, plan: dict[str, Any] | None, expected: dict[str, Any], vocabulary: Vocabulary, *, valid: bool | None = None) -> Failure | None:
+    """Why an answer is wrong, or None when names, order and parameters are all right; `valid` says whether it is schema-valid, where that is known.
+
+    The first that holds:
 
     - invalid output: it does not parse, or is not schema-valid;
     - hallucination: a name outside the vocabulary;
@@ -33,7 +35,7 @@ def failure_kind(level: Level, plan: dict[str, Any] | None, expected: dict[str, 
     - extra step: names were added; where all of them hold the unresolved location it is parameter propagation;
     - wrong order: the right names in another order (or, at task level, in other steps or roles).
     """
-    if plan is None or not schema_valid(level, plan, vocabulary):
+    if plan is None or not (schema_valid(level, plan, vocabulary) if valid is None else valid):
         return "invalid output"
     if invented_names(level, plan, vocabulary):
         return "hallucination"
