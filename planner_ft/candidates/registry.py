@@ -24,6 +24,9 @@ HUB_ID = re.compile(r"(?P<repo>[A-Za-z0-9][\w.-]*/[A-Za-z0-9][\w.-]*)(@(?P<revis
 STANDIN_KEY = "planner_ft_standin"
 """In the config.json of a stand-in: true, so that no result made with one passes for the real candidate's."""
 
+VOCABULARY_KEY = "planner_ft_vocabulary"
+"""In the config.json of an exported model: the bundled vocabulary that it has learned."""
+
 
 @dataclass(frozen=True)
 class Dimensions:
@@ -204,7 +207,7 @@ def _locate(candidate: Candidate) -> Candidate:
 def _from_folder(folder: Path) -> Candidate:
     config = read_config(folder)
     return Candidate(
-        name=folder.name, chat=_chat(folder), dimensions=Dimensions.from_config(config),
+        name=folder.name, chat=_chat(folder), vocabulary=config.get(VOCABULARY_KEY), dimensions=Dimensions.from_config(config),
         folder=folder, source="path", is_standin=bool(config.get(STANDIN_KEY)),
     )  # fmt: skip
 

@@ -10,6 +10,7 @@ from planner_ft.cli.bench import bench, score
 from planner_ft.cli.candidates import candidates
 from planner_ft.cli.compare import compare
 from planner_ft.cli.doctor import doctor
+from planner_ft.cli.export import export
 from planner_ft.cli.gen_data import gen_data
 from planner_ft.cli.plan import plan
 from planner_ft.cli.train import train
@@ -39,5 +40,5 @@ def options(version: Annotated[bool, typer.Option("--version", callback=_version
     """Options of every command."""
 
 
-for command in (plan, gen_data, validate, candidates, train, bench, score, compare, vocabulary, doctor):
+for command in (plan, gen_data, validate, candidates, train, bench, score, compare, export, vocabulary, doctor):
     app.command(command.__name__.replace("_", "-"))(command)
