@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,6 +21,9 @@ Position = tuple[float, float]
 LARGEST = 10**WHOLE_DIGITS
 FEWEST_WORDS = 5
 """Words below which a command is too short to tell its language by."""
+MOST_SECTORS = 36
+MOST_CROSSED = 8
+"""Stated places whose coordinates are crossed into corners ("the box from (0, 0) to (40, 20)"), and stated angles that turns begin at."""
 MEASURES = ("m", "s", "m/s", "degC")
 BEFORE_NUMBERS = frozenset({"at", "by", "of", "to", "for", "in", "is", "every", "each", "speed", "about", "around", "than", "off", "within"})
 """Words behind which "one" is a number and no pronoun."""
@@ -113,6 +117,31 @@ def number_words(record: dict[str, Any]) -> Iterator[float]:
         for item in value if isinstance(value, list) else [value]:
             if isinstance(item, int | float) and not isinstance(item, bool):
                 yield item
+
+
+def own_texts(record: dict[str, Any]) -> Iterator[str]:
+    """Every text in a task's parameters."""
+    parameters = record.get("parameters")
+    for value in parameters.values() if isinstance(parameters, dict) else ():
+        for item in value if isinstance(value, list) else [value]:
+            if isinstance(item, str):
+                yield item
+
+
+def sector_counts(numbers: Iterable[float]) -> frozenset[int]:
+    """The numbers into which a turn can be divided."""
+    return frozenset(int(number) for number in numbers if number in range(2, MOST_SECTORS + 1))
+
+
+def turned(said: Sequence[float], counts: Iterable[int]) -> Iterator[float]:
+    """Angles in degrees that follow from stated ones: turns to port, headings evenly round the compass."""
+    steps = [360 / count for count in sorted(counts)]
+    yield from steps
+    for value in (*said, *steps):
+        yield -value
+    starts = {0.0, *(value % 360 for value in said)} if len(said) <= MOST_CROSSED else {0.0}
+    for start, step in itertools.product(starts, steps):
+        yield from ((start + number * step) % 360 for number in range(round(360 / step)))
 
 
 def _notes(text: str) -> Iterator[str]:
