@@ -19,8 +19,7 @@ import torch
 from torch import Tensor, nn
 
 from planner_ft.pretraining.corpus import IGNORE, Rows, batched, load_shard
-
-SIZE_STEP = 1024
+from planner_ft.pretraining.kernels import CAUSAL, SummedCrossEntropy, register_attention
 
 
 @dataclass(frozen=True)
@@ -52,13 +51,13 @@ def new_model(settings: PretrainSettings, vocabulary_size: int, special: dict[st
     """A freshly initialised Llama with tied embeddings."""
     from transformers import LlamaConfig, LlamaForCausalLM
 
+    register_attention()
     torch.manual_seed(settings.seed)
     config = LlamaConfig(
         vocab_size=vocabulary_size, hidden_size=settings.hidden, intermediate_size=settings.feed_forward, num_hidden_layers=settings.layers,
         num_attention_heads=settings.heads, num_key_value_heads=settings.heads, tie_word_embeddings=True, max_position_embeddings=4096,
         bos_token_id=special["bos"], eos_token_id=special["eos"], pad_token_id=special["pad"],
-        # On a CPU and at these widths plain matrix products train twice as fast as the fused attention, whose backward pass is slow.
-        attn_implementation="eager",
+        attn_implementation=CAUSAL,
     )  # fmt: skip
     return LlamaForCausalLM(config)
 
@@ -87,16 +86,13 @@ def completion_loss(model: Any, body: Any, rows: Rows, rank: int = 0, world: int
     The sum over the ranks is the loss of the batch.
     """
     answers = int((rows.labels != IGNORE).sum())
-    labels = torch.from_numpy(rows.labels[rank::world])
-    places = (labels != IGNORE).flatten().nonzero().squeeze(1)
-    # The output layer sees few different sizes only: each keeps a kernel with its memory in oneDNN's cache.
-    padded = nn.functional.pad(places, (0, -len(places) % SIZE_STEP))
-    targets = nn.functional.pad(labels.flatten()[places], (0, -len(places) % SIZE_STEP), value=IGNORE)
+    labels = torch.from_numpy(rows.labels[rank::world]).flatten()
+    places = (labels != IGNORE).nonzero().squeeze(1)
     with torch.autocast("cpu", dtype=torch.bfloat16):
         # Padding stands on the right, where no token sees it: attention needs no mask but the causal one.
         hidden = body(input_ids=torch.from_numpy(rows.input_ids[rank::world]), use_cache=False)[0]
-        logits = model.lm_head(hidden.flatten(0, 1)[padded])
-    return nn.functional.cross_entropy(logits.float(), targets, ignore_index=IGNORE, reduction="sum") / max(1, answers)
+    total: Tensor = SummedCrossEntropy.apply(hidden.flatten(0, 1)[places], model.lm_head.weight, labels[places])
+    return total / max(1, answers)
 
 
 def optimizers(model: nn.Module, settings: PretrainSettings) -> list[torch.optim.Optimizer]:

@@ -1,0 +1,114 @@
+"""Attention and loss of the pretraining loop, written for one processor core: library products and reductions on pieces that stay in its cache.
+
+The compiler's own kernels for softmax over rows of varying length run several times slower there, so both are custom operators that it
+passes by. `CAUSAL` is the name under which a transformers model finds the attention.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import torch
+from torch import Tensor
+
+CAUSAL = "planner_ft_causal"
+LONGEST = 1024
+"""Positions in a row at most."""
+ROWS = 256
+"""Rows of logits in a piece."""
+
+_BIAS = torch.full((LONGEST, LONGEST), float("-inf")).triu(1)
+
+
+@torch.library.custom_op("planner_ft::causal_attention", mutates_args=())
+def causal_attention(query: Tensor, key: Tensor, value: Tensor, scale: float) -> tuple[Tensor, Tensor]:
+    """Attention of each position to itself and those before it: (batch, heads, length, width) each → the same shape, and the weights.
+
+    The weights have shape (batch * heads, length, length).
+    """
+    query, key, value = _flat(query * scale), _flat(key), _flat(value)
+    length = query.shape[1]
+    scores = torch.bmm(query, key.transpose(1, 2)).add_(_BIAS[:length, :length].to(query.dtype))
+    weights = torch.softmax(scores, -1)
+    return torch.bmm(weights, value), weights
+
+
+@causal_attention.register_fake
+def _(query: Tensor, key: Tensor, value: Tensor, scale: float) -> tuple[Tensor, Tensor]:
+    batch, heads, length, width = query.shape
+    return query.new_empty((batch * heads, length, width)), query.new_empty((batch * heads, length, length))
+
+
+@torch.library.custom_op("planner_ft::causal_attention_backward", mutates_args=())
+def causal_attention_backward(gradient: Tensor, query: Tensor, key: Tensor, value: Tensor, weights: Tensor, scale: float) -> tuple[Tensor, Tensor, Tensor]:
+    """Gradients of query, key and value, each (batch * heads, length, width)."""
+    query, key, value = _flat(query), _flat(key), _flat(value)
+    of_weights = torch.bmm(gradient, value.transpose(1, 2))
+    of_scores = torch._softmax_backward_data(of_weights, weights, -1, weights.dtype)
+    return torch.bmm(of_scores, key) * scale, torch.bmm(of_scores.transpose(1, 2), query) * scale, torch.bmm(weights.transpose(1, 2), gradient)
+
+
+@causal_attention_backward.register_fake
+def _(gradient: Tensor, query: Tensor, key: Tensor, value: Tensor, weights: Tensor, scale: float) -> tuple[Tensor, Tensor, Tensor]:
+    return torch.empty_like(gradient), torch.empty_like(gradient), torch.empty_like(gradient)
+
+
+def _remember(ctx: Any, inputs: tuple[Any, ...], output: tuple[Tensor, Tensor]) -> None:
+    query, key, value, ctx.scale = inputs
+    ctx.save_for_backward(query, key, value, output[1])
+
+
+def _backward(ctx: Any, gradient: Tensor, _of_weights: Tensor | None) -> tuple[Tensor, Tensor, Tensor, None]:
+    query, key, value, weights = ctx.saved_tensors
+    found = causal_attention_backward(gradient.contiguous(), query, key, value, weights, ctx.scale)
+    of_query, of_key, of_value = (part.view(query.shape) for part in found)
+    return of_query, of_key, of_value, None
+
+
+torch.library.register_autograd("planner_ft::causal_attention", _backward, setup_context=_remember)
+
+
+def register_attention() -> None:
+    """Let transformers' models find the attention under the name `CAUSAL`; padding must stand on the right."""
+    from transformers.modeling_utils import ALL_ATTENTION_FUNCTIONS
+
+    def attend(_module: Any, query: Tensor, key: Tensor, value: Tensor, _mask: Any, scaling: float, **_: Any) -> tuple[Tensor, None]:
+        batch, heads, length, width = query.shape
+        # Rotary positions leave queries and keys in float32, also where values are bfloat16.
+        attended, _weights = causal_attention(query.to(value.dtype), key.to(value.dtype), value, scaling)
+        return attended.view(batch, heads, length, width).transpose(1, 2), None
+
+    ALL_ATTENTION_FUNCTIONS.register(CAUSAL, attend)
+
+
+class SummedCrossEntropy(torch.autograd.Function):
+    """Sum of the cross-entropies of `hidden` (n, width) through the output matrix `weight` (vocabulary, width) at `targets` (n,).
+
+    Products in bfloat16, the rest in float32. The gradients are made in the forward pass, piece by piece: the logits never exist as a whole.
+    """
+
+    @staticmethod
+    def forward(ctx: Any, hidden: Tensor, weight: Tensor, targets: Tensor) -> Tensor:
+        inner, outer = hidden.to(torch.bfloat16), weight.to(torch.bfloat16)
+        of_hidden, of_weight = torch.empty_like(inner), torch.zeros_like(weight)
+        total = hidden.new_zeros((), dtype=torch.float32)
+        for start in range(0, len(targets), ROWS):
+            piece, wanted = inner[start : start + ROWS], targets[start : start + ROWS, None]
+            logits = torch.mm(piece, outer.t()).float()
+            norm = torch.logsumexp(logits, -1, keepdim=True)
+            total += (norm - logits.gather(1, wanted)).sum()
+            share = logits.sub_(norm).exp_().scatter_add_(1, wanted, torch.full_like(norm, -1.0)).to(torch.bfloat16)
+            torch.mm(share, outer, out=of_hidden[start : start + ROWS])
+            of_weight += torch.mm(share.t(), piece)
+        ctx.save_for_backward(of_hidden.to(hidden.dtype), of_weight)
+        return total
+
+    @staticmethod
+    def backward(ctx: Any, *gradients: Tensor) -> tuple[Tensor, Tensor, None]:
+        of_hidden, of_weight = ctx.saved_tensors
+        return of_hidden * gradients[0].to(of_hidden.dtype), of_weight * gradients[0], None
+
+
+def _flat(part: Tensor) -> Tensor:
+    """(batch, heads, length, width) → (batch * heads, length, width)."""
+    return part.reshape(-1, *part.shape[2:])
