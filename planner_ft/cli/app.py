@@ -13,6 +13,7 @@ from planner_ft.cli.doctor import doctor
 from planner_ft.cli.export import export
 from planner_ft.cli.gen_data import gen_data
 from planner_ft.cli.plan import plan
+from planner_ft.cli.report import report
 from planner_ft.cli.train import train
 from planner_ft.cli.validate import validate
 from planner_ft.cli.vocabulary import vocabulary
@@ -40,5 +41,5 @@ def options(version: Annotated[bool, typer.Option("--version", callback=_version
     """Options of every command."""
 
 
-for command in (plan, gen_data, validate, candidates, train, bench, score, compare, export, vocabulary, doctor):
+for command in (plan, gen_data, validate, candidates, train, bench, score, compare, report, export, vocabulary, doctor):
     app.command(command.__name__.replace("_", "-"))(command)

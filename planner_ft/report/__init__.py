@@ -1,0 +1,1 @@
+"""Reports of benchmark runs for people who would rather look than read: one HTML file, figures, tables, model cards."""

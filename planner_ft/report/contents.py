@@ -1,0 +1,128 @@
+"""What a report holds, test set by test set, before it is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+from planner_ft.benchmark.layout import notes as table_notes
+from planner_ft.benchmark.results import Results, Row
+from planner_ft.benchmark.results import System as RowSystem
+from planner_ft.benchmark.statistics import Estimate
+from planner_ft.report.charts import Chart
+from planner_ft.report.figures import charts, system_charts
+from planner_ft.report.metrics import all_metrics_table, estimate, group_table, main_table
+from planner_ft.report.runs import Record, System, TestSet
+from planner_ft.report.significance import Significance, significance
+from planner_ft.report.tables import Table
+
+
+@dataclass(frozen=True)
+class Sentence:
+    """A sentence of the summary; `lead` is what it is about."""
+
+    lead: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Section:
+    """Everything about one test set. `per_system` are charts of one system each."""
+
+    tests: TestSet
+    summary: tuple[Sentence, ...]
+    main: Table
+    legend: str
+    extra: tuple[Table, ...]
+    all_metrics: Table
+    charts: tuple[Chart, ...]
+    per_system: tuple[tuple[str, tuple[Chart, ...]], ...]
+    notes: tuple[str, ...]
+
+    @property
+    def tables(self) -> tuple[Table, ...]:
+        """Every table, in the order of the page."""
+        return (self.main, *self.extra, self.all_metrics)
+
+    @property
+    def figures(self) -> tuple[Chart, ...]:
+        """Every chart, in the order of the page."""
+        return (*self.charts, *(chart for _name, of_system in self.per_system for chart in of_system))
+
+
+def section(tests: TestSet) -> Section:
+    """The content of a test set's section."""
+    found = significance(tests)
+    extra = [table for table in (found.table, group_table(tests)) if table is not None]
+    of_systems = [(system.name, tuple(system_charts(tests, system))) for system in tests.systems if not system.is_baseline]
+    return Section(
+        tests, tuple(_summary(tests, found)), main_table(tests, found.marks), found.legend, tuple(extra), all_metrics_table(tests), tuple(charts(tests)),
+        tuple((name, of_system) for name, of_system in of_systems if of_system), tuple(_notes(tests)),
+    )  # fmt: skip
+
+
+def _summary(tests: TestSet, found: Significance) -> list[Sentence]:
+    sentences = [Sentence(f"{system.name}.", _in_words(tests, system)) for system in tests.systems if not system.is_baseline]
+    return [*sentences, *(Sentence("", text) for text in found.sentences)]
+
+
+def _in_words(tests: TestSet, system: System) -> str:
+    """How many plans are right, and why the others are not."""
+    whole, n = estimate(system, "whole_plan"), int(system.row.get("n", tests.n))
+    if whole.value is None:
+        return f"{n} answers."
+    span = "" if whole.low is None or whole.high is None else f", 95 % interval {100 * whole.low:.0f} to {100 * whole.high:.0f} %"
+    n *= max((len(lines) for lines in system.repeats.values()), default=1)
+    text = f"{round(whole.value * n)} of {n} plans are right in every name, order and value ({100 * whole.value:.0f} %{span})."
+    failures = sorted(((count, kind) for kind, count in system.row.get("failures", {}).items() if count), key=lambda entry: (-entry[0], entry[1]))
+    if failures:
+        text += " Wrong: " + ", ".join(f"{kind} {count}" for count, kind in failures) + "."
+    return text
+
+
+def _notes(tests: TestSet) -> list[str]:
+    return list(dict.fromkeys([*(note for results in tests.results for note in table_notes(as_results(results))), *tests.notes]))
+
+
+def as_results(record: Record) -> Results:
+    """results.json as an object, as far as the notes of tables need it; what another version recorded beside is left out."""
+    rows = [Row(system=_row_system(row), **_row_values(row)) for row in record["rows"]]
+    return Results(record["level"], record["data"], tuple(rows), record.get("manifest", {}))
+
+
+def _row_system(row: Record) -> RowSystem:
+    known = {field.name for field in fields(RowSystem)}
+    return RowSystem(**{"label": str(row.get("candidate")), **{name: value for name, value in row.items() if name in known}})
+
+
+def _row_values(row: Record) -> dict[str, Any]:
+    metrics = {name: Estimate(found.get("value"), found.get("low"), found.get("high")) for name, found in row.get("metrics", {}).items()}
+    return {
+        "n": row.get("n", 0), "metrics": metrics, "failures": row.get("failures", {}), "finish_reasons": row.get("finish_reasons", {}),
+        "missing": tuple(row.get("missing", ())), "latency_n": row.get("latency_n", 0),
+    }  # fmt: skip
+
+
+def provenance(sets: Sequence[TestSet]) -> list[tuple[str, str]]:
+    """What the runs depended on, in words."""
+    entries: list[tuple[str, str]] = []
+    for tests in sets:
+        entries.append((tests.title, f"{tests.path}, SHA-256 {tests.sha256}"))
+        for results in tests.results:
+            entries += _of_run(results.get("manifest", {}))
+    return list(dict.fromkeys(entries))
+
+
+def _of_run(manifest: Record) -> list[tuple[str, str]]:
+    versions = ", ".join(f"{name} {version}" for name, version in manifest.get("versions", {}).items())
+    hardware = ", ".join(f"{name} {value}" for name, value in manifest.get("hardware", {}).items())
+    jobs = [
+        (f"Adapter of {name}", f"SHA-256 {job['adapter']}") for name, job in manifest.get("jobs", {}).items() if isinstance(job, dict) and job.get("adapter")
+    ]
+    commit = f"{manifest.get('commit') or 'unknown'}{' with local changes' if manifest.get('dirty') else ''}"
+    entries = [
+        ("Command", str(manifest.get("command", ""))), ("Made", str(manifest.get("created", ""))), ("Seed", str(manifest.get("seed", ""))),
+        ("planner_ft", f"{manifest.get('planner_ft', '')}, commit {commit}"), ("Versions", versions), ("Hardware", hardware), *jobs,
+    ]  # fmt: skip
+    return [(name, value) for name, value in entries if value]

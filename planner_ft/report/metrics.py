@@ -1,0 +1,139 @@
+"""How metrics are shown, and the tables of figures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from planner_ft.benchmark import layout, published
+from planner_ft.benchmark.catalogue import CATALOGUE
+from planner_ft.benchmark.layout import Column, heading
+from planner_ft.benchmark.statistics import Estimate
+from planner_ft.report.runs import System, TestSet
+from planner_ft.report.tables import Cell, Table, TableRow
+
+MAIN = ("f1", "whole_plan", "exact_sequence", "parameters", "hallucination", "schema_valid", "strict_valid", "latency_s", "tokens")
+"""The metrics of the first table: the published five, and those that show whether a plan is right."""
+RATES = frozenset(metric.name for metric in CATALOGUE if metric.kind == "rate")
+
+
+def columns() -> dict[str, Column]:
+    """Every column that the layout of the benchmark's tables knows, by metric."""
+    found: dict[str, Column] = {}
+    for value in vars(layout).values():
+        if isinstance(value, tuple):
+            found.update({column.metric: column for column in value if isinstance(column, Column)})
+    return found
+
+
+def column(metric: str, known: dict[str, Column]) -> Column:
+    """How a metric is shown; one that the layout does not know by its name, rates in percent."""
+    label = metric.replace("_", " ").capitalize()
+    return known.get(metric) or (Column(metric, f"{label} (%)", "", 100, 1, 1) if metric in RATES else Column(metric, label, "", 1, 2))
+
+
+def estimate(system: System, metric: str) -> Estimate:
+    """A system's figure with its interval."""
+    found = system.metric(metric)
+    return Estimate(found.get("value"), found.get("low"), found.get("high"))
+
+
+def main_table(tests: TestSet, marks: dict[tuple[str, str], str]) -> Table:
+    """A row per system with the metrics that matter most, published rows beside. `marks` by (system, metric)."""
+    known = columns()
+    shown = [column(name, known) for name in MAIN if any(estimate(system, name).value is not None for system in tests.systems)]
+    rows = []
+    theirs = published_rows(tests)
+    for system in tests.systems:
+        cells = tuple(figure_cell(one, estimate(system, one.metric), marks.get((system.name, one.metric), "")) for one in shown)
+        rows.append(TableRow(system.name, cells, "baseline" if system.is_baseline else "measured"))
+        key = (str(system.row.get("published")), str(system.row.get("configuration")))
+        if key in theirs:
+            rows.append(_published(key, theirs.pop(key), shown))
+    rows += [_published(key, figures, shown) for key, figures in theirs.items()]
+    heads = tuple(f"{one.heading} {one.better}".strip() for one in shown)
+    return Table(f"{tests.key}-main", "Systems", "In brackets 95 % intervals.", "System", heads, tuple(rows))
+
+
+def all_metrics_table(tests: TestSet) -> Table:
+    """Every metric of the runs, a row each, a column per system."""
+    known = columns()
+    order = [*known, *(metric.name for metric in CATALOGUE)]
+    names = list(dict.fromkeys(name for system in tests.systems for name in system.row.get("metrics", {})))
+    names.sort(key=lambda name: order.index(name) if name in order else len(order))
+    rows = []
+    for name in names:
+        one = column(name, known)
+        cells = tuple(figure_cell(one, estimate(system, name)) for system in tests.systems)
+        if any(cell.text != layout.NOTHING for cell in cells):
+            rows.append(TableRow(f"{one.heading} {one.better}".strip(), cells))
+    return Table(f"{tests.key}-metrics", "All metrics", "In brackets 95 % intervals.", "Metric", tuple(system.name for system in tests.systems), tuple(rows))
+
+
+def group_table(tests: TestSet) -> Table | None:
+    """F1 and whole plans right per group of the data; None where it has no groups."""
+    entries = [entry for results in tests.results for entry in results.get("groups", []) if isinstance(entry, dict) and entry.get("group")]
+    if not entries:
+        return None
+    names = sorted({str(entry["group"]) for entry in entries})
+    sizes = {str(entry["group"]): entry.get("n", 0) for entry in entries}
+    cells = {
+        (_owner(tests.systems, entry), str(entry["group"])): Cell(_share(entry.get("whole_plan")), heat=_heat(entry.get("whole_plan"))) for entry in entries
+    }
+    rows = tuple(
+        TableRow(system.name, tuple(cells.get((system.name, name), Cell(layout.NOTHING)) for name in names), "baseline" if system.is_baseline else "measured")
+        for system in tests.systems
+    )
+    caption = "Whole plans right (%) by kind of difficulty. Groups are small: they tell where to look, not which system is better."
+    return Table(f"{tests.key}-groups", "By group", caption, "System", tuple(f"{name} (n = {sizes[name]})" for name in names), rows)
+
+
+def published_rows(tests: TestSet) -> dict[tuple[str, str], dict[str, float]]:
+    """The published figures of this level by (model, configuration).
+
+    None for another vehicle, for stand-ins alone, and beside other data than the level's test split (test.jsonl): they are of the published
+    test set, and neither challenge commands nor unseen phrasings compare with it.
+    """
+    vehicle = tests.results[0].get("manifest", {}).get("configuration", {}).get("vocabulary", {}).get("name")
+    real = any(not system.row.get("is_standin") and not system.is_baseline for system in tests.systems)
+    if vehicle != published.VOCABULARY or not real or Path(tests.path).stem != "test":
+        return {}
+    found: dict[tuple[str, str], dict[str, float]] = {}
+    for row in published.published_rows(tests.level):
+        for (metric, configuration), value in row.figures.items():
+            found.setdefault((row.model, configuration), {})[metric] = value
+    return found
+
+
+def published_label(key: tuple[str, str]) -> str:
+    """A published row's name."""
+    return f"{key[0]}, {heading(key[1])} (published)"
+
+
+def _published(key: tuple[str, str], figures: dict[str, float], shown: Iterable[Column]) -> TableRow:
+    cells = []
+    for one in shown:
+        value = figures.get(one.metric)
+        scaled = None if value is None else value * one.scale
+        cells.append(Cell(one.text(value, source="published"), bounds=(scaled, None, None)))
+    return TableRow(published_label(key), tuple(cells), "published")
+
+
+def figure_cell(one: Column, found: Estimate, mark: str = "") -> Cell:
+    """A figure with its interval, in the unit of its column."""
+    low, value, high = (None if bound is None else bound * one.scale for bound in (found.low, found.value, found.high))
+    return Cell(one.text(found.value), one.interval(found) if value is not None else "", mark, bounds=(value, low, high))
+
+
+def _owner(systems: Sequence[System], entry: dict[str, Any]) -> str:
+    wanted = (str(entry.get("candidate")), str(entry.get("configuration")))
+    return next((system.name for system in systems if (str(system.row.get("candidate")), str(system.row.get("configuration"))) == wanted), "")
+
+
+def _share(value: float | None) -> str:
+    return layout.NOTHING if value is None else f"{100 * value:.0f}"
+
+
+def _heat(value: float | None) -> int | None:
+    return None if value is None else round(6 * value)

@@ -1,0 +1,72 @@
+"""Writing a report: the page, the figures as PNG and SVG, the tables as Markdown, CSV and LaTeX."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from planner_ft.report.charts import Matrix
+from planner_ft.report.contents import Section, provenance, section
+from planner_ft.report.page import matrix_table, page
+from planner_ft.report.runs import load_test_sets
+from planner_ft.report.tables import csv_table, latex_table, markdown_table
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import atomic_writer, write_text
+
+PAGE, FIGURES, TABLES = "report.html", "figures", "tables"
+WRITTEN = re.compile(r"(mission|task)-.*-[0-9a-f]{6}-.*\.(png|svg|md|csv|tex)")
+WRITERS = {"md": markdown_table, "csv": csv_table, "tex": latex_table}
+
+
+def write_report(runs: Sequence[Path], out: Path, *, data: Sequence[Path] = (), overwrite: bool = False, title: str = "") -> list[Path]:
+    """Report on these runs in `out`: report.html, figures/ and tables/. Returns what was written.
+
+    Raises PlannerError where a run cannot be read, or where a report is there already and `overwrite` is not given.
+    """
+    check_out(out, overwrite)
+    sets = load_test_sets(runs, data)
+    sections = [section(tests) for tests in sets]
+    shown = title or "Benchmark report: " + ", ".join(dict.fromkeys(run.resolve().name for run in runs))
+    _remove_former(out)
+    written = [*_tables(sections, out), *_figures(sections, out), out / PAGE]
+    # Last: where the page is, all of the report is.
+    write_text(out / PAGE, page(sections, shown, provenance(sets)))
+    return written
+
+
+def check_out(out: Path, overwrite: bool) -> None:
+    """Raise PlannerError when a report is there already, or `out` is a file."""
+    if out.exists() and not out.is_dir():
+        raise PlannerError(f"--out {out}: is a file; give a folder")
+    if (out / PAGE).exists() and not overwrite:
+        raise PlannerError(f"{out / PAGE}: a report is there already; give --overwrite or another --out")
+
+
+def _remove_former(out: Path) -> None:
+    """Remove what an earlier report wrote, and nothing else: the folders may hold files of the user's."""
+    for name in (FIGURES, TABLES):
+        for path in (out / name).glob("*"):
+            if WRITTEN.fullmatch(path.name):
+                path.unlink()
+
+
+def _tables(sections: Sequence[Section], out: Path) -> Iterator[Path]:
+    for one in sections:
+        for table in [*one.tables, *(matrix_table(chart) for chart in one.figures if isinstance(chart, Matrix))]:
+            for suffix, writer in WRITERS.items():
+                path = out / TABLES / f"{table.name}.{suffix}"
+                write_text(path, writer(table))
+                yield path
+
+
+def _figures(sections: Sequence[Section], out: Path) -> Iterator[Path]:
+    from planner_ft.report.pictures import picture
+
+    for one in sections:
+        for chart in one.figures:
+            for suffix, content in picture(chart).items():
+                path = out / FIGURES / f"{chart.name}.{suffix}"
+                with atomic_writer(path, "wb") as stream:
+                    stream.write(content)
+                yield path
