@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from planner_ft.benchmark.results import Results, System, score_system
+from planner_ft.benchmark.results import Lines, Results, System, score_system
 from planner_ft.benchmark.samples import BenchData
 from planner_ft.vocabulary import Vocabulary
-
-Lines = Mapping[str, Mapping[str, Any]]
-"""Lines of predictions.jsonl or latency.jsonl by sample id."""
 
 
 @dataclass(frozen=True)
@@ -24,10 +21,14 @@ class Measured:
 
 
 def assemble(data: BenchData, vocabulary: Vocabulary, measured: Sequence[Measured], *, seed: int, manifest: dict[str, Any]) -> Results:
-    """Score every system on the samples of `data`; a sample without a prediction counts as an empty output."""
+    """Score every system on the samples of `data`; a sample without a prediction counts as an empty output. Repeats of a system make one row."""
     rows, scores = [], []
+    systems: dict[tuple[str, str], list[Measured]] = {}
     for entry in measured:
-        row, of_samples = score_system(data.level, entry.system, data.samples, entry.predictions, vocabulary, seed=seed, timed=entry.timed)
+        systems.setdefault((entry.system.candidate, entry.system.configuration), []).append(entry)
+    for entries in systems.values():
+        answers = [(entry.predictions, entry.timed) for entry in entries]
+        row, of_samples = score_system(data.level, entries[0].system, data.samples, answers, vocabulary, seed=seed)
         rows.append(row)
         scores += of_samples
     return Results(data.level, data.summary(), tuple(rows), manifest, tuple(scores))

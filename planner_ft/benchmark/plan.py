@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark.results import System
+from planner_ft.benchmark.sampled import repeated
 from planner_ft.benchmark.samples import BenchData, default_data, load_bench_data
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.candidates import Candidate, resolve_candidate
@@ -17,6 +18,7 @@ from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import Quantization
 from planner_ft.decoding.configurations import Configuration, parse_configuration
 from planner_ft.decoding.engine import decoding_threads
+from planner_ft.decoding.sampling import Sampling
 from planner_ft.prompts.render import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import sha256_text, sha256_tree
@@ -27,7 +29,7 @@ TOKENIZER_FILES = ("tokenizer*", "chat_template*", "vocab.json", "merges.txt", "
 
 @dataclass(frozen=True)
 class Job:
-    """One candidate in one configuration. `parts` is everything that its answers depend on, by name."""
+    """One candidate in one configuration, one repeat of it where answers are sampled. `parts` is everything that its answers depend on, by name."""
 
     candidate: Candidate
     configuration: Configuration
@@ -37,6 +39,7 @@ class Job:
     parts: dict[str, Any]
     system: System
     threads: int | None
+    sampling: Sampling | None = None
 
     @property
     def key(self) -> str:
@@ -45,7 +48,8 @@ class Job:
 
     @property
     def name(self) -> str:
-        return f"{self.candidate.name} {self.configuration.name}"
+        repeat = f" #{self.sampling.repeat}" if self.sampling else ""
+        return f"{self.candidate.name} {self.configuration.name}{repeat}"
 
 
 @dataclass(frozen=True)
@@ -86,7 +90,7 @@ def make_plan(settings: BenchSettings) -> Plan:
             check_adapter(adapter, candidate, level=settings.level, vocabulary=vocabulary)
         threads = decoding_threads(candidate, device.type)
         jobs += [_job(settings, candidate, configuration, adapter, vocabulary, data, compute, threads) for configuration in configurations]
-    return Plan(settings, data, vocabulary, str(device), tuple(jobs))
+    return Plan(settings, data, vocabulary, str(device), tuple(one for job in jobs for one in repeated(job, settings)))
 
 
 def _candidates(settings: BenchSettings) -> list[Candidate]:

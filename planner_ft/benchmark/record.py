@@ -102,8 +102,10 @@ def _check_jobs(plan: Plan, path: Path, recorded: dict[str, Any]) -> None:
 
 
 def _check_predictions(plan: Plan, predictions: RecordLog) -> None:
-    keys = {(job.candidate.name, job.configuration.name): job.key for job in plan.jobs}
+    keys: dict[tuple[str, str], set[str]] = {}
+    for job in plan.jobs:
+        keys.setdefault((job.candidate.name, job.configuration.name), set()).add(job.key)
     for record in predictions.records.values():
         name = str(record.get("candidate")), str(record.get("configuration"))
-        if keys.get(name, record["key"]) != record["key"]:
+        if record["key"] not in keys.get(name, {record["key"]}):
             raise PlannerError(f"{predictions.path}: holds answers of {name[0]} {name[1]} that are not of this run; give --overwrite or another --out")

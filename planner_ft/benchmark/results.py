@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from planner_ft.benchmark.changes import Change, changes
 from planner_ft.benchmark.groups import group_figures
+from planner_ft.benchmark.repeats import pass_figures
 from planner_ft.benchmark.samples import Sample
-from planner_ft.benchmark.scoring import SampleScore, score_sample
+from planner_ft.benchmark.scoring import score_sample
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.benchmark.summary import failure_counts, summarise
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
+
+Lines = Mapping[str, Mapping[str, Any]]
+"""Lines of predictions.jsonl or latency.jsonl by sample id."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +27,8 @@ class System:
 
     `label` is its name in tables, `published` its name in the published tables. `with_vocabulary` says whether the
     prompt held the vocabulary, `pretrained` whether the candidate was pretrained on plans of this vocabulary; both are
-    None or False for predictions of unknown origin.
+    None or False for predictions of unknown origin. `repeat` is which answers of a system that was asked several times
+    these are; a row is of all of them.
     """
 
     candidate: str
@@ -34,11 +39,15 @@ class System:
     pretrained: bool = False
     with_vocabulary: bool | None = None
     adapter: str | None = None
+    repeat: int | None = None
 
 
 @dataclass(frozen=True)
 class Row:
-    """The figures of one system. `missing` are the samples without a prediction, which count as empty outputs."""
+    """The figures of one system. `missing` are the samples without a prediction, which count as empty outputs.
+
+    With repeats, `metrics` and `failures` are over all answers to the `n` samples, and `repeats` holds pass^k (see `repeats`).
+    """
 
     system: System
     n: int
@@ -47,9 +56,11 @@ class Row:
     finish_reasons: dict[str, int]
     missing: tuple[str, ...] = ()
     latency_n: int = 0
+    repeats: dict[str, Any] | None = None
 
     def to_json(self) -> dict[str, Any]:
         system = asdict(self.system)
+        del system["repeat"]
         return {
             "candidate": system.pop("candidate"),
             "configuration": system.pop("configuration"),
@@ -59,6 +70,7 @@ class Row:
             "finish_reasons": self.finish_reasons,
             "missing": list(self.missing),
             "latency_n": self.latency_n,
+            **({"repeats": self.repeats} if self.repeats else {}),
             **system,
         }
 
@@ -96,23 +108,29 @@ def score_system(
     level: Level,
     system: System,
     samples: Sequence[Sample],
-    predictions: Mapping[str, Mapping[str, Any]],
+    answers: Sequence[tuple[Lines, Lines]],
     vocabulary: Vocabulary,
     *,
     seed: int,
-    timed: Mapping[str, Mapping[str, Any]] | None = None,
 ) -> tuple[Row, list[dict[str, Any]]]:
-    """Score one system's predictions (by sample id); return its row and the scores per sample. `timed` holds its timed queries."""
-    timed = timed or {}
-    scores: list[SampleScore] = [score_sample(level, sample, predictions.get(sample.id), vocabulary, timed.get(sample.id)) for sample in samples]
-    reasons = Counter(str(predictions[sample.id]["finish_reason"]) for sample in samples if predictions.get(sample.id, {}).get("finish_reason"))
-    row = Row(
-        system=system,
-        n=len(scores),
-        metrics=summarise(scores, seed),
-        failures=failure_counts(scores),
-        finish_reasons=dict(sorted(reasons.items())),
-        missing=tuple(sample.id for sample in samples if sample.id not in predictions),
-        latency_n=sum(score.values["latency_s"] is not None for score in scores),
+    """Score one system's (predictions, timed queries), both by sample id: one pair, or one per repeat. Returns its row and the scores per answer."""
+    scores = [
+        [score_sample(level, sample, predictions.get(sample.id), vocabulary, timed.get(sample.id)) for sample in samples] for predictions, timed in answers
+    ]
+    every = [score for of_repeat in scores for score in of_repeat]
+    reasons = Counter(
+        str(lines[sample.id]["finish_reason"]) for lines, _timed in answers for sample in samples if lines.get(sample.id, {}).get("finish_reason")
     )
-    return row, [{"candidate": system.candidate, "configuration": system.configuration, **score.to_json()} for score in scores]
+    row = Row(
+        system=replace(system, repeat=None),
+        n=len(samples),
+        metrics=summarise(every, seed),
+        failures=failure_counts(every),
+        finish_reasons=dict(sorted(reasons.items())),
+        missing=tuple(dict.fromkeys(sample.id for lines, _timed in answers for sample in samples if sample.id not in lines)),
+        latency_n=sum(score.values["latency_s"] is not None for score in every),
+        repeats=pass_figures(every, seed) if len(answers) > 1 else None,
+    )
+    repeats = [{"repeat": repeat} if len(answers) > 1 else {} for repeat in range(1, len(answers) + 1)]
+    named = {"candidate": system.candidate, "configuration": system.configuration}
+    return row, [{**named, **repeat, **score.to_json()} for repeat, of_repeat in zip(repeats, scores, strict=True) for score in of_repeat]

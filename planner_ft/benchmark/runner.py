@@ -49,7 +49,8 @@ def _run_candidate(plan: Plan, jobs: list[Job], predictions: RecordLog, latencie
     """Make what is missing of one candidate; its model is loaded once, and only if anything is."""
     timed = plan.data.samples[: plan.settings.latency_samples]
     missing = {job.name: _without(plan.data.samples, predictions, job) for job in jobs}
-    untimed = {job.name: _without(timed, latencies, job) for job in jobs}
+    # The repeats of a system take the time of the first.
+    untimed = {job.name: _without(timed, latencies, job) for job in jobs if job.sampling is None or job.sampling.repeat == 1}
     if not any(missing.values()) and not any(untimed.values()):
         return
     progress(f"{jobs[0].candidate.name}: loading", 0, 0)
@@ -57,7 +58,7 @@ def _run_candidate(plan: Plan, jobs: list[Job], predictions: RecordLog, latencie
     try:
         for job in jobs:
             _answer(plan, job, missing[job.name], source, predictions, progress)
-        for job in jobs:
+        for job in [job for job in jobs if job.name in untimed]:
             _time(job, untimed[job.name], len(timed), source, latencies, progress)
         add_costs(plan.settings.folder, jobs[0].candidate.name, source.costs())
     finally:
@@ -84,10 +85,15 @@ def _answer(plan: Plan, job: Job, samples: list[Sample], source: AnswerSource, l
 def _prediction(job: Job, sample: Sample, answer: Answered) -> Line:
     parsed = parse_output(answer.output)
     return {
-        "id": sample.id, "candidate": job.candidate.name, "configuration": job.configuration.name, "output": answer.output, "parsed": parsed.plan,
-        "tokens": answer.tokens, "forward_passes": answer.forward_passes, "time_s": round(answer.seconds, 4), "finish_reason": answer.finish_reason,
+        "id": sample.id, "candidate": job.candidate.name, "configuration": job.configuration.name, **_repeat(job), "output": answer.output,
+        "parsed": parsed.plan, "tokens": answer.tokens, "forward_passes": answer.forward_passes, "time_s": round(answer.seconds, 4),
+        "finish_reason": answer.finish_reason,
         "error": answer.error or parsed.problem, "prompt_tokens": answer.prompt_tokens, "standin": job.candidate.is_standin, **answer.more, "key": job.key,
     }  # fmt: skip
+
+
+def _repeat(job: Job) -> Line:
+    return {"repeat": job.sampling.repeat} if job.sampling else {}
 
 
 def _time(job: Job, samples: list[Sample], total: int, source: AnswerSource, log: RecordLog, progress: Progress) -> None:
@@ -98,7 +104,7 @@ def _time(job: Job, samples: list[Sample], total: int, source: AnswerSource, log
     label = f"{job.name}: latency"
     progress(label, done, total)
     for index, timed in source.latencies(job, samples):
-        record: Line = {"id": samples[index].id, "candidate": job.candidate.name, "configuration": job.configuration.name}
+        record: Line = {"id": samples[index].id, "candidate": job.candidate.name, "configuration": job.configuration.name, **_repeat(job)}
         record |= {"latency_s": round(timed.seconds, 6), "tokens": timed.tokens, "forward_passes": timed.forward_passes}
         if timed.first_token_s is not None:
             record["first_token_s"] = round(timed.first_token_s, 6)
@@ -111,7 +117,8 @@ def _results(plan: Plan, predictions: RecordLog, latencies: RecordLog, run: dict
     settings = plan.settings
     configuration = {
         "level": settings.level, "vocabulary": {"name": plan.vocabulary.name, "sha256": plan.vocabulary.sha256}, "limit": settings.limit,
-        "batch_size": settings.batch_size, "max_new_tokens": settings.token_limit, "latency_samples": settings.latency_samples, "decoding": "greedy",
+        "batch_size": settings.batch_size, "max_new_tokens": settings.token_limit, "latency_samples": settings.latency_samples,
+        "decoding": {"temperature": settings.temperature, "top_p": settings.top_p, "repeats": settings.repeats} if settings.temperature else "greedy",
     }  # fmt: skip
     manifest = build_manifest(
         "bench",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,13 +20,14 @@ from planner_ft.vocabulary import Vocabulary, load_vocabulary
 CONFIGURATION = "submitted"
 """Configuration of predictions that name none."""
 
-Predictions = dict[tuple[str, str], dict[str, dict[str, Any]]]
+Predictions = dict[tuple[str, str, int | None], dict[str, dict[str, Any]]]
 
 
 def score_predictions(path: Path, data: BenchData, vocabulary: Vocabulary, *, seed: int = 0, name: str | None = None) -> Results:
     """Score the predictions in `path` against `data`.
 
-    A line needs `id` and `output` (text, or the plan as an object); `candidate` and `configuration` group lines, `tokens`,
+    A line needs `id` and `output` (text, or the plan as an object); `candidate` and `configuration` group lines, `repeat` (from 1)
+    numbers the answers of a system that was asked several times, `tokens`,
     `latency_s` and `finish_reason` are used where they are given. `name` stands for lines without `candidate`. For the
     predictions.jsonl of a run, its latency.jsonl is read, too.
     Raises PlannerError that names the lines of malformed, double and unknown predictions.
@@ -33,9 +35,9 @@ def score_predictions(path: Path, data: BenchData, vocabulary: Vocabulary, *, se
     groups = read_predictions(path, data.ids, name or path.stem)
     measured = []
     timed = _timed(path)
-    for (candidate, configuration), predictions in groups.items():
-        system = _system(candidate, configuration, predictions, vocabulary)
-        queries = {**timed.get((candidate, configuration), {}), **{key: line for key, line in predictions.items() if _is_timed(line)}}
+    for (candidate, configuration, repeat), predictions in groups.items():
+        system = replace(_system(candidate, configuration, predictions, vocabulary), repeat=repeat)
+        queries = {**timed.get((candidate, configuration, repeat), {}), **{key: line for key, line in predictions.items() if _is_timed(line)}}
         measured.append(Measured(system, predictions, queries))
     manifest = build_manifest(
         "score", seed=seed, configuration={"level": data.level, "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256}},
@@ -65,22 +67,22 @@ def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None =
 
 
 def read_predictions(path: Path, known: frozenset[str], name: str) -> Predictions:
-    """Predictions by (candidate, configuration), then by sample id; `known` are the ids of the test data."""
+    """Predictions by (candidate, configuration, repeat), then by sample id; `known` are the ids of the test data."""
     groups: Predictions = {}
-    lines: dict[tuple[str, str, str], int] = {}
+    lines: dict[tuple[str, str, int | None, str], int] = {}
     problems: list[str] = []
     line: Any
     for number, line, problem in iterate_jsonl(path):
         problem = problem or _problem(line, known)
         if problem is None:
-            key = (str(line.get("candidate") or name), str(line.get("configuration") or CONFIGURATION), line["id"])
+            key = (str(line.get("candidate") or name), str(line.get("configuration") or CONFIGURATION), line.get("repeat"), line["id"])
             if key in lines:
-                problem = f"id {line['id']!r} has a prediction on line {lines[key]} already"
+                problem = f"id {line['id']!r} has a prediction on line {lines[key]} already (further answers to a sample need a number as repeat)"
         if problem is not None:
             problems.append(f"{path}:{number}: {problem}")
             continue
         lines[key] = number
-        groups.setdefault(key[:2], {})[line["id"]] = line
+        groups.setdefault(key[:3], {})[line["id"]] = line
     if problems:
         raise PlannerError(joined(problems))
     if not groups:
@@ -100,14 +102,14 @@ def _system(candidate: str, configuration: str, predictions: dict[str, dict[str,
 
 
 def _timed(path: Path) -> Predictions:
-    """The timed queries of a run by (candidate, configuration) and sample id; none for other files."""
+    """The timed queries of a run by (candidate, configuration, repeat) and sample id; none for other files."""
     timed: Predictions = {}
     beside = path.with_name(LATENCY)
     if path.name != PREDICTIONS or not beside.is_file():
         return timed
     for _number, line, _problem_there in iterate_jsonl(beside):
         if isinstance(line, dict) and _is_timed(line):
-            timed.setdefault((str(line.get("candidate")), str(line.get("configuration"))), {})[str(line.get("id"))] = line
+            timed.setdefault((str(line.get("candidate")), str(line.get("configuration")), line.get("repeat")), {})[str(line.get("id"))] = line
     return timed
 
 
@@ -126,4 +128,6 @@ def _problem(line: Any, known: frozenset[str]) -> str | None:
         return f"id {line['id']!r} is not in the test data"
     if line.get("tokens") is not None and not isinstance(line["tokens"], int | float):
         return "tokens is no number"
+    if "repeat" in line and (type(line["repeat"]) is not int or line["repeat"] < 1):
+        return "repeat must be a whole number from 1"
     return None
