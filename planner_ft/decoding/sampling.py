@@ -41,10 +41,13 @@ class Sampling:
         if not 0 < self.top_p <= 1:
             raise PlannerError(f"--top-p {self.top_p:g}: must be above 0 and at most 1")
 
+    def seed_of(self, name: str) -> int:
+        """The seed of one answer, of 128 bits; `name` tells it from those to other samples."""
+        return int.from_bytes(hashlib.sha256(f"{self.seed}\0{self.repeat}\0{name}".encode()).digest()[:16])
+
     def sampler(self, name: str, longest: int) -> Sampler:
-        """The random numbers of one answer of at most `longest` tokens; `name` tells it from those to other samples."""
-        digest = hashlib.sha256(f"{self.seed}\0{self.repeat}\0{name}".encode()).digest()
-        return Sampler(self.temperature, self.top_p, np.random.default_rng(int.from_bytes(digest[:16])).random(longest))
+        """The random numbers of one answer of at most `longest` tokens."""
+        return Sampler(self.temperature, self.top_p, np.random.default_rng(self.seed_of(name)).random(longest))
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.benchmark.results import System
+from planner_ft.benchmark.sampled import repeated
 from planner_ft.benchmark.samples import BenchData, Sample, default_data, load_bench_data
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.sources import Answered, Timed
@@ -39,7 +40,8 @@ def endpoint_plan(settings: BenchSettings, endpoint: EndpointSettings) -> Plan:
     configurations = list(dict.fromkeys(_configuration(text) for text in settings.configurations))
     data = load_bench_data(settings.data or default_data(settings.level), settings.level, vocabulary, settings.limit)
     candidate = _served_candidate(endpoint)
-    return Plan(settings, data, vocabulary, "server", tuple(_job(settings, endpoint, candidate, one, vocabulary, data) for one in configurations))
+    jobs = [_job(settings, endpoint, candidate, one, vocabulary, data) for one in configurations]
+    return Plan(settings, data, vocabulary, "server", tuple(one for job in jobs for one in repeated(job, settings)))
 
 
 def _refuse_local_flags(settings: BenchSettings) -> None:
@@ -131,10 +133,12 @@ class EndpointSource:
         self.client.close()
 
     def request(self, job: Job, sample: Sample) -> dict[str, Any]:
-        """The body of a chat completions request: greedy, with the messages that the local candidates get."""
+        """The body of a chat completions request: greedy, or sampled where the job is a repeat, with the messages that the local candidates get."""
         level, vocabulary = self.plan.settings.level, self.plan.vocabulary
         messages = prompt_messages(level, sample.record, vocabulary, with_vocabulary=job.with_vocabulary)
         body = _body(self.client.settings, messages, self.plan.settings.token_limit)
+        if job.sampling is not None:
+            body |= {"temperature": job.sampling.temperature, "top_p": job.sampling.top_p, "seed": job.sampling.seed_of(sample.id) % 2**31}
         if job.configuration.strength == "schema" and self.schema_form:
             body["response_format"] = response_format(self.schema_form, served_schema(level, vocabulary))
         return body
