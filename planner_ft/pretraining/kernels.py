@@ -81,11 +81,17 @@ def register_attention() -> None:
     ALL_ATTENTION_FUNCTIONS.register(CAUSAL, attend)
 
 
-class SummedCrossEntropy(torch.autograd.Function):
+def summed_cross_entropy(hidden: Tensor, weight: Tensor, targets: Tensor) -> Tensor:
     """Sum of the cross-entropies of `hidden` (n, width) through the output matrix `weight` (vocabulary, width) at `targets` (n,).
 
-    Products in bfloat16, the rest in float32. The gradients are made in the forward pass, piece by piece: the logits never exist as a whole.
+    Products in bfloat16, the rest in float32. The logits never exist as a whole.
     """
+    total: Tensor = _SummedCrossEntropy.apply(hidden, weight, targets)  # type: ignore[no-untyped-call]
+    return total
+
+
+class _SummedCrossEntropy(torch.autograd.Function):
+    """The gradients are made in the forward pass, piece by piece."""
 
     @staticmethod
     def forward(ctx: Any, hidden: Tensor, weight: Tensor, targets: Tensor) -> Tensor:

@@ -19,7 +19,7 @@ import torch
 from torch import Tensor, nn
 
 from planner_ft.pretraining.corpus import IGNORE, Rows, batched, load_shard
-from planner_ft.pretraining.kernels import CAUSAL, SummedCrossEntropy, register_attention
+from planner_ft.pretraining.kernels import CAUSAL, register_attention, summed_cross_entropy
 
 
 @dataclass(frozen=True)
@@ -91,8 +91,7 @@ def completion_loss(model: Any, body: Any, rows: Rows, rank: int = 0, world: int
     with torch.autocast("cpu", dtype=torch.bfloat16):
         # Padding stands on the right, where no token sees it: attention needs no mask but the causal one.
         hidden = body(input_ids=torch.from_numpy(rows.input_ids[rank::world]), use_cache=False)[0]
-    total: Tensor = SummedCrossEntropy.apply(hidden.flatten(0, 1)[places], model.lm_head.weight, labels[places])
-    return total / max(1, answers)
+    return summed_cross_entropy(hidden.flatten(0, 1)[places], model.lm_head.weight, labels[places]) / max(1, answers)
 
 
 def optimizers(model: nn.Module, settings: PretrainSettings) -> list[torch.optim.Optimizer]:
