@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from planner_ft.support.errors import GateError, PlannerError
+from planner_ft.support.errors import GateError, IncompleteError, PlannerError
 
 
 def main() -> None:
@@ -23,7 +23,7 @@ def main() -> None:
         if debug:
             raise
         print(f"plannerft: {error}", file=sys.stderr)
-        sys.exit(1 if isinstance(error, GateError) else 2)
+        sys.exit(1 if isinstance(error, GateError | IncompleteError) else 2)
     except BrokenPipeError:
         # The reader (head, less) closed the pipe: nothing is wrong.
         sys.stderr.close()

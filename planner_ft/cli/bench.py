@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from planner_ft.benchmark.settings import BenchSettings
 
 VOCABULARY = Annotated[str, typer.Option(help="Vocabulary: a bundled name or a TOML file.")]
-SEED = Annotated[int, typer.Option(help="Seed of the bootstrap intervals.")]
+SEED = Annotated[int, typer.Option(help="Seed of the bootstrap intervals and of sampled answers.")]
 
 
 def bench(
@@ -52,6 +52,11 @@ def bench(
     ] = None,
     latency_samples: Annotated[int | None, typer.Option(help="Time the queries of this many samples, one at a time; 0: none.", show_default="50")] = None,
     vocabulary: Annotated[str | None, typer.Option(help="Vocabulary: a bundled name or a TOML file.", show_default="usv")] = None,
+    repeats: Annotated[int | None, typer.Option(help="Sampled answers per sample: gives pass^k; needs --temperature.", show_default="1")] = None,
+    temperature: Annotated[float | None, typer.Option(help="Sample answers at this temperature.", show_default="0: greedy")] = None,
+    top_p: Annotated[
+        float | None, typer.Option(help="With --temperature: sample from the likeliest tokens that together hold this probability.", show_default="1")
+    ] = None,
     seed: SEED = 0,
     endpoint: Annotated[
         str | None, typer.Option(help="Root of a server's OpenAI chat API, such as http://127.0.0.1:8000/v1, instead of --candidates.", show_default=False)
@@ -61,6 +66,10 @@ def bench(
     concurrency: Annotated[int | None, typer.Option(help="With --endpoint: questions that are open at a time.", show_default="4")] = None,
     timeout: Annotated[float | None, typer.Option(help="With --endpoint: seconds that an answer may take.", show_default="60")] = None,
     retries: Annotated[int | None, typer.Option(help="With --endpoint: how often a question is asked again after a failure.", show_default="5")] = None,
+    suite: Annotated[
+        Path | None, typer.Option(help="Suite file (TOML): run every candidate on every data set that it names, each in a process.", show_default=False)
+    ] = None,
+    processes: Annotated[int, typer.Option(help="With --suite: processes that share each run, started by accelerate.", min=1)] = 1,
     gate: Annotated[
         Path | None, typer.Option(help="Gate file (TOML): run what it names and exit with 1 when a figure falls short.", show_default=False)
     ] = None,
@@ -73,11 +82,15 @@ def bench(
     named = {
         "level": level, "candidates": candidates, "configurations": configurations, "data": data, "limit": limit, "adapter": adapter,
         "quantization": quantization, "max_new_tokens": max_new_tokens, "latency_samples": latency_samples, "vocabulary": vocabulary,
+        "repeats": repeats, "temperature": temperature, "top_p": top_p,
     }  # fmt: skip
     named = {name: value for name, value in named.items() if value is not None}
     common = {"device": device, "batch_size": _batch_size(batch_size), "seed": seed, "resume": resume, "overwrite": overwrite}
     served = {"endpoint": endpoint, "model": model, "api_key_env": api_key_env, "concurrency": concurrency, "timeout": timeout, "retries": retries}
     served = {name: value for name, value in served.items() if value is not None}
+    if suite is not None:
+        _run_suite(suite, out, named | served, common, processes)
+        return
     if gate is not None:
         _run_gate(gate, out, named | served, common)
         return
@@ -164,6 +177,18 @@ def _settings(named: dict[str, Any], **common: Any) -> BenchSettings:
     values = {**named, "level": check_level(named["level"])}
     values |= {name: _split(values[name]) for name in ("candidates", "configurations") if name in values}
     return BenchSettings(adapters=tuple(values.pop("adapter", ())), **values, **common)
+
+
+def _run_suite(path: Path, out: Path | None, named: dict[str, Any], common: dict[str, Any], processes: int) -> None:
+    from planner_ft.cli.suite import bench_suite
+    from planner_ft.support.errors import PlannerError
+
+    flags = {name: named.pop(name) for name in ("limit", "latency_samples") if name in named}
+    if named:
+        given = ", ".join(f"--{name.replace('_', '-')}" for name in named)
+        raise PlannerError(f"--suite {path} says itself what is run; leave out {given} or change the file")
+    flags |= {name: common[name] for name in ("device", "batch_size", "seed")}
+    bench_suite(path, out, flags | {"processes": processes}, resume=common["resume"], overwrite=common["overwrite"])
 
 
 def _run_gate(path: Path, out: Path | None, named: dict[str, Any], common: dict[str, Any]) -> None:

@@ -7,3 +7,7 @@ class PlannerError(Exception):
 
 class GateError(PlannerError):
     """A figure fell short of its threshold. The command line exits with 1."""
+
+
+class IncompleteError(PlannerError):
+    """Part of a suite could not be measured. The command line exits with 1."""
