@@ -134,7 +134,7 @@ def parameter_values(answer: Answer) -> Values:
 
 def unordered(answer: Answer) -> bool:
     """Whether the plan is right but for the order of its tasks or steps."""
-    return answer.schema_valid and whole_plan_unordered(answer.level, answer.plan, answer.expected, answer.vocabulary)
+    return whole_plan_unordered(answer.level, answer.plan, answer.expected, answer.vocabulary, valid=answer.schema_valid)
 
 
 def _pooled(prefix: str, counts: Counts) -> Values:

@@ -56,7 +56,7 @@ def align(level: Level, expected: Entries, predicted: Entries, vocabulary: Vocab
     neighbours; navigation skills: the same other skills in their step; other skills: a step whose navigation skill is paired with that of
     theirs); nearness in the plan. Roles do not count: a skill in a role that is not its own is paired like any other.
     """
-    if len(expected) == len(predicted) and all(map(_same, expected, predicted)):
+    if expected == predicted:
         return Alignment(expected, predicted, tuple((index, index) for index in range(len(expected))))
     leading = {entry.name for entry in expected if entry.role in LEADING}
     ours, theirs = _surroundings(expected), _surroundings(predicted)
@@ -71,10 +71,6 @@ def align(level: Level, expected: Entries, predicted: Entries, vocabulary: Vocab
     steps = {(expected[one].step, predicted[other].step) for one, other in leads}
     rest = _assigned(level, expected, predicted, {entry.name for entry in expected} - leading, in_step, vocabulary)
     return Alignment(expected, predicted, tuple(sorted([*leads, *rest])))
-
-
-def _same(one: Entry, other: Entry) -> bool:
-    return one.name == other.name and one.role == other.role and one.step == other.step and one.parameters == other.parameters
 
 
 def _surroundings(entries: Entries) -> list[Counter[str]]:
@@ -112,14 +108,18 @@ def _likeness(level: Level, ours: Entry, theirs: Entry, size: int, vocabulary: V
     """Share of key-value pairs that agree (their F1), and more than all shares together where the parameters are all right."""
     if not ours.stated:
         return 0.0
+    if ours.parameters == theirs.parameters:
+        return 1.0 + 2 * size
     keys = len(ours.parameters) + len(theirs.parameters)
     share = 2 * len(agreeing_keys(level, ours.name, theirs.parameters, ours.parameters, vocabulary)) / keys if keys else 1.0
-    right = share == 1 and parameters_agree(level, ours.name, theirs.parameters, ours.parameters, vocabulary)
+    right = share == 1.0 and parameters_agree(level, ours.name, theirs.parameters, ours.parameters, vocabulary)
     return share + 2 * size * right
 
 
 def _assignment(weights: Sequence[Sequence[float]]) -> list[Pair]:
     """(row, column) pairs of the greatest sum."""
+    if len(weights) == 1:
+        return [(0, max(range(len(weights[0])), key=weights[0].__getitem__))]
     from scipy.optimize import linear_sum_assignment
 
     rows, columns = linear_sum_assignment(weights, maximize=True)

@@ -10,8 +10,9 @@ def edit_distance(predicted: Sequence[Hashable], expected: Sequence[Hashable]) -
 
     0.0 for equal sequences, two empty ones included; 1.0 where nothing agrees, so also where one is empty.
     """
-    longest = max(len(predicted), len(expected))
-    return levenshtein(predicted, expected) / longest if longest else 0.0
+    if predicted == expected:
+        return 0.0
+    return levenshtein(predicted, expected) / max(len(predicted), len(expected))
 
 
 def levenshtein(predicted: Sequence[Hashable], expected: Sequence[Hashable]) -> int:

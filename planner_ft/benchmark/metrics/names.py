@@ -22,7 +22,7 @@ def set_counts(predicted: Iterable[str], expected: Iterable[str]) -> Counts:
 def multiset_counts(predicted: Iterable[str], expected: Iterable[str]) -> Counts:
     """Occurrences of names: of three expected Transits, one predicted is one right of three."""
     ours, theirs = Counter(predicted), Counter(expected)
-    return Counts((ours & theirs).total(), ours.total(), theirs.total())
+    return Counts(sum(min(count, theirs[name]) for name, count in ours.items()), ours.total(), theirs.total())
 
 
 def counts_by_name(predicted: Iterable[str], expected: Iterable[str]) -> dict[str, Counts]:

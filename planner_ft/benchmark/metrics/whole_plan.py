@@ -12,6 +12,7 @@ from planner_ft.benchmark.metrics.entries import Entry, plan_entries
 from planner_ft.benchmark.metrics.exact_sequence import name_sequence
 from planner_ft.benchmark.metrics.parameters import right_entries
 from planner_ft.benchmark.metrics.schema_valid import schema_valid
+from planner_ft.benchmark.metrics.values import parameters_agree
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -21,16 +22,20 @@ Step = tuple[Entry, ...]
 def parameters_right(level: Level, plan: dict[str, Any], expected: dict[str, Any], vocabulary: Vocabulary) -> bool:
     """Of two plans with the same sequence of names, whether the parameters are right task by task, or step by step: the two targets of two
     Transits must not be swapped."""
-    ours, theirs = _steps(plan_entries(level, expected)), _steps(plan_entries(level, plan))
+    wanted, given = plan_entries(level, expected), plan_entries(level, plan)
+    if wanted == given:
+        return True
+    ours, theirs = _steps(wanted), _steps(given)
     return all(_step_right(level, one, other, vocabulary) for one, other in zip(ours, theirs, strict=True))
 
 
-def whole_plan_unordered(level: Level, plan: dict[str, Any] | None, expected: dict[str, Any], vocabulary: Vocabulary) -> bool:
+def whole_plan_unordered(level: Level, plan: dict[str, Any] | None, expected: dict[str, Any], vocabulary: Vocabulary, *, valid: bool | None = None) -> bool:
     """Whether the answer has the right tasks, or steps, with the right parameters, in whatever order.
 
-    Skills that run in one step must stand in one step. An answer that is not schema-valid is never right.
+    Skills that run in one step must stand in one step. An answer that is not schema-valid is never right; `valid` says whether it is, where
+    that is known.
     """
-    if plan is None or not schema_valid(level, plan, vocabulary):
+    if plan is None or not (schema_valid(level, plan, vocabulary) if valid is None else valid):
         return False
     if sorted(name_sequence(level, plan)) != sorted(name_sequence(level, expected)):
         return False
@@ -50,6 +55,10 @@ def _matchable(level: Level, expected: Sequence[Step], predicted: Sequence[Step]
 
 
 def _step_right(level: Level, expected: Step, predicted: Step, vocabulary: Vocabulary) -> bool:
+    """Whether two steps with the same names have the same parameters; names that stand twice in a step are aligned first."""
+    given = {(entry.role, entry.name): entry.parameters for entry in predicted}
+    if len(given) == len(predicted):
+        return all(parameters_agree(level, entry.name, given[entry.role, entry.name], entry.parameters, vocabulary) for entry in expected if entry.stated)
     agreement = right_entries(level, align(level, expected, predicted, vocabulary), vocabulary)
     return agreement.right == agreement.matched
 
