@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
+from planner_ft.benchmark.breakdown import Breakdown, breakdown
 from planner_ft.benchmark.changes import Change, changes
 from planner_ft.benchmark.groups import group_figures
 from planner_ft.benchmark.repeats import pass_figures
@@ -47,6 +48,7 @@ class Row:
     """The figures of one system. `missing` are the samples without a prediction, which count as empty outputs.
 
     With repeats, `metrics` and `failures` are over all answers to the `n` samples, and `repeats` holds pass^k (see `repeats`).
+    `breakdown` has the row taken apart (see `breakdown`).
     """
 
     system: System
@@ -57,6 +59,7 @@ class Row:
     missing: tuple[str, ...] = ()
     latency_n: int = 0
     repeats: dict[str, Any] | None = None
+    breakdown: Breakdown = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:
         system = asdict(self.system)
@@ -67,6 +70,7 @@ class Row:
             "n": self.n,
             "metrics": {name: estimate.to_json() for name, estimate in self.metrics.items()},
             "failures": self.failures,
+            **self.breakdown,
             "finish_reasons": self.finish_reasons,
             "missing": list(self.missing),
             "latency_n": self.latency_n,
@@ -130,6 +134,7 @@ def score_system(
         missing=tuple(dict.fromkeys(sample.id for lines, _timed in answers for sample in samples if sample.id not in lines)),
         latency_n=sum(score.values["latency_s"] is not None for score in every),
         repeats=pass_figures(every, seed) if len(answers) > 1 else None,
+        breakdown=breakdown(every, seed),
     )
     repeats = [{"repeat": repeat} if len(answers) > 1 else {} for repeat in range(1, len(answers) + 1)]
     named = {"candidate": system.candidate, "configuration": system.configuration}

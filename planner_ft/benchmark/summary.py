@@ -10,9 +10,6 @@ from planner_ft.benchmark.metrics import FAILURES
 from planner_ft.benchmark.scoring import SampleScore
 from planner_ft.benchmark.statistics import Estimate, bootstrap_ratios, clustered_rate
 
-SHOWN = 5
-"""Examples of each kind of failure."""
-
 
 def summarise(scores: Sequence[SampleScore], seed: int) -> dict[str, Estimate]:
     """Every metric of the catalogue over the scored samples, 95 %, families counted as such: Wilson intervals for rates, bootstrap for the others."""
@@ -31,15 +28,6 @@ def failure_counts(scores: Sequence[SampleScore]) -> dict[str, int]:
     """Number of wrong answers per kind of failure, every kind named."""
     counts = Counter(score.failure for score in scores)
     return {kind: counts[kind] for kind in FAILURES}
-
-
-def failure_examples(scores: Sequence[SampleScore]) -> dict[str, list[str]]:
-    """The first ids of wrong answers of each kind that there is."""
-    found: dict[str, list[str]] = {kind: [] for kind in FAILURES}
-    for score in scores:
-        if score.failure is not None:
-            found[score.failure].append(score.id)
-    return {kind: ids[:SHOWN] for kind, ids in found.items() if ids}
 
 
 def _resampled(metrics: Sequence[Metric], scores: Sequence[SampleScore], seed: int) -> dict[str, Estimate]:
