@@ -9,6 +9,9 @@ from typing import Any, Protocol
 import torch
 from torch import Tensor
 
+SHARED = 16
+"""Tokens that prompts must have in common for a pass of their own: below it, the pass costs more than it saves."""
+
 
 class Passes(Protocol):
     """The forward passes of one batch. `wide`: after its prompt, a row may be fed several tokens at a time and have some taken back."""
@@ -51,7 +54,10 @@ class ModelDecoder:
 
 
 class _ModelPasses:
-    """A single row is fed as it comes; in a batch all rows are fed one token at a time, so that their positions stay aligned."""
+    """A single row is fed as it comes; in a batch all rows are fed one token at a time, so that their positions stay aligned.
+
+    What all prompts of a batch begin with (the instruction, and a base model's vocabulary, most of its prompt) is computed once.
+    """
 
     def __init__(self, decoder: ModelDecoder, rows: int) -> None:
         from planner_ft.decoding.cache import new_cache
@@ -64,13 +70,12 @@ class _ModelPasses:
         self.mask = torch.zeros(rows, 0, dtype=torch.long, device=self.device)
 
     def run(self, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:
+        if len(feeds) > 1 and not self.mask.shape[1]:
+            feeds = self._begin_together(feeds)
         ids, mask = self._padded(feeds)
         self.mask = torch.cat([self.mask, mask], 1)
         positions = (self.mask.cumsum(1) - 1).clamp(min=0)[:, -ids.shape[1] :]
-        most = max(wanted)
-        options = {"logits_to_keep": most} if self.decoder.trims_logits else {}
-        output = self.decoder.model(input_ids=ids, attention_mask=self.mask, position_ids=positions, past_key_values=self.cache, use_cache=True, **options)
-        logits: Tensor = output.logits
+        logits = self._forward(ids, self.mask, positions, max(wanted))
         return torch.cat([row[-count:] for row, count in zip(logits, wanted, strict=True)])
 
     def forget(self, counts: Sequence[int]) -> None:
@@ -85,9 +90,33 @@ class _ModelPasses:
         self.mask = self.mask[index]
         self.cache.batch_select_indices(index)
 
+    def _begin_together(self, feeds: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
+        """Compute the common beginning of all prompts for one row, copy it to the others, and return what is left of each, a token at least."""
+        from planner_ft.decoding.cache import BlockLayer
+
+        count = min(min(_common(feeds[0], feed), len(feed) - 1) for feed in feeds)
+        if count < SHARED or not all(type(layer) is BlockLayer for layer in self.cache.layers):
+            return feeds
+        ids = torch.tensor([feeds[0][:count]], device=self.device)
+        self._forward(ids, torch.ones_like(ids), torch.arange(count, device=self.device)[None], 1)
+        self.mask = torch.ones_like(ids)
+        self.select([0] * len(feeds))
+        return [feed[count:] for feed in feeds]
+
+    def _forward(self, ids: Tensor, mask: Tensor, positions: Tensor, wanted: int) -> Tensor:
+        options = {"logits_to_keep": wanted} if self.decoder.trims_logits else {}
+        output = self.decoder.model(input_ids=ids, attention_mask=mask, position_ids=positions, past_key_values=self.cache, use_cache=True, **options)
+        logits: Tensor = output.logits
+        return logits
+
     def _padded(self, feeds: Sequence[Sequence[int]]) -> tuple[Tensor, Tensor]:
         """Ids padded on the left, and their mask."""
         width = max(len(feed) for feed in feeds)
         ids = torch.tensor([[self.decoder.pad_id] * (width - len(feed)) + list(feed) for feed in feeds], device=self.device)
         mask = torch.tensor([[0] * (width - len(feed)) + [1] * len(feed) for feed in feeds], device=self.device)
         return ids, mask
+
+
+def _common(one: Sequence[int], other: Sequence[int]) -> int:
+    """With how many equal tokens two prompts begin."""
+    return next((place for place, (a, b) in enumerate(zip(one, other, strict=False)) if a != b), min(len(one), len(other)))
