@@ -1,5 +1,6 @@
 # make demo   data, a mission adapter for the embedded candidate and its benchmark table, from nothing
 # make test   lint, types, tests and the CI gate
+# make peers-test   our benchmark inside lm-evaluation-harness, in an environment of its own
 #
 # VENV=DIR          use (or make) another virtual environment
 # CONSTRAINTS=FILE  other pinned versions; CONSTRAINTS=/dev/null keeps what is installed (a CUDA build of torch, say)
@@ -12,7 +13,7 @@ INSTALLED := $(VENV)/.planner_ft-installed
 export HF_HUB_OFFLINE ?= 1
 export TOKENIZERS_PARALLELISM ?= false
 
-.PHONY: demo test install lint types gate clean
+.PHONY: demo test install lint types gate peers-test clean
 
 install: $(INSTALLED)
 
@@ -38,6 +39,14 @@ lint: install
 
 types: install
 	$(BIN)/mypy
+
+# lm-evaluation-harness and TRL change what the package is tested with: they have an environment of their own.
+PEERS_VENV ?= .venv-peers
+peers-test:
+	test -x $(PEERS_VENV)/bin/python || $(PYTHON) -m venv $(PEERS_VENV)
+	$(PEERS_VENV)/bin/python -m pip install --quiet --disable-pip-version-check -c $(CONSTRAINTS) torch
+	$(PEERS_VENV)/bin/python -m pip install --quiet --disable-pip-version-check -c $(CONSTRAINTS) -c benchmarks/peers.txt -e ".[dev,peers]"
+	$(PEERS_VENV)/bin/python -m pytest -m peers tests/lm_eval
 
 clean:
 	rm -rf build $(VENV)

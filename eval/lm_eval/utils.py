@@ -32,6 +32,10 @@ METRICS = ("f1", "hallucination", "schema_valid", "strict_valid", "exact_sequenc
 class PlannerTask(ConfigurableTask):
     """A task whose prompt has the bytes that `plannerft bench` gives the same model."""
 
+    def __init__(self, config: Mapping[str, Any]) -> None:
+        # The loader leaves the key that names this class among the settings.
+        super().__init__(config={key: value for key, value in config.items() if key != "class"})
+
     def fewshot_context(
         self,
         doc: Mapping[str, Any],
@@ -113,6 +117,7 @@ def _document(level: Level, name: str, vocabulary: Vocabulary, sample: Sample, w
 
 def _knows(pretrained: Any, vocabulary: Vocabulary) -> bool:
     """Whether a model, named or in the folder of a registered candidate, was pretrained on this vocabulary."""
-    folder = Path(pretrained).resolve() if isinstance(pretrained, str) else None
-    names = (pretrained, folder) if folder and folder.is_dir() else (pretrained,)
-    return any(candidate.knows(vocabulary) for candidate in all_candidates() if {candidate.repo, candidate.folder} & set(names))
+    if not isinstance(pretrained, str):
+        return False
+    names = (pretrained, Path(pretrained).resolve())
+    return any(candidate.knows(vocabulary) for candidate in all_candidates() if candidate.repo in names or candidate.folder in names)
