@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
+from planner_ft.benchmark.baselines import Baselines, make_baselines
 from planner_ft.benchmark.results import Lines, Results, System, score_system
 from planner_ft.benchmark.samples import BenchData
 from planner_ft.vocabulary import Vocabulary
@@ -31,4 +32,15 @@ def assemble(data: BenchData, vocabulary: Vocabulary, measured: Sequence[Measure
         row, of_samples = score_system(data.level, entries[0].system, data.samples, answers, vocabulary, seed=seed)
         rows.append(row)
         scores += of_samples
-    return Results(data.level, data.summary(), tuple(rows), manifest, tuple(scores))
+    results = Results(data.level, data.summary(), tuple(rows), manifest, tuple(scores))
+    return _with_baselines(results, make_baselines(data, vocabulary), data, vocabulary, seed)
+
+
+def _with_baselines(results: Results, baselines: Baselines, data: BenchData, vocabulary: Vocabulary, seed: int) -> Results:
+    """The results with the rows of the baselines; a line of their scores also holds what was answered."""
+    rows, scores = [], []
+    for baseline in baselines.found:
+        row, of_samples = score_system(data.level, baseline.system, data.samples, [(baseline.predictions, {})], vocabulary, seed=seed)
+        rows.append(row)
+        scores += [{**score, **baseline.predictions[score["id"]]} for score in of_samples]
+    return replace(results, baselines=tuple(rows), baseline_scores=tuple(scores), baseline_notes=baselines.notes, training=baselines.training)

@@ -11,10 +11,11 @@ from planner_ft.benchmark.catalogue import CATALOGUE, Metric
 from planner_ft.benchmark.paired import paired
 from planner_ft.benchmark.runs import Run, RunRow, load_run, named_apart
 from planner_ft.benchmark.statistics import CONFIDENCE, RESAMPLES
-from planner_ft.benchmark.verdicts import MARGIN, Comparison, adjusted
+from planner_ft.benchmark.verdicts import DEFAULT_METRICS, MARGIN, Comparison, adjusted
 from planner_ft.support.errors import PlannerError
 
-DEFAULT_METRICS = ("f1", "exact_sequence", "parameters", "whole_plan", "hallucination", "strict_valid")
+__all__ = ["DEFAULT_METRICS", "CompareSettings", "Report", "compare_runs"]
+
 SHOWN = 5
 """Ids that a note names before it only counts the rest."""
 

@@ -49,6 +49,7 @@ def clear(folder: Path, names: Sequence[str] = ALL) -> None:
 def write_results(folder: Path, results: Results) -> None:
     """Write results.json, scores.jsonl and the tables; results.json last, so that it is there only when all is."""
     write_jsonl(folder / SCORES, results.scores)
+    write_jsonl(folder / BASELINES, results.baseline_scores)
     for name, text in render_tables(results).items():
         write_text(folder / name, text)
     write_json(folder / RESULTS, results.to_json())

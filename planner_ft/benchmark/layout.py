@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from planner_ft.benchmark import published
+from planner_ft.benchmark.contrasts import system_key
+from planner_ft.benchmark.contrasts_text import contrast_notes, marks
 from planner_ft.benchmark.results import Results, Row
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.vocabulary.plans import Level
@@ -57,12 +59,13 @@ MORE_COLUMNS = (
 
 @dataclass(frozen=True)
 class TableRow:
-    """One model: measured or published, with its figures by (metric, configuration)."""
+    """One model: measured, published or a baseline, with its figures by (metric, configuration), and marks of real differences (see `contrasts_text`)."""
 
     model: str
     source: str
     n: int
     cells: dict[tuple[str, str], Estimate]
+    marks: dict[tuple[str, str], str] = field(default_factory=dict)
 
 
 def measured_configurations(results: Results) -> list[str]:
@@ -85,10 +88,22 @@ def heading(configuration: str) -> str:
 def measured_rows(results: Results) -> list[TableRow]:
     """A row per candidate with all its configurations."""
     rows: dict[str, TableRow] = {}
+    known = marks(results)
     for row in results.rows:
         entry = rows.setdefault(row.system.candidate, TableRow(row.system.label, "measured", row.n, {}))
         entry.cells.update({(metric, row.system.configuration): estimate for metric, estimate in row.metrics.items()})
+        name = system_key((row.system.candidate, row.system.configuration))
+        entry.marks.update({(metric, row.system.configuration): known[name, metric] for metric in row.metrics if (name, metric) in known})
     return list(rows.values())
+
+
+def baseline_rows(results: Results) -> list[TableRow]:
+    """What needs no model; it knows neither base nor LoRA, so its figure stands in every column that was measured."""
+    names = measured_configurations(results)
+    return [
+        TableRow(row.system.label, "baseline", row.n, {(metric, name): estimate for metric, estimate in row.metrics.items() for name in names})
+        for row in results.baselines
+    ]
 
 
 def shows_published(results: Results) -> bool:
@@ -98,17 +113,17 @@ def shows_published(results: Results) -> bool:
 
 
 def table_rows(results: Results) -> list[TableRow]:
-    """Measured rows, each followed by its published one, then the other published rows."""
+    """Measured rows, each followed by its published one, then the baselines and the other published rows."""
     measured = measured_rows(results)
     if not shows_published(results):
-        return measured
+        return [*measured, *baseline_rows(results)]
     theirs = {row.model: _published_row(row, results.level) for row in published.published_rows(results.level)}
     names = {row.system.candidate: row.system.published for row in results.rows if not row.system.is_standin}
     ordered: list[TableRow] = []
     for candidate, row in zip(dict.fromkeys(row.system.candidate for row in results.rows), measured, strict=True):
         ordered.append(row)
         ordered += [theirs.pop(name) for name in [names.get(candidate)] if name in theirs]
-    return [*ordered, *theirs.values()]
+    return [*ordered, *baseline_rows(results), *theirs.values()]
 
 
 def notes(results: Results) -> list[str]:
@@ -125,6 +140,7 @@ def notes(results: Results) -> list[str]:
         lines.append(f"Latency: one query at a time after warm-up, mean over {max(row.latency_n for row in rows)} samples on the machine in results.json.")
     if shows_published(results):
         lines.append(f"(published): figures of the {published.source(results.level)}; not measured here.")
+    lines += contrast_notes(results)
     for row in _first(rows):
         if row.system.pretrained:
             lines.append(f"{row.system.label} was pretrained on synthetic plans of this vocabulary: its Base column is not that of a general model.")

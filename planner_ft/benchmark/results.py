@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
@@ -9,12 +10,14 @@ from typing import Any
 
 from planner_ft.benchmark.breakdown import Breakdown, breakdown
 from planner_ft.benchmark.changes import Change, changes
+from planner_ft.benchmark.contrasts import Question, contrasts
 from planner_ft.benchmark.groups import group_figures
 from planner_ft.benchmark.repeats import pass_figures
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.scoring import score_sample
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.benchmark.summary import failure_counts, summarise
+from planner_ft.benchmark.verdicts import Comparison
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -41,6 +44,7 @@ class System:
     with_vocabulary: bool | None = None
     adapter: str | None = None
     repeat: int | None = None
+    is_baseline: bool = False
 
 
 @dataclass(frozen=True)
@@ -81,17 +85,36 @@ class Row:
 
 @dataclass(frozen=True)
 class Results:
-    """Everything that results.json holds. `data` is path, sha256 and n of the test data."""
+    """Everything that results.json holds. `data` is path, sha256 and n of the test data.
+
+    `baselines` are the rows of what needs no model, made from `training` (path, sha256, n); they are no candidates. `baseline_scores`
+    are the lines of baselines.jsonl, `baseline_notes` say what a reader must know.
+    """
 
     level: Level
     data: dict[str, Any]
     rows: tuple[Row, ...]
     manifest: dict[str, Any] = field(default_factory=dict)
     scores: tuple[dict[str, Any], ...] = ()
+    baselines: tuple[Row, ...] = ()
+    baseline_scores: tuple[dict[str, Any], ...] = ()
+    baseline_notes: tuple[str, ...] = ()
+    training: dict[str, Any] | None = None
 
     def to_json(self) -> dict[str, Any]:
-        figures = {"rows": [row.to_json() for row in self.rows], "changes": [change.to_json() for change in self.changes], "groups": self.groups}
+        figures: dict[str, Any] = {
+            "rows": [row.to_json() for row in self.rows],
+            "changes": [change.to_json() for change in self.changes],
+            "groups": self.groups,
+        }
+        figures["comparisons"] = {question: [one.to_json() for one in found] for question, found in self.contrasts.items()}
+        figures |= {"baselines": [row.to_json() for row in self.baselines], "training": self.training}
         return {"level": self.level, "data": self.data, **figures, "manifest": self.manifest}
+
+    @functools.cached_property
+    def contrasts(self) -> dict[Question, list[Comparison]]:
+        """Which differences of the table are real: configurations, models, and everything against the baselines, paired by sample."""
+        return contrasts(self.scores, self.baseline_scores, int(self.manifest.get("seed") or 0))
 
     @property
     def changes(self) -> list[Change]:

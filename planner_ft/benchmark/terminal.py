@@ -7,7 +7,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from planner_ft.benchmark.layout import COLUMNS, MORE_COLUMNS, Column, TableRow, heading, measured_rows, notes, system_name, table_rows
+from planner_ft.benchmark.layout import COLUMNS, MORE_COLUMNS, Column, TableRow, baseline_rows, heading, measured_rows, notes, system_name, table_rows
 from planner_ft.benchmark.published import CONFIGURATIONS, source
 from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.statistics import Estimate
@@ -52,7 +52,12 @@ def _measured(results: Results, columns: tuple[Column, ...]) -> Table:
     for row in measured_rows(results):
         table.add_row(Text(row.model, style="bold"))
         for name in dict.fromkeys(configuration for _metric, configuration in row.cells):
-            table.add_row(f"  {heading(name)}", *(_cell(column, row.cells.get((column.metric, name))) for column in columns))
+            table.add_row(
+                f"  {heading(name)}", *(_cell(column, row.cells.get((column.metric, name)), row.marks.get((column.metric, name), "")) for column in columns)
+            )
+    for row in baseline_rows(results):
+        name = next(configuration for _metric, configuration in row.cells)
+        table.add_row(Text(row.model, style="italic"), *(_cell(column, row.cells.get((column.metric, name))) for column in columns))
     return table
 
 
@@ -67,12 +72,12 @@ def _published(rows: list[TableRow]) -> Table:
     return table
 
 
-def _cell(column: Column, estimate: Estimate | None) -> Text:
-    """The figure, and below it the interval, bounds in percent without decimals."""
+def _cell(column: Column, estimate: Estimate | None, mark: str = "") -> Text:
+    """The figure with its mark, and below it the interval, bounds in percent without decimals."""
     if estimate is None or estimate.value is None:
         return Text("–")
     if estimate.low is None or estimate.high is None:
-        return Text(column.text(estimate.value))
+        return Text(column.text(estimate.value) + mark)
     decimals = 0 if column.scale == 100 or column.metric == "tokens" else column.decimals
     low, high = (f"{bound * column.scale:.{decimals}f}" for bound in (estimate.low, estimate.high))
-    return Text.assemble(column.text(estimate.value), "\n", (f"{low}–{high}", "dim"))
+    return Text.assemble(column.text(estimate.value) + mark, "\n", (f"{low}–{high}", "dim"))

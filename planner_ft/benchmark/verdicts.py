@@ -11,6 +11,8 @@ from planner_ft.benchmark.statistics import Estimate
 
 Verdict = Literal["better", "worse", "higher", "lower", "equal", "not told apart", "not compared"]
 
+DEFAULT_METRICS = ("f1", "exact_sequence", "parameters", "whole_plan", "hallucination", "strict_valid")
+"""What systems are compared by where nothing else is asked for."""
 LOWER_IS_BETTER = frozenset({"hallucination", "hallucination_with_unparsed", "hallucination_without_unparsed", "invented", "latency_s", "forward_passes"})
 NEITHER = frozenset({"tokens", "prompt_tokens"})
 UNBOUNDED = frozenset({"latency_s", "tokens", "forward_passes", "prompt_tokens", "first_token_s", "time_s"})
@@ -18,7 +20,7 @@ UNBOUNDED = frozenset({"latency_s", "tokens", "forward_passes", "prompt_tokens",
 MARGIN = 0.05
 """Two systems whose difference is known to be smaller than this, at 95 %, are called equal."""
 MARKS: dict[Verdict, str] = {"better": "▲", "higher": "▲", "worse": "▼", "lower": "▼", "equal": "≈", "not told apart": "·", "not compared": ""}
-EXPLAINED = f"▲ better and ▼ worse for certain (p adjusted after Holm < 0.05), ≈ equal within {MARGIN:g} (95 % interval), · not told apart"
+EXPLAINED = f"▲ better and ▼ worse beyond chance (p < 0.05 after Holm), ≈ equal within {MARGIN:g} (95 % interval), · not told apart"
 
 
 @dataclass(frozen=True)

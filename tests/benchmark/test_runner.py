@@ -122,7 +122,7 @@ class Stop:
 def test_a_run_writes_what_is_documented(settings: Any, tmp_path: Path, work: dict[str, int]) -> None:
     run_bench(settings())
     folder = tmp_path / "out"
-    names = {"predictions.jsonl", "latency.jsonl", "run.json", "results.json", "scores.jsonl", "table.md", "table.csv", "table.tex"}
+    names = {"predictions.jsonl", "latency.jsonl", "run.json", "results.json", "scores.jsonl", "baselines.jsonl", "table.md", "table.csv", "table.tex"}
     assert {path.name for path in folder.iterdir()} == names
     written = lines(folder / "predictions.jsonl")
     assert len(written) == 2 * COUNT
