@@ -27,9 +27,18 @@ def test_an_invention_that_became_a_substitution_is_seen() -> None:
     (change,) = changes(SCORES, seed=0)
     assert (change.before, change.after, change.n) == ("lora", "lora+schema", 2)
     assert change.outcomes == {("hallucination", "substitution"): 1, ("right", "right"): 1}
-    assert change.f1.value == 0 and change.whole_plan.value == 0 and change.seconds == 0.5 and change.forward_passes is None
+    assert change.f1.difference.value == 0 and change.whole_plan.difference.value == 0 and change.seconds == 0.5 and change.forward_passes is None
     text = "\n".join(changes_markdown([change]))
     assert "| hallucination | substitution | 1 |" in text and "× 0.50" in text and "| right | right |" not in text
+
+
+def test_a_real_change_is_marked() -> None:
+    scores = [score(f"s{index}", name, failure, f1) for index in range(9) for name, failure, f1 in (("base", "omission", 0.2), ("base+state", None, 1.0))]
+    (change,) = changes(scores, seed=0)
+    # Nine samples, all one way: p = 2 / 2**9, twice that after Holm.
+    assert change.p_adjusted == pytest.approx((4 / 2**9, 4 / 2**9))
+    assert "+0.800 [+0.800, +0.800] ▲ | +100.0 [+100.0, +100.0] ▲" in changes_markdown([change])[2]
+    assert change.to_json()["f1"] == {"value": pytest.approx(0.8), "low": pytest.approx(0.8), "high": pytest.approx(0.8)}
 
 
 def test_only_samples_that_both_answered_are_paired() -> None:
