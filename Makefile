@@ -13,7 +13,7 @@ INSTALLED := $(VENV)/.planner_ft-installed
 export HF_HUB_OFFLINE ?= 1
 export TOKENIZERS_PARALLELISM ?= false
 
-.PHONY: demo test install lint types gate peers-test clean
+.PHONY: demo test install lint types gate peers-test server-test clean
 
 install: $(INSTALLED)
 
@@ -47,6 +47,13 @@ peers-test:
 	$(PEERS_VENV)/bin/python -m pip install --quiet --disable-pip-version-check -c $(CONSTRAINTS) torch
 	$(PEERS_VENV)/bin/python -m pip install --quiet --disable-pip-version-check -c $(CONSTRAINTS) -c benchmarks/peers.txt -e ".[dev,peers]"
 	$(PEERS_VENV)/bin/python -m pytest -m peers tests/lm_eval
+
+# llama.cpp builds from source for minutes (CMAKE_BUILD_PARALLEL_LEVEL=1 on a small machine): it has an environment of its own, too.
+SERVER_VENV ?= .venv-server
+server-test: install
+	test -x $(SERVER_VENV)/bin/python || $(PYTHON) -m venv $(SERVER_VENV)
+	CMAKE_ARGS="-DLLAVA_BUILD=OFF $(CMAKE_ARGS)" $(SERVER_VENV)/bin/python -m pip install --quiet --disable-pip-version-check -c benchmarks/server.txt "llama-cpp-python[server]"
+	PLANNERFT_SERVER_PYTHON=$(SERVER_VENV)/bin/python $(BIN)/python -m pytest -m server tests/export/test_server.py
 
 clean:
 	rm -rf build $(VENV)
