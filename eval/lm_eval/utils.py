@@ -63,7 +63,8 @@ class PlannerTask(ConfigurableTask):
 
 def load(
     level: Level,
-    data: str,
+    file: str,
+    data: str | None = None,
     vocabulary: str = "usv",
     with_vocabulary: bool | None = None,
     pretrained: Any = None,
@@ -72,12 +73,12 @@ def load(
 ) -> dict[str, Dataset]:
     """The documents of a task: a sample's record as JSON, its prompt in two messages, and the expected answer.
 
-    `data` is a file, or one of this repository. `with_vocabulary` says whether the prompt holds the vocabulary; None decides as
+    The samples are those of `file`, in this repository, or of `data`. `with_vocabulary` says whether the prompt holds the vocabulary; None decides as
     `plannerft bench` does: a model with an adapter (`peft`) has learned it, and so has one that was pretrained on it.
     Raises PlannerError for bad data.
     """
     definition = load_vocabulary(vocabulary)
-    samples = _samples(data, level, definition)
+    samples = _samples(data or file, level, definition)
     if with_vocabulary is None:
         with_vocabulary = not peft and not _knows(pretrained, definition)
     logging.getLogger("lm_eval").info(f"{samples.path}: the prompt {'holds' if with_vocabulary else 'does not hold'} the vocabulary")
@@ -103,7 +104,7 @@ def ratio(pairs: Iterable[tuple[float, float]]) -> float:
 def _samples(data: str, level: Level, vocabulary: Vocabulary) -> BenchData:
     path = next((path for path in (Path(data), ROOT / data) if path.is_file()), None)
     if path is None:
-        raise PlannerError(f"{data}: no such file; write it with `plannerft gen-data --level {level}`, or give another one with --metadata")
+        raise PlannerError(f"{data}: no such file; write it with `plannerft gen-data --level {level}`, or give another one with --metadata '{{\"data\": ...}}'")
     return load_bench_data(path, level, vocabulary)
 
 
