@@ -10,6 +10,8 @@ from contextlib import contextmanager
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
+from planner_ft.benchmark.sources.endpoint import GREETING
+
 Body = dict[str, Any]
 Act = Callable[["Handler", Body], bool]
 """Answers a request in its own way, or returns False for the usual answer."""
@@ -41,11 +43,12 @@ class Handler(BaseHTTPRequestHandler):
         server = self.server
         body = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
         with server.lock:
-            server.requests.append({"path": self.path, "key": self.headers.get("Authorization"), **body})
+            if asked(body) != GREETING or "response_format" in body:
+                server.requests.append({"path": self.path, "key": self.headers.get("Authorization"), **body})
             server.open += 1
             server.most_open = max(server.most_open, server.open)
         try:
-            if not server.act(self, body):
+            if not (server.act(self, body) if asked(body) != GREETING or "response_format" in body else server.greet(self, body)):
                 self.answer(body)
         finally:
             with server.lock:
@@ -106,13 +109,17 @@ class Handler(BaseHTTPRequestHandler):
 
 
 class ChatServer(ThreadingHTTPServer):
-    """`requests` are the bodies of all requests, `most_open` the largest number that was open at a time."""
+    """`requests` are the bodies of all requests but the first greeting, `most_open` the largest number that was open at a time.
+
+    `act` may answer these requests in another way, `greet` the greeting.
+    """
 
     daemon_threads = True
 
     def __init__(self) -> None:
         super().__init__(("127.0.0.1", 0), Handler)
         self.act: Act = lambda _handler, _body: False
+        self.greet: Act = lambda _handler, _body: False
         self.lock = threading.Lock()
         self.requests: list[Body] = []
         self.open = self.most_open = 0

@@ -68,6 +68,16 @@ def test_a_server_is_asked_greedily_with_the_prompts_of_local_candidates(server:
     assert f"tiny at 127.0.0.1:{server.server_port}" in (tmp_path / "out" / "table.md").read_text()
 
 
+@pytest.mark.parametrize("takes", [True, False])
+def test_repetition_is_not_punished_where_the_server_can_be_told(server: ChatServer, settings: Any, tmp_path: Path, takes: bool) -> None:
+    if not takes:
+        server.greet = lambda handler, _body: handler.send(400, {"error": {"message": "Unrecognized request argument: repeat_penalty"}}) or True
+    run_bench(settings())
+    assert {body.get("repeat_penalty") for body in server.requests} == {1.0 if takes else None}
+    costs = json.loads((tmp_path / "out" / "results.json").read_text())["manifest"]["costs"]["tiny"]
+    assert costs["request_fields"] == ({"repeat_penalty": 1.0} if takes else {}) and costs["models"] == [{"id": "tiny", "object": "model"}]
+
+
 def test_a_fine_tuned_model_is_told_no_vocabulary(server: ChatServer, settings: Any) -> None:
     run_bench(settings(configurations=("lora",), latency_samples=0))
     assert server.requests[0]["messages"][0]["content"] == system_text("mission", load_vocabulary("usv"), with_vocabulary=False)

@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 
 SEED = 0
 """Sent with temperature 0, for servers that break ties by chance."""
+UNPENALISED = {"repeat_penalty": 1.0}
+"""llama.cpp's Python server punishes repetition unless it is told not to: no greedy decoding, and the end of every JSON. Not all servers take the field."""
+GREETING = "Greet me in one word."
 
 
 def endpoint_plan(settings: BenchSettings, endpoint: EndpointSettings) -> Plan:
@@ -94,26 +97,29 @@ def _job(
 class EndpointSource:
     """A server. What it says of itself, and how it is asked for a schema, is found out when the source is opened."""
 
-    def __init__(self, client: ChatClient, plan: Plan, models: list[dict[str, Any]] | None, schema_form: str | None, seconds: float) -> None:
+    def __init__(
+        self, client: ChatClient, plan: Plan, models: list[dict[str, Any]] | None, fields: dict[str, Any], schema_form: str | None, seconds: float
+    ) -> None:
         self.client = client
         self.plan = plan
         self.models = models
+        self.fields = fields
         self.schema_form = schema_form
         self.seconds = seconds
         self.streams = True
 
     @classmethod
     def open(cls, plan: Plan, jobs: Sequence[Job], endpoint: EndpointSettings) -> EndpointSource:
-        """Ask the server what it serves and, if a job needs it, whether it can hold answers to a schema. Raises PlannerError."""
+        """Ask the server what it serves, which fields it takes and, if a job needs it, whether it can hold answers to a schema. Raises PlannerError."""
         started = time.perf_counter()
         client = ChatClient(endpoint)
         try:
-            models = client.models()
+            models, fields = client.models(), _accepted_fields(client, endpoint)
             form = _schema_form(client, endpoint) if any(job.configuration.strength == "schema" for job in jobs) else None
         except BaseException:
             client.close()
             raise
-        return cls(client, plan, models, form, time.perf_counter() - started)
+        return cls(client, plan, models, fields, form, time.perf_counter() - started)
 
     def answers(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Answered]]:
         """Several questions at a time; answers that came are yielded also when another question failed for good."""
@@ -127,7 +133,8 @@ class EndpointSource:
             yield index, self._timed(self.request(job, sample))
 
     def costs(self) -> dict[str, Any]:
-        return {"load_s": round(self.seconds, 3), "endpoint": self.client.settings.root, "models": self.models, "schema_form": self.schema_form}
+        asked = {"endpoint": self.client.settings.root, "models": self.models, "request_fields": self.fields, "schema_form": self.schema_form}
+        return {"load_s": round(self.seconds, 3), **asked}
 
     def release(self) -> None:
         self.client.close()
@@ -136,7 +143,7 @@ class EndpointSource:
         """The body of a chat completions request: greedy, or sampled where the job is a repeat, with the messages that the local candidates get."""
         level, vocabulary = self.plan.settings.level, self.plan.vocabulary
         messages = prompt_messages(level, sample.record, vocabulary, with_vocabulary=job.with_vocabulary)
-        body = _body(self.client.settings, messages, self.plan.settings.token_limit)
+        body = {**_body(self.client.settings, messages, self.plan.settings.token_limit), **self.fields}
         if job.sampling is not None:
             body |= {"temperature": job.sampling.temperature, "top_p": job.sampling.top_p, "seed": job.sampling.seed_of(sample.id) % 2**31}
         if job.configuration.strength == "schema" and self.schema_form:
@@ -173,10 +180,22 @@ def _body(endpoint: EndpointSettings, messages: list[dict[str, str]], max_tokens
     return {"model": endpoint.model, "messages": messages, "temperature": 0, "seed": SEED, "max_tokens": max_tokens}
 
 
+def _accepted_fields(client: ChatClient, endpoint: EndpointSettings) -> dict[str, Any]:
+    """The fields beyond the usual ones that the server takes. Raises PlannerError when it does not answer at all."""
+    body = _body(endpoint, [{"role": "user", "content": GREETING}], 1)
+    try:
+        client.complete({**body, **UNPENALISED})
+    except (Rejected, Unanswerable) as problem:
+        if isinstance(problem, Rejected) and problem.status not in (400, 422):
+            raise
+        return {}
+    return UNPENALISED
+
+
 def _schema_form(client: ChatClient, endpoint: EndpointSettings) -> str:
     """The first way of asking for a schema that the server heeds. Raises PlannerError when it heeds none."""
     for form in FORMS:
-        body = _body(endpoint, [{"role": "user", "content": "Greet me in one word."}], 64)
+        body = _body(endpoint, [{"role": "user", "content": GREETING}], 64)
         try:
             reply = client.complete({**body, "response_format": response_format(form, PROBE_SCHEMA)})
         except (Rejected, Unanswerable) as problem:
