@@ -93,11 +93,11 @@ def test_figures_of_a_small_set_by_hand(tmp_path: Path, data: Path) -> None:
 def test_results_have_the_documented_form(tmp_path: Path, data: Path) -> None:
     run("--predictions", predictions(tmp_path, {"id": "s1", "output": ANSWERS["s1"]}), "--data", data, "--out", tmp_path / "out")
     value = results(tmp_path / "out")
-    assert list(value) == ["level", "data", "rows", "changes", "groups", "manifest"]
+    assert list(value) == ["level", "data", "rows", "changes", "groups", "comparisons", "baselines", "training", "manifest"]
     assert value["data"] == {"path": str(data), "sha256": value["manifest"]["inputs"]["data"]["sha256"], "n": 4}
     assert {"f1", "hallucination", "schema_valid", "strict_valid", "latency_s", "tokens"} <= set(value["rows"][0]["metrics"])
     assert all(list(figure) == ["value", "low", "high"] for figure in value["rows"][0]["metrics"].values())
-    assert {path.name for path in (tmp_path / "out").iterdir()} == {"results.json", "scores.jsonl", "table.md", "table.csv", "table.tex"}
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"results.json", "scores.jsonl", "baselines.jsonl", "table.md", "table.csv", "table.tex"}
 
 
 def test_outputs_may_be_objects_or_text(tmp_path: Path, data: Path) -> None:
