@@ -48,7 +48,8 @@ def says(text: str, phrase: str, *, misspelt: bool) -> list[str]:
 
 
 def _resembles(written: str, meant: str) -> bool:
-    if len(meant) < 3 or len(written) < 2:
+    # "T142" is no misspelling of "T143".
+    if len(meant) < 3 or len(written) < 2 or any(letter.isdigit() for letter in meant):
         return False
     limit = max(1, len(meant) // 3)
     if edit_distance(written, meant, limit) <= limit:

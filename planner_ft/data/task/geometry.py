@@ -71,13 +71,14 @@ def lawnmower(center: Point, width: float, length: float, spacing: float, corner
     lanes = lane_count(across, spacing)
     if lanes is None:
         raise ValueError(f"lanes {spacing} m apart do not fill {across} m")
+    middle, depth = (center[0], center[1]) if lanes_along == "y" else (center[1], center[0])
+    side, end = (sign_x, sign_y) if lanes_along == "y" else (sign_y, sign_x)
+    near, far = tidy(depth + end * (-along / 2)), tidy(depth + end * (along / 2))
     points = []
     for lane in range(lanes):
-        step = lane * spacing - across / 2
-        ends = (-along / 2, along / 2) if lane % 2 == 0 else (along / 2, -along / 2)
-        for run in ends:
-            x, y = (step, run) if lanes_along == "y" else (run, step)
-            points.append(point(center[0] + sign_x * x, center[1] + sign_y * y))
+        step = tidy(middle + side * (lane * spacing - across / 2))
+        for run in (near, far) if lane % 2 == 0 else (far, near):
+            points.append((step, run) if lanes_along == "y" else (run, step))
     return points
 
 

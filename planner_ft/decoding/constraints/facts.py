@@ -65,10 +65,12 @@ class Reading:
 
     def numbers(self, parameter: Parameter) -> list[float] | None:
         """Values of a parameter that the text states; None where any can be meant."""
-        if self.numbers_free:
-            return None
-        text = self.measures if parameter.unit in MEASURES else self.bare
-        return usable(stated_numbers(text, parameter.unit), parameter)
+        said = self.said(parameter.unit)
+        return None if said is None else usable(said, parameter)
+
+    def said(self, unit: str | None) -> frozenset[float] | None:
+        """Numbers in a unit that the text states, whatever their range; None where any can be meant."""
+        return None if self.numbers_free else stated_numbers(self.measures if unit in MEASURES else self.bare, unit)
 
 
 def read(text: str, vocabulary: Vocabulary) -> Reading:
@@ -79,11 +81,16 @@ def read(text: str, vocabulary: Vocabulary) -> Reading:
     if loose:
         notes.append("The coordinates in the command could not be read with certainty.")
     known = dict.fromkeys([vocabulary.home, vocabulary.unresolved, *places])
-    bare = _WRITTEN_PAIR.sub(" ; ", text)
-    return Reading(text, bare, _measures(bare), tuple(known), loose, any("number" in note for note in notes), tuple(notes))
+    bare = without_pairs(text)
+    return Reading(text, bare, without_counts(bare), tuple(known), loose, any("number" in note for note in notes), tuple(notes))
 
 
-def _measures(text: str) -> str:
+def without_pairs(text: str) -> str:
+    """A text without what certainly is a coordinate."""
+    return _WRITTEN_PAIR.sub(" ; ", text)
+
+
+def without_counts(text: str) -> str:
     """A text without its numbers that count things, stand for things, or are parts of a turn."""
     pieces, end = [], 0
     for quantity in quantities(text):

@@ -1,0 +1,30 @@
+"""Refusals and the worst case over paraphrases, by hand."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from planner_ft.benchmark.metrics.abstention import right_refusal, wrong_refusal
+from planner_ft.benchmark.metrics.paraphrases import worst_cases
+
+SOME: dict[str, Any] = {"tasks": [{"title": "Transit", "parameters": {}}]}
+NONE: dict[str, Any] = {"tasks": [], "constraints": ["Nothing here can be done."]}
+
+
+@pytest.mark.parametrize(
+    ("plan", "expected", "right", "wrong"),
+    [
+        (NONE, NONE, True, None), (SOME, NONE, False, None), (None, NONE, False, None), ({}, NONE, False, None),
+        (NONE, SOME, None, True), (SOME, SOME, None, False), (None, SOME, None, False),
+    ],
+)  # fmt: skip
+def test_refusals(plan: dict[str, Any] | None, expected: dict[str, Any], right: bool | None, wrong: bool | None) -> None:
+    """An output that does not parse refuses nothing."""
+    assert (right_refusal("mission", plan, expected), wrong_refusal("mission", plan, expected)) == (right, wrong)
+
+
+def test_the_worst_of_each_family_counts_and_families_of_one_do_not() -> None:
+    assert worst_cases([1.0, 0.5, 0.8, 0.9, 0.2], ["a", "b", "b", "a", "c"]) == {"a": 0.9, "b": 0.5}
+    assert worst_cases([True, False, True, True], ["a", "a", "b", "b"]) == {"a": False, "b": True}
