@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from planner_ft.benchmark.baselines import Baselines, make_baselines
+from planner_ft.benchmark.costs import cost_figures
 from planner_ft.benchmark.results import Lines, Results, System, score_system
 from planner_ft.benchmark.samples import BenchData
 from planner_ft.vocabulary import Vocabulary
@@ -14,11 +15,16 @@ from planner_ft.vocabulary import Vocabulary
 
 @dataclass(frozen=True)
 class Measured:
-    """One system with its answers and timed queries, both by sample id."""
+    """One system with its answers and timed queries, both by sample id.
+
+    `costs` is what run.json has on its candidate, `planning` its lines of planning.jsonl.
+    """
 
     system: System
     predictions: Lines
     timed: Lines = field(default_factory=dict)
+    costs: Mapping[str, Any] = field(default_factory=dict)
+    planning: Sequence[Mapping[str, Any]] = ()
 
 
 def assemble(data: BenchData, vocabulary: Vocabulary, measured: Sequence[Measured], *, seed: int, manifest: dict[str, Any]) -> Results:
@@ -30,7 +36,9 @@ def assemble(data: BenchData, vocabulary: Vocabulary, measured: Sequence[Measure
     for entries in systems.values():
         answers = [(entry.predictions, entry.timed) for entry in entries]
         row, of_samples = score_system(data.level, entries[0].system, data.samples, answers, vocabulary, seed=seed)
-        rows.append(row)
+        timed = {sample: line for entry in entries for sample, line in entry.timed.items()}
+        costs = cost_figures(timed, {sample.id: sample.family for sample in data.samples}, entries[0].costs, entries[0].planning, seed)
+        rows.append(replace(row, costs=costs))
         scores += of_samples
     results = Results(data.level, data.summary(), tuple(rows), manifest, tuple(scores))
     return _with_baselines(results, make_baselines(data, vocabulary), data, vocabulary, seed)

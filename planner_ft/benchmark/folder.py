@@ -13,10 +13,11 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import write_json, write_jsonl, write_text
 
 RESULTS, SCORES, PREDICTIONS, LATENCY, RUN = "results.json", "scores.jsonl", "predictions.jsonl", "latency.jsonl", "run.json"
+PLANNING = "planning.jsonl"
 BASELINES = "baselines.jsonl"
 TABLES = ("table.md", "table.csv", "table.tex")
 SCORED = (RESULTS, SCORES, BASELINES, *TABLES)
-ALL = (*SCORED, PREDICTIONS, LATENCY, RUN)
+ALL = (*SCORED, PREDICTIONS, LATENCY, PLANNING, RUN)
 
 
 def check_folder(folder: Path, names: Sequence[str], hint: str) -> None:

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.benchmark.folder import LATENCY, PREDICTIONS, RUN
+from planner_ft.benchmark.folder import LATENCY, PLANNING, PREDICTIONS, RUN
 from planner_ft.benchmark.results import System
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import iterate_jsonl, read_json, write_json
@@ -76,7 +76,17 @@ def measured_in(folder: Path, record: RunRecord) -> list[Measured]:
     from planner_ft.benchmark.assembly import Measured
 
     answers, timed = (_by_key(folder / name) for name in (PREDICTIONS, LATENCY))
-    return [Measured(system, answers.get(record.keys[name], {}), timed.get(record.keys[name], {})) for name, system in record.systems.items()]
+    return [
+        Measured(system, answers.get(record.keys[name], {}), timed.get(record.keys[name], {}), *costs_of(folder, record.costs, system))
+        for name, system in record.systems.items()
+    ]
+
+
+def costs_of(folder: Path, costs: Mapping[str, Mapping[str, Any]], system: System) -> tuple[Mapping[str, Any], list[dict[str, Any]]]:
+    """What run.json has on a system's candidate, and the system's lines of planning.jsonl."""
+    beside = costs.get(system.candidate, {})
+    key = beside.get("planning_keys", {}).get(system.configuration)
+    return beside, list(_by_key(folder / PLANNING).get(key, {}).values()) if key else []
 
 
 def _by_key(path: Path) -> dict[str, dict[str, dict[str, Any]]]:

@@ -52,7 +52,7 @@ class Row:
     """The figures of one system. `missing` are the samples without a prediction, which count as empty outputs.
 
     With repeats, `metrics` and `failures` are over all answers to the `n` samples, and `repeats` holds pass^k (see `repeats`).
-    `breakdown` has the row taken apart (see `breakdown`).
+    `breakdown` has the row taken apart (see `breakdown`), `costs` are time and memory (see `costs`).
     """
 
     system: System
@@ -64,6 +64,7 @@ class Row:
     latency_n: int = 0
     repeats: dict[str, Any] | None = None
     breakdown: Breakdown = field(default_factory=dict)
+    costs: dict[str, Any] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:
         system = asdict(self.system)
@@ -79,6 +80,7 @@ class Row:
             "missing": list(self.missing),
             "latency_n": self.latency_n,
             **({"repeats": self.repeats} if self.repeats else {}),
+            **({"costs": self.costs} if self.costs else {}),
             **system,
         }
 
@@ -157,7 +159,7 @@ def score_system(
         missing=tuple(dict.fromkeys(sample.id for lines, _timed in answers for sample in samples if sample.id not in lines)),
         latency_n=sum(score.values["latency_s"] is not None for score in every),
         repeats=pass_figures(every, seed) if len(answers) > 1 else None,
-        breakdown=breakdown(every, seed),
+        breakdown=breakdown(every),
     )
     repeats = [{"repeat": repeat} if len(answers) > 1 else {} for repeat in range(1, len(answers) + 1)]
     named = {"candidate": system.candidate, "configuration": system.configuration}

@@ -11,8 +11,9 @@ from planner_ft.benchmark import folder
 from planner_ft.benchmark.assembly import Measured, assemble
 from planner_ft.benchmark.outputs import parse_output
 from planner_ft.benchmark.plan import Job, Plan, make_plan
+from planner_ft.benchmark.planning_time import planning_key, planning_log, time_planning
 from planner_ft.benchmark.predictions import Line, RecordLog, latency_log, prediction_log
-from planner_ft.benchmark.record import add_costs, begin_run
+from planner_ft.benchmark.record import add_costs, begin_run, costs_of, read_run
 from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
@@ -40,6 +41,7 @@ def run_bench(settings: BenchSettings, progress: Progress = lambda _label, _done
         reused = len(predictions.records)
         for jobs in plan.by_candidate():
             _run_candidate(plan, jobs, predictions, latencies, progress)
+            _time_planning(plan, jobs, progress)
         results = _results(plan, predictions, latencies, {"seconds": round(time.time() - started, 1), "reused_predictions": reused})
         folder.write_results(settings.folder, results)
     return results
@@ -63,6 +65,16 @@ def _run_candidate(plan: Plan, jobs: list[Job], predictions: RecordLog, latencie
         add_costs(plan.settings.folder, jobs[0].candidate.name, source.costs())
     finally:
         source.release()
+
+
+def _time_planning(plan: Plan, jobs: list[Job], progress: Progress) -> None:
+    """Time missions of 1 to 10 tasks with both agents, if that is asked for; no other model is loaded then."""
+    if not plan.settings.planning_samples:
+        return
+    with planning_log(plan.settings.folder) as log:
+        problem = time_planning(plan, jobs, log, progress)
+    keys = {job.configuration.name: planning_key(plan, job) for job in jobs}
+    add_costs(plan.settings.folder, jobs[0].candidate.name, {"planning_keys": keys, "planning_problem": problem})
 
 
 def _without(samples: tuple[Sample, ...], log: RecordLog, job: Job) -> list[Sample]:
@@ -120,6 +132,7 @@ def _results(plan: Plan, predictions: RecordLog, latencies: RecordLog, run: dict
         "batch_size": settings.batch_size, "max_new_tokens": settings.token_limit, "latency_samples": settings.latency_samples,
         "decoding": {"temperature": settings.temperature, "top_p": settings.top_p, "repeats": settings.repeats} if settings.temperature else "greedy",
     }  # fmt: skip
+    costs = read_run(settings.folder).costs
     manifest = build_manifest(
         "bench",
         seed=settings.seed,
@@ -127,9 +140,12 @@ def _results(plan: Plan, predictions: RecordLog, latencies: RecordLog, run: dict
         inputs={"data": plan.data.path},
         device=plan.device,
         jobs={job.name: {**job.parts, "threads": job.threads} for job in plan.jobs},
+        costs=costs,
         run=run,
     )
-    measured = [Measured(job.system, predictions.of_key(job.key), latencies.of_key(job.key)) for job in plan.jobs]
+    measured = [
+        Measured(job.system, predictions.of_key(job.key), latencies.of_key(job.key), *costs_of(settings.folder, costs, job.system)) for job in plan.jobs
+    ]
     return assemble(plan.data, plan.vocabulary, measured, seed=settings.seed, manifest=manifest)
 
 

@@ -20,8 +20,9 @@ class BenchSettings:
     """A run. `None` stands for the default that depends on level or candidate.
 
     `candidates` are names, folders or hub ids, `configurations` as `parse_configuration` reads them, `adapters` folders
-    ("DIR", or "NAME=DIR" per candidate). A `batch_size` of None finds itself. `latency_samples` are the samples whose queries are timed one at a time. With
-    `endpoint` a server answers, and the only candidate is its model. With a `temperature` above 0 every sample is asked `repeats` times.
+    ("DIR", or "NAME=DIR" per candidate). A `batch_size` of None finds itself. `latency_samples` are the samples whose queries are
+    timed one at a time, `planning_samples` the missions of each length that both agents are timed on. With `endpoint` a server
+    answers, and the only candidate is its model. With a `temperature` above 0 every sample is asked `repeats` times.
     """
 
     level: Level
@@ -37,6 +38,7 @@ class BenchSettings:
     batch_size: int | None = None
     max_new_tokens: int | None = None
     latency_samples: int = 50
+    planning_samples: int = 0
     seed: int = 0
     resume: bool = False
     overwrite: bool = False
@@ -58,11 +60,14 @@ class BenchSettings:
             ("batch-size", 1 if self.batch_size is None else self.batch_size, 1, 1024),
             ("max-new-tokens", self.token_limit, 1, LONGEST),
             ("latency-samples", self.latency_samples, 0, 10**9),
+            ("planning-samples", self.planning_samples, 0, 1000),
         )
         problems += [f"--{flag} {value}: must be between {low} and {high}" for flag, value, low, high in bounds if not low <= value <= high]
         problems += repeats_problems(self.repeats, self.temperature, self.top_p)
         if self.resume and self.overwrite:
             problems.append("--resume keeps former predictions and --overwrite removes them: give one of them")
+        if self.planning_samples and (self.level != "mission" or self.endpoint or self.temperature):
+            problems.append("--planning-samples times both agents from the mission level on, here and greedily: leave it out")
         if problems:
             raise PlannerError("; ".join(problems))
 

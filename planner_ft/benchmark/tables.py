@@ -8,6 +8,7 @@ import io
 from planner_ft.benchmark import sections
 from planner_ft.benchmark.changes import changes_markdown
 from planner_ft.benchmark.contrasts_text import contrasts_markdown
+from planner_ft.benchmark.costs_text import costs_markdown
 from planner_ft.benchmark.groups import groups_markdown
 from planner_ft.benchmark.layout import (
     COLUMNS,
@@ -46,6 +47,7 @@ def markdown(results: Results) -> str:
     if results.level == "mission" and shows_published(results):
         lines.append("| mission agent (published) | 25 | " + " | ".join(str(PUBLISHED.get(kind, 0)) for kind in FAILURES) + " |")
     lines += ["", *(line for part in sections.PARTS for line in part(results))]
+    lines += costs_markdown({system_name(row): row.costs for row in results.rows})
     lines += [*contrasts_markdown(results), *repeats_markdown({system_name(row): row.repeats or {} for row in results.rows})]
     lines += [*changes_markdown(results.changes), *groups_markdown(results.groups)]
     lines += [f"- {note}" for note in notes(results)]

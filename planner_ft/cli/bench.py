@@ -51,6 +51,10 @@ def bench(
         int | None, typer.Option(help="Limit of generated tokens per answer; cut answers are counted.", show_default="1024 mission, 2048 task")
     ] = None,
     latency_samples: Annotated[int | None, typer.Option(help="Time the queries of this many samples, one at a time; 0: none.", show_default="50")] = None,
+    planning_samples: Annotated[
+        int | None,
+        typer.Option(help="Mission level: also time planning with both agents, this many missions of each length from 1 to 10 tasks.", show_default="0"),
+    ] = None,
     vocabulary: Annotated[str | None, typer.Option(help="Vocabulary: a bundled name or a TOML file.", show_default="usv")] = None,
     repeats: Annotated[int | None, typer.Option(help="Sampled answers per sample: gives pass^k; needs --temperature.", show_default="1")] = None,
     temperature: Annotated[float | None, typer.Option(help="Sample answers at this temperature.", show_default="0: greedy")] = None,
@@ -82,7 +86,7 @@ def bench(
     named = {
         "level": level, "candidates": candidates, "configurations": configurations, "data": data, "limit": limit, "adapter": adapter,
         "quantization": quantization, "max_new_tokens": max_new_tokens, "latency_samples": latency_samples, "vocabulary": vocabulary,
-        "repeats": repeats, "temperature": temperature, "top_p": top_p,
+        "planning_samples": planning_samples, "repeats": repeats, "temperature": temperature, "top_p": top_p,
     }  # fmt: skip
     named = {name: value for name, value in named.items() if value is not None}
     common = {"device": device, "batch_size": _batch_size(batch_size), "seed": seed, "resume": resume, "overwrite": overwrite}
@@ -94,8 +98,8 @@ def bench(
     if gate is not None:
         _run_gate(gate, out, named | served, common)
         return
-    named, common["endpoint"] = with_endpoint(named, served)
-    settings = _settings(named, out=out, **common)
+    named, server = with_endpoint(named, served)
+    settings = _settings(named, out=out, endpoint=server, **common)
     from planner_ft.benchmark.runner import run_bench
 
     with interruptible(settings.folder) as progress:

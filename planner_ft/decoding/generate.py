@@ -43,7 +43,7 @@ class Generation:
     """One answer. `ids` are the generated tokens with the one that ended it, `seconds` its share of the batch's time.
 
     `finish_reason`: "stop" (an end-of-turn token), "length" (cut at the limit) or "error" (`error` says why).
-    `forward_passes` are those that the answer took part in. Of its tokens, `forced_tokens` left no choice and
+    `first_token_s` is the time from the batch's begin until its first tokens were known. `forward_passes` are those that the answer took part in. Of its tokens, `forced_tokens` left no choice and
     `drafted_tokens` were drafted rightly. `notes` and `cut` are the constraint's (see `constraints`).
     """
 
@@ -56,6 +56,7 @@ class Generation:
     drafted_tokens: int = 0
     notes: tuple[str, ...] = ()
     cut: bool = False
+    first_token_s: float | None = None
 
 
 @dataclass(frozen=True)
@@ -127,7 +128,7 @@ def _begin(decoder: Decoder, query: Query, limits: Limits, method: Method) -> Ro
 @torch.inference_mode()
 def _generate_batch(decoder: Decoder, batch: dict[int, Row], began: float) -> Iterator[tuple[int, Generation]]:
     """Yield (index, answer) as rows end. `began` is when the work on the batch did."""
-    share, rows = 0.0, dict(batch)
+    share, rows, first = 0.0, dict(batch), 0.0
     passes = decoder.start(len(rows)) if rows else None
     while passes and rows:
         fed = [row.feed(wide=passes.wide) for row in rows.values()]
@@ -140,19 +141,20 @@ def _generate_batch(decoder: Decoder, batch: dict[int, Row], began: float) -> It
             row.choose(best[start : start + count], logits[start : start + count]) for row, start, count in zip(rows.values(), starts, wanted, strict=True)
         ]
         now = time.perf_counter()
+        first = first or now - began
         share, began = share + (now - began) / len(rows), now
         kept = [place for place, row in enumerate(rows.values()) if not row.finished]
         for index, row in list(rows.items()):
             if row.finished:
-                yield index, _generation(rows.pop(index), share)
+                yield index, _generation(rows.pop(index), share, first)
         if rows:
             passes.forget(wrong)
             if len(kept) < len(wanted):
                 passes.select(kept)
 
 
-def _generation(row: Row, seconds: float) -> Generation:
+def _generation(row: Row, seconds: float, first: float) -> Generation:
     assert row.finished is not None
     constraint = row.constraint
     notes, cut = (tuple(constraint.notes), constraint.cut) if constraint else ((), False)
-    return Generation(tuple(row.ids), row.finished, seconds, None, row.forward_passes, row.forced_tokens, row.drafted_tokens, notes, cut)
+    return Generation(tuple(row.ids), row.finished, seconds, None, row.forward_passes, row.forced_tokens, row.drafted_tokens, notes, cut, first)

@@ -13,11 +13,15 @@ from planner_ft.decoding.passes import Decoder
 
 @dataclass(frozen=True)
 class Latency:
-    """Seconds from prompt ids to the complete answer, the number of generated tokens, and the forward passes that they took."""
+    """Seconds from prompt ids to the complete answer, the number of generated tokens, and the forward passes that they took.
+
+    `first_token_s` are the seconds until the first token was known.
+    """
 
     seconds: float
     tokens: int
     forward_passes: int
+    first_token_s: float | None = None
 
 
 def measure_latency(decoder: Decoder, queries: Sequence[Query], limits: Limits, method: Method = PLAIN) -> Iterator[tuple[int, Latency]]:
@@ -31,4 +35,4 @@ def measure_latency(decoder: Decoder, queries: Sequence[Query], limits: Limits, 
         started = time.perf_counter()
         (answer,) = generate(decoder, [query], limits, method)
         # `generate` has read the last token from the device: nothing is left running.
-        yield index, Latency(time.perf_counter() - started, len(answer.ids), answer.forward_passes)
+        yield index, Latency(time.perf_counter() - started, len(answer.ids), answer.forward_passes, answer.first_token_s)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import resource
 import sys
 from pathlib import Path
@@ -18,6 +19,17 @@ def peak_memory(device: torch.device) -> int:
 
         return torch.cuda.max_memory_allocated(device)
     return _process_peak()
+
+
+def reset_peak_memory(device: torch.device) -> None:
+    """Begin to measure anew. Where the system does not let a process do so, its peak stays that of its whole life."""
+    if device.type == "cuda":
+        import torch
+
+        torch.cuda.reset_peak_memory_stats(device)
+    with contextlib.suppress(OSError):
+        # 5: forget the highest resident size (proc(5), clear_refs).
+        Path("/proc/self/clear_refs").write_text("5")
 
 
 def _process_peak() -> int:

@@ -189,9 +189,9 @@ def test_an_interrupted_run_goes_on_and_generates_nothing_twice(settings: Any, t
     missing_answers = max(0, 2 * COUNT - after)
     timed = 2 * TIMED - max(0, after - 2 * COUNT)
     assert work["rows"] - before == missing_answers + timed + (2 if timed > TIMED else 1)
-    for folder in ("out", "whole"):
-        values = json.loads((tmp_path / folder / "results.json").read_text())["rows"]
-        assert [row["metrics"]["f1"] for row in values] == [{"value": 0.0, "low": 0.0, "high": 0.0}] * 2
+    interrupted, whole = (json.loads((tmp_path / folder / "results.json").read_text())["rows"] for folder in ("out", "whole"))
+    assert [row["metrics"]["f1"] for row in interrupted] == [row["metrics"]["f1"] for row in whole]
+    assert [row["metrics"]["f1"]["value"] for row in whole] == [0.0, 0.0]
 
 
 def test_a_run_killed_in_the_middle_of_a_line_goes_on(settings: Any, tmp_path: Path, work: dict[str, int]) -> None:
@@ -472,3 +472,37 @@ def test_a_device_whose_memory_is_full_gets_smaller_batches(settings: Any, tmp_p
     run_bench(settings(batch_size=4, latency_samples=0))
     assert sizes == [4, 2] + [1] * 2 * COUNT
     assert answers(tmp_path / "out") == answers(tmp_path / "whole")
+
+
+def test_costs_are_in_the_results(settings: Any, tmp_path: Path) -> None:
+    results = run_bench(settings())
+    for row in results.rows:
+        assert row.costs["n"] == TIMED
+        assert 0 < row.costs["first_token_s"]["value"] < row.costs["latency_s"]["p99"]["value"]
+        assert row.costs["latency_s"]["median"]["value"] <= row.costs["latency_s"]["p90"]["value"]
+        assert row.costs["tokens_per_s"]["value"] > 0
+        assert row.costs["load_s"] > 0
+        assert row.costs["adapter_swap_s"] > 0
+        assert row.costs["peak_memory_bytes"] > 2**27
+    assert "Adapter switch" in (tmp_path / "out" / "table.md").read_text()
+    # What a run cost is kept when it is scored again.
+    again = run_bench(settings(resume=True))
+    assert [row.costs for row in again.rows] == [row.costs for row in results.rows]
+
+
+def test_planning_is_timed_with_both_agents_and_only_once(tmp_path: Path, data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from planner_ft.benchmark import planning_time
+
+    monkeypatch.delenv("PLANNERFT_MODELS")
+    monkeypatch.setattr(planning_time, "MOST", 2)
+    common: dict[str, Any] = {"level": "mission", "candidates": ("embedded",), "configurations": ("base",), "data": data, "out": tmp_path / "out"}
+    common |= {"limit": 1, "latency_samples": 0, "planning_samples": 1, "device": "cpu"}
+    results = run_bench(BenchSettings(**common))
+    written = lines(tmp_path / "out" / "planning.jsonl")
+    assert [line["id"] for line in written] == ["tasks1-0", "tasks2-0"]
+    assert all(line["seconds"] >= line["mission_s"] > 0 for line in written)
+    assert [entry["tasks"] for entry in results.rows[0].costs["planning"]] == sorted({line["tasks"] for line in written})
+    run_bench(BenchSettings(**common, resume=True))
+    assert lines(tmp_path / "out" / "planning.jsonl") == written
+    with pytest.raises(PlannerError, match="--planning-samples"):
+        BenchSettings(**{**common, "level": "task"})

@@ -9,11 +9,17 @@ from typing import TYPE_CHECKING, Any
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.sources import Answered, Timed
 from planner_ft.benchmark.sources.batching import in_batches, is_out_of_memory, new_batch_size
+from planner_ft.candidates.loading import resolve_device
+from planner_ft.decoding.configurations import Configuration
 from planner_ft.decoding.engine import Engine
+from planner_ft.support.resources import peak_memory, reset_peak_memory
 
 if TYPE_CHECKING:
     from planner_ft.benchmark.plan import Job, Plan
     from planner_ft.decoding.generate import Generation, Query
+
+SWAPS = 3
+"""How often the adapter is put on and off to time it."""
 
 
 class EngineSource:
@@ -23,11 +29,14 @@ class EngineSource:
         self.engine = engine
         self.plan = plan
         self.load_seconds = load_seconds
+        # The size of batches is judged by a peak of its own, which begins here.
+        self.load_peak = peak_memory(resolve_device(plan.device))
         self.batch = new_batch_size(plan.settings.batch_size, plan.device)
 
     @classmethod
     def load(cls, plan: Plan, jobs: Sequence[Job]) -> EngineSource:
         """Load the candidate of these jobs. Raises PlannerError."""
+        reset_peak_memory(resolve_device(plan.device))
         started = time.perf_counter()
         adapter = next((job.adapter for job in jobs if job.adapter), None)
         engine = Engine.load(
@@ -54,10 +63,24 @@ class EngineSource:
 
     def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Timed]]:
         for index, latency in self.engine.latencies(self._queries(job, samples), job.configuration, sampling=job.sampling):
-            yield index, Timed(latency.seconds, latency.tokens, latency.forward_passes)
+            yield index, Timed(latency.seconds, latency.tokens, latency.forward_passes, latency.first_token_s)
 
     def costs(self) -> dict[str, Any]:
-        return {"load_s": round(self.load_seconds, 3)}
+        """Seconds to load base and adapter, the mean of a switch between them, and the most memory since loading began."""
+        return {
+            "load_s": round(self.load_seconds, 3), "adapter_swap_s": self._swap_seconds(),
+            "peak_memory_bytes": max(self.load_peak, peak_memory(resolve_device(self.plan.device))),
+        }  # fmt: skip
+
+    def _swap_seconds(self) -> float | None:
+        level = self.plan.settings.level
+        if level not in self.engine.adapters:
+            return None
+        began = time.perf_counter()
+        for adapter in (True, False) * SWAPS:
+            with self.engine.configured(level, Configuration(adapter)):
+                pass
+        return round((time.perf_counter() - began) / (2 * SWAPS), 6)
 
     def release(self) -> None:
         self.engine.release()

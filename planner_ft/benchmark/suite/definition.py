@@ -17,7 +17,7 @@ from planner_ft.vocabulary.plans import LEVELS, Level
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
 SUITE_KEYS: dict[str, type] = {
     "title": str, "candidates": list, "configurations": list, "parts": list, "vocabulary": str, "quantization": str,
-    "latency_samples": int, "max_new_tokens": int, "planning_samples": int, "stall_minutes": int, "adapters": dict,
+    "latency_samples": int, "max_new_tokens": int, "stall_minutes": int, "adapters": dict,
 }  # fmt: skip
 PART_KEYS: dict[str, type] = {
     "name": str, "level": str, "data": str, "apart": bool, "limit": int, "configurations": list, "latency_samples": int, "max_new_tokens": int,
@@ -99,6 +99,8 @@ def _part_problems(part: dict[str, Any]) -> list[str]:
         problems.append(f"name {part['name']!r} becomes a folder: letters, digits, - and _ alone")
     if isinstance(part.get("level"), str) and part["level"] not in LEVELS:
         problems.append(f"level {part['level']!r} must be {' or '.join(LEVELS)}")
+    if part.get("planning_samples") and part.get("level") == "task":
+        problems.append("planning_samples belongs to a part of the mission level")
     return problems
 
 
@@ -115,7 +117,7 @@ def _list(value: Any) -> list[Any]:
 
 
 def _suite(path: Path, raw: dict[str, Any]) -> Suite:
-    common = {key: raw[key] for key in ("latency_samples", "max_new_tokens", "planning_samples") if key in raw}
+    common = {key: raw[key] for key in ("latency_samples", "max_new_tokens") if key in raw}
     here = path.parent
     parts = []
     for part in raw["parts"]:

@@ -102,6 +102,7 @@ def _part_json(part: PartResults) -> dict[str, Any]:
 def _markdown_part(part: PartResults) -> list[str]:
     lines = ["| Model | Configuration | " + " | ".join(name for _metric, name, _scale, _decimals in FIGURES) + " |", "|---|---|" + "---:|" * len(FIGURES)]
     lines += [f"| {row.system.label} | {heading(row.system.configuration)} | " + " | ".join(_figures(row)) + " |" for row in part.results.rows]
+    lines += [f"| {row.system.label} | baseline | " + " | ".join(_figures(row)) + " |" for row in part.results.baselines]
     return lines + [f"| {entry.label} | {heading(entry.configuration)} | not measured |" + " |" * (len(FIGURES) - 1) for entry in part.failed]
 
 

@@ -66,7 +66,7 @@ class Unit:
             "level": self.part.level, "candidates": self.candidate.folder if self.candidate.source == "path" else self.candidate.name,
             "configurations": ",".join(self.configurations), "data": self.part.data, "out": self.folder, "adapter": self.adapter,
             "limit": _smaller(self.part.limit, self.flags.limit), "latency-samples": self.latency_samples, "max-new-tokens": self.part.max_new_tokens,
-            "vocabulary": self.vocabulary, "quantization": self.quantization, "device": self.flags.device,
+            "planning-samples": self.part.planning_samples, "vocabulary": self.vocabulary, "quantization": self.quantization, "device": self.flags.device,
             "batch-size": self.flags.batch_size or "auto", "seed": self.flags.seed,
         }  # fmt: skip
         return ["bench", *(str(item) for name, value in values.items() if value is not None for item in (f"--{name}", value)), "--resume"]
