@@ -15,6 +15,7 @@ def report(
         list[Path] | None, typer.Option(help="Where test data lies now, if it was moved; its content must be the same.", show_default=False)
     ] = None,
     title: Annotated[str, typer.Option(help="Title of the page.", show_default="the runs' names")] = "",
+    pictures: Annotated[str, typer.Option(help="Charts that become files in figures/: all, overall (those over all systems) or none.")] = "all",
     card: Annotated[
         Path | None, typer.Option(help="Adapter folder: write what the runs measured with it into its model card instead.", show_default=False)
     ] = None,
@@ -31,9 +32,9 @@ def report(
         return
     if out is None and len(runs) > 1:
         raise PlannerError("--out is missing: with several runs, name a folder for the report")
-    from planner_ft.report.write import write_report
+    from planner_ft.report.write import check_pictures, write_report
 
     target = out or runs[0]
-    written = write_report(runs, target, data=data or (), overwrite=overwrite, title=title)
+    written = write_report(runs, target, data=data or (), overwrite=overwrite, title=title, pictures=check_pictures(pictures))
     counts = [sum(path.parent.name == name for path in written) for name in ("figures", "tables")]
     typer.echo(f"{target}/: report.html, figures/ ({counts[0]} files), tables/ ({counts[1]} files)")

@@ -9,6 +9,8 @@ from planner_ft.report.charts import Bars, Chart, Dots, Lines, Matrix, ticks
 
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#555555", "#B8A000")
 """Okabe and Ito's colours (2008), the brightest yellow darkened for white paper."""
+LONGEST = 44
+"""Letters of a label."""
 MARKERS = ("o", "s", "^", "D", "v")
 STYLES = ("-", "--", ":", "-.")
 SETTINGS = {"svg.fonttype": "none", "svg.hashsalt": "planner_ft", "font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True}
@@ -24,6 +26,9 @@ def picture(chart: Chart) -> dict[str, bytes]:
     with matplotlib.rc_context(SETTINGS):
         figure = Figure(layout="constrained")
         _draw(figure, chart)
+        # Lay out once, not for each format again.
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")
         return {"png": _saved(figure, "png", {"dpi": 150, "metadata": {"Software": None}}), "svg": _saved(figure, "svg", {"metadata": {"Date": None}})}
 
 
@@ -52,8 +57,14 @@ def _rows(figure: Any, labels: list[str], title: str, axis: str, *, extra: float
     return axes
 
 
+def fitted(label: str) -> str:
+    """A label that leaves room for the figure, on one line; dollars would be read as formulas."""
+    label = " ".join(label.split()).replace("$", "\\$")
+    return label if len(label) <= LONGEST else f"{label[: LONGEST - 1]}…"
+
+
 def _dress(axes: Any, labels: list[str], title: str, axis: str) -> None:
-    axes.set_yticks(range(len(labels)), labels)
+    axes.set_yticks(range(len(labels)), [fitted(label) for label in labels])
     axes.set_ylim(len(labels) - 0.4, -0.6)
     axes.set_xlabel(axis)
     axes.set_title(title, loc="left", fontsize=10, fontweight="bold")
@@ -87,7 +98,11 @@ def _bars(figure: Any, chart: Bars) -> None:
         from matplotlib.patches import Patch
 
         figure.legend(
-            handles=[Patch(color=_colour(chart, group), label=group) for group in chart.groups], loc="outside lower left", frameon=False, ncols=4, fontsize=8
+            handles=[Patch(color=_colour(chart, group), label=fitted(group)) for group in chart.groups],
+            loc="outside lower left",
+            frameon=False,
+            ncols=4,
+            fontsize=8,
         )
 
 
@@ -101,7 +116,7 @@ def _lines(figure: Any, chart: Lines) -> None:
     for index, series in enumerate(chart.series):
         colour = PALETTE[index % len(PALETTE)]
         x, y = [point.x for point in series.points], [point.y for point in series.points]
-        axes.plot(x, y, STYLES[index % len(STYLES)], marker=MARKERS[index % len(MARKERS)], color=colour, markersize=5, label=series.label)
+        axes.plot(x, y, STYLES[index % len(STYLES)], marker=MARKERS[index % len(MARKERS)], color=colour, markersize=5, label=fitted(series.label))
         spread = [point for point in series.points if point.low is not None]
         axes.vlines([point.x for point in spread], [point.low for point in spread], [point.high for point in spread], color=colour, alpha=0.4)
     axes.set(xlabel=chart.x_axis, ylabel=chart.y_axis)
@@ -135,8 +150,8 @@ def _matrix(figure: Any, chart: Matrix) -> None:
     axes = figure.subplots()
     values = [[float("nan") if count is None else count for count in row] for row in chart.counts]
     axes.imshow(values, cmap="Blues", vmin=0, vmax=max(chart.largest, 1) * 1.15, aspect="auto")
-    axes.set_xticks(range(len(chart.columns)), chart.columns, rotation=40, ha="right", rotation_mode="anchor")
-    axes.set_yticks(range(len(chart.rows)), chart.rows)
+    axes.set_xticks(range(len(chart.columns)), [fitted(name) for name in chart.columns], rotation=40, ha="right", rotation_mode="anchor")
+    axes.set_yticks(range(len(chart.rows)), [fitted(name) for name in chart.rows])
     axes.tick_params(length=0)
     for row, counts in enumerate(chart.counts):
         for column, count in enumerate(counts):

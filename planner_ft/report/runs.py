@@ -129,7 +129,7 @@ def _load(folder: Path) -> _Run:
     check_level(results.get("level", ""))
     notes: list[str] = []
     scores = [line for name in (SCORES, BASELINES) if (folder / name).is_file() for line in _lines(folder / name)]
-    if not scores:
+    if not (folder / SCORES).is_file():
         notes.append(f"{folder / SCORES} is not there: failures, confusions and single samples cannot be shown.")
     return _Run(folder, results, scores, _answers(folder, results, notes), notes)
 

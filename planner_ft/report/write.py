@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Literal, cast, get_args
 
 from planner_ft.report.charts import Matrix
 from planner_ft.report.contents import Section, provenance, section
@@ -14,14 +15,18 @@ from planner_ft.report.tables import csv_table, latex_table, markdown_table
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import atomic_writer, write_text
 
+Pictures = Literal["all", "overall", "none"]
 PAGE, FIGURES, TABLES = "report.html", "figures", "tables"
 WRITTEN = re.compile(r"(mission|task)-.*-[0-9a-f]{6}-.*\.(png|svg|md|csv|tex)")
 WRITERS = {"md": markdown_table, "csv": csv_table, "tex": latex_table}
 
 
-def write_report(runs: Sequence[Path], out: Path, *, data: Sequence[Path] = (), overwrite: bool = False, title: str = "") -> list[Path]:
+def write_report(
+    runs: Sequence[Path], out: Path, *, data: Sequence[Path] = (), overwrite: bool = False, title: str = "", pictures: Pictures = "all"
+) -> list[Path]:
     """Report on these runs in `out`: report.html, figures/ and tables/. Returns what was written.
 
+    `pictures` says which charts become files in figures/, which takes most of the time: all of them, those over all systems, or none.
     Raises PlannerError where a run cannot be read, or where a report is there already and `overwrite` is not given.
     """
     check_out(out, overwrite)
@@ -29,10 +34,18 @@ def write_report(runs: Sequence[Path], out: Path, *, data: Sequence[Path] = (), 
     sections = [section(tests) for tests in sets]
     shown = title or "Benchmark report: " + ", ".join(dict.fromkeys(run.resolve().name for run in runs))
     _remove_former(out)
-    written = [*_tables(sections, out), *_figures(sections, out), out / PAGE]
+    written = [*_tables(sections, out), *_figures(sections, out, pictures), out / PAGE]
     # Last: where the page is, all of the report is.
     write_text(out / PAGE, page(sections, shown, provenance(sets)))
     return written
+
+
+def check_pictures(name: str) -> Pictures:
+    """`name` itself. Raises PlannerError when it is none of the choices."""
+    for known in get_args(Pictures):
+        if name == known:
+            return cast(Pictures, known)
+    raise PlannerError(f"--pictures {name}: must be {', '.join(get_args(Pictures)[:-1])} or {get_args(Pictures)[-1]}")
 
 
 def check_out(out: Path, overwrite: bool) -> None:
@@ -60,11 +73,13 @@ def _tables(sections: Sequence[Section], out: Path) -> Iterator[Path]:
                 yield path
 
 
-def _figures(sections: Sequence[Section], out: Path) -> Iterator[Path]:
+def _figures(sections: Sequence[Section], out: Path, pictures: Pictures) -> Iterator[Path]:
+    if pictures == "none":
+        return
     from planner_ft.report.pictures import picture
 
     for one in sections:
-        for chart in one.figures:
+        for chart in one.figures if pictures == "all" else one.charts:
             for suffix, content in picture(chart).items():
                 path = out / FIGURES / f"{chart.name}.{suffix}"
                 with atomic_writer(path, "wb") as stream:

@@ -1,0 +1,83 @@
+"""Reading run folders: what is missing is said, what is damaged is refused."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from planner_ft.report.runs import load_test_sets
+from planner_ft.report.write import write_report
+from planner_ft.support.errors import PlannerError
+from tests.report.conftest import ANSWERS, EXPECTED, write_data, write_run
+
+
+def test_a_run_is_read_with_its_answers_and_commands(run: Path) -> None:
+    (tests,) = load_test_sets([run])
+    assert [system.name for system in tests.systems if not system.is_baseline] == ["good, Base", "hostile, Base"]
+    assert list(tests.samples) == list(EXPECTED)
+    assert set(tests.systems[0].answers) == set(EXPECTED) == set(tests.systems[0].scores)
+    assert not [note for note in tests.notes if "not shown" in note]
+
+
+def test_runs_on_the_same_data_share_a_section_and_are_told_apart(run: Path, make_run: Callable[..., Path]) -> None:
+    other = make_run("again", {"good": ANSWERS["good"]})
+    (tests,) = load_test_sets([run, other])
+    assert [system.name for system in tests.systems if not system.is_baseline] == ["good, Base (run)", "hostile, Base", "good, Base (again)"]
+
+
+def test_runs_on_other_data_have_a_section_of_their_own(run: Path, tmp_path: Path) -> None:
+    challenge = write_run(tmp_path / "second", write_data(tmp_path, "challenge.jsonl", grouped=False), ANSWERS)
+    assert [Path(tests.path).name for tests in load_test_sets([run, challenge])] == ["test.jsonl", "challenge.jsonl"]
+
+
+def test_runs_below_a_folder_are_found(run: Path) -> None:
+    assert len(load_test_sets([run.parent])) == 1
+
+
+def test_changed_or_missing_test_data_is_said_and_can_be_named(run: Path, data: Path, tmp_path: Path) -> None:
+    moved = tmp_path / "moved.jsonl"
+    data.rename(moved)
+    (tests,) = load_test_sets([run])
+    assert tests.samples == {}
+    assert any("test.jsonl is not there" in note and "--data" in note for note in tests.notes)
+    assert list(load_test_sets([run], [moved])[0].samples) == list(EXPECTED)
+    data.write_text("{}\n")
+    (tests,) = load_test_sets([run])
+    assert any("test.jsonl has changed" in note for note in tests.notes)
+
+
+@pytest.mark.parametrize("absent", [["predictions.jsonl"], ["scores.jsonl"], ["predictions.jsonl", "scores.jsonl"]])
+def test_a_run_of_which_parts_are_missing_still_gives_a_report(run: Path, tmp_path: Path, absent: list[str]) -> None:
+    for name in absent:
+        (run / name).unlink()
+    write_report([run], tmp_path / "report", pictures="none")
+    page = (tmp_path / "report" / "report.html").read_text()
+    for name in absent:
+        assert f"{name} is not there" in page
+
+
+def test_an_old_run_with_the_published_metrics_alone_gives_a_report(run: Path, tmp_path: Path) -> None:
+    results = json.loads((run / "results.json").read_text())
+    for row in results["rows"]:
+        row["metrics"] = {"f1": row["metrics"]["f1"]}
+    results["manifest"] = {}
+    for key in ("changes", "groups"):
+        results.pop(key, None)
+    (run / "results.json").write_text(json.dumps(results))
+    write_report([run], tmp_path / "report", pictures="none")
+    assert "good, Base" in (tmp_path / "report" / "report.html").read_text()
+
+
+def test_no_run_and_damaged_runs_are_refused_in_one_sentence(run: Path, tmp_path: Path) -> None:
+    with pytest.raises(PlannerError, match=r"no results\.json"):
+        load_test_sets([tmp_path / "nowhere"])
+    with (run / "scores.jsonl").open("a") as stream:
+        stream.write("{broken\n")
+    with pytest.raises(PlannerError, match=r"scores\.jsonl:\d+: not JSON"):
+        load_test_sets([run])
+    (run / "results.json").write_text("[]")
+    with pytest.raises(PlannerError, match="no results of a run"):
+        load_test_sets([run])
