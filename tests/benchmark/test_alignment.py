@@ -34,6 +34,13 @@ def test_parameters_that_are_all_right_come_before_everything() -> None:
     assert aligned("mission", expected, mission(transit(0, 0), "Diagnostics", transit(7, 7))).pairs == ((0, 2), (1, 1), (2, 0))
 
 
+def test_right_within_the_tolerance_comes_before_shares_that_add_up_to_more() -> None:
+    all_of_it = {"center": [1, 1], "radius": 20, "arc": 360, "speed": 2}
+    expected = mission(("PerformOrbit", all_of_it), ("PerformOrbit", {"speed": 2}))
+    predicted = mission(("PerformOrbit", {**all_of_it, "speed": 9}), ("PerformOrbit", {**all_of_it, "radius": 20.2}))
+    assert aligned("mission", expected, predicted).pairs == ((0, 1), (1, 0))
+
+
 def test_equal_tasks_are_paired_by_their_neighbours_and_then_by_nearness() -> None:
     found = transit(-99, -99)
     expected = mission("SearchAndDetect", found, "PerformOrbit", "SearchAndDetect", found, "SurveyTarget")
