@@ -5,6 +5,8 @@ from __future__ import annotations
 import random
 from typing import Any
 
+import pytest
+
 from planner_ft.benchmark.metrics import Alignment, align, plan_entries, substitutions
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -34,10 +36,11 @@ def test_parameters_that_are_all_right_come_before_everything() -> None:
     assert aligned("mission", expected, mission(transit(0, 0), "Diagnostics", transit(7, 7))).pairs == ((0, 2), (1, 1), (2, 0))
 
 
-def test_right_within_the_tolerance_comes_before_shares_that_add_up_to_more() -> None:
+@pytest.mark.parametrize("radius", [20, 20.2])
+def test_all_right_comes_before_shares_that_add_up_to_more(radius: float) -> None:
     all_of_it = {"center": [1, 1], "radius": 20, "arc": 360, "speed": 2}
     expected = mission(("PerformOrbit", all_of_it), ("PerformOrbit", {"speed": 2}))
-    predicted = mission(("PerformOrbit", {**all_of_it, "speed": 9}), ("PerformOrbit", {**all_of_it, "radius": 20.2}))
+    predicted = mission(("PerformOrbit", {**all_of_it, "speed": 9}), ("PerformOrbit", {**all_of_it, "radius": radius}))
     assert aligned("mission", expected, predicted).pairs == ((0, 1), (1, 0))
 
 
@@ -88,6 +91,14 @@ def test_what_stands_instead_has_the_same_neighbours() -> None:
     assert set(substitutions(aligned("mission", expected, shifted))) == {("KeepStation", None), (None, "ThermalTimeLapse")}
     assert substitutions(aligned("mission", mission("KeepStation"), mission("Hover"))) == [("KeepStation", "Hover")]
     assert substitutions(aligned("mission", mission("KeepStation", "Diagnostics"), None)) == [("KeepStation", None), ("Diagnostics", None)]
+
+
+def test_one_neighbour_is_enough_where_the_other_has_moved() -> None:
+    expected, predicted = (
+        mission("Diagnostics", "KeepStation", transit(0, 0), "DriftAudit"),
+        mission("Diagnostics", "FeatureStare", "DriftAudit", transit(0, 0)),
+    )
+    assert substitutions(aligned("mission", expected, predicted)) == [("KeepStation", "FeatureStare")]
 
 
 def test_a_filter_never_stands_for_a_perception_skill() -> None:
