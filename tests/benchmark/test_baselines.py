@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.baselines import make_baselines, majority_plan
+from planner_ft.benchmark.baselines import majority_plan, make_baselines
 from planner_ft.benchmark.folder import write_results
 from planner_ft.benchmark.results import Results
-from planner_ft.benchmark.retrieval import Index, features
+from planner_ft.benchmark.retrieval import Index
 from planner_ft.benchmark.runs import load_run
 from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data
 from planner_ft.benchmark.submission import score_predictions
@@ -50,7 +50,7 @@ def answers(baseline: Any) -> dict[str, Any]:
 
 def test_weights_and_similarity_by_hand() -> None:
     index = Index(["a b", "a c", "d"])
-    assert features("a b") == ["a", "<a>", "b", "<b>", "a b"]
+    assert list(index.ids) == ["a", "<a>", "b", "<b>", "a b", "c", "<c>", "a c", "d", "<d>"]
     common, rare = math.log(4 / 3) + 1, math.log(4 / 2) + 1
     # Against "a": one of "a b"'s three words or pairs and its characters are known.
     length = math.sqrt(2 * common**2 + 3 * rare**2)
@@ -76,7 +76,7 @@ def test_the_majority_plan_of_a_task_is_that_of_the_same_task(tmp_path: Path) ->
         return {"id": name, "task": title, "parameters": {}, "prompt": "go", "expected": {"skill_sequence": steps}}
 
     train = [task("a", "KeepStation", "StationKeep"), task("b", "Transit", "GoToWaypoint"), task("c", "Transit", "GoToWaypoint")]
-    known = [name for name in load_vocabulary("usv").skill]
+    known = list(load_vocabulary("usv").skill)
     train[1]["expected"]["skill_sequence"][0]["navigation_skill"]["name"] = train[2]["expected"]["skill_sequence"][0]["navigation_skill"]["name"] = known[0]
     write(tmp_path / "train.jsonl", train)
     test = write(tmp_path / "test.jsonl", [task("x", "KeepStation", "StationKeep"), task("y", "FollowTarget", "StationKeep")])
@@ -128,7 +128,10 @@ def test_baselines_are_rows_of_their_own(results: Results, tmp_path: Path) -> No
     write_results(tmp_path / "out", results)
     written = json.loads((tmp_path / "out" / "results.json").read_text())
     assert [row["is_baseline"] for row in written["rows"] + written["baselines"]] == [False, False, False, True, True]
-    assert {line["candidate"] for line in map(json.loads, (tmp_path / "out" / "baselines.jsonl").read_text().splitlines())} == {"majority plan", "nearest neighbour"}
+    assert {line["candidate"] for line in map(json.loads, (tmp_path / "out" / "baselines.jsonl").read_text().splitlines())} == {
+        "majority plan",
+        "nearest neighbour",
+    }
     assert [row.is_baseline for row in load_run(tmp_path / "out").rows] == [False, False, False, True, True]
 
 
