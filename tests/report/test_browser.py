@@ -106,8 +106,10 @@ def choose(driver: Any, label: str, value: str) -> None:
 
 
 def shown(driver: Any) -> list[str]:
-    """Ids of the samples in the list."""
-    return [element.text.split(" · ")[0] for element in find(driver, ".samples .id")]
+    """Ids of the samples in the list, read at once: it may be built anew at any time."""
+    script = "return [...document.querySelectorAll('.samples .id')].map((node) => node.textContent.split(' · ')[0])"
+    found: list[str] = driver.execute_script(script)
+    return found
 
 
 def wait(driver: Any, condition: Callable[[], bool]) -> None:
