@@ -55,9 +55,19 @@ CATALOGUE = (
     pooled_f1("parameter_values_overall_f1", "parameter_values_overall"),
     Metric("whole_plan", "rate"),
     Metric("whole_plan_unordered", "rate"),
+    Metric("executable", "rate"),
+    Metric("grounded", "rate"),
+    Metric("grounded_values", "ratio", ("values_grounded", "values_judged")),
+    Metric("slots_in_parameters", "ratio", ("slots_in_parameters_right", "slots_stated")),
+    Metric("slots_in_prompt", "ratio", ("slots_in_prompt_right", "slots_prompted")),
+    Metric("right_refusal", "rate"),
+    Metric("wrong_refusal", "rate"),
     Metric("latency_s", "mean", fraction=False),
     Metric("tokens", "mean", fraction=False),
     Metric("forward_passes", "mean", fraction=False),
 )
-METRICS = tuple(metric.name for metric in CATALOGUE)
+WORST_CASES = {"worst_f1": "f1", "paraphrases_right": "whole_plan"}
+"""Metrics of phrasing families with at least two samples: the mean over families of the smallest F1, and the share of families of which
+every sample is right."""
+METRICS = (*(metric.name for metric in CATALOGUE), *WORST_CASES)
 """Names of the metrics in results.json and in gate files."""

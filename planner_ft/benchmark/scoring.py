@@ -28,6 +28,7 @@ from planner_ft.benchmark.metrics.alignment import Alignment
 from planner_ft.benchmark.metrics.exact_sequence import flat_sequence, name_sequence
 from planner_ft.benchmark.metrics.hallucination import UNPARSED_COUNTS
 from planner_ft.benchmark.outputs import parse_output
+from planner_ft.benchmark.plan_logic import plan_logic
 from planner_ft.benchmark.samples import Sample
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import ROLES
@@ -43,7 +44,8 @@ Values = dict[str, Value]
 class SampleScore:
     """What one answer scored: `values` by metric, and the kind of failure, None when names, order and parameters are right.
 
-    `alignment` and `types` (per type of parameter: values that agree, values that there are) are what tables by name and type are made of.
+    `alignment` and `types` (per type of parameter: values that agree, values that there are) are what tables by name and type are made of,
+    `details` what explains values: where the plan stops, values that nobody gave, slots by kind (`plan_logic`).
     """
 
     id: str
@@ -53,11 +55,13 @@ class SampleScore:
     values: Values
     alignment: Alignment = field(default=Alignment((), (), ()), repr=False)
     types: dict[str, tuple[int, int]] = field(default_factory=dict, repr=False)
+    details: dict[str, Any] = field(default_factory=dict, repr=False)
 
     def to_json(self) -> dict[str, Any]:
         """A line of scores.jsonl."""
         return {
             "id": self.id, "family": self.family, **self.values, "failure": self.failure, "group": self.group, "alignment": self.alignment.to_json(),
+            **self.details,
         }  # fmt: skip
 
 
@@ -71,10 +75,12 @@ def score_sample(
     values: Values = {}
     for part in PARTS:
         values |= part(answer)
+    logic = plan_logic(answer)
+    values |= logic.values()
     values |= {"whole_plan": failure is None, "whole_plan_unordered": failure is None or unordered(answer)}
     values |= {"tokens": prediction.get("tokens")} | {key: timed.get(key) for key in TIMED}
     types = agreement_by_type(level, answer.alignment, vocabulary)
-    return SampleScore(sample.id, sample.family, sample.group, failure, values, answer.alignment, types)
+    return SampleScore(sample.id, sample.family, sample.group, failure, values, answer.alignment, types, logic.details())
 
 
 def published_values(answer: Answer) -> Values:

@@ -40,8 +40,22 @@ WHOLE = (
     Column("whole_plan", "In order (%)", "↑", 100, 1, 1),
     Column("whole_plan_unordered", "In any order (%)", "↑", 100, 1, 1),
 )
+FACTS = (
+    Column("slots_in_parameters", "Stated facts in the right parameter (%)", "↑", 100, 1, 1),
+    Column("slots_in_prompt", "Stated facts in the task prompt (%)", "↑", 100, 1, 1),
+    Column("grounded", "Answers without a value that nobody gave (%)", "↑", 100, 1, 1),
+    Column("grounded_values", "Values that somebody gave (%)", "↑", 100, 1, 1),
+)
+LOGIC = (
+    Column("executable", "Runs to the end (%)", "↑", 100, 1, 1),
+    Column("right_refusal", "Impossible commands refused (%)", "↑", 100, 1, 1),
+    Column("wrong_refusal", "Possible commands refused (%)", "↓", 100, 1, 1),
+    Column("worst_f1", "F1, worst of a family", "↑"),
+    Column("paraphrases_right", "Families all right (%)", "↑", 100, 1, 1),
+)
 SECTIONS: tuple[tuple[str, tuple[Column, ...]], ...] = (
-    ("Names", NAMES), ("Order", ORDER), ("Parameters of matched entries", PARAMETERS), ("Whole plan right", WHOLE),
+    ("Names", NAMES), ("Order", ORDER), ("Parameters of matched entries", PARAMETERS), ("Whole plan right", WHOLE), ("Facts of the command", FACTS),
+    ("Logic of the plan", LOGIC),
 )  # fmt: skip
 """Tables with a line per system. A column that no system has a figure for is left out."""
 SHOWN_PAIRS = 15
@@ -56,13 +70,14 @@ def section_columns() -> list[Column]:
 
 
 def sections_markdown(results: Results) -> list[str]:
-    """A table per section."""
+    """A table per section, baselines at its end."""
+    systems = [(system_name(row), row) for row in results.rows] + [(row.system.label, row) for row in results.baselines]
     lines: list[str] = []
     for title, columns in SECTIONS:
         known = [column for column in columns if any(_estimate(row, column).value is not None for row in results.rows)]
         if known:
             heads = (f"{column.heading} {column.better}" for column in known)
-            rows = ([system_name(row), str(row.n), *(_cell(_estimate(row, column), column) for column in known)] for row in results.rows)
+            rows = ([name, str(row.n), *(_cell(_estimate(row, column), column) for column in known)] for name, row in systems)
             lines += _table([title, "n", *heads], rows)
     return lines
 
@@ -103,7 +118,16 @@ def examples_markdown(results: Results) -> list[str]:
     return _table(["Examples of wrong answers", *columns], rows, texts=1 + len(columns)) if kinds else []
 
 
-PARTS: tuple[Callable[[Results], list[str]], ...] = (sections_markdown, names_markdown, substitutions_markdown, examples_markdown)
+def stops_markdown(results: Results) -> list[str]:
+    """Where mission plans stop when they are replayed."""
+    figures = [{(stop["condition"], stop["title"]): stop["n"] for stop in row.breakdown.get("stops", ())} for row in results.rows]
+    total = sum((Counter(stops) for stops in figures), Counter())
+    frequent = sorted(total, key=lambda stop: (-total[stop], *stop))[:SHOWN_PAIRS]
+    rows = ([condition, title or "(no plan)", *(str(stops.get((condition, title), 0)) for stops in figures)] for condition, title in frequent)
+    return _table(["Stops for want of", "at", *(system_name(row) for row in results.rows)], rows, texts=2) if total else []
+
+
+PARTS: tuple[Callable[[Results], list[str]], ...] = (sections_markdown, names_markdown, substitutions_markdown, stops_markdown, examples_markdown)
 
 
 def _table(heads: Sequence[str], rows: Iterable[Sequence[str]], texts: int = 1) -> list[str]:

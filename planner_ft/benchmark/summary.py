@@ -5,23 +5,36 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Sequence
 
-from planner_ft.benchmark.catalogue import CATALOGUE, Metric
+from planner_ft.benchmark.catalogue import CATALOGUE, WORST_CASES, Metric
 from planner_ft.benchmark.metrics import FAILURES
+from planner_ft.benchmark.metrics.paraphrases import worst_cases
 from planner_ft.benchmark.scoring import SampleScore
-from planner_ft.benchmark.statistics import Estimate, bootstrap_ratios, clustered_rate
+from planner_ft.benchmark.statistics import Estimate, bootstrap_mean, bootstrap_ratios, clustered_rate
 
 
 def summarise(scores: Sequence[SampleScore], seed: int) -> dict[str, Estimate]:
     """Every metric of the catalogue over the scored samples, 95 %, families counted as such: Wilson intervals for rates, bootstrap for the others."""
     rates = {metric.name: rate(metric, scores) for metric in CATALOGUE if metric.kind == "rate"}
     others = _resampled([metric for metric in CATALOGUE if metric.kind != "rate"], scores, seed)
-    return {metric.name: (rates | others)[metric.name] for metric in CATALOGUE}
+    return {metric.name: (rates | others)[metric.name] for metric in CATALOGUE} | worst_figures(scores, seed)
 
 
 def rate(metric: Metric, scores: Sequence[SampleScore]) -> Estimate:
     """A rate over those samples that have a value for it."""
     known = [score for score in scores if score.values.get(metric.name) is not None]
     return clustered_rate([bool(score.values[metric.name]) for score in known], [score.family for score in known])
+
+
+def worst_figures(scores: Sequence[SampleScore], seed: int) -> dict[str, Estimate]:
+    """The metrics of phrasing families (`catalogue.WORST_CASES`), each family counting once."""
+    ids, families = [score.id for score in scores], [score.family for score in scores]
+    lowest, right = (worst_cases([float(score.values[name] or 0) for score in scores], ids, families) for name in WORST_CASES.values())
+    names = list(WORST_CASES)
+    mean = bootstrap_mean(list(lowest.values()), list(lowest), seed)
+    return {
+        names[0]: _bounded(Metric(names[0], "mean"), mean, list(lowest)),
+        names[1]: clustered_rate([value == 1 for value in right.values()], list(right)),
+    }
 
 
 def failure_counts(scores: Sequence[SampleScore]) -> dict[str, int]:

@@ -26,5 +26,10 @@ def test_refusals(plan: dict[str, Any] | None, expected: dict[str, Any], right: 
 
 
 def test_the_worst_of_each_family_counts_and_families_of_one_do_not() -> None:
-    assert worst_cases([1.0, 0.5, 0.8, 0.9, 0.2], ["a", "b", "b", "a", "c"]) == {"a": 0.9, "b": 0.5}
-    assert worst_cases([True, False, True, True], ["a", "a", "b", "b"]) == {"a": False, "b": True}
+    assert worst_cases([1.0, 0.5, 0.8, 0.9, 0.2], list("12345"), ["a", "b", "b", "a", "c"]) == {"a": 0.9, "b": 0.5}
+    assert worst_cases([True, False, True, True], list("1234"), ["a", "a", "b", "b"]) == {"a": False, "b": True}
+
+
+def test_repeats_of_one_sample_are_no_paraphrases() -> None:
+    assert worst_cases([1.0, 0.5, 0.3], ["1", "1", "1"], ["a", "a", "a"]) == {}
+    assert worst_cases([1.0, 0.5, 0.3], ["1", "1", "2"], ["a", "a", "a"]) == {"a": 0.3}

@@ -9,9 +9,14 @@ from collections import defaultdict
 from collections.abc import Sequence
 
 
-def worst_cases(values: Sequence[float], families: Sequence[str]) -> dict[str, float]:
-    """The smallest value of each family that has at least two samples; for truths, whether all are true."""
+def worst_cases(values: Sequence[float], samples: Sequence[str], families: Sequence[str]) -> dict[str, float]:
+    """The smallest value of each family that has at least two samples, which are told by id; for truths, whether all are true.
+
+    Of a sample that was answered several times every answer counts.
+    """
     members: dict[str, list[float]] = defaultdict(list)
-    for value, family in zip(values, families, strict=True):
+    ids: dict[str, set[str]] = defaultdict(set)
+    for value, sample, family in zip(values, samples, families, strict=True):
         members[family].append(value)
-    return {family: min(found) for family, found in members.items() if len(found) > 1}
+        ids[family].add(sample)
+    return {family: min(found) for family, found in members.items() if len(ids[family]) > 1}
