@@ -30,6 +30,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--server-python", default=sys.executable, help="interpreter that has llama-cpp-python[server]")
     parser.add_argument("--candidate", default="embedded")
+    parser.add_argument("--exported", type=Path, help="folder of an earlier export with --merge --gguf, instead of making one")
     parser.add_argument("--level", default="mission", choices=("mission", "task"))
     parser.add_argument("--data", type=Path, default=Path("data/mission/test.jsonl"))
     parser.add_argument("--limit", type=int)
@@ -47,18 +48,16 @@ def main() -> None:
 
 def compare(arguments: argparse.Namespace, work: Path) -> dict[str, Any]:
     """Export, serve, ask and compare; files lie below `work`."""
-    from planner_ft.export import ExportSettings, export
-
-    done = export(ExportSettings(arguments.candidate, work / "model", arguments.level, merge=True, gguf=True), print)
-    assert done.gguf is not None
-    with served(arguments.server_python, done.gguf) as url:
-        same_ids = compare_ids(url, done.folder, arguments.level, arguments.prompts)
+    folder = arguments.exported or exported(arguments, work / "model")
+    manifest = json.loads((folder / "manifest.json").read_text())
+    with served(arguments.server_python, folder / manifest["gguf"]["file"], work / "server.log") as url:
+        same_ids = compare_ids(url, folder, arguments.level, arguments.prompts)
         rows = benchmark(url, arguments, work / "served")
-    here = local_answers(done.folder, arguments, work / "here.jsonl")
+    here = local_answers(folder, arguments, work / "here.jsonl")
     theirs = {line["id"]: line for line in read_lines(work / "served" / "predictions.jsonl") if line["configuration"] == "lora"}
     different = [name for name, text in here.items() if theirs[name]["output"] != text]
     return {
-        "manifest": json.loads((done.folder / "manifest.json").read_text()),
+        "manifest": manifest,
         "prompts_with_same_ids": f"{same_ids} of {arguments.prompts}",
         "same_answers": f"{len(here) - len(different)} of {len(here)}",
         "different": different,
@@ -69,15 +68,21 @@ def compare(arguments: argparse.Namespace, work: Path) -> dict[str, Any]:
     }
 
 
+def exported(arguments: argparse.Namespace, folder: Path) -> Path:
+    """The folder of a fresh export."""
+    from planner_ft.export import ExportSettings, export
+
+    return export(ExportSettings(arguments.candidate, folder, arguments.level, merge=True, gguf=True), print).folder
+
+
 @contextlib.contextmanager
-def served(python: str, gguf: Path) -> Iterator[str]:
+def served(python: str, gguf: Path, log: Path) -> Iterator[str]:
     """llama-cpp-python's server with this file, keys and values in float32; yields the root of its API."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     settings = {"host": "127.0.0.1", "port": port, "n_ctx": 4096, "n_threads": 1, "type_k": 0, "type_v": 0, "interrupt_requests": False}
     flags = [text for name, value in settings.items() for text in (f"--{name}", str(value))]
-    log = gguf.with_suffix(".log")
     with open(log, "wb") as stream:
         server = subprocess.Popen([python, "-m", "llama_cpp.server", "--model", str(gguf), "--model_alias", "merged", *flags], stdout=stream, stderr=stream)
     try:

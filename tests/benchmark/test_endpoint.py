@@ -71,7 +71,8 @@ def test_a_server_is_asked_greedily_with_the_prompts_of_local_candidates(server:
 @pytest.mark.parametrize("takes", [True, False])
 def test_repetition_is_not_punished_where_the_server_can_be_told(server: ChatServer, settings: Any, tmp_path: Path, takes: bool) -> None:
     if not takes:
-        server.greet = lambda handler, _body: handler.send(400, {"error": {"message": "Unrecognized request argument: repeat_penalty"}}) or True
+        unknown = {"error": {"message": "Unrecognized request argument: repeat_penalty"}}
+        server.greet = lambda handler, body: "repeat_penalty" in body and (handler.send(400, unknown) or True)
     run_bench(settings())
     assert {body.get("repeat_penalty") for body in server.requests} == {1.0 if takes else None}
     costs = json.loads((tmp_path / "out" / "results.json").read_text())["manifest"]["costs"]["tiny"]
@@ -121,12 +122,12 @@ def test_no_more_questions_are_open_than_allowed(server: ChatServer, settings: A
     assert (server.most_open, len(server.requests)) == (concurrency, COUNT)
 
 
-@pytest.mark.parametrize("form", ["json_schema", "json_object"])
-def test_answers_are_held_to_the_schema_in_the_way_that_the_server_knows(server: ChatServer, settings: Any, form: str) -> None:
+@pytest.mark.parametrize(("form", "status"), [("json_schema", 422), ("json_object", 422), ("json_object", 500)])
+def test_answers_are_held_to_the_schema_in_the_way_that_the_server_knows(server: ChatServer, settings: Any, form: str, status: int) -> None:
     def one_form(handler: Handler, body: Body) -> bool:
         wanted = body.get("response_format")
         if wanted and wanted["type"] != form:
-            handler.send(422, {"detail": "response_format"})
+            handler.send(status, {"detail": "response_format"})
             return True
         if wanted and "probe" in json.dumps(wanted):
             handler.send(200, completion(json.dumps(PROBE_ANSWER)))
@@ -218,7 +219,7 @@ def test_the_key_is_sent_and_written_nowhere(server: ChatServer, data: Path, tmp
         (["--endpoint", "localhost:8000", "--model", "tiny"], "no http URL"),
         (["--endpoint", "http://h/v1", "--model", "tiny", "--candidates", "embedded"], "give one of them"),
         (["--endpoint", "http://h/v1", "--model", "tiny", "--configurations", "base+state"], "state needs our own decoding"),
-        (["--endpoint", "http://h/v1", "--model", "tiny", "--adapter", "x"], "--adapter: the server decides that itself"),
+        (["--endpoint", "http://h/v1", "--model", "tiny", "--adapter", "x"], "--adapter: these go with models that are loaded here"),
         (["--endpoint", "http://h/v1", "--model", "tiny", "--concurrency", "0"], "--concurrency 0: must be between 1"),
         (["--endpoint", "http://h/v1", "--model", "tiny", "--api-key-env", "NO_SUCH_VARIABLE"], "not set"),
     ],

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import json
 import re
+import signal
+import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
@@ -16,7 +19,7 @@ import pytest
 from planner_ft.benchmark.sources import chat_client
 from planner_ft.cli import main
 
-from .chat_server import Act, Body, ChatServer, Handler, asked, chat_server, completion
+from .chat_server import PLAN, Act, Body, ChatServer, Handler, asked, chat_server, completion
 
 COUNT = 6
 KEY = "sk-very-secret"
@@ -141,9 +144,9 @@ def test_the_pause_is_the_one_that_the_server_asks_for(server: ChatServer, run: 
     waited: list[float] = []
     real = chat_client.ChatClient._pause
 
-    def pause(self: Any, attempt: int, asked_for: float | None) -> None:
+    def pause(self: Any, attempt: int, asked_for: float | None) -> bool:
         waited.append(asked_for if asked_for is not None else -1.0)
-        real(self, attempt, 0.0)
+        return real(self, attempt, 0.0)
 
     monkeypatch.setattr(chat_client.ChatClient, "_pause", pause)
     then = (datetime.now(UTC) + timedelta(seconds=90)).strftime("%a, %d %b %Y %H:%M:%S GMT")
@@ -187,3 +190,34 @@ def test_a_model_that_never_ends_is_cut_and_counted(server: ChatServer, run: Any
     assert (status, len(kept)) == (0, COUNT), said
     row = json.loads((tmp_path / "out" / "results.json").read_text())["rows"][0]
     assert row["finish_reasons"] == {"length": COUNT} and row["metrics"]["f1"]["value"] == 0.0
+
+
+def test_a_server_that_counts_no_tokens_is_scored_all_the_same(server: ChatServer, run: Any, tmp_path: Path) -> None:
+    def uncounted(handler: Handler, _body: Body) -> bool:
+        handler.send(200, {"choices": completion(json.dumps(PLAN))["choices"]})
+        return True
+
+    server.act = uncounted
+    status, said, kept = run("--latency-samples", "1")
+    assert (status, len(kept)) == (0, COUNT), said
+    metrics = json.loads((tmp_path / "out" / "results.json").read_text())["rows"][0]["metrics"]
+    assert metrics["f1"]["value"] == 1.0 and metrics["tokens"]["value"] is None
+
+
+def test_ctrl_c_does_not_wait_for_a_server_that_hangs(server: ChatServer, tmp_path: Path) -> None:
+    data = tmp_path / "data.jsonl"
+    data.write_text(json.dumps({"id": "m0", "prompt": "go", "expected": {"tasks": [{"title": "Transit"}]}}) + "\n")
+    hanging = threading.Event()
+
+    def hang(_handler: Handler, _body: Body) -> bool:
+        hanging.set()
+        time.sleep(30)
+        return True
+
+    server.act = hang
+    flags = ["--endpoint", server.url, "--model", "tiny", "--level", "mission", "--data", str(data), "--out", str(tmp_path / "out"), "--timeout", "600"]
+    process = subprocess.Popen([sys.executable, "-m", "planner_ft", "bench", *flags], stderr=subprocess.PIPE, text=True)
+    assert hanging.wait(120)
+    process.send_signal(signal.SIGINT)
+    _out, said = process.communicate(timeout=20)
+    assert process.returncode == 130 and "go on with" in said and "Traceback" not in said

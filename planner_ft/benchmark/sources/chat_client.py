@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import email.utils
+import json
 import random
 import threading
 import time
@@ -59,31 +60,34 @@ class ChatClient:
         self.http = httpx2.Client(headers=headers, timeout=settings.timeout, limits=limits)
         self.stopped = threading.Event()
 
-    def complete(self, body: dict[str, Any], *, stream: bool = False) -> Reply:
+    def complete(self, body: dict[str, Any], *, stream: bool = False, retries: int | None = None) -> Reply:
         """The answer to a chat completions request; `stream` has it sent piece by piece, to know when the first piece came.
 
         Dropped connections, timeouts, rubbish, 429 and 5xx are tried again after growing pauses. Raises Unanswerable when
-        the question is too long, Rejected when the server refuses, PlannerError when every attempt has failed.
+        the question is too long, Rejected when the server refuses, PlannerError when every attempt has failed; there are as
+        many as the settings say, or one more than `retries`.
         """
+        retries = self.settings.retries if retries is None else retries
         if stream:
             body = {**body, "stream": True, "stream_options": {"include_usage": True}}
-        for attempt in range(1, self.settings.retries + 2):
+        for attempt in range(1, retries + 2):
             try:
                 return replace(self._exchange(body), attempts=attempt)
             except _Passing as problem:
-                if attempt > self.settings.retries or self.stopped.is_set():
+                if attempt > retries or self._pause(attempt, problem.wait):
                     times = f" ({attempt} times in a row)" if attempt > 1 else ""
                     raise PlannerError(f"{self.settings.root}: the server {problem}{times}; look after the server and go on: {KEPT}") from None
-                self._pause(attempt, problem.wait)
         raise AssertionError("unreachable: the last attempt returns or raises")
 
     def models(self) -> list[dict[str, Any]] | None:
         """What the server says it serves (GET /models), None where it does not say."""
         import httpx2
 
+        deadline = time.perf_counter() + self.settings.timeout
         try:
-            value = self.http.get(f"{self.settings.root}/models").json()
-        except (httpx2.HTTPError, ValueError):
+            with self.http.stream("GET", f"{self.settings.root}/models") as response:
+                value = json.loads(b"".join(within(response.iter_bytes(), deadline)))
+        except (httpx2.HTTPError, httpx2.InvalidURL, BadReply, ValueError):
             return None
         found = value.get("data") if isinstance(value, dict) else None
         return [entry for entry in found if isinstance(entry, dict)] if isinstance(found, list) else None
@@ -111,6 +115,8 @@ class ChatClient:
                 return read_events(chunks, started) if events else read_whole(chunks, started)
         except BadReply as problem:
             raise _Passing(self._without_key(str(problem))) from None
+        except httpx2.InvalidURL as error:
+            raise PlannerError(f"--endpoint {self.settings.root}: no http URL ({error}); give the API's root, such as http://127.0.0.1:8000/v1") from None
         except httpx2.TimeoutException:
             raise _Passing(f"did not answer within {self.settings.timeout:g} s") from None
         except httpx2.HTTPError as error:
@@ -140,11 +146,12 @@ class ChatClient:
         """Servers like to repeat a key that they refuse."""
         return text.replace(self.key, "***") if self.key else text
 
-    def _pause(self, attempt: int, asked: float | None) -> None:
+    def _pause(self, attempt: int, asked: float | None) -> bool:
+        """Wait before the next attempt; return whether there shall be none, because another thread's question has failed for good."""
         if asked is not None and asked > LONGEST_WAIT:
             raise PlannerError(f"{self.settings.root}: the server asks to wait for {asked:.0f} s; go on then: {KEPT}")
         backoff = min(LONGEST_PAUSE, FIRST_PAUSE * 2 ** (attempt - 1))
-        self.stopped.wait(asked if asked is not None else backoff * random.uniform(0.5, 1.0))
+        return self.stopped.wait(asked if asked is not None else backoff * random.uniform(0.5, 1.0))
 
 
 def _asked_wait(header: str | None) -> float | None:

@@ -48,10 +48,13 @@ def endpoint_plan(settings: BenchSettings, endpoint: EndpointSettings) -> Plan:
 
 
 def _refuse_local_flags(settings: BenchSettings) -> None:
-    given = {"--adapter": bool(settings.adapters), "--quantization": settings.quantization is not None, "--device": settings.device != "auto"}
+    given = {
+        "--adapter": bool(settings.adapters), "--quantization": settings.quantization is not None, "--device": settings.device != "auto",
+        "--planning-samples": settings.planning_samples > 0,
+    }  # fmt: skip
     flags = [flag for flag, is_given in given.items() if is_given]
     if flags:
-        raise PlannerError(f"{', '.join(flags)}: the server decides that itself; leave out what goes with --candidates when you give --endpoint")
+        raise PlannerError(f"{', '.join(flags)}: these go with models that are loaded here; leave them out when you give --endpoint")
 
 
 def _configuration(text: str) -> Configuration:
@@ -183,25 +186,23 @@ def _body(endpoint: EndpointSettings, messages: list[dict[str, str]], max_tokens
 def _accepted_fields(client: ChatClient, endpoint: EndpointSettings) -> dict[str, Any]:
     """The fields beyond the usual ones that the server takes. Raises PlannerError when it does not answer at all."""
     body = _body(endpoint, [{"role": "user", "content": GREETING}], 1)
-    try:
-        client.complete({**body, **UNPENALISED})
-    except (Rejected, Unanswerable) as problem:
-        if isinstance(problem, Rejected) and problem.status not in (400, 422):
-            raise
-        return {}
-    return UNPENALISED
+    client.complete(body)
+    return UNPENALISED if _heeded(client, {**body, **UNPENALISED}) is not None else {}
 
 
 def _schema_form(client: ChatClient, endpoint: EndpointSettings) -> str:
     """The first way of asking for a schema that the server heeds. Raises PlannerError when it heeds none."""
+    body = _body(endpoint, [{"role": "user", "content": GREETING}], 64)
     for form in FORMS:
-        body = _body(endpoint, [{"role": "user", "content": GREETING}], 64)
-        try:
-            reply = client.complete({**body, "response_format": response_format(form, PROBE_SCHEMA)})
-        except (Rejected, Unanswerable) as problem:
-            if isinstance(problem, Rejected) and problem.status not in (400, 422):
-                raise
-            continue
-        if is_probe_answer(reply.text):
+        text = _heeded(client, {**body, "response_format": response_format(form, PROBE_SCHEMA)})
+        if text is not None and is_probe_answer(text):
             return form
     raise PlannerError(f"{endpoint.root}: the server does not hold answers to a JSON schema (response_format); leave out the configurations with +schema")
+
+
+def _heeded(client: ChatClient, body: dict[str, Any]) -> str | None:
+    """The answer to a request with a field that the server may not know, None where it fails: some answer even that with HTTP 500."""
+    try:
+        return client.complete(body, retries=1).text
+    except (PlannerError, Unanswerable):
+        return None
