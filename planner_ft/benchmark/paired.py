@@ -89,10 +89,10 @@ def _difference(metric: Metric, terms: Sequence[Sequence[float]], sums: Floats, 
     """The difference with its bootstrap interval (Efron 1979).
 
     Where no sample differs no resample does, and the bootstrap would be sure of a difference of nothing after three samples. A
-    metric within [0, 1] then takes the bound of the share of samples that may differ.
+    share of something then takes the bound of the share of samples that may differ.
     """
     differs = [tuple(term[:2]) != tuple(term[2:]) for term in terms]
-    if not any(differs) and max(value for term in terms for value in term) <= 1:
+    if not any(differs) and metric.fraction:
         most = clustered_rate(differs, families).high
         assert most is not None
         return Estimate(value, -most, most)

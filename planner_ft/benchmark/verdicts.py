@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from planner_ft.benchmark.catalogue import CATALOGUE
 from planner_ft.benchmark.paired import Paired, holm, is_real
 from planner_ft.benchmark.statistics import Estimate
 
@@ -13,9 +14,12 @@ Verdict = Literal["better", "worse", "higher", "lower", "equal", "not told apart
 
 DEFAULT_METRICS = ("f1", "exact_sequence", "parameters", "whole_plan", "hallucination", "strict_valid")
 """What systems are compared by where nothing else is asked for."""
-LOWER_IS_BETTER = frozenset({"hallucination", "hallucination_with_unparsed", "hallucination_without_unparsed", "invented", "latency_s", "forward_passes"})
-NEITHER = frozenset({"tokens", "prompt_tokens"})
-UNBOUNDED = frozenset({"latency_s", "tokens", "forward_passes", "prompt_tokens", "first_token_s", "time_s"})
+LOWER_IS_BETTER = frozenset({
+    "hallucination", "hallucination_with_unparsed", "hallucination_without_unparsed", "edit_distance", "step_edit_distance", "wrong_refusal",
+    "latency_s", "forward_passes",
+})  # fmt: skip
+NEITHER = frozenset({"tokens"})
+UNBOUNDED = frozenset(metric.name for metric in CATALOGUE if not metric.fraction)
 """Metrics that are no share of anything."""
 MARGIN = 0.05
 """Two systems whose difference is known to be smaller than this, at 95 %, are called equal."""

@@ -112,6 +112,9 @@ def test_no_difference_in_few_samples_is_no_equality() -> None:
     (small,), (large,) = (adjusted([("a", "b", paired(MEAN, one, one, 0))]) for one in (few, many))
     assert small.verdict == "not told apart" and large.verdict == "equal"
     assert small.paired.difference.high == pytest.approx(0.2775, abs=1e-3)
+    pooled = {name: [{"id": name, "hits": 3, "tries": 4}] for name in few}
+    (ratio,) = adjusted([("a", "b", paired(RATIO, pooled, pooled, 0))])
+    assert ratio.verdict == "not told apart"
 
 
 def test_verdicts_know_which_way_is_better() -> None:
@@ -126,3 +129,15 @@ def test_verdicts_know_which_way_is_better() -> None:
     assert said("latency_s", 0.01, 0.5) == "not told apart"
     assert verdict(paired(MEAN, {}, {}, 0), None) == "not compared"
     assert paired(MEAN, {}, {}, 0).difference == Estimate(None)
+
+
+def test_verdicts_and_tables_agree_on_which_way_is_better() -> None:
+    from planner_ft.benchmark.catalogue import METRICS
+    from planner_ft.benchmark.layout import COLUMNS, MORE_COLUMNS
+    from planner_ft.benchmark.sections import section_columns
+    from planner_ft.benchmark.verdicts import LOWER_IS_BETTER, NEITHER
+
+    arrows = {column.metric: column.better for column in (*COLUMNS, *MORE_COLUMNS, *section_columns()) if column.metric in METRICS}
+    assert {metric for metric, arrow in arrows.items() if arrow == "↓"} == LOWER_IS_BETTER & set(arrows)
+    assert {metric for metric, arrow in arrows.items() if not arrow} == NEITHER & set(arrows)
+    assert set(METRICS) >= LOWER_IS_BETTER | NEITHER
