@@ -75,7 +75,7 @@ def measured_in(folder: Path, record: RunRecord) -> list[Measured]:
     """The systems of a run with their answers and timed queries, read without locking: a line that is being written is left out."""
     from planner_ft.benchmark.assembly import Measured
 
-    answers, timed = (_by_key(folder / name) for name in (PREDICTIONS, LATENCY))
+    answers, timed = (records_by_key(folder / name) for name in (PREDICTIONS, LATENCY))
     return [
         Measured(system, answers.get(record.keys[name], {}), timed.get(record.keys[name], {}), *costs_of(folder, record.costs, system))
         for name, system in record.systems.items()
@@ -86,10 +86,11 @@ def costs_of(folder: Path, costs: Mapping[str, Mapping[str, Any]], system: Syste
     """What run.json has on a system's candidate, and the system's lines of planning.jsonl."""
     beside = costs.get(system.candidate, {})
     key = beside.get("planning_keys", {}).get(system.configuration)
-    return beside, list(_by_key(folder / PLANNING).get(key, {}).values()) if key else []
+    return beside, list(records_by_key(folder / PLANNING).get(key, {}).values()) if key else []
 
 
-def _by_key(path: Path) -> dict[str, dict[str, dict[str, Any]]]:
+def records_by_key(path: Path) -> dict[str, dict[str, dict[str, Any]]]:
+    """The records of a file by key and id; a line that is not whole is left out."""
     found: dict[str, dict[str, dict[str, Any]]] = {}
     if path.is_file():
         for _number, line, _problem in iterate_jsonl(path):

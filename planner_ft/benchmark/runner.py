@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,8 @@ from planner_ft.benchmark.outputs import parse_output
 from planner_ft.benchmark.plan import Job, Plan, make_plan
 from planner_ft.benchmark.planning_time import planning_key, planning_log, time_planning
 from planner_ft.benchmark.predictions import Line, RecordLog, latency_log, prediction_log
-from planner_ft.benchmark.record import add_costs, begin_run, costs_of, read_run
+from planner_ft.benchmark.ranks import ALONE, Ranks, remove_parts, take_in, take_in_abandoned
+from planner_ft.benchmark.record import add_costs, begin_run, costs_of, read_run, records_by_key
 from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
@@ -24,45 +26,82 @@ Progress = Callable[[str, int, int], None]
 """Called with a label, queries done and queries in all of that part of the run."""
 
 
-def run_bench(settings: BenchSettings, progress: Progress = lambda _label, _done, _total: None) -> Results:
+def run_bench(settings: BenchSettings, progress: Progress = lambda _label, _done, _total: None, ranks: Ranks = ALONE) -> Results:
     """Benchmark every candidate in every configuration and write results.json and the tables into `settings.folder`.
 
-    Answers are written as they are made; with `resume` those that are there are not made again. Raises PlannerError.
+    Answers are written as they are made; with `resume` those that are there are not made again. With several processes this
+    is for the first, and `help_bench` for the others. Raises PlannerError.
     """
     if not (settings.resume or settings.overwrite):
         folder.check_folder(settings.folder, folder.ALL, "give --resume to go on, --overwrite to start anew, or another --out")
     folder.check_writable(settings.folder)
-    plan = make_plan(settings)
+    plan = make_plan(ranks.settings(settings))
     started = time.time()
     if settings.overwrite:
         folder.clear(settings.folder)
+        remove_parts(settings.folder)
     with prediction_log(settings.folder) as predictions, latency_log(settings.folder) as latencies:
+        take_in_abandoned(settings.folder, predictions)
         begin_run(plan, predictions)
         reused = len(predictions.records)
+        ranks.wait()
+        # The others read what is there: every share is cut from the same list.
+        ranks.wait()
         for jobs in plan.by_candidate():
-            _run_candidate(plan, jobs, predictions, latencies, progress)
+            _run_candidate(plan, jobs, predictions, latencies, progress, ranks)
             _time_planning(plan, jobs, progress)
+            ranks.wait()
+        remove_parts(settings.folder)
         results = _results(plan, predictions, latencies, {"seconds": round(time.time() - started, 1), "reused_predictions": reused})
         folder.write_results(settings.folder, results)
     return results
 
 
-def _run_candidate(plan: Plan, jobs: list[Job], predictions: RecordLog, latencies: RecordLog, progress: Progress) -> None:
+def help_bench(settings: BenchSettings, ranks: Ranks) -> None:
+    """Make this process's share of the answers of a run that another process leads. Raises PlannerError."""
+    plan = make_plan(ranks.settings(settings))
+    # The first process has refused or cleared the folder and taken in what lay there before anybody goes on.
+    ranks.wait()
+    done = records_by_key(settings.folder / folder.PREDICTIONS)
+    ranks.wait()
+    with ranks.log(settings.folder) as own:
+        for jobs in plan.by_candidate():
+            missing = {job.name: ranks.share(_without(plan.data.samples, done.get(job.key, {}))) for job in jobs}
+            if any(missing.values()):
+                with _opened(plan, jobs) as source:
+                    for job in jobs:
+                        _answer(plan, job, missing[job.name], source, own, lambda _label, _done, _total: None)
+            ranks.wait()
+            # Timing wants a quiet machine: only the first process goes on until here.
+            ranks.wait()
+
+
+def _run_candidate(plan: Plan, jobs: list[Job], predictions: RecordLog, latencies: RecordLog, progress: Progress, ranks: Ranks) -> None:
     """Make what is missing of one candidate; its model is loaded once, and only if anything is."""
     timed = plan.data.samples[: plan.settings.latency_samples]
-    missing = {job.name: _without(plan.data.samples, predictions, job) for job in jobs}
+    missing = {job.name: ranks.share(_without(plan.data.samples, predictions.of_key(job.key))) for job in jobs}
     # The repeats of a system take the time of the first.
-    untimed = {job.name: _without(timed, latencies, job) for job in jobs if job.sampling is None or job.sampling.repeat == 1}
+    first = [job for job in jobs if job.sampling is None or job.sampling.repeat == 1]
+    untimed = {job.name: _without(timed, latencies.of_key(job.key)) for job in first}
     if not any(missing.values()) and not any(untimed.values()):
+        ranks.wait()
         return
     progress(f"{jobs[0].candidate.name}: loading", 0, 0)
-    source = open_source(plan, jobs)
-    try:
+    with _opened(plan, jobs) as source:
         for job in jobs:
             _answer(plan, job, missing[job.name], source, predictions, progress)
-        for job in [job for job in jobs if job.name in untimed]:
+        ranks.wait()
+        take_in(plan.settings.folder, predictions)
+        for job in first:
             _time(job, untimed[job.name], len(timed), source, latencies, progress)
         add_costs(plan.settings.folder, jobs[0].candidate.name, source.costs())
+
+
+@contextlib.contextmanager
+def _opened(plan: Plan, jobs: list[Job]) -> Iterator[AnswerSource]:
+    source = open_source(plan, jobs)
+    try:
+        yield source
     finally:
         source.release()
 
@@ -77,8 +116,7 @@ def _time_planning(plan: Plan, jobs: list[Job], progress: Progress) -> None:
     add_costs(plan.settings.folder, jobs[0].candidate.name, {"planning_keys": keys, "planning_problem": problem})
 
 
-def _without(samples: tuple[Sample, ...], log: RecordLog, job: Job) -> list[Sample]:
-    done = log.of_key(job.key)
+def _without(samples: tuple[Sample, ...], done: Mapping[str, Line]) -> list[Sample]:
     return [sample for sample in samples if sample.id not in done]
 
 

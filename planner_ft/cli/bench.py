@@ -92,6 +92,8 @@ def bench(
     common = {"device": device, "batch_size": _batch_size(batch_size), "seed": seed, "resume": resume, "overwrite": overwrite}
     served = {"endpoint": endpoint, "model": model, "api_key_env": api_key_env, "concurrency": concurrency, "timeout": timeout, "retries": retries}
     served = {name: value for name, value in served.items() if value is not None}
+    if suite is not None or gate is not None:
+        _check_alone("--suite" if suite is not None else "--gate")
     if suite is not None:
         _run_suite(suite, out, named | served, common, processes)
         return
@@ -100,10 +102,15 @@ def bench(
         return
     named, server = with_endpoint(named, served)
     settings = _settings(named, out=out, endpoint=server, **common)
-    from planner_ft.benchmark.runner import run_bench
+    from planner_ft.benchmark.ranks import join_ranks
+    from planner_ft.benchmark.runner import help_bench, run_bench
 
+    ranks = join_ranks()
+    if not ranks.leads:
+        help_bench(settings, ranks)
+        return
     with interruptible(settings.folder) as progress:
-        results = run_bench(settings, progress)
+        results = run_bench(settings, progress, ranks)
     _show(results, settings.folder)
 
 
@@ -181,6 +188,14 @@ def _settings(named: dict[str, Any], **common: Any) -> BenchSettings:
     values = {**named, "level": check_level(named["level"])}
     values |= {name: _split(values[name]) for name in ("candidates", "configurations") if name in values}
     return BenchSettings(adapters=tuple(values.pop("adapter", ())), **values, **common)
+
+
+def _check_alone(flag: str) -> None:
+    from planner_ft.benchmark.ranks import started_with_others
+    from planner_ft.support.errors import PlannerError
+
+    if started_with_others():
+        raise PlannerError(f"{flag} is started once, not by accelerate; a suite shares its runs itself with --processes N")
 
 
 def _run_suite(path: Path, out: Path | None, named: dict[str, Any], common: dict[str, Any], processes: int) -> None:

@@ -7,9 +7,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+from planner_ft.support.processes import end_with_parent
+
 LOG = "log.txt"
-DEATH_SIGNAL = 1
-"""PR_SET_PDEATHSIG of Linux."""
 PATIENCE = 20.0
 """Seconds that an ended process has to go by itself."""
 
@@ -22,7 +22,7 @@ class Process:
         log.parent.mkdir(parents=True, exist_ok=True)
         with open(log, "wb") as stream:
             self.child = subprocess.Popen(
-                command(arguments, processes), stdin=subprocess.DEVNULL, stdout=stream, stderr=subprocess.STDOUT, preexec_fn=_end_with_parent
+                command(arguments, processes), stdin=subprocess.DEVNULL, stdout=stream, stderr=subprocess.STDOUT, preexec_fn=end_with_parent
             )
 
     def running(self) -> bool:
@@ -61,7 +61,8 @@ def command(arguments: list[str], processes: int = 1) -> list[str]:
     ours = ["-m", "planner_ft", *arguments]
     if processes == 1:
         return [sys.executable, *ours]
-    return [sys.executable, "-m", "accelerate.commands.launch", "--num_processes", str(processes), *ours]
+    settings = ["--num_processes", str(processes), "--num_machines", "1", "--mixed_precision", "no", "--dynamo_backend", "no", "--multi_gpu"]
+    return [sys.executable, "-m", "accelerate.commands.launch", *settings, *ours]
 
 
 def last_words(log: Path) -> str:
@@ -69,11 +70,3 @@ def last_words(log: Path) -> str:
     lines = [line.strip() for line in log.read_text(encoding="utf-8", errors="replace").splitlines() if line.strip()]
     ours = [line.removeprefix("plannerft: ") for line in lines if line.startswith("plannerft: ")]
     return (ours or lines or [""])[-1]
-
-
-def _end_with_parent() -> None:
-    """Have the system kill this process with the one that started it: an orphan would hold the folder's lock."""
-    if sys.platform == "linux":
-        import ctypes
-
-        ctypes.CDLL(None).prctl(DEATH_SIGNAL, signal.SIGKILL)
