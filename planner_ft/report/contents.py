@@ -12,7 +12,7 @@ from planner_ft.benchmark.results import System as RowSystem
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.report.charts import Chart
 from planner_ft.report.figures import charts, system_charts
-from planner_ft.report.metrics import all_metrics_table, estimate, group_table, main_table
+from planner_ft.report.metrics import cost_table, estimate, group_table, main_table, metric_tables
 from planner_ft.report.runs import Record, System, TestSet
 from planner_ft.report.significance import Significance, significance
 from planner_ft.report.tables import Table
@@ -35,7 +35,8 @@ class Section:
     main: Table
     legend: str
     extra: tuple[Table, ...]
-    all_metrics: Table
+    differences: Table | None
+    all_metrics: tuple[Table, ...]
     charts: tuple[Chart, ...]
     per_system: tuple[tuple[str, tuple[Chart, ...]], ...]
     notes: tuple[str, ...]
@@ -43,7 +44,7 @@ class Section:
     @property
     def tables(self) -> tuple[Table, ...]:
         """Every table, in the order of the page."""
-        return (self.main, *self.extra, self.all_metrics)
+        return (self.main, *self.extra, *([self.differences] if self.differences else []), *self.all_metrics)
 
     @property
     def figures(self) -> tuple[Chart, ...]:
@@ -54,12 +55,20 @@ class Section:
 def section(tests: TestSet) -> Section:
     """The content of a test set's section."""
     found = significance(tests)
-    extra = [table for table in (found.table, group_table(tests)) if table is not None]
+    extra = [table for table in (cost_table(tests), group_table(tests)) if table is not None]
     of_systems = [(system.name, tuple(system_charts(tests, system))) for system in tests.systems if not system.is_baseline]
     return Section(
-        tests, tuple(_summary(tests, found)), main_table(tests, found.marks), found.legend, tuple(extra), all_metrics_table(tests), tuple(charts(tests)),
-        tuple((name, of_system) for name, of_system in of_systems if of_system), tuple(_notes(tests)),
-    )  # fmt: skip
+        tests,
+        summary=tuple(_summary(tests, found)),
+        main=main_table(tests, found.marks),
+        legend=found.legend,
+        extra=tuple(extra),
+        differences=found.table,
+        all_metrics=tuple(metric_tables(tests)),
+        charts=tuple(charts(tests)),
+        per_system=tuple((name, of_system) for name, of_system in of_systems if of_system),
+        notes=tuple(_notes(tests)),
+    )
 
 
 def _summary(tests: TestSet, found: Significance) -> list[Sentence]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from planner_ft.benchmark.costs import QUANTILES, quantile
 from planner_ft.benchmark.layout import heading
 from planner_ft.benchmark.metrics import FAILURES
 from planner_ft.benchmark.metrics.failures import PUBLISHED
@@ -16,13 +17,12 @@ from planner_ft.report.names import Confusion, confusion
 from planner_ft.report.runs import System, TestSet
 from planner_ft.vocabulary.plans import list_key
 
-UNIT = {"mission": "tasks", "task": "steps"}
-QUANTILES = (("median", 0.5), ("p90", 0.9), ("p99", 0.99))
+UNIT, AGENT = {"mission": "tasks", "task": "steps"}, {"mission": "Mission Agent", "task": "Task Agent"}
 
 
 def charts(tests: TestSet) -> list[Chart]:
     """The figures over all systems for which the runs hold something, in the order of the page."""
-    found = [f1_bars(tests), failure_matrix(tests), latency_dots(tests), planning_lines(tests)]
+    found = [f1_bars(tests), failure_matrix(tests), stop_matrix(tests), latency_dots(tests), planning_lines(tests), latency_lines(tests)]
     return [chart for chart in found if chart is not None]
 
 
@@ -80,14 +80,49 @@ def latency_dots(tests: TestSet) -> Dots | None:
     for system in tests.systems:
         seconds = [score["latency_s"] for score in system.scores.values() if isinstance(score.get("latency_s"), int | float)]
         if seconds:
-            rows.append(DotRow(system.name, tuple(float(np.quantile(seconds, share)) for _name, share in QUANTILES), f"n = {len(seconds)}"))
+            rows.append(DotRow(system.name, tuple(quantile(seconds, share).value for _name, share in QUANTILES), f"n = {len(seconds)}"))
     if not rows:
         return None
     caption = "Seconds of one query, one at a time after a warm-up. With few queries the 99th percentile is the slowest one."
     return Dots(f"{tests.key}-latency", "Latency of one query", caption, "seconds", tuple(name for name, _share in QUANTILES), tuple(rows))
 
 
+def stop_matrix(tests: TestSet) -> Matrix | None:
+    """Where replayed plans stop, and for want of what."""
+    found = [(system, system.row.get("stops") or []) for system in tests.systems if isinstance(system.row.get("stops"), list)]
+    total: Counter[str] = Counter()
+    for _system, stops in found:
+        for stop in stops:
+            total[_stop(stop)] += stop["n"]
+    if not total:
+        return None
+    rows = [name for name, _count in total.most_common()]
+    counts = [{_stop(stop): stop["n"] for stop in stops} for _system, stops in found]
+    cells = tuple(tuple(of_system.get(row, 0) for of_system in counts) for row in rows)
+    caption = "Plans replayed against what each task needs and gives: where they stop first, and for want of what."
+    return Matrix(
+        f"{tests.key}-stops", "Plans that do not run to the end", caption, "Stops", tuple(rows), tuple(system.name for system, _stops in found), cells
+    )
+
+
+def _stop(stop: Mapping[str, object]) -> str:
+    return f"{stop.get('title') or '(no plan)'}: {stop.get('condition')}"
+
+
 def planning_lines(tests: TestSet) -> Lines | None:
+    """Seconds to plan a mission of m tasks with both agents, where a run has timed it."""
+    series = []
+    for system in tests.systems:
+        entries = (system.row.get("costs") or {}).get("planning") or []
+        points = tuple(Point(entry["tasks"], entry["seconds"]["value"], entry["seconds"]["low"], entry["seconds"]["high"], entry["n"]) for entry in entries)
+        series += [Series(system.name, points)] if points else []
+    if not series:
+        return None
+    caption = "Mean seconds from a command to tasks and skills, both agents; upright strokes are 95 % intervals."
+    return Lines(f"{tests.key}-planning", "Planning time by number of tasks", caption, "tasks in the plan", "seconds", tuple(series))
+
+
+def latency_lines(tests: TestSet) -> Lines | None:
     """Mean time of a query by the number of tasks (steps) of the expected plan."""
     series = []
     for system in tests.systems:
@@ -97,13 +132,12 @@ def planning_lines(tests: TestSet) -> Lines | None:
             if isinstance(score.get("latency_s"), int | float) and isinstance(entries, list):
                 timed.setdefault(len(entries), []).append(score["latency_s"])
         points = tuple(_point(size, timed[size]) for size in sorted(timed))
-        if points:
-            series.append(Series(system.name, points))
+        series += [Series(system.name, points)] if points else []
     if not series:
         return None
-    unit = UNIT[tests.level]
-    caption = f"Mean seconds of a query by the number of {unit} in the expected plan; upright strokes reach from the fastest to the slowest query."
-    return Lines(f"{tests.key}-planning", f"Planning time by number of {unit}", caption, f"{unit} in the expected plan", "seconds", tuple(series))
+    unit, agent = UNIT[tests.level], AGENT[tests.level]
+    caption = f"Mean seconds of a query of the {agent} by the number of {unit} in the expected plan; upright strokes reach from the fastest to the slowest."
+    return Lines(f"{tests.key}-latency-by-size", f"Latency by number of {unit}", caption, f"{unit} in the expected plan", "seconds", tuple(series))
 
 
 def _point(size: int, seconds: Sequence[float]) -> Point:

@@ -8,8 +8,11 @@ from typing import Any
 
 from planner_ft.benchmark import layout, published
 from planner_ft.benchmark.catalogue import CATALOGUE
+from planner_ft.benchmark.costs import QUANTILES
 from planner_ft.benchmark.layout import Column, heading
+from planner_ft.benchmark.sections import SECTIONS, section_columns
 from planner_ft.benchmark.statistics import Estimate
+from planner_ft.report.charts import number
 from planner_ft.report.runs import System, TestSet
 from planner_ft.report.tables import Cell, Table, TableRow
 
@@ -19,12 +22,8 @@ RATES = frozenset(metric.name for metric in CATALOGUE if metric.kind == "rate")
 
 
 def columns() -> dict[str, Column]:
-    """Every column that the layout of the benchmark's tables knows, by metric."""
-    found: dict[str, Column] = {}
-    for value in vars(layout).values():
-        if isinstance(value, tuple):
-            found.update({column.metric: column for column in value if isinstance(column, Column)})
-    return found
+    """Every column of the benchmark's tables, by metric; the headings of the first tables say most by themselves."""
+    return {one.metric: one for one in (*section_columns(), *layout.COLUMNS, *layout.MORE_COLUMNS)}
 
 
 def column(metric: str, known: dict[str, Column]) -> Column:
@@ -56,19 +55,46 @@ def main_table(tests: TestSet, marks: dict[tuple[str, str], str]) -> Table:
     return Table(f"{tests.key}-main", "Systems", "In brackets 95 % intervals.", "System", heads, tuple(rows))
 
 
-def all_metrics_table(tests: TestSet) -> Table:
-    """Every metric of the runs, a row each, a column per system."""
+def metric_tables(tests: TestSet) -> list[Table]:
+    """Every metric of the runs, a row each, a column per system, in the sections of table.md."""
     known = columns()
-    order = [*known, *(metric.name for metric in CATALOGUE)]
-    names = list(dict.fromkeys(name for system in tests.systems for name in system.row.get("metrics", {})))
-    names.sort(key=lambda name: order.index(name) if name in order else len(order))
+    named = {one.metric for _title, of_section in SECTIONS for one in of_section}
+    others = [name for name in dict.fromkeys(name for system in tests.systems for name in system.row.get("metrics", {})) if name not in named]
+    parts = [*SECTIONS, ("Output and cost", tuple(column(name, known) for name in others))]
+    tables = [_metric_table(tests, title, of_section) for title, of_section in parts]
+    return [table for table in tables if table.rows]
+
+
+def _metric_table(tests: TestSet, title: str, shown: Iterable[Column]) -> Table:
     rows = []
-    for name in names:
-        one = column(name, known)
-        cells = tuple(figure_cell(one, estimate(system, name)) for system in tests.systems)
+    for one in shown:
+        cells = tuple(figure_cell(one, estimate(system, one.metric)) for system in tests.systems)
         if any(cell.text != layout.NOTHING for cell in cells):
             rows.append(TableRow(f"{one.heading} {one.better}".strip(), cells))
-    return Table(f"{tests.key}-metrics", "All metrics", "In brackets 95 % intervals.", "Metric", tuple(system.name for system in tests.systems), tuple(rows))
+    name = f"{tests.key}-{title.lower().replace(' ', '-')}"
+    return Table(name, title, "", "Metric", tuple(system.name for system in tests.systems), tuple(rows))
+
+
+def cost_table(tests: TestSet) -> Table | None:
+    """Quantiles of latency, time to first token, throughput, loading and memory, as far as they were measured."""
+    found = [(system, system.row["costs"]) for system in tests.systems if isinstance(system.row.get("costs"), dict) and system.row["costs"]]
+    if not found:
+        return None
+    rows = []
+    for system, costs in found:
+        quantiles = costs.get("latency_s") or {}
+        figures = [*(quantiles.get(name) for name, _share in QUANTILES), costs.get("first_token_s"), costs.get("tokens_per_s")]
+        plain = [costs.get("load_s"), costs.get("adapter_swap_s"), costs["peak_memory_bytes"] / 2**20 if costs.get("peak_memory_bytes") else None]
+        rows.append(TableRow(system.name, (*(_cost(figure or {}) for figure in figures), *(_cost({"value": value}) for value in plain))))
+    heads = (*(f"Latency {name} (s)" for name, _share in QUANTILES), "First token (s)", "Tokens/s", "Load (s)", "Adapter switch (s)", "Peak memory (MiB)")
+    caption = "One query at a time after a warm-up. In brackets 95 % intervals; – where too few queries were timed to know a bound."
+    return Table(f"{tests.key}-cost", "Cost", caption, "System", heads, tuple(rows))
+
+
+def _cost(figure: dict[str, Any]) -> Cell:
+    value, low, high = (figure.get(name) for name in ("value", "low", "high"))
+    interval = "" if low is None and high is None else f"[{number(low)}, {number(high)}]"
+    return Cell(number(value), interval, bounds=(value, low, high))
 
 
 def group_table(tests: TestSet) -> Table | None:

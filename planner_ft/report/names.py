@@ -10,7 +10,7 @@ from planner_ft.benchmark.metrics.counts import Counts
 from planner_ft.benchmark.metrics.names import counts_by_name
 from planner_ft.benchmark.metrics.substitutions import substitutions
 from planner_ft.report.differences import entries_of
-from planner_ft.report.runs import System, TestSet
+from planner_ft.report.runs import Record, System, TestSet
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,9 @@ class Confusion:
 
 
 def confusion(tests: TestSet, system: System) -> Confusion | None:
-    """Counts of one system; None where its answers, the test data or the vocabulary are not there."""
+    """Counts of one system: those that the run recorded, else counted here; None where its answers, the data or the vocabulary are not there."""
+    if isinstance(system.row.get("per_name"), list) and isinstance(system.row.get("substitutions"), list):
+        return _recorded(system.row)
     if not tests.samples or not system.answers or tests.vocabulary is None:
         return None
     names: dict[str, Counts] = {}
@@ -34,3 +36,8 @@ def confusion(tests: TestSet, system: System) -> Confusion | None:
             names[name] = Counts(before.right + counts.right, before.predicted + counts.predicted, before.expected + counts.expected)
         replaced.update(substitutions(align(tests.level, expected, predicted, tests.vocabulary)))
     return Confusion(names, replaced)
+
+
+def _recorded(row: Record) -> Confusion:
+    names = {str(line["name"]): Counts(line["right"], line["predicted"], line["expected"]) for line in row["per_name"]}
+    return Confusion(names, Counter({(line["expected"], line["predicted"]): line["n"] for line in row["substitutions"]}))

@@ -24,7 +24,8 @@ class System:
     """One row of a run: a candidate in a configuration, with its scores and answers by sample id. `name` tells it from all others.
 
     Where a system answered several times, `repeats` has all scores and `answers` the first answers. `jobs` are what the
-    run's answers depend on (digests of model, adapter, data ...), by job name.
+    run's answers depend on (digests of model, adapter, data ...), by job name. `alias` is the candidate, told
+    from that of other runs where several have the same row.
     """
 
     name: str
@@ -33,6 +34,7 @@ class System:
     repeats: dict[str, list[Record]] = field(default_factory=dict)
     answers: dict[str, Record] = field(default_factory=dict)
     jobs: dict[str, Any] = field(default_factory=dict)
+    alias: str = ""
 
     @functools.cached_property
     def scores(self) -> dict[str, Record]:
@@ -208,8 +210,9 @@ def _systems(runs: list[_Run]) -> list[System]:
     systems = []
     for run, row in [*rows, *reversed(baselines.values())]:
         key, label = (str(row.get("candidate")), str(row.get("configuration"))), _label(row)
-        name = f"{label} ({_tail(run.folder, folders)})" if labels.count(label) > 1 else label
-        systems.append(System(name, run.folder, row, _all_by_system(run.scores).get(key, {}), _by_system(run.answers).get(key) or _nameless(run), _jobs(run)))
+        told = f" ({_tail(run.folder, folders)})" if labels.count(label) > 1 else ""
+        scores, answers = _all_by_system(run.scores).get(key, {}), _by_system(run.answers).get(key) or _nameless(run)
+        systems.append(System(f"{label}{told}", run.folder, row, scores, answers, _jobs(run), f"{key[0]}{told}"))
     return systems
 
 

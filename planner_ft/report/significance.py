@@ -1,20 +1,22 @@
-"""Which differences between systems are real: every row against the first, paired by sample, as marks, a table and sentences."""
+"""Which differences between systems are real: the comparisons of the benchmark as marks, a table and sentences."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
-from planner_ft.benchmark.catalogue import CATALOGUE
-from planner_ft.benchmark.compare import DEFAULT_METRICS
-from planner_ft.benchmark.paired import paired
-from planner_ft.benchmark.verdicts import EXPLAINED, Comparison, adjusted, p_text, signed
+from planner_ft.benchmark.contrasts import Question, contrasts, system_key
+from planner_ft.benchmark.contrasts_text import BEST
+from planner_ft.benchmark.statistics import Estimate
+from planner_ft.benchmark.verdicts import EXPLAINED, MARKS, p_text, signed
 from planner_ft.report.metrics import column, columns
-from planner_ft.report.runs import System, TestSet
+from planner_ft.report.runs import Record, System, TestSet
 from planner_ft.report.tables import Cell, Table, TableRow
 
-DECISIVE = ("f1", "whole_plan")
-"""By these metrics candidates are compared with the baselines."""
+NOT_WORSE = ("better", "equal", "not told apart")
+Compared = Mapping[str, Sequence[Record]]
+"""Comparisons by question, as results.json has them, systems named by (alias, configuration)."""
 
 
 @dataclass(frozen=True)
@@ -28,54 +30,80 @@ class Significance:
 
 
 def significance(tests: TestSet) -> Significance:
-    """Compare the other candidates with the first one, and all candidates with the baselines; Holm's adjustment is over all of it."""
-    scored = [system for system in tests.systems if system.repeats]
-    candidates, baselines = ([system for system in scored if system.is_baseline is kind] for kind in (False, True))
-    pairs: list[tuple[System, System, Sequence[str]]] = [(candidates[0], other, DEFAULT_METRICS) for other in candidates[1:]]
-    pairs += [(baseline, candidate, DECISIVE) for baseline in baselines for candidate in candidates]
-    found = _compared(pairs, int(tests.results[0].get("manifest", {}).get("seed") or 0))
-    if not found:
+    """The comparisons that a run has recorded; those of several runs together are made here, by the same tests."""
+    found = _recorded(tests) or _made(tests)
+    names = {system_key((system.alias, str(system.row.get("configuration")))): system.name for system in tests.systems}
+    known: dict[str, list[Record]] = {
+        question: [{**one, "first": names[one["first"]], "second": names[one["second"]]} for one in lines if one["first"] in names and one["second"] in names]
+        for question, lines in found.items()
+    }
+    if not any(known.values()):
         return Significance()
-    first = candidates[0].name
-    among = [one for one in found if one.first == first]
-    legend = f"Marks compare with {first}, paired by sample: {EXPLAINED}." if among else ""
-    marks = {(one.second, one.paired.metric): one.mark for one in among}
-    sentences = [_against_baselines(candidate, [one for one in found if one.second == candidate.name and one.first != first]) for candidate in candidates]
-    return Significance(marks, legend, _table(tests, found), tuple(text for text in sentences if text))
+    return Significance(_marks(known), _legend(known), _table(tests, known), tuple(_against_baselines(known.get("baseline", []))))
 
 
-def _compared(pairs: Sequence[tuple[System, System, Sequence[str]]], seed: int) -> list[Comparison]:
-    """What both systems have figures of."""
-    known = {metric.name: metric for metric in CATALOGUE}
-    found = [(one.name, other.name, paired(known[name], one.repeats, other.repeats, seed)) for one, other, names in pairs for name in names]
-    return adjusted([entry for entry in found if entry[2].difference.value is not None])
+def _recorded(tests: TestSet) -> Compared:
+    found = tests.results[0].get("comparisons") if len(tests.results) == 1 else None
+    return found if isinstance(found, dict) else {}
 
 
-def _against_baselines(candidate: System, found: Sequence[Comparison]) -> str:
-    """Whether a candidate beats each baseline by F1: one that does not has learnt nothing that could be shown."""
-    by_f1 = {one.first: one.verdict == "better" for one in found if one.paired.metric == "f1"}
-    if not by_f1:
-        return ""
-    beaten, others = ([name for name, better in by_f1.items() if better is kind] for kind in (True, False))
-    parts = [f"beats {' and '.join(beaten)} by F1"] if beaten else []
-    parts += [f"is not shown to beat {' or '.join(others)} by F1"] if others else []
-    return f"{candidate.name} {', but '.join(parts)}."
+def _made(tests: TestSet) -> Compared:
+    lines = {kind: [_named(system, line) for system in tests.systems if system.is_baseline is kind for line in _lines(system)] for kind in (False, True)}
+    found: dict[Question, list[Any]] = dict(contrasts(lines[False], lines[True], int(tests.results[0].get("manifest", {}).get("seed") or 0)))
+    return {question: [one.to_json() for one in comparisons] for question, comparisons in found.items()}
 
 
-def _table(tests: TestSet, found: Sequence[Comparison]) -> Table:
+def _lines(system: System) -> list[Record]:
+    return [line for of_sample in system.repeats.values() for line in of_sample]
+
+
+def _named(system: System, line: Record) -> Record:
+    return {**line, "candidate": system.alias, "configuration": str(system.row.get("configuration"))}
+
+
+def _marks(found: Compared) -> dict[tuple[str, str], str]:
+    """As beside the figures of table.md: against the configuration that a row is compared with, and a star for the best and its equals."""
+    marks = {(one["second"], one["metric"]): MARKS.get(one["verdict"], "") for one in found.get("configuration", [])}
+    best = {(one["first"], one["metric"]) for one in found.get("best", [])}
+    best |= {(one["second"], one["metric"]) for one in found.get("best", []) if one["verdict"] in NOT_WORSE}
+    return marks | {key: marks.get(key, "") + BEST for key in best}
+
+
+def _legend(found: Compared) -> str:
+    parts = [f"Marks, paired by sample with the model's first configuration (enforced with free): {EXPLAINED}."] if found.get("configuration") else []
+    if found.get("best"):
+        parts.append(f"{BEST} the best of its column, or not shown to be worse.")
+    return " ".join(parts)
+
+
+def _against_baselines(found: Sequence[Record]) -> list[str]:
+    """Whether each system beats each baseline by F1: one that does not has learnt nothing that could be shown."""
+    sentences = []
+    for name in dict.fromkeys(one["second"] for one in found):
+        by_f1 = {one["first"]: one["verdict"] == "better" for one in found if one["second"] == name and one["metric"] == "f1"}
+        beaten, others = ([first for first, better in by_f1.items() if better is kind] for kind in (True, False))
+        parts = [f"beats {' and '.join(beaten)} by F1"] if beaten else []
+        parts += [f"is not shown to beat {' or '.join(others)} by F1"] if others else []
+        sentences += [f"{name} {', but '.join(parts)}."] if parts else []
+    return sentences
+
+
+def _table(tests: TestSet, found: Compared) -> Table:
     known = columns()
     rows = []
-    for one in found:
-        shown = column(one.paired.metric, known)
-        bounds = (one.paired.difference.value, one.paired.difference.low, one.paired.difference.high)
-        scaled = tuple(None if bound is None else bound * shown.scale for bound in bounds)
+    for one in (one for lines in found.values() for one in lines):
+        difference = Estimate(**one["difference"])
+        if difference.value is None:
+            continue
+        shown = column(one["metric"], known)
+        low, value, high = (None if bound is None else bound * shown.scale for bound in (difference.low, difference.value, difference.high))
         cells = (
             Cell(shown.heading),
-            Cell(signed(one.paired.difference, shown.scale, max(shown.decimals, 2 if shown.scale == 1 else 1)), bounds=(scaled[0], scaled[1], scaled[2])),
-            Cell(p_text(one.p_adjusted), bounds=(one.p_adjusted, None, None)),
-            Cell(f"{one.mark} {one.verdict}".strip()),
+            Cell(signed(difference, shown.scale, 1 if shown.scale == 100 else 2), bounds=(value, low, high)),
+            Cell(p_text(one.get("p_adjusted")), bounds=(one.get("p_adjusted"), None, None)),
+            Cell(f"{MARKS.get(one['verdict'], '')} {one['verdict']}".strip()),
         )
-        rows.append(TableRow(f"{one.second} against {one.first}", cells))
-    caption = "Second minus first with its 95 % interval; p adjusted after Holm over this table."
+        rows.append(TableRow(f"{one['second']} against {one['first']}", cells))
+    caption = "First minus second, paired by sample, with its 95 % interval; p adjusted after Holm for each question."
     heads = ("Metric", "Difference", "p", "Verdict")
-    return Table(f"{tests.key}-differences", "Differences, paired by sample", caption, "Systems", heads, tuple(rows))
+    return Table(f"{tests.key}-differences", "Differences", caption, "Systems", heads, tuple(rows))

@@ -130,9 +130,13 @@ def latex_table(table: Table) -> str:
     return "\n".join([*lines, "\\bottomrule", "\\end{tabular}", ""])
 
 
+MARKS = {"▲": "\\blacktriangle", "▼": "\\blacktriangledown", "≈": "\\approx", "·": "\\cdot", "★": "\\star"}
+
+
 def _tex_cell(cell: Cell) -> str:
-    mark = {"▲": " $\\blacktriangle$", "▼": " $\\blacktriangledown$", "≈": " $\\approx$"}.get(cell.mark, _tex(cell.mark))
-    return _tex(cell.text).replace("–", "--") + (f" {{\\scriptsize {_tex(cell.interval)}}}" if cell.interval else "") + mark
+    marks = "".join(f" ${MARKS[mark]}$" if mark in MARKS else _tex(mark) for mark in cell.mark)
+    text = "".join(f"${MARKS[letter]}$" if letter in MARKS else _tex(letter) for letter in cell.text)
+    return text.replace("–", "--") + (f" {{\\scriptsize {_tex(cell.interval)}}}" if cell.interval else "") + marks
 
 
 def _tex(value: str) -> str:

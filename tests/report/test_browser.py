@@ -8,7 +8,6 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -22,8 +21,10 @@ CONTRAST = """
 const luminance = ([r, g, b]) => [r, g, b].map((c) => (c /= 255) <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
   .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
 const colour = (text) => text.match(/[\\d.]+/g).map(Number);
-const behind = (node) => { for (; node; node = node.parentElement) { const c = colour(getComputedStyle(node).backgroundColor); if (c.length < 4 || c[3] > 0.99) return c; }
-  return [255, 255, 255]; };
+const behind = (node) => {
+  for (; node; node = node.parentElement) { const c = colour(getComputedStyle(node).backgroundColor); if (c.length < 4 || c[3] > 0.99) return c; }
+  return [255, 255, 255];
+};
 const found = [];
 for (const node of document.querySelectorAll('main *, header *')) {
   if (!node.checkVisibility() || ![...node.childNodes].some((child) => child.nodeType === 3 && child.data.trim())) continue;
@@ -102,7 +103,9 @@ def find(driver: Any, selector: str) -> list[Any]:
 def choose(driver: Any, label: str, value: str) -> None:
     from selenium.webdriver.support.ui import Select
 
-    Select(next(field for field in find(driver, ".filters label") if field.text.startswith(label)).find_element("css selector", "select")).select_by_visible_text(value)
+    Select(
+        next(field for field in find(driver, ".filters label") if field.text.startswith(label)).find_element("css selector", "select")
+    ).select_by_visible_text(value)
 
 
 def shown(driver: Any) -> list[str]:
@@ -217,7 +220,9 @@ def test_no_width_needs_to_scroll_sideways(opened: Callable[..., Any], width: in
 
 def test_letters_in_charts_are_not_shrunk_on_a_phone(opened: Callable[..., Any]) -> None:
     driver = opened(375)
-    scale = "return [...document.querySelectorAll('svg')].filter((s) => s.checkVisibility()).map((s) => s.getBoundingClientRect().width / s.viewBox.baseVal.width)"
+    scale = (
+        "return [...document.querySelectorAll('svg')].filter((s) => s.checkVisibility()).map((s) => s.getBoundingClientRect().width / s.viewBox.baseVal.width)"
+    )
     scales = driver.execute_script(scale)
     assert scales
     assert min(scales) > 0.95

@@ -82,4 +82,4 @@ def test_systems_are_summed_up_in_words_and_figures_have_tables(page: str) -> No
     assert "3 of 4 plans are right in every name, order and value (75 %" in page
     assert "Kinds of failure" in page
     assert page.count("The same in figures") >= 4
-    assert "Differences, paired by sample" in page
+    assert "Which differences are real" in page

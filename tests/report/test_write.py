@@ -26,7 +26,7 @@ def test_the_same_run_gives_the_same_bytes(run: Path, tmp_path: Path) -> None:
 def test_figures_become_files(run: Path, tmp_path: Path) -> None:
     written = write_report([run], tmp_path / "report", pictures="overall")
     names = {path.name.split("-", 3)[3] for path in written if path.parent.name == "figures"}
-    assert names == {f"{kind}.{suffix}" for kind in ("f1", "failures", "latency", "planning") for suffix in ("png", "svg")}
+    assert names == {f"{kind}.{suffix}" for kind in ("f1", "failures", "stops", "latency", "latency-by-size") for suffix in ("png", "svg")}
     assert all(path.stat().st_size > 1000 for path in written if path.parent.name == "figures")
 
 
