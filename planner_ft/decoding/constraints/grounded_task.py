@@ -24,7 +24,7 @@ class GroundedTaskValues(GroundedValues):
         super().__init__(prompt, vocabulary)
         self._own = list(number_words(record))
         self._texts = list(own_texts(record))
-        self._spans = Spans([prompt, *self._texts])
+        self._spans = Spans([prompt, *self._texts], named=True)
         self._counts = sector_counts([*(quantity.said for quantity in quantities(prompt)), *self._own])
 
     def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str | None:

@@ -29,7 +29,7 @@ from planner_ft.decoding.constraints.grammar import (
 )
 from planner_ft.decoding.constraints.patterns import literal
 from planner_ft.decoding.constraints.state import coordinates
-from planner_ft.decoding.constraints.waypoints import Ground, Path, Point
+from planner_ft.decoding.constraints.waypoints import Ending, Ground, Path, Point
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.plans import STEP_KEYS
 
@@ -88,11 +88,11 @@ class TaskScript:
         for role, opens in (("filter", FILTERS), ("perception", PERCEPTIONS)):
             if text.endswith(opens + SKILL_OPENS):
                 ahead = replace(self, written=text)
-                return ahead._beside(role, ends=ahead._behind("").ground.may_end(ahead._behind("").before)), ahead
+                return ahead._beside(role, ending=self.ground.ending(ahead._behind("").before)), ahead
         return None
 
     def closing(self) -> Script:
-        return replace(self, ground=replace(self.ground, paths=()))
+        return replace(self, ground=replace(self.ground, paths=(), itinerary=None, alone=False))
 
     def _behind(self, text: str) -> TaskScript:
         """The script with the waypoint of the step that is being written."""
@@ -105,7 +105,11 @@ class TaskScript:
 
     def _names(self) -> str:
         """The navigation skills that may follow."""
-        offered = [skill for skill in self.vocabulary.skills_in_role("navigation") if not coordinates(skill) or self.ground.following(self.before)]
+        ground = self.ground
+        only_waypoints = ground.alone and ground.itinerary is not None
+        offered = [
+            skill for skill in self.vocabulary.skills_in_role("navigation") if (ground.following(self.before) if coordinates(skill) else not only_waypoints)
+        ]
         return Grammar().text(" | ".join(literal(patterns.quoted(skill.name)) for skill in offered))
 
     def _movement(self) -> str:
@@ -115,26 +119,26 @@ class TaskScript:
         tail = step_tail(grammar, self.values)
         opens, skill = literal("," + FILTERS), literal(SKILL_OPENS)
         options = []
-        for body, ends in self._bodies(grammar):
-            bare = f"{literal(']')} {tail} {self._ends(ends)}"
+        for body, ending in self._bodies(grammar):
+            bare = f"{literal(']')} {tail} {self._ends(ending)}"
             options.append(f"{body} {opens} ({skill} | {literal('],' + PERCEPTIONS)} ({skill} | {bare}))")
         return grammar.text(" | ".join(options))
 
-    def _bodies(self, grammar: Grammar) -> list[tuple[str | None, bool]]:
-        """The parameters of a movement, and whether the answer may end behind them."""
+    def _bodies(self, grammar: Grammar) -> list[tuple[str | None, Ending]]:
+        """The parameters of a movement, and whether the answer ends behind them."""
         assert self.chosen is not None
         if not coordinates(self.chosen):
-            return [(skill_body(grammar, self.chosen, self.values), self.ground.may_end(self.before))]
-        found: dict[bool, list[Point]] = {}
+            return [(skill_body(grammar, self.chosen, self.values), self.ground.ending(self.before))]
+        found: dict[Ending, list[Point]] = {}
         for point in self.ground.following(self.before):
-            found.setdefault(self.ground.may_end((*self.before, point)), []).append(point)
-        return [(skill_body(grammar, self.chosen, RouteValues(self.values, points)), ends) for ends, points in found.items()]
+            found.setdefault(self.ground.ending((*self.before, point)), []).append(point)
+        return [(skill_body(grammar, self.chosen, RouteValues(self.values, points)), ending) for ending, points in found.items()]
 
-    def _beside(self, role: str, *, ends: bool) -> str:
+    def _beside(self, role: str, *, ending: Ending) -> str:
         """What may stand behind `{"name":"` of the first skill beside the movement."""
         grammar = Grammar()
         filters, perceptions = (self._several(grammar, one) for one in ("filter", "perception"))
-        rest = f"{literal(']')} {step_tail(grammar, self.values)} {self._ends(ends)}"
+        rest = f"{literal(']')} {step_tail(grammar, self.values)} {self._ends(ending)}"
         if role == "perception":
             return grammar.text(f"{perceptions} {rest}")
         more = f"({literal(SKILL_OPENS)} {perceptions})?" if perceptions else ""
@@ -144,7 +148,7 @@ class TaskScript:
         named = named_skills(grammar, self.vocabulary, role, self.values)
         return f"{named} ({literal(',' + SKILL_OPENS)} {named}){{0,{MOST_SKILLS - 1}}}" if named else None
 
-    def _ends(self, ends: bool) -> str:
+    def _ends(self, ending: Ending) -> str:
         """What follows a step: another one, or the end."""
-        more = [literal("," + STEP_OPENS)] if self.steps + 1 < MOST_STEPS else []
-        return f"({' | '.join(more + ([literal(CLOSES)] if ends or not more else []))})"
+        more = [literal("," + STEP_OPENS)] if self.steps + 1 < MOST_STEPS and ending != "must" else []
+        return f"({' | '.join(more + ([literal(CLOSES)] if ending != 'not yet' or not more else []))})"

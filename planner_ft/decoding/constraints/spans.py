@@ -31,6 +31,10 @@ UNENDING = frozenset({"the", "an", "and", "or", "of", "with", "then", "to", "fro
 """Words that no value ends with."""
 QUOTES = ('"', "'", "“", "‘", "«")
 """Signs behind which a value begins with any word: a note "as found"."""
+KINDS = frozenset(
+    {"region", "regions", "stream", "streams", "camera", "cameras", "sensor", "sensors", "cloud", "label", "labels", "note", "notes", "tag", "tags"}
+)
+"""Words for what has a name, and are none."""
 MOST_UNENDING = 4
 """As many of them in a row are no English; a value may end there, since an answer must be able to."""
 
@@ -39,6 +43,8 @@ _ONE_LETTER_SCRIPTS = "\u0e00-\u0eff\u3040-\u30ff\u3400-\u9fff\uf900-\ufaff"
 _PIECE = re.compile(rf"[{_ONE_LETTER_SCRIPTS}]|(?:(?![{_ONE_LETTER_SCRIPTS}])[^\W_])+")
 _INSIDE = re.compile(r"[-‐–'’./&+_]")
 _AROUND = re.compile(r""" ?[-–,"“”'’&/] ?|[,'’"”] ["“]?|, ["“]""")
+_QUOTED = re.compile(r"""["“”«»]|[‘'’]\W*\s|\s\W*[‘'’]""")
+"""What stands between two words one of which begins or ends a quotation."""
 _ELLIPSIS = re.compile(
     r"\b(?:ones?|others?|same|both|two|three|four|pair|another|second|latter|former|likewise|ditto|respectively|and (?:the |a )?\w+ \w+s)\b", re.IGNORECASE
 )
@@ -46,18 +52,24 @@ _ELLIPSIS = re.compile(
 
 @dataclass
 class Piece:
-    """A word: what may be written for it, and what may follow, as (gap, number of the next word)."""
+    """A word: what may be written for it, whether it can be a value `alone`, and what may follow, as (gap, number of the next word)."""
 
     forms: tuple[str, ...]
     begins: bool = True
     ends: bool = True
+    alone: bool = True
     following: list[tuple[str, int]] = field(default_factory=list)
 
 
 class Spans:
-    """The spans of some texts: a command, and what else values may come from."""
+    """The spans of some texts: a command, and what else values may come from.
 
-    def __init__(self, texts: Sequence[str]) -> None:
+    With `named`, values are names: what stands in quotation marks is apart from what stands before and behind it, and a word for the kind of thing ("region",
+    "camera") is none.
+    """
+
+    def __init__(self, texts: Sequence[str], *, named: bool = False) -> None:
+        self._named = named
         self.loose = any(_ELLIPSIS.search(text) for text in texts)
         self._pieces: list[Piece] = []
         for text in texts:
@@ -83,6 +95,7 @@ class Spans:
         """The terminals of the spans from each word on; rows are cut at every BLOCK words from `offset`."""
         cut = len(self._pieces) > BLOCK
         names: dict[int, str] = {}
+        behind_of: dict[int, list[str]] = {}
         for index in range(len(self._pieces) - 1, -1, -1):
             piece = self._pieces[index]
             block = (index + offset) // BLOCK
@@ -93,7 +106,15 @@ class Spans:
                 forms = " | ".join(literal(form) for form in piece.forms)
                 behind = f"({' | '.join(following)}){'?' if piece.ends else ''}" if following else ""
                 names[index] = grammar.terminal(f"({forms}) {behind}")
-        return {name for index, name in names.items() if self._pieces[index].begins}
+                behind_of[index] = following
+        found = set()
+        for index, name in names.items():
+            piece = self._pieces[index]
+            if piece.begins and piece.alone:
+                found.add(name)
+            elif piece.begins and behind_of[index]:
+                found.add(grammar.terminal(f"({' | '.join(literal(form) for form in piece.forms)}) ({' | '.join(behind_of[index])})"))
+        return found
 
     def _read(self, text: str) -> None:
         first, matches, run = len(self._pieces), list(_PIECE.finditer(text)), 0
@@ -104,10 +125,14 @@ class Spans:
             named = word == "A" or text[match.start() - 1 : match.start()] in ("_", "-", ".")
             run = 0 if named or word.lower() not in UNENDING else run + 1
             quoted_here = text[match.start() - 1 : match.start()] in QUOTES
-            self._pieces.append(Piece(forms, begins=quoted_here or word.lower() not in UNBEGINNING, ends=run % MOST_UNENDING == 0))
+            begins = (quoted_here or word.lower() not in UNBEGINNING) and text[match.start() - 1 : match.start()] != "_"
+            ends = run % MOST_UNENDING == 0 and text[match.end() : match.end() + 1] != "_"
+            self._pieces.append(Piece(forms, begins, ends, alone=quoted_here or not (self._named and word.lower() in KINDS)))
         gaps = [text[one.end() : two.start()] for one, two in itertools.pairwise(matches)]
         for number, gap in enumerate(gaps):
             place = first + number
+            if self._named and _QUOTED.search(gap):
+                continue
             # "A-40" and "region a, top left" have no article.
             if not gap.isspace() and matches[number].group().lower() == "a":
                 self._pieces[place].begins = self._pieces[place].ends = True

@@ -12,16 +12,19 @@ import itertools
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 from planner_ft.data.quantities import bearings, quantities
 from planner_ft.data.stated import stated_numbers
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.facts import read
+from planner_ft.decoding.constraints.grammar import MOST_STEPS
+from planner_ft.decoding.constraints.itinerary import moves_otherwise, read_itinerary
 from planner_ft.vocabulary import Vocabulary
 
 Point = g.Point
 Path = tuple[Point, ...]
+Ending = Literal["not yet", "may", "must"]
 
 MOST_LENGTHS, MOST_PLACES, MOST_PATHS = 7, 12, 4000
 MOST_WAYPOINTS = 64
@@ -39,6 +42,7 @@ AGAIN = re.compile(r"\b(?:clos\w*|back|return\w*|again|revisit\w*|same|twice|tim
 @dataclass(frozen=True)
 class Ground:
     """The facts that waypoints are derived from. `free`: they cannot be read with certainty, and any waypoint may be meant.
+    `itinerary`: they leave no choice, these are the waypoints; with `alone` the task asks for no other movement.
 
     `stays` says that the vehicle may come to a place again, or stay where it is. A path counts as begun with `begun` of its waypoints in a row: with
     fewer where the task is about such a path, since two moves can look like the beginning of many.
@@ -51,9 +55,13 @@ class Ground:
     free: bool = False
     stays: bool = False
     begun: int = 2
+    itinerary: Path | None = None
+    alone: bool = False
 
     def following(self, before: Path) -> list[Point]:
         """The waypoints that may follow those `before`: other places, unless the text speaks of coming back."""
+        if self.itinerary is not None:
+            return list(self.itinerary[len(before) : len(before) + 1])
         begun = self._begun(before)
         onward = dict.fromkeys(path[done] for path, done in begun if done < len(path))
         if onward and begun[0][1] >= self.begun:
@@ -63,10 +71,14 @@ class Ground:
         options = dict.fromkeys(itertools.chain(self.places, before, self._starts, onward, away))
         return [point for point in options if self.stays or point not in before]
 
-    def may_end(self, before: Path) -> bool:
-        """Whether no path is left half-way."""
+    def ending(self, before: Path) -> Ending:
+        """Whether the answer may, must or may not yet end behind these waypoints: no path is left half-way."""
+        if self.itinerary is not None:
+            done = len(before) >= len(self.itinerary)
+            return "not yet" if not done else "must" if self.alone else "may"
         begun = self._begun(before)
-        return not begun or begun[0][1] < self.begun or any(done == len(path) for path, done in begun)
+        ends = not begun or begun[0][1] < self.begun or any(done == len(path) for path, done in begun)
+        return "may" if ends else "not yet"
 
     def _begun(self, before: Path) -> list[tuple[Path, int]]:
         """Paths of which the last waypoints are the beginning, with how many: those with the most."""
@@ -112,9 +124,22 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     if not free:
         facts = _Facts(reading.text, parameters, tuple(place for place in places if place != home) or places, lengths, tuple(said), tuple(counts))
         paths = _paths(facts, task.pattern if task else "", sorted(angles))
+    itinerary = None if reading.numbers_free else read_itinerary(record, vocabulary)
+    itinerary = itinerary if itinerary is None or len(itinerary) <= MOST_STEPS else None
     found = tuple(dict.fromkeys(itertools.islice(paths, MOST_PATHS)))
     begun = 2 if task and task.pattern in ("lawnmower", "square") else 3
-    return Ground(places, lengths, tuple(sorted(angles)), found, free=free, stays=AGAIN.search(reading.text) is not None, begun=begun)
+    free = free and itinerary is None
+    return Ground(
+        places,
+        lengths,
+        tuple(sorted(angles)),
+        found,
+        free=free,
+        stays=AGAIN.search(reading.text) is not None,
+        begun=begun,
+        itinerary=itinerary,
+        alone=not moves_otherwise(reading.text),
+    )
 
 
 @dataclass(frozen=True)

@@ -16,14 +16,14 @@ def ground(task: str, prompt: str, **parameters: Any) -> Ground:
 
 
 def follows(facts: Ground, path: list[tuple[float, float]]) -> bool:
-    return all(point in facts.following(tuple(path[:place])) for place, point in enumerate(path)) and facts.may_end(tuple(path))
+    return all(point in facts.following(tuple(path[:place])) for place, point in enumerate(path)) and facts.ending(tuple(path)) != "not yet"
 
 
 def test_a_grid_that_was_begun_is_run_to_its_end() -> None:
-    facts = ground("BathymetryGridSurvey", "Run the grid.", center=[0, 0], width=20, length=20, spacing=5)
+    facts = ground("BathymetryGridSurvey", "Run the grid, starting where it is deepest.", center=[0, 0], width=20, length=20, spacing=5)
     lanes = g.lawnmower((0, 0), 20, 20, 5)
     assert follows(facts, lanes)
-    assert facts.following(tuple(lanes[:2])) == [lanes[2]] and not facts.may_end(tuple(lanes[:4]))
+    assert facts.following(tuple(lanes[:2])) == [lanes[2]] and facts.ending(tuple(lanes[:4])) == "not yet"
     assert follows(facts, g.lawnmower((0, 0), 20, 20, 5, "north-east", "x"))
 
 
@@ -33,10 +33,10 @@ def test_a_grid_can_be_stated_in_the_prompt_alone_also_by_a_corner() -> None:
 
 
 def test_a_survey_square_may_start_anywhere_and_go_either_way_round() -> None:
-    facts = ground("SurveyTarget", "Survey it on a square.", target_position=[30, 40], radius=10)
+    facts = ground("SurveyTarget", "Survey it on a square, beginning where the light is best.", target_position=[30, 40], radius=10)
     assert follows(facts, g.survey_square((30, 40), 10))
     square = g.survey_square((30, 40), 10, "north-west", clockwise=True)
-    assert follows(facts, square) and not facts.may_end(tuple(square[:3]))
+    assert follows(facts, square) and facts.ending(tuple(square[:3])) == "not yet"
 
 
 def test_a_stated_way_off_a_stated_place_is_a_waypoint_and_no_other_place_is() -> None:

@@ -1,0 +1,180 @@
+"""How task inputs word places, paths and sizes: the patterns by which `itinerary` reads them."""
+
+from __future__ import annotations
+
+import re
+
+MOST_LANES = 32
+_BEARINGS = {"north": 0, "northeast": 45, "east": 90, "southeast": 135, "south": 180, "southwest": 225, "west": 270, "northwest": 315}
+_WAY = r"(?:north[ -]?(?:east|west)|south[ -]?(?:east|west)|north|south|east|west)(?:ern|wards?)?"
+_NUMBER = r"[-−–]?\d+(?:\.\d+)?"
+_PAIR = rf"[\[(]\s*{_NUMBER}\s*,\s*{_NUMBER}\s*[\])]"
+
+
+def _words(pattern: str) -> re.Pattern[str]:
+    return re.compile(rf"\b(?:{pattern})\b", re.IGNORECASE)
+
+
+def bearing_of(way: str) -> float:
+    """Degrees of a compass direction as `WAY_BEHIND` finds it."""
+    return _BEARINGS[re.sub(r"ern$|wards?$|[ -]", "", way.lower())]
+
+
+# The text and its parts
+LIST_MARK = re.compile(r"(?:(?<=^)|(?<=[.;:!?]\s))(?:\(\d{1,2}\)|\d{1,2}[.):])(?=\s)")
+PART = re.compile(
+    r"[.;](?=\s|$)|\s[-–—]\s|,?\s*(?:and )?\b(?:then|next|finally|after (?:that|this|which)|afterwards|at the end|"
+    r"to begin with|lastly)\b,?|\b(?:first|last),|,? (?:and|before) (?=(?:going|heading|returning|proceeding)\b)",
+    re.IGNORECASE,
+)
+UNORDERED = _words(
+    r"before|but|first(?=[.,;]?$)|twice|times|again|repeat\w*|laps?|half ?way|after (?!that|this|which)|between (?!(?:the )?(?:lanes?|"
+    r"lines?|tracks?))|(?:start|finish) (?:and|to)|vice|"
+    r"correction|rather|instead|actually|sorry|no, |i mean|not (?:go|at|to)|two (?:grids|squares)|both (?:\d|"
+    r"the)|go there|start point|from the (?:given |planned )?start|set course|start position"
+)
+COUNTS = re.compile(
+    r"\b(?:steps?|parts?|stages?|legs?|headings?|bearings?|through|look\w*|bow to|turn to|facing|face)\s[\d.,\s]*(?:and )?(?:then )?$", re.IGNORECASE
+)
+"""What stands before numbers that count steps or are headings."""
+TURNED = re.compile(
+    rf"\b(?:turn\w*|rotat\w+|fac\w+|swing|pivot|line up|spin|yaw|come round)\b[^.;]{{0,20}}? (?:to|on|onto|towards?) (?:due |"
+    rf"heading |a heading of )?(?:(\d{{1,3}})\b|({_WAY})\b)",
+    re.IGNORECASE,
+)
+THAT_BEARING = _words(r"(?:that|this|the same) (?:bearing|heading|course)")
+CLAUSE = re.compile(r"[.;,:]")
+ROW = re.compile(rf"[\[(]?{_PAIR}(?:\s*(?:,|;|and|,\s*and|to)?\s*{_PAIR}){{2,}}[\])]?")
+BOX = re.compile(rf"{_PAIR}\s*to\s*{_PAIR}")
+FENCE = re.compile(
+    r"\b(?:\w*fence\w*|fecne|bound\w*|box|polygon|rectangle|limit\w*|inside|within|zone|corners|perimeter|region|leav\w+)\b[^.;]{0,60}$", re.IGNORECASE
+)
+
+# Shapes
+GRID = _words(r"grid|lawn-?mow\w*|mow(?:ing)? the (?:lawn|planned area|given area|area)|boustrophedon|back-and-forth|lanes|(?:east-west|north-south) lines")
+SQUARE = _words(r"square")
+MENTIONS = _words(r"(?:on|during|along|of|off|not) (?:the|its|each|every|all) (?:grid|lanes?|square|lawnmower)|between (?:the )?lanes|square up")
+OTHER_SHAPE = _words(
+    r"zig-?zag|spiral|triang\w+|hexagon\w*|pentagon\w*|octagon\w*|figure|ellip\w+|oval|diamond|ring|circle of|points? (?:round|around|evenly)|stations|"
+    r"creeping|sector search|expanding|parallel lanes|rectangle|points|mirror\w*"
+)
+SHAPED = _words(
+    r"zig-?zag|spiral|triang\w+|hexagon\w*|pentagon\w*|octagon\w*|figure|ellip\w+|oval|diamond|ring|circle of|"
+    r"points? (?:round|around|evenly)|stations|waypoints? (?:round|around)|"
+    r"survey\w*|inspect\w*|map (?:the|a)|mapped|mapping|comb|sweep \d|sweep a|circle \W?\d|four (?:sides|points|"
+    r"corners)|from two sides|lanes?|lines|lawn\w*|lwn\w*|search|cover\w*|creeping|mow\w*|"
+    r"(?:\d+|four|five|six|eight|ten|twelve) (?:waypoints|points|stops)|spacing|(?:m|metres?|meters?) by|in x|"
+    r"area around|area of|depth survey|from the (?:north|south|east|west)\w* and stop"
+)
+"""What a path may be meant by, where no grid and no square is named."""
+AT_CORNER = re.compile(r"\b(?:corner|start\w*|begin\w*|edge|side|end)\s+(?:at|from|in|is|being|on)?\s*[\[(]?$", re.IGNORECASE)
+EIGHT = _words(r"(?:all )?eight|8|standard")
+NO_SQUARE = _words(r"four|clos(?:e|es|ed|ing)|half the|corners? (?:and|only)|mid-?sides? (?:and|only)|never|leaving|left|limits?|fence|use a")
+SQUARE_RUN = _words(
+    r"(?:go|goes|going|drive|driving|run|running|survey\w*|inspect\w*|look\w*)\b[^.;]{0,60} (?:on|in|with|from) (?:the|its|a) (?:[\w-]+ ){0,2}square"
+)
+CORNER = re.compile(r"\b(north|south)[ -]?(east|west)(?:ern|erly)?\b|\b(NE|NW|SE|SW)\b", re.IGNORECASE)
+COMPASS = re.compile(r"\b(?:north|south|east|west)\w*\b", re.IGNORECASE)
+BEGINS = _words(r"start\w*|begin\w*|corner (?:to|and)|from the (?:other|far|near)")
+LANES_X = _words(r"east(?:[- –]to)?[- –](?:and[- ])?west|west(?:[- –]to)?[- –]east|(?:along|parallel to) (?:the )?x(?:[- ]axis)?")
+LANES_Y = _words(r"north(?:[- –]to)?[- –](?:and[- ])?south|south(?:[- –]to)?[- –]north|(?:along|parallel to) (?:the )?y(?:[- ]axis)?")
+STEP = re.compile(
+    r"\b(?:step\w*|work\w*|progress\w*|shift\w*|advanc\w*|mov\w+) (?:to(?:wards)? (?:the )?)?(?:lane by lane )?(north|south|east|west)(?:wards?)?\b",
+    re.IGNORECASE,
+)
+SIDE = re.compile(
+    r"\b(?:(?:middle|centre|center|mid-?point) of (?:the |its )?)?(north|south|east|west)(?:ern)?[ -]?(?:side|edge|mid-?side|face)\b"
+    r"|\b(?:from|in|on|at|starting|start) (?:the |its )?(?:middle of the )?(north|south|east|west)\b",
+    re.IGNORECASE,
+)
+CLOCKWISE = re.compile(r"\b(?:(counter|anti)[- ]?)?clock-?wise\b", re.IGNORECASE)
+
+# Sizes
+FAR = re.compile(r"kilom|km\b|mile", re.IGNORECASE)
+"""Units in which a place is not read."""
+SIZE = re.compile(r"^\d+ and \d+$|\bby\b|;|\d\s?k?m\b|met(?:re|er)s?\b|\bmin|\bsec|\d\s?s\b|hour", re.IGNORECASE)
+MARGIN = _words(
+    r"keep\w*|stay\w*|from (?:the (?!north|south|east|west|start)|it|any|every|all|obst)|clear\w*|margin|distance|"
+    r"nearer|closer|least|within|obstacle\w*|threshold|accura\w*|avoid\w*|buffer|anything|geotag\w*|gps|allow\w*|"
+    r"berth"
+)
+BY = re.compile(r"\s?(?:m|metres?|meters?)?\s?(?:\(x\)|wide|in x)?\s?(?:by|x|×)\s?", re.IGNORECASE)
+IS_WIDTH = re.compile(r"^\s?(?:m|metres?|meters?)?[ -]?(?:wide|in width|width|along x|in x|\(x\)|from (?:west to east|east to west))", re.IGNORECASE)
+IS_LENGTH = re.compile(r"^\s?(?:m|metres?|meters?)?[ -]?(?:long|in length|length|along y|in y|\(y\)|from (?:north to south|south to north))", re.IGNORECASE)
+IS_SPACING_BEHIND = re.compile(
+    r"^\s?(?:m|metres?|meters?)?[ -]?(?:apart|spacing|line spacing|lane spacing|pitch|(?:in )?between (?:the )?(?:lanes|lines|them)|line to line)",
+    re.IGNORECASE,
+)
+IS_SPACING_BEFORE = re.compile(
+    r"\b(?:spacing (?:is |of |at )?|spaced (?:at )?|lanes? (?:every|at)|lines? every|line spacing(?: is| of)?|"
+    r"spacing to be|pitch (?:of )?|lane every|apart by|lanes) ?$",
+    re.IGNORECASE,
+)
+OWN_SIZE = _words(r"given|planned|task'?s?|stated|its|standard|usual|the (?:survey|inspection) square")
+
+# Ways and destinations
+WAY_BEHIND = re.compile(rf"^\s?(?:(?:straight|directly|due|to|the)\s+)*({_WAY})\b(\s+of\b\s*)?", re.IGNORECASE)
+NO_DESTINATION = re.compile(
+    r"\b(?:(?:lies|is|are|stands|sits) (?:at|on)|way to|after|before|until|past|when at|round|around|about|"
+    r"of|circle|orbit|centred on|centered on|from)\s*(?:the point |the position |\w+ at )?[\[(]?$",
+    re.IGNORECASE,
+)
+_OWN = r"(?:the |its )?(?:(?:task'?s?|given|planned|stated|target|goal|start(?:ing)?|last known) )*"
+_OWN_NOUN = r"(?:target|goal|cent(?:re|er)|start|position|point|berth|location|destination)"
+OWN = re.compile(rf"^{_OWN}{_OWN_NOUN}\b", re.IGNORECASE)
+TO_OWN = re.compile(
+    rf"\bgo in\b|(?<!way )\b(?:to|at|for|reach|via) {_OWN}{_OWN_NOUN}\b(?! of the (?:task|side|edge|frame|picture)|"
+    rf" (?:\d|[a-z-]+ (?:m|metres?|meters?|feet)\b))(?!s)",
+    re.IGNORECASE,
+)
+HOME = _words(r"(?:go|head|return|come|back|sail|drive|steam|run|transit|proceed)\w* (?:back )?(?:home|to base|to home)|back home")
+LINE = _words(r"on (?:a )?(?:heading|course)|run\w*|sail\w*|follow\w*|go|going|drive|track\w*|line|course|distance of|set distance|straight|pass|steam")
+NO_LINE = _words(r"arc|orbit|circle|pan|sweep|nudge|rotat\w+|drift\w*|hold|turn(?:ing)?|round")
+OWN_LENGTH = _words(
+    r"(?:the )?(?:(?:full|set|given|planned|stated|max(?:imum)?|whole|task'?s?) )+(?:pass |track |run )?(?:length|"
+    r"distance)(?: of the (?:task|pass|track|run))?|"
+    r"the (?:pass |track )?(?:length|distance) of the (?:task|pass|track|run)"
+)
+OWN_HEADING = _words(r"(?:the |its )?(?:(?:track|given|planned|stated|cable'?s?|task'?s?) )+(?:heading|course|bearing)|heading of the (?:task|track|cable)")
+ON_DEGREES = re.compile(
+    r"\b(?:on|along|steering|(?:heading|course|bearing)(?: of)?)\s+(?:a )?(?:(?:heading|course|bearing)(?: of)? )?(\d{1,3}(?:\.\d+)?)\b(?!\s?(?:m\b|"
+    r"met|s\b|sec|min|%))",
+    re.IGNORECASE,
+)
+ON_WAY = re.compile(rf"\b(?:due|to the|run|running|go|sail|steam|drive|distance|straight|heading|course)\s+({_WAY})\b", re.IGNORECASE)
+UNREAD = re.compile(r"\b(?:home|base|minus)\b", re.IGNORECASE)
+"""Words that speak of a place, where none was read."""
+LEADS = _words(
+    r"change|go(?:es|ing)?|head(?:s|ing)? (?:for|to|home|back|over)|proceed\w*|transit\w*|drive|driv\w+|steer\w*|"
+    r"sail\w*|mak(?:e|ing) (?:for|your way)|return\w*|come|coming|back|home|base|"
+    r"steam\w*|cruis\w+|reach\w*|visit\w*|mov(?:e|ing)|approach\w*|cross\w*|shift\w*|berth\w*|dock\w*|run|running|"
+    r"track|follow|position yourself|take (?:her|it|the)|carry on|continue|"
+    r"pass|transect|leg|distance of the task|waypoints?|round|line up|out to|get to|bring|put|place|station \d+|leave for|work along|lap|loop"
+)
+NO_LEAD = _words(
+    r"(?:on|during|for|in) (?:the |each |every |both |all |either )?(?:[\w-]+ )?(?:legs?|runs?|pass|passes|"
+    r"lanes?|way)\b|back[- ]and[- ]forth|go(?:ing|es)? (?:(?:counter|anti)[- ]?)?clock-?wise|go(?:ing|es)? round|"
+    r"round|run(?:ning)? (?:the|a|over|along|your|this|that|image|ocr|gps|quality|\w+ion|object|lanes?|north|"
+    r"east|x|y)\b|"
+    r"lanes running|on every leg|at (?:each|every) waypoint|at all waypoints|waypoint|carry on|drive (?:the|a)|do the|the detector running|work(?:ing)? along|"
+    r"(?:eight|8)[- ]waypoint|(?:all )?eight waypoints|the way|under way|while moving|when moving|moving|put(?:ting)? |bring the lens|in place|take the"
+)
+
+# Movements besides waypoints
+LOCKED = re.compile(
+    r"\b(?:(?:hold|keep|fix|lock|maintain)\w* (?:the |your |its |her )?(?:heading|bow|nose)(?: (?:locked|fixed|steady|on its heading|where it is))?|"
+    r"(?:with (?:the |a )?)?(?:heading|bow|nose)[ -]?(?:is |stays |kept |to stay )?(?:lock\w*|fixed)|locked (?:heading|bow)|heading hold)\b",
+    re.IGNORECASE,
+)
+STILL = re.compile(
+    r"\b(?:hold\w*|stay\w*|station(?:ary)?|stop\w*|remain\w*|wait\w*|loiter\w*|stand\w*|rest\w*|paus\w*|linger\w*|"
+    r"park\w*|position for|second\w*|minute\w*|hour\w*|"
+    r"\d+ ?s|min|h|cent(?:re|er)\w* (?:it|on|the|in)|centred|centered|fram\w+|picture|in view|turn\w*|rotat\w*|"
+    r"fac(?:e|es|ing)|swing\w*|spin\w*|pivot\w*|line up|lined up|yaw\w*|look\w*|"
+    r"nudg\w*|pan(?:s|ning)?|twist\w*|trim|arc\w*|sweep\w*|curv\w*|bend|orbit\w*|circl\w*|drift\w*|float\w*|"
+    r"engines?|adrift|propulsion|current|steady|stab\w+|settl\w*|pitch|roll|motion|"
+    r"degrees?|bearing|heading|bow|nose|course|follow\w*|track\w*|headings|panorama|"
+    r"position with|in position|keep position|the position within|on the spot|square up|view|moor\w*)\b",
+    re.IGNORECASE,
+)
+"""What speaks of a hold, a turn, a drift or a target kept in view."""
