@@ -115,7 +115,7 @@ OWN_SIZE = _words(r"given|planned|task'?s?|stated|its|standard|usual|the (?:surv
 # Ways and destinations
 WAY_BEHIND = re.compile(rf"^\s?(?:(?:straight|directly|due|to|the)\s+)*({_WAY})\b(\s+of\b\s*)?", re.IGNORECASE)
 NO_DESTINATION = re.compile(
-    r"\b(?:(?:lies|is|are|stands|sits) (?:at|on)|way to|after|before|until|past|when at|round|around|about|"
+    r"\b(?:(?:stay|remain|keep|hold)\w* \w+|(?:lies|is|are|stands|sits) (?:at|on)|way to|after|before|until|past|when at|round|around|about|"
     r"of|circle|orbit|centred on|centered on|from)\s*(?:the point |the position |\w+ at )?[\[(]?$",
     re.IGNORECASE,
 )
