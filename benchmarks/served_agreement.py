@@ -21,6 +21,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+SERVER = Path(__file__).with_name("llama_server.py")
 PATIENCE = 600
 """Seconds for the server to load."""
 
@@ -84,7 +85,7 @@ def served(python: str, gguf: Path, log: Path) -> Iterator[str]:
     settings = {"host": "127.0.0.1", "port": port, "n_ctx": 4096, "n_threads": 1, "type_k": 0, "type_v": 0, "interrupt_requests": False}
     flags = [text for name, value in settings.items() for text in (f"--{name}", str(value))]
     with open(log, "wb") as stream:
-        server = subprocess.Popen([python, "-m", "llama_cpp.server", "--model", str(gguf), "--model_alias", "merged", *flags], stdout=stream, stderr=stream)
+        server = subprocess.Popen([python, str(SERVER), "--model", str(gguf), "--model_alias", "merged", *flags], stdout=stream, stderr=stream)
     try:
         wait_for(f"http://127.0.0.1:{port}/v1/models", server, log)
         yield f"http://127.0.0.1:{port}/v1"

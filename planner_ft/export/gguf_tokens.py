@@ -37,6 +37,10 @@ class Kind(IntEnum):
     UNUSED = 5
 
 
+SHORT = 32
+"""Bytes from which llama-cpp-python drops a token from the text of an answer (its issue 2362)."""
+
+
 @dataclass(frozen=True)
 class TokenTable:
     """`tokens` and `kinds` by id, `merges` as "LEFT RIGHT" in order, and `split`, the name in tokenizer.ggml.pre.
@@ -49,6 +53,14 @@ class TokenTable:
     merges: tuple[str, ...]
     split: str
     added: Mapping[int, str]
+
+    @property
+    def long_words(self) -> int:
+        """Tokens with letters that are longer than SHORT; in byte-level BPE a character stands for a byte."""
+        return sum(
+            len(token) > SHORT and kind == Kind.NORMAL and any("a" <= sign <= "z" for sign in token)
+            for token, kind in zip(self.tokens, self.kinds, strict=True)
+        )
 
 
 def token_table(path: Path, size: int) -> TokenTable:

@@ -132,8 +132,10 @@ def _write_gguf(work: _Work, folder: Path, say: Say) -> dict[str, Any]:
     texts = [message["content"] for record in records for message in prompt_messages(work.level, record, work.vocabulary, with_vocabulary=work.with_vocabulary)]
     count = check_ids(folder / "tokenizer.json", table, dict.fromkeys(texts))
     say(f"writing {path.name} (split {table.split}: same ids for {count} texts)")
+    if table.long_words:
+        say(f"{table.long_words} tokens are longer than 32 bytes: llama-cpp-python drops them from answers, llama.cpp's own llama-server does not")
     write_gguf(folder, path, table, load_tokenizer(exported), name=work.candidate.name, outtype=work.settings.outtype)
-    tokens = {"split": table.split, "user_defined": sorted(table.added.values()), "texts_with_same_ids": count}
+    tokens = {"split": table.split, "user_defined": sorted(table.added.values()), "texts_with_same_ids": count, "tokens_over_32_bytes": table.long_words}
     return {"file": path.name, "sha256": sha256_file(path), "outtype": work.settings.outtype, **tokens}
 
 

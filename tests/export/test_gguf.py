@@ -76,6 +76,8 @@ def test_rope_factors_are_those_of_transformers() -> None:
 
 
 def test_the_embedded_candidates_tokens_are_the_same_after_llama_cpps_split() -> None:
+    from tokenizers import Tokenizer
+
     path = EMBEDDED / "tokenizer.json"
     table = token_table(path, json.loads((EMBEDDED / "config.json").read_text())["vocab_size"])
     texts = [record["prompt"] for record in sample_missions(7, 200)] + ['Transit\n{"target_position":[-99,-99],"speed":1.25}\nGo 12 m on, 3 times.']
@@ -83,6 +85,9 @@ def test_the_embedded_candidates_tokens_are_the_same_after_llama_cpps_split() ->
     assert check_ids(path, table, texts) == 201
     kinds = dict(zip(table.tokens, table.kinds, strict=True))
     assert (kinds["<|end|>"], kinds[" 7"]) == (Kind.CONTROL, Kind.USER_DEFINED)
+    library = Tokenizer.from_file(str(path))
+    pieces = [library.decode([number]) for number in range(library.get_vocab_size(with_added_tokens=False))]
+    assert table.long_words == sum(len(piece.encode()) > 32 and any("a" <= sign <= "z" for sign in piece) for piece in pieces) > 0
     without = TokenTable(table.tokens, table.kinds, table.merges, table.split, {})
     with pytest.raises(PlannerError, match=r"no way in which llama.cpp splits text .* convert_hf_to_gguf.py"):
         check_ids(path, without, texts)
