@@ -75,9 +75,10 @@ def theirs(model: Any, limit: int, tokens: int | None, *, with_vocabulary: bool,
 def compare(batch_size: int, turns: dict[str, list[Turn]]) -> dict[str, Any]:
     """The figures of one batch size."""
     one, other = turns["planner_ft"][-1].found, turns["lm-eval"][-1].found
+    f1 = {"planner_ft": one["f1"], "lm-eval": other["f1"]}
     same = sum(a == b for a, b in zip(one["texts"], other["texts"], strict=True))
     return {
-        "batch_size": batch_size, "samples": len(one["texts"]), "tokens": one["tokens"], "same_answers": same, "f1": {"planner_ft": one["f1"], "lm-eval": other["f1"]},
+        "batch_size": batch_size, "samples": len(one["texts"]), "tokens": one["tokens"], "same_answers": same, "f1": f1,
         "samples_per_s": {name: rates(found) for name, found in turns.items()}, "ratio": ratios(turns["planner_ft"], turns["lm-eval"]),
     }  # fmt: skip
 

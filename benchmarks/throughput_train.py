@@ -37,6 +37,7 @@ from planner_ft.training.report import Trackers, TrainLog, make_display, read_lo
 from planner_ft.training.rng import seed_everything
 from planner_ft.training.samples import Sample, read_split, render_split
 from planner_ft.training.settings import PUBLISHED, TrainSettings
+from planner_ft.training.unpacking import unpack
 from planner_ft.vocabulary import load_vocabulary
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -53,8 +54,10 @@ def settings_of(options: argparse.Namespace, batch_size: int) -> TrainSettings:
 class Side:
     """A model with its adapter, to be trained again and again from the same start."""
 
-    def __init__(self, candidate: Candidate, settings: TrainSettings) -> None:
+    def __init__(self, candidate: Candidate, settings: TrainSettings, *, ours: bool) -> None:
         base = load_model(candidate, device="cpu", quantization=settings.quantization, trainable=True)
+        if ours:
+            unpack(base)
         self.model = attach_adapter(base, settings, candidate.reference)
         self.start = {name: value.float() for name, value in adapter_tensors(self.model).items()}
 
@@ -161,7 +164,7 @@ def measure(options: argparse.Namespace, candidate: Candidate, folder: Path) -> 
     for batch_size in options.batch_sizes:
         settings = settings_of(options, batch_size)
         torch.set_num_threads(cpu_threads(settings, candidate.parameters or 10**9))
-        mine, other = Side(candidate, settings), Side(candidate, settings)
+        mine, other = Side(candidate, settings, ours=True), Side(candidate, settings, ours=False)
         # SFTTrainer takes a batch at a time: without the remainder of an epoch both sides have the same batches.
         whole = samples[: len(samples) // batch_size * batch_size]
         programs = {

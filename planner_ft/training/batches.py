@@ -24,11 +24,12 @@ WIDTH_MULTIPLE = 16
 
 @dataclass(frozen=True)
 class Batch:
-    """Samples side by side, padded on the right, without their last token, which predicts nothing.
+    """Samples without their last token, which predicts nothing, in rows that are padded on the right.
 
-    `input_ids` has the shape (samples, width). There is no attention mask: attention is causal, so that padding on the
-    right reaches no token before it. `rows` and `columns` say where the model predicts completion tokens and `targets`
-    which: three vectors of one length, over all samples. So the output layer runs there alone.
+    `input_ids` has the shape (rows, width). There is no attention mask: attention is causal, so that padding on the right
+    reaches no token before it. Where samples share a row, `positions` (the shape of `input_ids`) begins at zero with each of
+    them, and models let none look at another. `rows` and `columns` say where the model predicts completion tokens and
+    `targets` which: three vectors of one length, over all samples. So the output layer runs there alone.
     """
 
     ids: tuple[str, ...]
@@ -38,13 +39,14 @@ class Batch:
     targets: torch.Tensor
     tokens: int
     """Tokens of the samples, padding not counted."""
+    positions: torch.Tensor | None = None
 
     def to(self, device: torch.device) -> Batch:
         """The batch on `device`; copied from pinned memory in the background where that is CUDA."""
         if device.type == "cpu":
             return self
-        names = ("input_ids", "rows", "columns", "targets")
-        moved = {name: getattr(self, name).pin_memory().to(device, non_blocking=True) for name in names}
+        tensors = {name: getattr(self, name) for name in ("input_ids", "rows", "columns", "targets", "positions")}
+        moved = {name: tensor.pin_memory().to(device, non_blocking=True) for name, tensor in tensors.items() if tensor is not None}
         return replace(self, **moved)
 
 
@@ -78,22 +80,28 @@ def validation_batches(lengths: Sequence[int]) -> Iterator[list[int]]:
         yield batch
 
 
-def collate(samples: Sequence[Sample], pad: int) -> Batch:
-    """A batch of rendered samples. `pad` is any valid token id: nothing attends to padding."""
+def collate(samples: Sequence[Sample], pad: int, *, packed: bool = False) -> Batch:
+    """A batch of rendered samples. `pad` is any valid token id: nothing attends to padding.
+
+    A sample has a row of its own, or, with `packed`, short ones share a row as wide as the longest.
+    """
     import torch
 
-    longest = max(sample.length for sample in samples) - 1
-    width = -(-longest // WIDTH_MULTIPLE) * WIDTH_MULTIPLE
-    input_ids = torch.full((len(samples), width), pad, dtype=torch.long)
+    lengths = [sample.length - 1 for sample in samples]
+    width = -(-max(lengths) // WIDTH_MULTIPLE) * WIDTH_MULTIPLE
+    places = packed_places(lengths, width) if packed else [(row, 0) for row in range(len(samples))]
+    input_ids = torch.full((max(row for row, _start in places) + 1, width), pad, dtype=torch.long)
+    positions = torch.arange(width).repeat(len(input_ids), 1)
     rows: list[int] = []
     columns: list[int] = []
     targets: list[int] = []
-    for row, sample in enumerate(samples):
+    for sample, (row, start) in sorted(zip(samples, places, strict=True), key=lambda placed: placed[1]):
         ids = sample.rendered.input_ids
-        input_ids[row, : len(ids) - 1] = torch.tensor(ids[:-1])
+        input_ids[row, start : start + len(ids) - 1] = torch.tensor(ids[:-1])
+        positions[row, start:] = torch.arange(width - start)
         trained = [position for position, kept in enumerate(sample.rendered.completion_mask) if kept]
         rows.extend([row] * len(trained))
-        columns.extend(position - 1 for position in trained)
+        columns.extend(start + position - 1 for position in trained)
         targets.extend(ids[position] for position in trained)
     return Batch(
         ids=tuple(sample.id for sample in samples),
@@ -102,4 +110,17 @@ def collate(samples: Sequence[Sample], pad: int) -> Batch:
         columns=torch.tensor(columns),
         targets=torch.tensor(targets),
         tokens=sum(sample.length for sample in samples),
+        positions=positions if any(start for _row, start in places) else None,
     )
+
+
+def packed_places(lengths: Sequence[int], width: int) -> list[tuple[int, int]]:
+    """(row, first column) of each sample in rows of `width`: the longest first, each into the first row that has room for it."""
+    used: list[int] = []
+    places: dict[int, tuple[int, int]] = {}
+    for index in sorted(range(len(lengths)), key=lambda index: -lengths[index]):
+        row = next((row for row, filled in enumerate(used) if filled + lengths[index] <= width), len(used))
+        used += [0] if row == len(used) else []
+        places[index] = row, used[row]
+        used[row] += lengths[index]
+    return [places[index] for index in range(len(lengths))]

@@ -17,7 +17,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.resources import peak_memory
 from planner_ft.training.batches import Batch, collate, epoch_steps
 from planner_ft.training.checkpoint import Trainee, TrainState, adapter_tensors, save_checkpoint, set_adapter
-from planner_ft.training.model import adapter_parameters, loss_sum, validation_loss
+from planner_ft.training.model import adapter_parameters, loss_sum, packs, validation_loss
 from planner_ft.training.report import Display, Trackers, TrainLog
 from planner_ft.training.samples import Sample
 from planner_ft.training.schedule import learning_rate
@@ -131,7 +131,7 @@ def _step(run: Run, state: TrainState, batches: list[list[int]]) -> None:
     rate = learning_rate(settings, state.step, run.total_steps)
     for group in trainee.optimizer.param_groups:
         group["lr"] = rate
-    collated = [collate([run.train[index] for index in indices], run.pad) for indices in batches]
+    collated = [collate([run.train[index] for index in indices], run.pad, packed=packs(trainee.model)) for indices in batches]
     count = sum(len(batch.targets) for batch in collated)
     parts = []
     for batch in collated:

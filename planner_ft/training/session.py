@@ -19,6 +19,7 @@ from planner_ft.training.probe import probe_model
 from planner_ft.training.report import Trackers, TrainLog, make_display
 from planner_ft.training.request import TrainRequest
 from planner_ft.training.rng import seed_everything
+from planner_ft.training.unpacking import unpack
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -29,6 +30,8 @@ def ready_model(request: TrainRequest, prepared: Prepared) -> tuple[Any, Finding
     settings = request.settings
     assert prepared.device and prepared.train
     base = load_model(request.candidate, device=str(prepared.device), quantization=settings.quantization, trainable=True)
+    if prepared.device.type == "cpu":
+        unpack(base)
     model = attach_adapter(base, settings, request.candidate.reference)
     problems = probe_model(model, prepared.train.samples, pad_id(prepared), settings.batch_size, prepared.device, compute_dtype(prepared.device))
     parameters = adapter_parameters(model)

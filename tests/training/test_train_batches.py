@@ -6,7 +6,7 @@ import pytest
 import torch
 
 from planner_ft.prompts import Rendered
-from planner_ft.training.batches import VALIDATION_TOKENS, WIDTH_MULTIPLE, collate, epoch_order, epoch_steps, validation_batches
+from planner_ft.training.batches import VALIDATION_TOKENS, WIDTH_MULTIPLE, collate, epoch_order, epoch_steps, packed_places, validation_batches
 from planner_ft.training.samples import Sample
 
 
@@ -132,3 +132,41 @@ def test_the_learning_rate_warms_up_and_falls_to_zero():
         assert rates[10:] == sorted(rates[10:], reverse=True)
         assert 0 < rates[-1] < 0.02
     assert learning_rate(TrainSettings(learning_rate=1.0, warmup=0.0, schedule="constant"), 99, 100) == 1.0
+
+
+def test_short_samples_share_rows_as_wide_as_the_longest():
+    places = packed_places([30, 10, 16, 8, 5], 32)
+    assert places == [(0, 0), (1, 16), (1, 0), (2, 0), (1, 26)]
+    batch = collate([sample(str(length), [3] * (length - 4), [9] * 5) for length in (30, 10, 16, 8, 5)], 0, packed=True)
+    assert batch.input_ids.shape == (3, 32)
+    assert batch.positions is not None and batch.positions[1].tolist() == [*range(16), *range(10), *range(6)]
+    assert (batch.input_ids[batch.rows, batch.columns] != 0).all()
+
+
+def test_samples_that_share_a_row_do_not_see_each_other(tiny):
+    from planner_ft.training.model import packs
+
+    assert packs(tiny)
+    batch = collate(SAMPLES, 0, packed=True)
+    assert len(batch.input_ids) < len(SAMPLES)
+    assert_same(gradients(tiny, [collate(SAMPLES, 0)]), gradients(tiny, [batch]))
+
+
+@pytest.mark.parametrize("name", ["Llama-3.2-1B-Instruct", "Qwen2.5-3B-Instruct"])
+def test_the_candidates_keep_samples_of_a_row_apart(name, models):
+    from planner_ft.candidates import resolve_candidate
+    from planner_ft.candidates.loading import load_model
+    from planner_ft.training.model import attach_adapter, packs
+    from planner_ft.training.settings import TrainSettings
+
+    base = load_model(resolve_candidate(name), device="cpu", quantization="none", trainable=True).float()
+    model = attach_adapter(base, TrainSettings(rank=4, dropout=0.0), name)
+    assert packs(model)
+    assert_same(gradients(model, [collate(SAMPLES, 0)]), gradients(model, [collate(SAMPLES, 0, packed=True)]))
+
+
+def test_models_with_other_layers_keep_a_row_for_each_sample(tiny, monkeypatch):
+    from planner_ft.training.model import packs
+
+    monkeypatch.setattr(tiny.get_base_model().config, "model_type", "mamba")
+    assert not packs(tiny)
