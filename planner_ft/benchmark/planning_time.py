@@ -89,8 +89,8 @@ def _timed(plan: Plan, job: Job, commands: dict[str, str], key: str) -> Iterator
     if not commands:
         return
     candidate = str(job.candidate.folder) if job.candidate.source == "path" else job.candidate.name
-    adapters = {"mission_adapter": job.adapter, "task_adapter": _task_adapter(plan, job)}
-    settings = {"vocabulary": plan.settings.vocabulary, "device": plan.settings.device, "quantization": plan.settings.quantization}
+    adapters: dict[str, Any] = {"mission_adapter": job.adapter, "task_adapter": _task_adapter(plan, job)}
+    settings: dict[str, Any] = {"vocabulary": plan.settings.vocabulary, "device": plan.settings.device, "quantization": plan.settings.quantization}
     with Planner.load(candidate, configuration=job.configuration.name, **adapters, **settings) as planner:
         # What is done once (4-bit weights packed, grammars compiled, the Task Agent loaded) is not counted.
         planner.plan(planning_command(2, 0))

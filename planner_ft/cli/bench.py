@@ -77,6 +77,7 @@ def bench(
     gate: Annotated[
         Path | None, typer.Option(help="Gate file (TOML): run what it names and exit with 1 when a figure falls short.", show_default=False)
     ] = None,
+    no_report: Annotated[bool, typer.Option("--no-report", help="Leave out report.html and its figures.")] = False,
 ) -> None:
     """Benchmark candidates: F1, hallucination, validity, latency and tokens with 95 % intervals, beside the published figures.
 
@@ -95,7 +96,7 @@ def bench(
     if suite is not None or gate is not None:
         _check_alone("--suite" if suite is not None else "--gate")
     if suite is not None:
-        _run_suite(suite, out, named | served, common, processes)
+        _run_suite(suite, out, named | served, common, processes, report=not no_report)
         return
     if gate is not None:
         _run_gate(gate, out, named | served, common)
@@ -112,6 +113,8 @@ def bench(
     with interruptible(settings.folder) as progress:
         results = run_bench(settings, progress, ranks)
     _show(results, settings.folder)
+    if not no_report:
+        _report(settings.folder)
 
 
 def score(
@@ -198,16 +201,16 @@ def _check_alone(flag: str) -> None:
         raise PlannerError(f"{flag} is started once, not by accelerate; a suite shares its runs itself with --processes N")
 
 
-def _run_suite(path: Path, out: Path | None, named: dict[str, Any], common: dict[str, Any], processes: int) -> None:
+def _run_suite(path: Path, out: Path | None, named: dict[str, Any], common: dict[str, Any], processes: int, *, report: bool) -> None:
     from planner_ft.cli.suite import bench_suite
     from planner_ft.support.errors import PlannerError
 
-    flags = {name: named.pop(name) for name in ("limit", "latency_samples") if name in named}
+    flags: dict[str, Any] = {name: named.pop(name) for name in ("limit", "latency_samples") if name in named}
     if named:
         given = ", ".join(f"--{name.replace('_', '-')}" for name in named)
         raise PlannerError(f"--suite {path} says itself what is run; leave out {given} or change the file")
     flags |= {name: common[name] for name in ("device", "batch_size", "seed")}
-    bench_suite(path, out, flags | {"processes": processes}, resume=common["resume"], overwrite=common["overwrite"])
+    bench_suite(path, out, flags | {"processes": processes}, resume=common["resume"], overwrite=common["overwrite"], finish=_report if report else None)
 
 
 def _run_gate(path: Path, out: Path | None, named: dict[str, Any], common: dict[str, Any]) -> None:
@@ -223,6 +226,13 @@ def _run_gate(path: Path, out: Path | None, named: dict[str, Any], common: dict[
         with interruptible(target if out else None) as progress:
             run_gate(gate, target, progress, lambda results: _show(results, out), **common)
     typer.echo(f"{path}: passed ({', '.join(threshold.metric for threshold in gate.thresholds)})")
+
+
+def _report(folder: Path) -> None:
+    """Write the report of a finished run or suite beside its results."""
+    from planner_ft.report.write import report_beside
+
+    typer.echo(report_beside(folder))
 
 
 def _show(results: Results, out: Path | None) -> None:
