@@ -136,8 +136,11 @@ class Candidate:
 
     @property
     def reference(self) -> str:
-        """What plain transformers and PEFT load it by: the hub id of a model from the hub, else its folder."""
-        return self.repo if self.repo and self.source in (None, "hub cache") else str(self.folder or self.name)
+        """What plain transformers and PEFT load it by: the hub id of a model from the hub, else its folder, from here where it lies below."""
+        if self.repo and self.source in (None, "hub cache"):
+            return self.repo
+        here = Path.cwd()
+        return self.name if self.folder is None else str(self.folder.relative_to(here) if self.folder.is_relative_to(here) else self.folder)
 
     def adapter_defaults(self, level: Level) -> AdapterDefaults:
         """Its deviations from the published adapter settings at `level`."""
