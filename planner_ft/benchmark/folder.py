@@ -15,6 +15,7 @@ from planner_ft.support.files import write_json, write_jsonl, write_text
 RESULTS, SCORES, PREDICTIONS, LATENCY, RUN = "results.json", "scores.jsonl", "predictions.jsonl", "latency.jsonl", "run.json"
 PLANNING = "planning.jsonl"
 BASELINES = "baselines.jsonl"
+REPORT = "report.html"
 TABLES = ("table.md", "table.csv", "table.tex")
 SCORED = (RESULTS, SCORES, BASELINES, *TABLES)
 ALL = (*SCORED, PREDICTIONS, LATENCY, PLANNING, RUN)
@@ -49,6 +50,8 @@ def clear(folder: Path, names: Sequence[str] = ALL) -> None:
 
 def write_results(folder: Path, results: Results) -> None:
     """Write results.json, scores.jsonl and the tables; results.json last, so that it is there only when all is."""
+    # A report of earlier results would be taken for one of these.
+    (folder / REPORT).unlink(missing_ok=True)
     write_jsonl(folder / SCORES, results.scores)
     write_jsonl(folder / BASELINES, results.baseline_scores)
     for name, text in render_tables(results).items():

@@ -19,8 +19,8 @@ EVERY = 30.0
 """Seconds between lines where there is no terminal."""
 
 
-def bench_suite(path: Path, out: Path | None, values: dict[str, Any], *, resume: bool, overwrite: bool) -> None:
-    """Run a suite, print its overview, and exit with 1 when a candidate could not be measured."""
+def bench_suite(path: Path, out: Path | None, values: dict[str, Any], *, resume: bool, overwrite: bool, finish: Callable[[Path], None] | None = None) -> None:
+    """Run a suite, print its overview, call `finish` with its folder, and exit with 1 when a candidate could not be measured."""
     from planner_ft.benchmark.suite.definition import load_suite
     from planner_ft.benchmark.suite.run import run_suite
     from planner_ft.benchmark.suite.units import Flags
@@ -39,6 +39,8 @@ def bench_suite(path: Path, out: Path | None, values: dict[str, Any], *, resume:
         raise typer.Exit(130) from None
     typer.echo((folder / "table.md").read_text(encoding="utf-8"))
     typer.echo(f"{folder}/: table.md, table.csv, table.tex, results.json; a folder for each of {', '.join(part.part.name for part in parts)}")
+    if finish is not None:
+        finish(folder)
     failed = [f"{entry.candidate} {entry.configuration} ({part.part.name})" for part in parts for entry in part.failed]
     if failed:
         raise IncompleteError(f"{len(failed)} of the suite could not be measured: {', '.join(failed)}; the reasons are in {folder / 'table.md'}")

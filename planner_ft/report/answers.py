@@ -44,13 +44,13 @@ def index(tests: TestSet) -> dict[str, Any]:
     rows = []
     for name in sample_ids(tests):
         record = tests.samples.get(name, {})
-        answers = [_brief(tests, system, name, outcomes, names) for system in tests.systems]
+        answers = [_brief(tests, system, name, outcomes, names) for system in tests.candidates]
         group = record.get("group") or next((system.scores[name].get("group") for system in tests.systems if name in system.scores), None)
         rows.append([name, _command(tests.level, record), str(group or ""), str(record.get("family") or ""), answers])
     return {
         "title": tests.title,
         "level": tests.level,
-        "systems": [system.name for system in tests.systems],
+        "systems": [system.name for system in tests.candidates],
         "outcomes": outcomes.values,
         "names": names.values,
         "samples": rows,
@@ -98,7 +98,7 @@ def _details(tests: TestSet, name: str) -> list[Any]:
     expected = entries_of(tests, name)
     given = {key: record[key] for key in ("task", "parameters") if key in record}
     entries = [shown(tests.level, record.get("expected"), entry) for entry in expected]
-    return [entries, [_answer(tests, system, name, expected) for system in tests.systems], given]
+    return [entries, [_answer(tests, system, name, expected) for system in tests.candidates], given]
 
 
 def _answer(tests: TestSet, system: System, name: str, expected: tuple[Entry, ...]) -> list[Any] | None:

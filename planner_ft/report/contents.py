@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
+from planner_ft.benchmark.layout import heading
 from planner_ft.benchmark.layout import notes as table_notes
 from planner_ft.benchmark.results import Results, Row
 from planner_ft.benchmark.results import System as RowSystem
@@ -72,8 +73,12 @@ def section(tests: TestSet) -> Section:
 
 
 def _summary(tests: TestSet, found: Significance) -> list[Sentence]:
-    sentences = [Sentence(f"{system.name}.", _in_words(tests, system)) for system in tests.systems if not system.is_baseline]
-    return [*sentences, *(Sentence("", text) for text in found.sentences)]
+    systems = tests.candidates
+    failed = [entry for results in tests.results for entry in results.get("failed") or []]
+    return [
+        *(Sentence(f"{system.name}.", f"{_in_words(tests, system)} {found.sentences.get(system.name, '')}".strip()) for system in systems),
+        *(Sentence(f"{entry.get('label')}, {heading(str(entry.get('configuration')))}.", f"Not measured: {entry.get('reason')}.") for entry in failed),
+    ]
 
 
 def _in_words(tests: TestSet, system: System) -> str:

@@ -14,7 +14,7 @@ from planner_ft.benchmark.metrics.failures import PUBLISHED
 from planner_ft.report.charts import Bar, Bars, Chart, DotRow, Dots, Lines, Matrix, Point, Series, number
 from planner_ft.report.metrics import estimate, published_label, published_rows
 from planner_ft.report.names import Confusion, confusion
-from planner_ft.report.runs import System, TestSet
+from planner_ft.report.runs import Record, System, TestSet
 from planner_ft.vocabulary.plans import list_key
 
 UNIT, AGENT = {"mission": "tasks", "task": "steps"}, {"mission": "Mission Agent", "task": "Task Agent"}
@@ -33,8 +33,10 @@ def system_charts(tests: TestSet, system: System) -> list[Chart]:
     return [chart for chart in found if chart is not None]
 
 
-def f1_bars(tests: TestSet) -> Bars:
+def f1_bars(tests: TestSet) -> Bars | None:
     """F1 as bars, latency as a line, published models beside."""
+    if not tests.systems:
+        return None
     bars = []
     theirs = published_rows(tests)
     for system in tests.systems:
@@ -60,7 +62,7 @@ def _group(system: System) -> str:
 
 def failure_matrix(tests: TestSet) -> Matrix | None:
     """Wrong answers by kind and system; in the end the published analysis, where it is about this test set."""
-    rows = [system for system in tests.systems if system.row.get("failures")]
+    rows = [system for system in tests.candidates if system.row.get("failures")]
     if not rows:
         return None
     kinds = list(dict.fromkeys([*FAILURES, *(kind for system in rows for kind in system.row["failures"])]))
@@ -89,7 +91,7 @@ def latency_dots(tests: TestSet) -> Dots | None:
 
 def stop_matrix(tests: TestSet) -> Matrix | None:
     """Where replayed plans stop, and for want of what."""
-    found = [(system, system.row.get("stops") or []) for system in tests.systems if isinstance(system.row.get("stops"), list)]
+    found = [(system, system.row.get("stops") or []) for system in tests.candidates if isinstance(system.row.get("stops"), list)]
     total: Counter[str] = Counter()
     for _system, stops in found:
         for stop in stops:
@@ -101,12 +103,12 @@ def stop_matrix(tests: TestSet) -> Matrix | None:
     cells = tuple(tuple(of_system.get(row, 0) for of_system in counts) for row in rows)
     caption = "Plans replayed against what each task needs and gives: where they stop first, and for want of what."
     return Matrix(
-        f"{tests.key}-stops", "Plans that do not run to the end", caption, "Stops", tuple(rows), tuple(system.name for system, _stops in found), cells
+        f"{tests.key}-stops", "Plans that do not run to the end", caption, "Missing", tuple(rows), tuple(system.name for system, _stops in found), cells
     )
 
 
-def _stop(stop: Mapping[str, object]) -> str:
-    return f"{stop.get('title') or '(no plan)'}: {stop.get('condition')}"
+def _stop(stop: Record) -> str:
+    return f"{stop['condition']}, at {stop['title']}" if stop.get("title") else "no plan"
 
 
 def planning_lines(tests: TestSet) -> Lines | None:

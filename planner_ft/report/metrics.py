@@ -84,11 +84,15 @@ def cost_table(tests: TestSet) -> Table | None:
     for system, costs in found:
         quantiles = costs.get("latency_s") or {}
         figures = [*(quantiles.get(name) for name, _share in QUANTILES), costs.get("first_token_s"), costs.get("tokens_per_s")]
-        plain = [costs.get("load_s"), costs.get("adapter_swap_s"), costs["peak_memory_bytes"] / 2**20 if costs.get("peak_memory_bytes") else None]
+        plain = [costs.get("load_s"), _scaled(costs.get("adapter_swap_s"), 1000), _scaled(costs.get("peak_memory_bytes"), 2**-20)]
         rows.append(TableRow(system.name, (*(_cost(figure or {}) for figure in figures), *(_cost({"value": value}) for value in plain))))
-    heads = (*(f"Latency {name} (s)" for name, _share in QUANTILES), "First token (s)", "Tokens/s", "Load (s)", "Adapter switch (s)", "Peak memory (MiB)")
+    heads = (*(f"Latency {name} (s)" for name, _share in QUANTILES), "First token (s)", "Tokens/s", "Load (s)", "Adapter switch (ms)", "Peak memory (MiB)")
     caption = "One query at a time after a warm-up. In brackets 95 % intervals; – where too few queries were timed to know a bound."
     return Table(f"{tests.key}-cost", "Cost", caption, "System", heads, tuple(rows))
+
+
+def _scaled(value: float | None, factor: float) -> float | None:
+    return None if value is None else value * factor
 
 
 def _cost(figure: dict[str, Any]) -> Cell:

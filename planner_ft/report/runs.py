@@ -69,6 +69,11 @@ class TestSet:
     notes: tuple[str, ...]
 
     @property
+    def candidates(self) -> tuple[System, ...]:
+        """The systems without the baselines."""
+        return tuple(system for system in self.systems if not system.is_baseline)
+
+    @property
     def title(self) -> str:
         """Level and data in words."""
         return f"{self.level.capitalize()} level, {self.n} samples of {Path(self.path).name}"
@@ -115,12 +120,18 @@ def _run_folders(folders: Sequence[Path]) -> list[Path]:
 
 
 def _below(folder: Path, depth: int) -> Iterator[Path]:
-    if (folder / RESULTS).is_file():
+    if (folder / RESULTS).is_file() and not _is_overview(folder / RESULTS):
         yield folder
     elif depth and folder.is_dir():
         for child in sorted(folder.iterdir()):
             if child.is_dir() and not child.is_symlink():
                 yield from _below(child, depth - 1)
+
+
+def _is_overview(path: Path) -> bool:
+    """Whether it sums up a suite, whose results lie in a folder for each data set."""
+    results = read_json(path)
+    return isinstance(results, dict) and "rows" not in results and isinstance(results.get("parts"), list)
 
 
 def _load(folder: Path) -> _Run:
@@ -137,18 +148,17 @@ def _load(folder: Path) -> _Run:
 
 
 def _answers(folder: Path, results: Record, notes: list[str]) -> list[Record]:
-    """The predictions of a run: its own, or the file that `plannerft score` read, if it is still the same."""
-    path = folder / PREDICTIONS
+    """The predictions of a run: its own, those of a suite's candidates, or the file that `plannerft score` read, if it is still the same."""
     named = results.get("manifest", {}).get("inputs", {}).get("predictions", {})
-    if not path.is_file() and named.get("path"):
-        path = Path(named["path"])
-        if path.is_file() and sha256_file(path) != named.get("sha256"):
-            notes.append(f"{path} has changed since it was scored: answers are not shown.")
+    paths = [folder / PREDICTIONS] if (folder / PREDICTIONS).is_file() else sorted(folder.glob(f"*/{PREDICTIONS}"))
+    if not paths and named.get("path"):
+        paths = [Path(named["path"])]
+        if paths[0].is_file() and sha256_file(paths[0]) != named.get("sha256"):
+            notes.append(f"{paths[0]} has changed since it was scored: answers are not shown.")
             return []
-    if not path.is_file():
-        notes.append(f"{path} is not there: answers are not shown.")
-        return []
-    return _lines(path)
+    if not any(path.is_file() for path in paths):
+        notes.append(f"{paths[0] if paths else folder / PREDICTIONS} is not there: answers are not shown.")
+    return [line for path in paths if path.is_file() for line in _lines(path)]
 
 
 def _lines(path: Path) -> list[Record]:
@@ -219,9 +229,11 @@ def _systems(runs: list[_Run]) -> list[System]:
 def _jobs(run: _Run) -> dict[str, Any]:
     """The jobs of the manifest; for predictions that were scored again, those of the run that made them."""
     named = run.results.get("manifest", {}).get("inputs", {}).get("predictions", {}).get("path")
-    records = [folder / RUN for folder in (run.folder, *([Path(named).parent] if named else [])) if (folder / RUN).is_file()]
-    found = run.results.get("manifest", {}).get("jobs") or next((read_json(path).get("jobs") for path in records), None)
-    return found if isinstance(found, dict) else {}
+    folders = [run.folder, *(path.parent for path in sorted(run.folder.glob(f"*/{RUN}"))), *([Path(named).parent] if named else [])]
+    found: dict[str, Any] = dict(run.results.get("manifest", {}).get("jobs") or {})
+    for path in (folder / RUN for folder in folders if not found or folder != run.folder):
+        found |= read_json(path).get("jobs", {}) if path.is_file() else {}
+    return found
 
 
 def _label(row: Record) -> str:

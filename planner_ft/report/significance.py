@@ -21,12 +21,12 @@ Compared = Mapping[str, Sequence[Record]]
 
 @dataclass(frozen=True)
 class Significance:
-    """Marks by (system, metric), what they mean, a table of differences, and sentences for the summary."""
+    """Marks by (system, metric), what they mean, a table of differences, and sentences on the baselines by system."""
 
     marks: dict[tuple[str, str], str] = field(default_factory=dict)
     legend: str = ""
     table: Table | None = None
-    sentences: tuple[str, ...] = ()
+    sentences: dict[str, str] = field(default_factory=dict)
 
 
 def significance(tests: TestSet) -> Significance:
@@ -39,7 +39,7 @@ def significance(tests: TestSet) -> Significance:
     }
     if not any(known.values()):
         return Significance()
-    return Significance(_marks(known), _legend(known), _table(tests, known), tuple(_against_baselines(known.get("baseline", []))))
+    return Significance(_marks(known), _legend(known), _table(tests, known), _against_baselines(known.get("baseline", [])))
 
 
 def _recorded(tests: TestSet) -> Compared:
@@ -76,15 +76,16 @@ def _legend(found: Compared) -> str:
     return " ".join(parts)
 
 
-def _against_baselines(found: Sequence[Record]) -> list[str]:
+def _against_baselines(found: Sequence[Record]) -> dict[str, str]:
     """Whether each system beats each baseline by F1: one that does not has learnt nothing that could be shown."""
-    sentences = []
+    sentences = {}
     for name in dict.fromkeys(one["second"] for one in found):
         by_f1 = {one["first"]: one["verdict"] == "better" for one in found if one["second"] == name and one["metric"] == "f1"}
         beaten, others = ([first for first, better in by_f1.items() if better is kind] for kind in (True, False))
-        parts = [f"beats {' and '.join(beaten)} by F1"] if beaten else []
-        parts += [f"is not shown to beat {' or '.join(others)} by F1"] if others else []
-        sentences += [f"{name} {', but '.join(parts)}."] if parts else []
+        parts = [f"beats {' and '.join(beaten)}"] if beaten else []
+        parts += [f"is not shown to beat {' or '.join(others)}"] if others else []
+        if parts:
+            sentences[name] = f"By F1 it {', but '.join(parts)}."
     return sentences
 
 

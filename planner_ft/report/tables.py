@@ -70,7 +70,7 @@ def html_table(table: Table, *, title: bool = True) -> Markup:
 
 
 def _html_cell(cell: Cell) -> Markup:
-    parts = [cell.text, tag("span", cell.interval, class_="interval") if cell.interval else None, tag("span", cell.mark, class_="sign") if cell.mark else None]
+    parts = [cell.text, tag("span", cell.mark, class_="sign") if cell.mark else None, tag("span", cell.interval, class_="interval") if cell.interval else None]
     return tag("td", join([part for part in parts if part is not None]), class_=f"heat h{cell.heat}" if cell.heat is not None else None)
 
 

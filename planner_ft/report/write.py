@@ -40,6 +40,15 @@ def write_report(
     return written
 
 
+def report_beside(folder: Path) -> str:
+    """Write the report of a run into its folder and say so in one line. Never raises: a run is not lost because its report fails."""
+    try:
+        write_report([folder], folder, overwrite=True, pictures="overall")
+    except Exception as error:
+        return f"{folder / PAGE}: not written ({error or type(error).__name__}); the results are complete, try `plannerft report {folder}`"
+    return f"{folder / PAGE}: tables, figures and every sample; figures of each system: plannerft report {folder} --overwrite"
+
+
 def check_pictures(name: str) -> Pictures:
     """`name` itself. Raises PlannerError when it is none of the choices."""
     for known in get_args(Pictures):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -81,3 +82,25 @@ def test_no_run_and_damaged_runs_are_refused_in_one_sentence(run: Path, tmp_path
     (run / "results.json").write_text("[]")
     with pytest.raises(PlannerError, match="no results of a run"):
         load_test_sets([run])
+
+
+def test_a_suite_is_a_section_for_each_data_set_and_names_who_failed(run: Path, tmp_path: Path) -> None:
+    suite = tmp_path / "suite"
+    part, empty = suite / "curated", suite / "unseen"
+    (part / "embedded").mkdir(parents=True)
+    empty.mkdir()
+    for name in ("results.json", "scores.jsonl", "baselines.jsonl"):
+        shutil.copy(run / name, part / name)
+    shutil.copy(run / "predictions.jsonl", part / "embedded" / "predictions.jsonl")
+    failed = [{"candidate": "big", "label": "Big", "configuration": "lora", "reason": "no memory for <it>"}]
+    results = json.loads((part / "results.json").read_text()) | {"failed": failed}
+    (part / "results.json").write_text(json.dumps(results))
+    (empty / "results.json").write_text(json.dumps(results | {"rows": [], "baselines": [], "comparisons": {}, "data": results["data"] | {"sha256": "1" * 64}}))
+    (suite / "results.json").write_text(json.dumps({"title": "A suite", "parts": []}))
+    sets = load_test_sets([suite])
+    assert [len(tests.candidates) for tests in sets] == [2, 0]
+    assert set(sets[0].systems[0].answers) == set(EXPECTED)
+    write_report([suite], tmp_path / "report", pictures="none")
+    page = (tmp_path / "report" / "report.html").read_text()
+    assert page.count("Big, LoRA.") == 2
+    assert "Not measured: no memory for &lt;it&gt;." in page

@@ -8,9 +8,15 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from planner_ft.benchmark.folder import write_results
+from planner_ft.benchmark.metrics import FAILURES
+from planner_ft.benchmark.results import Results, Row, System
+from planner_ft.benchmark.samples import load_bench_data
+from planner_ft.benchmark.submission import score_predictions
 from planner_ft.cli.app import app
-from planner_ft.report.write import write_report
+from planner_ft.report.write import report_beside, write_report
 from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary import load_vocabulary
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -81,3 +87,28 @@ def test_several_runs_need_a_folder_for_the_report(run: Path, tmp_path: Path) ->
     failed = CliRunner().invoke(app, ["report", str(run), str(run)])
     assert isinstance(failed.exception, PlannerError)
     assert "--out is missing" in str(failed.exception)
+
+
+def test_a_failing_report_is_said_and_loses_nothing(run: Path) -> None:
+    (run / "scores.jsonl").write_text("{broken\n")
+    said = report_beside(run)
+    assert "scores.jsonl:1: not JSON" in said
+    assert "the results are complete" in said
+    assert (run / "results.json").is_file()
+
+
+@pytest.mark.parametrize("flags", [[], ["--no-report"]])
+def test_bench_writes_a_report_beside_its_results(run: Path, monkeypatch: pytest.MonkeyPatch, flags: list[str]) -> None:
+    row = System("good", "base", "good")
+    results = Results("mission", {"path": "d.jsonl", "sha256": "0" * 64, "n": 4}, (Row(row, 4, {}, dict.fromkeys(FAILURES, 0), {}),))
+    monkeypatch.setattr("planner_ft.benchmark.runner.run_bench", lambda *_arguments: results)
+    done = CliRunner().invoke(app, ["bench", "--level", "mission", "--candidates", "embedded", "--out", str(run), *flags])
+    assert done.exit_code == 0, done.output
+    assert (run / "report.html").is_file() is not bool(flags)
+
+
+def test_new_results_remove_the_report_of_former_ones(run: Path, data: Path) -> None:
+    write_report([run], run, pictures="none")
+    vocabulary = load_vocabulary("usv")
+    write_results(run, score_predictions(run / "predictions.jsonl", load_bench_data(data, "mission", vocabulary), vocabulary))
+    assert not (run / "report.html").exists()

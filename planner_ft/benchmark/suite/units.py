@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.folder import LATENCY, PREDICTIONS, RESULTS
+from planner_ft.benchmark.folder import LATENCY, PLANNING, PREDICTIONS, RESULTS
 from planner_ft.benchmark.samples import BenchData, load_bench_data
 from planner_ft.benchmark.suite.definition import Part, Suite
 from planner_ft.candidates import Candidate, resolve_candidate
@@ -69,7 +69,7 @@ class Unit:
             "planning-samples": self.part.planning_samples, "vocabulary": self.vocabulary, "quantization": self.quantization, "device": self.flags.device,
             "batch-size": self.flags.batch_size or "auto", "seed": self.flags.seed,
         }  # fmt: skip
-        return ["bench", *(str(item) for name, value in values.items() if value is not None for item in (f"--{name}", value)), "--resume"]
+        return ["bench", *(str(item) for name, value in values.items() if value is not None for item in (f"--{name}", value)), "--resume", "--no-report"]
 
     def fingerprint(self, vocabulary: Vocabulary) -> dict[str, Any]:
         """Everything that the figures of this unit depend on, apart from the code that scores."""
@@ -91,7 +91,7 @@ class Unit:
 
     def progress(self) -> Written:
         """What the unit's process has written so far."""
-        return Written([PREDICTIONS, LATENCY], self.folder)
+        return Written([PREDICTIONS, LATENCY, PLANNING], self.folder)
 
 
 class Written:
