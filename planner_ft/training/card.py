@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Any
 
 LICENCES = {"Apache-2.0": "apache-2.0"}
@@ -35,6 +36,8 @@ def model_card(manifest: dict[str, Any]) -> str:
         _table(_training_rows(manifest)),
         *(f"- {text}" for text in manifest["departures"]),
         "![Loss curve](loss.png)",
+        "## Limits",
+        "\n".join(f"- {text}" for text in _limits(manifest)),
         "`manifest.json` holds the whole configuration, data digests, versions and the losses of every epoch.",
     ]
     return "\n\n".join(part for part in parts if part) + "\n"
@@ -69,6 +72,7 @@ def _training_rows(manifest: dict[str, Any]) -> list[tuple[str, Any]]:
     validation = f"{result['validation_loss']:.4f} (epoch {result['best_epoch']:g})" if result["validation_loss"] is not None else "none"
     return [
         ("samples", ", ".join(f"{count} {role}" for role, count in manifest["samples"].items())),
+        *((f"{role} data", f"{Path(entry['path']).name}, SHA-256 {entry['sha256'][:12]}…") for role, entry in manifest.get("inputs", {}).items()),
         ("epochs, steps", f"{result['epochs']:g}, {result['steps']}"),
         ("rank, alpha, dropout", f"{settings['rank']}, {settings['alpha']}, {settings['dropout']:g}"),
         ("learning rate, schedule", f"{settings['learning_rate']:g}, {settings['schedule']}"),
@@ -78,6 +82,15 @@ def _training_rows(manifest: dict[str, Any]) -> list[tuple[str, Any]]:
         ("best validation loss", validation),
         ("time, device", f"{result['seconds']:.0f} s, {result['device']}"),
         ("seed", manifest["seed"]),
+    ]
+
+
+def _limits(manifest: dict[str, Any]) -> list[str]:
+    name = manifest["vocabulary"]["name"]
+    return [
+        f"It knows the vocabulary `{name}` alone (SHA-256 {manifest['vocabulary']['sha256'][:12]}…) and commands like those of its training, in English.",
+        "A plan that is valid need not be right: tasks may be missing, swapped or added, and values lost. A person must approve each plan.",
+        "A loss says nothing about plans; `plannerft bench` measures them and `plannerft report --card` writes the figures here.",
     ]
 
 

@@ -11,6 +11,7 @@ from huggingface_hub import ModelCard
 from planner_ft.report.card import write_card
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import sha256_tree
+from planner_ft.training.card import model_card
 
 FRONT = "---\nlibrary_name: peft\nlicense: apache-2.0\ntags: [lora]\n---\n\n# An adapter\n\n## Use\n\nLoad it.\n\n## Training\n\nIt was trained.\n"
 
@@ -74,3 +75,10 @@ def test_runs_of_other_weights_are_refused(run: Path, adapter: Path) -> None:
 def test_a_folder_without_a_card_is_refused(run: Path, tmp_path: Path) -> None:
     with pytest.raises(PlannerError, match="no adapter with a model card"):
         write_card(tmp_path, [run])
+
+
+def test_a_card_names_its_training_data_and_limits() -> None:
+    manifest = json.loads((Path(__file__).parents[2] / "adapters" / "embedded" / "mission" / "manifest.json").read_text())
+    card = model_card(manifest)
+    assert f"| training data | train.jsonl, SHA-256 {manifest['inputs']['training']['sha256'][:12]}" in card
+    assert "A plan that is valid need not be right" in card
