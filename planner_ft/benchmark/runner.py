@@ -167,7 +167,7 @@ def _results(plan: Plan, predictions: RecordLog, latencies: RecordLog, run: dict
     settings = plan.settings
     configuration = {
         "level": settings.level, "vocabulary": {"name": plan.vocabulary.name, "sha256": plan.vocabulary.sha256}, "limit": settings.limit,
-        "batch_size": settings.batch_size, "max_new_tokens": settings.token_limit, "latency_samples": settings.latency_samples,
+        "batch_size": settings.batch_size or "auto", "max_new_tokens": settings.token_limit, "latency_samples": settings.latency_samples,
         "decoding": {"temperature": settings.temperature, "top_p": settings.top_p, "repeats": settings.repeats} if settings.temperature else "greedy",
     }  # fmt: skip
     costs = read_run(settings.folder).costs

@@ -5,12 +5,16 @@ from __future__ import annotations
 
 import csv
 import json
+import multiprocessing
+import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from planner_ft.benchmark.suite import process as process_module
 from planner_ft.benchmark.suite import session as session_module
 from planner_ft.benchmark.suite.combine import combine
 from planner_ft.benchmark.suite.definition import load_suite
@@ -55,7 +59,8 @@ class Runs:
         self.running: _Run | None = None
 
     def __call__(self, arguments: list[str], log: Path, processes: int) -> _Run:
-        values = dict(zip(arguments[1:-1:2], arguments[2:-1:2], strict=True))
+        pairs = arguments[1 : arguments.index("--resume")]
+        values = dict(zip(pairs[::2], pairs[1::2], strict=True))
         part, candidate = Path(values["--out"]).parent.name, values["--candidates"]
         self.started.append((part, candidate))
         self.running = _Run(self, values, self.fails.get((part, candidate)))
@@ -295,6 +300,29 @@ def test_a_process_that_is_killed_says_so(tmp_path: Path) -> None:
     with Process(["bench", "--level", "mission"], tmp_path / "log.txt") as process:
         process.child.kill()
         assert "SIGKILL" in str(process.problem())
+
+
+def test_a_process_ends_with_the_suite_that_started_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(process_module, "command", lambda _arguments, _processes: [sys.executable, "-c", "import time; time.sleep(60)"])
+
+    def suite() -> None:
+        with Process([], tmp_path / "log.txt") as process:
+            (tmp_path / "pid").write_text(str(process.child.pid))
+            time.sleep(60)
+
+    parent = multiprocessing.get_context("fork").Process(target=suite)
+    parent.start()
+    while not (tmp_path / "pid").is_file() or not (tmp_path / "pid").read_text():
+        time.sleep(0.01)
+    child = Path("/proc") / (tmp_path / "pid").read_text() / "stat"
+    assert child.is_file()
+    parent.kill()
+    parent.join()
+    deadline = time.monotonic() + 30
+    # Gone, or a zombie that nobody has collected yet.
+    while child.is_file() and child.read_text().rsplit(")", 1)[1].split()[0] != "Z" and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert time.monotonic() < deadline
 
 
 def test_a_suite_runs_in_real_processes(suite_file: Path, tmp_path: Path, models: Path) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark import folder
-from planner_ft.benchmark.folder import PREDICTIONS
+from planner_ft.benchmark.folder import PLANNING, PREDICTIONS
 from planner_ft.benchmark.suite.definition import Suite
 from planner_ft.benchmark.suite.estimate import Kind, Pace, Work, time_left
 from planner_ft.benchmark.suite.process import LOG, Process
@@ -99,14 +99,17 @@ class Session:
         return process.problem(), answered
 
     def _read(self, unit: Unit, records: list[tuple[str, dict[str, Any]]]) -> float:
-        """Count what was written; return the seconds that it took."""
+        """Count what was written; return the seconds that it took, those of answers divided among the processes that share them."""
         total = 0.0
         for name, record in records:
+            if name == PLANNING:
+                continue
             kind: Kind = "answers" if name == PREDICTIONS else "latency"
             configuration = str(record.get("configuration"))
             seconds = record.get("time_s" if kind == "answers" else "latency_s")
             self.counts[unit.name, configuration, kind] = self.counts.get((unit.name, configuration, kind), 0) + 1
             if isinstance(seconds, int | float):
+                seconds /= unit.flags.processes if kind == "answers" else 1
                 self.pace.add(_work(unit, configuration, kind, 1), seconds)
                 total += seconds
         return total
