@@ -65,6 +65,7 @@ def compare(arguments: argparse.Namespace, work: Path) -> dict[str, Any]:
         "f1_served": {row["configuration"]: row["metrics"]["f1"]["value"] for row in rows},
         "f1_here": score(work / "here.jsonl", arguments),
         "strictly_valid_served": {row["configuration"]: row["metrics"]["strict_valid"]["value"] for row in rows},
+        "complete_but_invalid_served": complete_but_invalid(work / "served"),
         "latency_s_served": {row["configuration"]: row["metrics"]["latency_s"]["value"] for row in rows},
     }
 
@@ -142,6 +143,16 @@ def benchmark(url: str, arguments: argparse.Namespace, out: Path) -> list[dict[s
     more = ["--latency-samples", "5", "--timeout", "600", "--concurrency", "2", "--out", str(out), *limit]
     subprocess.run([sys.executable, "-m", "planner_ft", "bench", *flags, *more], check=True)
     return list(json.loads((out / "results.json").read_text())["rows"])
+
+
+def complete_but_invalid(run: Path) -> dict[str, list[str]]:
+    """Answers by configuration that the model ended itself and that are not strictly valid: with +schema there should be none."""
+    ended = {(line["configuration"], line["id"]) for line in read_lines(run / "predictions.jsonl") if line["finish_reason"] == "stop"}
+    found: dict[str, list[str]] = {configuration: [] for configuration, _name in sorted(ended)}
+    for line in read_lines(run / "scores.jsonl"):
+        if (line["configuration"], line["id"]) in ended and not line["strict_valid"]:
+            found[line["configuration"]].append(line["id"])
+    return found
 
 
 def local_answers(folder: Path, arguments: argparse.Namespace, path: Path) -> dict[str, str]:
