@@ -102,6 +102,7 @@ def test_bench_writes_a_report_beside_its_results(run: Path, monkeypatch: pytest
     row = System("good", "base", "good")
     results = Results("mission", {"path": "d.jsonl", "sha256": "0" * 64, "n": 4}, (Row(row, 4, {}, dict.fromkeys(FAILURES, 0), {}),))
     monkeypatch.setattr("planner_ft.benchmark.runner.run_bench", lambda *_arguments: results)
+    monkeypatch.setattr("planner_ft.report.pictures.picture", lambda _chart: {})  # drawing is tested elsewhere
     done = CliRunner().invoke(app, ["bench", "--level", "mission", "--candidates", "embedded", "--out", str(run), *flags])
     assert done.exit_code == 0, done.output
     assert (run / "report.html").is_file() is not bool(flags)
