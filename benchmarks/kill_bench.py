@@ -29,7 +29,8 @@ def command(out: Path, samples: int) -> list[str]:
     """A run in both configurations, with some timed queries."""
     flags = {"level": "mission", "candidates": "embedded", "configurations": "base,lora", "data": "data/mission/test.jsonl", "limit": samples}
     flags |= {"latency-samples": 4, "batch-size": 4, "device": "cpu", "out": out}
-    return [sys.executable, "-m", "planner_ft", "bench", *(str(item) for name, value in flags.items() for item in (f"--{name}", value)), "--resume", "--no-report"]
+    named = (str(item) for name, value in flags.items() for item in (f"--{name}", value))
+    return [sys.executable, "-m", "planner_ft", "bench", *named, "--resume", "--no-report"]
 
 
 def lines(out: Path) -> int:
