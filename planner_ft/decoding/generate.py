@@ -44,7 +44,8 @@ class Generation:
 
     `finish_reason`: "stop" (an end-of-turn token), "length" (cut at the limit) or "error" (`error` says why).
     `first_token_s` is the time from the batch's begin until its first tokens were known. `forward_passes` are those that the answer
-    took part in. Of its tokens, `forced_tokens` left no choice and `drafted_tokens` were drafted rightly. `notes` and `cut` are the constraint's (see `constraints`).
+    took part in. Of its tokens, `forced_tokens` left no choice and `drafted_tokens` were drafted rightly. `notes` and `cut` are the
+    constraint's (see `constraints`).
     """
 
     ids: tuple[int, ...]

@@ -41,10 +41,7 @@ class Logic:
 
 def build_logic(raw: Mapping[str, Any]) -> Logic:
     """The logic of a parsed file that `logic_problems` finds nothing wrong with."""
-    tasks = {
-        title: TaskLogic(**{key: tuple(entry.get(key, ())) for key in LISTS}, sends=entry.get("sends"))
-        for title, entry in raw.get("task", {}).items()
-    }
+    tasks = {title: TaskLogic(**{key: tuple(entry.get(key, ())) for key in LISTS}, sends=entry.get("sends")) for title, entry in raw.get("task", {}).items()}
     return Logic({name: fact["lacking"] for name, fact in raw.get("fact", {}).items()}, tasks)
 
 
