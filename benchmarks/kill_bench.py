@@ -49,6 +49,7 @@ def kill_once(out: Path, samples: int, rng: random.Random) -> bool:
         time.sleep(0.01)
     time.sleep(rng.uniform(0, 0.3))
     if process.poll() is not None:
+        assert process.returncode == 0, f"the run was refused: {' '.join(command(out, samples))}"
         return False
     process.send_signal(signal.SIGKILL)
     process.wait()
