@@ -104,3 +104,14 @@ def test_a_suite_is_a_section_for_each_data_set_and_names_who_failed(run: Path, 
     page = (tmp_path / "report" / "report.html").read_text()
     assert page.count("Big, LoRA.") == 2
     assert "Not measured: no memory for &lt;it&gt;." in page
+
+
+def test_the_data_sets_of_a_suite_stand_in_its_own_order(run: Path, tmp_path: Path) -> None:
+    suite = tmp_path / "suite"
+    for number, name in enumerate(("apart", "published")):
+        (suite / name).mkdir(parents=True)
+        results = json.loads((run / "results.json").read_text())
+        (suite / name / "results.json").write_text(json.dumps(results | {"data": results["data"] | {"sha256": str(number) * 64}}))
+    (suite / "results.json").write_text(json.dumps({"title": "A suite", "parts": [{"name": "published"}, {"name": "apart"}]}))
+    first, second = load_test_sets([suite])
+    assert (first.sha256, second.sha256) == ("1" * 64, "0" * 64)
