@@ -58,10 +58,11 @@ def overview_csv(parts: Sequence[PartResults]) -> str:
     )
     for part in parts:
         common = [part.part.name, part.part.level, int(part.part.apart), part.results.data["n"]]
-        for row in part.results.rows:
+        for row in (*part.results.rows, *part.results.baselines):
             estimates = [row.metrics.get(name, Estimate(None)) for name in METRICS]
             figures = ["" if value is None else f"{value:.6g}" for found in estimates for value in (found.value, found.low, found.high)]
-            writer.writerow([*common, row.system.label, row.system.candidate, row.system.configuration, "measured", "", *figures])
+            status = "baseline" if row.system.is_baseline else "measured"
+            writer.writerow([*common, row.system.label, row.system.candidate, row.system.configuration, status, "", *figures])
         for entry in part.failed:
             writer.writerow([*common, entry.label, entry.candidate, entry.configuration, "failed", entry.reason, *[""] * (3 * len(METRICS))])
     return stream.getvalue()
@@ -76,6 +77,8 @@ def overview_latex(parts: Sequence[PartResults]) -> str:
         lines += ["\\midrule", f"\\multicolumn{{{2 + len(FIGURES)}}}{{l}}{{\\textit{{{_tex(where)}}}}} \\\\"]
         for row in part.results.rows:
             lines.append(" & ".join(_tex(text) for text in [row.system.label, heading(row.system.configuration), *_figures(row)]) + " \\\\")
+        for row in part.results.baselines:
+            lines.append(" & ".join(_tex(text) for text in [row.system.label, "", *_figures(row)]) + " \\\\")
         for entry in part.failed:
             reason = f"\\multicolumn{{{len(FIGURES)}}}{{l}}{{not measured}}"
             lines += [f"{_tex(entry.label)} & {_tex(heading(entry.configuration))} & {reason} \\\\ % {entry.reason}"]
@@ -85,12 +88,26 @@ def overview_latex(parts: Sequence[PartResults]) -> str:
 def _write_part(where: Path, part: PartResults) -> None:
     where.mkdir(parents=True, exist_ok=True)
     write_jsonl(where / folder.SCORES, part.results.scores)
+    write_jsonl(where / folder.BASELINES, part.results.baseline_scores)
     texts = render_tables(part.results) if part.results.rows else dict.fromkeys(folder.TABLES, "")
-    failed = _failed_lines([(part.part.name, entry) for entry in part.failed])
     for name, text in texts.items():
-        more = ["", "Not measured:", "", *failed] if name == "table.md" else [f"% not measured: {line}" for line in failed[2:]] if name == "table.tex" else []
-        write_text(where / name, text + ("\n".join(more) + "\n" if part.failed and more else ""))
+        write_text(where / name, text + _not_measured(name, part))
     write_json(where / folder.RESULTS, _part_json(part) | part.results.to_json())
+
+
+def _not_measured(name: str, part: PartResults) -> str:
+    """What a table of one data set says about the systems that it lacks."""
+    if not part.failed:
+        return ""
+    if name == "table.md":
+        return "\n".join(["", "Not measured:", "", *_failed_lines([(part.part.name, entry) for entry in part.failed])]) + "\n"
+    if name == "table.tex":
+        return "".join(f"% not measured: {entry.label}, {heading(entry.configuration)}: {entry.reason}\n" for entry in part.failed)
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    for entry in part.failed:
+        writer.writerow([entry.label, f"not measured ({entry.configuration}): {entry.reason}", part.results.data["n"]])
+    return stream.getvalue()
 
 
 def _part_json(part: PartResults) -> dict[str, Any]:
@@ -102,7 +119,7 @@ def _part_json(part: PartResults) -> dict[str, Any]:
 def _markdown_part(part: PartResults) -> list[str]:
     lines = ["| Model | Configuration | " + " | ".join(name for _metric, name, _scale, _decimals in FIGURES) + " |", "|---|---|" + "---:|" * len(FIGURES)]
     lines += [f"| {row.system.label} | {heading(row.system.configuration)} | " + " | ".join(_figures(row)) + " |" for row in part.results.rows]
-    lines += [f"| {row.system.label} | baseline | " + " | ".join(_figures(row)) + " |" for row in part.results.baselines]
+    lines += [f"| {row.system.label} | – | " + " | ".join(_figures(row)) + " |" for row in part.results.baselines]
     return lines + [f"| {entry.label} | {heading(entry.configuration)} | not measured |" + " |" * (len(FIGURES) - 1) for entry in part.failed]
 
 
