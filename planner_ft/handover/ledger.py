@@ -1,0 +1,144 @@
+"""The accounting of a hand-over: everything that a plan says is either in the file or among the losses.
+
+A format goes through the plan and enters into a `Ledger` what it carries, what it carries in another form, and what it leaves out and
+why. What it never mentions is a loss, too: nothing is dropped silently.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from planner_ft.support.files import compact_json
+
+Path = tuple[str | int, ...]
+"""Where something stands in the document: ("tasks", 1, "skill_sequence", 0, "navigation_skill", "parameters", "x")."""
+
+NO_PLACE = "the format has no place for it"
+LISTS = ("stop_conditions", "failure_modes", "expected_outputs")
+
+
+@dataclass(frozen=True)
+class Item:
+    """One thing that a plan says: where it stands, the task's id (None: of the whole plan), what it is in words."""
+
+    path: Path
+    task: str | None
+    what: str
+
+
+@dataclass(frozen=True)
+class Loss:
+    """Something that a file does not hold as the plan says it: of which task (None: of the whole plan), what, and why or how."""
+
+    task: str | None
+    what: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Account:
+    """A closed ledger. `carried` are the paths that the file holds, `changed` is carried in another form, `lost` is not in the file."""
+
+    carried: frozenset[Path]
+    changed: tuple[Loss, ...]
+    lost: tuple[Loss, ...]
+    changed_paths: frozenset[Path]
+    lost_paths: frozenset[Path]
+
+
+class Ledger:
+    """What becomes of every item of one document. A path stands for all items at and below it."""
+
+    def __init__(self, document: dict[str, Any]) -> None:
+        self.items = {item.path: item for item in plan_items(document)}
+        self._below: dict[Path, list[Path]] = {}
+        for path in self.items:
+            for length in range(1, len(path) + 1):
+                self._below.setdefault(path[:length], []).append(path)
+        self._carried: dict[Path, str] = {}
+        self._lost: dict[Path, str] = {}
+
+    def __contains__(self, path: Path) -> bool:
+        """Whether the plan says anything at or below `path`."""
+        return path in self._below
+
+    def carry(self, *path: str | int, form: str = "") -> None:
+        """The file holds this; `form` says how, where it is not as the plan says it. Raises KeyError where the plan says nothing."""
+        for item in self._below[path]:
+            self._carried[item] = form
+            self._lost.pop(item, None)
+
+    def lose(self, *path: str | int, why: str) -> None:
+        """The file does not hold this. What is carried already stays so. Raises KeyError where the plan says nothing."""
+        for item in self._below[path]:
+            if item not in self._carried:
+                self._lost[item] = why
+
+    def close(self, why: str = NO_PLACE) -> Account:
+        """The account; what was never mentioned is lost, and this is `why`."""
+        lost = {path: self._lost.get(path, why) for path in self.items if path not in self._carried}
+        changed = {path: self._carried[path] for path in self.items if self._carried.get(path)}
+        return Account(frozenset(self._carried), self._told(changed), self._told(lost), frozenset(changed), frozenset(lost))
+
+    def _told(self, entries: dict[Path, str]) -> tuple[Loss, ...]:
+        """One loss per task and reason, in the plan's order."""
+        grouped: dict[tuple[str | None, str], list[str]] = {}
+        for path, why in entries.items():
+            item = self.items[path]
+            grouped.setdefault((item.task, why), []).append(item.what)
+        return tuple(Loss(task, "; ".join(what), why) for (task, why), what in grouped.items())
+
+
+def plan_items(document: dict[str, Any]) -> Iterator[Item]:
+    """Everything that a plan says to a vehicle or to its operator, in the document's order."""
+    yield Item(("command",), None, "the command")
+    for key, value in (document.get("vehicle") or {}).items():
+        if value is not None:
+            yield Item(("vehicle", key), None, f"the vehicle's {key.replace('_', ' ')}: {_said(value)}")
+    for index, task in enumerate(document["tasks"]):
+        yield from _task_items(("tasks", index), task)
+    for key, one in (("assumptions", "assumption"), ("constraints", "constraint")):
+        yield from (Item((key, index), None, f"{one}: {text}") for index, text in enumerate(document.get(key, ())))
+    for index, place in enumerate(document.get("open_places", ())):
+        yield Item(("open_places", index), None, f"open place: {place['name']}")
+    for name, position in document.get("located", {}).items():
+        yield Item(("located", name), None, f"located: {name} at {_said(position)}")
+    for index, warning in enumerate(document.get("warnings", ())):
+        yield Item(("warnings", index), warning.get("task"), f"warning: {warning['text']}")
+
+
+def _task_items(at: Path, task: dict[str, Any]) -> Iterator[Item]:
+    name = task["id"]
+    yield Item((*at, "title"), name, f"title {task['title']}")
+    yield Item((*at, "task_prompt"), name, f"task prompt: {task['task_prompt']}")
+    for key, value in task["parameters"].items():
+        yield Item((*at, "parameters", key), name, f"{key} = {_said(value)}")
+    for key in ("waits_for", "stale"):
+        if task.get(key):
+            yield Item((*at, key), name, f"{key.replace('_', ' ')}: {_said(task[key])}")
+    for key in ("assumptions", "problems"):
+        yield from (Item((*at, key, index), name, f"{key[:-1]}: {text}") for index, text in enumerate(task.get(key, ())))
+    for index, step in enumerate(task["skill_sequence"] or ()):
+        yield from _step_items((*at, "skill_sequence", index), name, step, f"step {index + 1}")
+
+
+def _step_items(at: Path, task: str, step: dict[str, Any], where: str) -> Iterator[Item]:
+    yield from _skill_items((*at, "navigation_skill"), task, step["navigation_skill"], where)
+    for key in ("filter_skills", "perception_skills"):
+        for index, skill in enumerate(step[key]):
+            yield from _skill_items((*at, key, index), task, skill, where)
+    for key in LISTS:
+        one = key[:-1].replace("_", " ")
+        yield from (Item((*at, key, index), task, f"{where}, {one}: {text}") for index, text in enumerate(step[key]))
+
+
+def _skill_items(at: Path, task: str, skill: dict[str, Any], where: str) -> Iterator[Item]:
+    yield Item((*at, "name"), task, f"{where}, {skill['name']}")
+    for key, value in skill["parameters"].items():
+        yield Item((*at, "parameters", key), task, f"{where}, {skill['name']} {key} = {_said(value)}")
+
+
+def _said(value: Any) -> str:
+    return value if isinstance(value, str) else compact_json(value)
