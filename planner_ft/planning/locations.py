@@ -39,7 +39,7 @@ def open_places(plan: dict[str, Any], vocabulary: Vocabulary) -> list[OpenPlace]
     for number, entry in enumerate(plan["tasks"], start=1):
         if entry["title"] == vocabulary.locate:
             searched.append(_search_target(entry, vocabulary))
-        elif _is_open(entry, vocabulary):
+        elif is_open(entry, vocabulary):
             needed.setdefault(_name_of(entry, searched, vocabulary), []).append(number)
     return [OpenPlace(name, tuple(numbers)) for name, numbers in needed.items()]
 
@@ -98,7 +98,8 @@ def _matching(name: str, places: Sequence[OpenPlace]) -> OpenPlace:
     raise PlannerError(f"--locate {name}: {'fits several places' if found else 'no such place is open'}; there is {names}")
 
 
-def _is_open(entry: dict[str, Any], vocabulary: Vocabulary) -> bool:
+def is_open(entry: Mapping[str, Any], vocabulary: Vocabulary) -> bool:
+    """Whether a task is at a place that nobody has given coordinates for."""
     parameter = vocabulary.task[entry["title"]].position_parameter
     return parameter is not None and list(entry["parameters"].get(parameter, ())) == list(vocabulary.unresolved)
 

@@ -3,19 +3,43 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
 from planner_ft.planning.agents import Agents, Progress, silent
-from planner_ft.planning.locations import OpenPlace, Position, open_places, resolve
+from planner_ft.planning.locations import OpenPlace, Position, is_open, open_places, resolve
 from planner_ft.planning.result import Answer, Planned, PlannedTask
 from planner_ft.planning.settings import PlanSettings, choose_agents
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.manifest import build_manifest
 from planner_ft.training.output import nearest_folder
 from planner_ft.vocabulary import load_vocabulary
+
+
+@dataclass(frozen=True)
+class TasksKnown:
+    """The Mission Agent has answered: its tasks, without skills; those at an open place say what they wait for."""
+
+    tasks: tuple[PlannedTask, ...]
+
+
+@dataclass(frozen=True)
+class SkillsKnown:
+    """The Task Agent has answered for the task of this number (from 1)."""
+
+    number: int
+    answer: Answer
+
+
+OnEvent = Callable[[TasksKnown | SkillsKnown], None]
+"""Called while a command is planned, as soon as something of the plan is known."""
+
+
+def unwatched(_event: TasksKnown | SkillsKnown) -> None:
+    """Nobody watches."""
 
 
 class Planner:
@@ -41,9 +65,10 @@ class Planner:
         planner.agents.load("mission")
         return planner
 
-    def plan(self, command: str, locations: Mapping[str, Position] | None = None) -> Planned:
+    def plan(self, command: str, locations: Mapping[str, Position] | None = None, on_event: OnEvent = unwatched) -> Planned:
         """The plan of a command. `locations` are positions (metres east and north of home) of places that the command leaves open.
 
+        `on_event` hears of the tasks as soon as they are known, and then of the skills of each. What it raises ends planning.
         An answer that is not valid is part of what comes back (see `Planned.valid`). Raises PlannerError for a command that is empty or
         too long, and for a location that the plan does not leave open.
         """
@@ -53,7 +78,7 @@ class Planner:
         if mission.plan is not None:
             filled = resolve(mission.plan, locations or {}, self.vocabulary)
             places = open_places(filled, self.vocabulary)
-            tasks = self._tasks(filled, places)
+            tasks = self._tasks(filled, places, on_event)
         answers = {"mission": [mission], "task": [task.answer for task in tasks if task.answer]}
         return Planned(
             command, mission, tasks, tuple(places),
@@ -61,6 +86,18 @@ class Planner:
             usage={level: self.agents.use(level, answers[level]) for level in self.agents.agents},
             peak_memory=self.agents.peak_memory(), manifest=self._manifest(),
         )  # fmt: skip
+
+    def skills(self, task: Mapping[str, Any]) -> Answer:
+        """The Task Agent's answer for one task of a plan alone: its `title`, `parameters` and `task_prompt`.
+
+        An answer that is not valid comes back with its problems. Raises PlannerError without a Task Agent, and for a task whose place is open.
+        """
+        if "task" not in self.agents.agents:
+            raise PlannerError(f"{task['title']}: there is no Task Agent with --mission-only; leave the flag out")
+        if is_open(task, self.vocabulary):
+            raise PlannerError(f"{task['title']}: its place is open, and skills to nowhere would be worth nothing; say where it is first")
+        self.agents.load("task")
+        return self._skills(task)
 
     def close(self) -> None:
         """Give the memory back; a later `plan` loads again."""
@@ -80,22 +117,26 @@ class Planner:
             raise PlannerError(f"{self.agents.agents['mission'].candidate.name}: {'; '.join(answer.problems)}; shorten the command, or take another candidate")
         return answer
 
-    def _tasks(self, plan: dict[str, Any], places: Sequence[OpenPlace]) -> tuple[PlannedTask, ...]:
+    def _tasks(self, plan: dict[str, Any], places: Sequence[OpenPlace], on_event: OnEvent) -> tuple[PlannedTask, ...]:
         """Every task, with its skills unless it waits for a place or there is no Task Agent."""
         waiting = {number: place.name for place in places for number in place.tasks}
-        total = len(plan["tasks"]) - len(waiting)
-        planned: list[PlannedTask] = []
-        done = 0
-        for number, entry in enumerate(plan["tasks"], start=1):
-            answer = None
-            if number not in waiting and "task" in self.agents.agents:
-                self.agents.load("task")
-                self._progress("Task Agent", done, total)
-                answer = self.agents.ask("task", {"task": entry["title"], "parameters": entry["parameters"], "prompt": entry["task_prompt"]})
-                done += 1
-                self._progress("Task Agent", done, total)
-            planned.append(PlannedTask(entry["title"], entry["parameters"], entry["task_prompt"], answer, waiting.get(number)))
+        planned = [
+            PlannedTask(entry["title"], entry["parameters"], entry["task_prompt"], waits_for=waiting.get(number))
+            for number, entry in enumerate(plan["tasks"], start=1)
+        ]
+        on_event(TasksKnown(tuple(planned)))
+        asked = [number for number in range(1, len(planned) + 1) if number not in waiting] if "task" in self.agents.agents else []
+        for done, number in enumerate(asked):
+            self.agents.load("task")
+            self._progress("Task Agent", done, len(asked))
+            answer = self._skills(plan["tasks"][number - 1])
+            planned[number - 1] = replace(planned[number - 1], answer=answer)
+            on_event(SkillsKnown(number, answer))
+            self._progress("Task Agent", done + 1, len(asked))
         return tuple(planned)
+
+    def _skills(self, entry: Mapping[str, Any]) -> Answer:
+        return self.agents.ask("task", {"task": entry["title"], "parameters": entry["parameters"], "prompt": entry["task_prompt"]})
 
     def _manifest(self) -> dict[str, Any]:
         """What the plan depended on."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import jsonschema
 import pytest
 
-from planner_ft.planning.planner import Planner
+from planner_ft.planning.planner import Planner, SkillsKnown, TasksKnown
 from planner_ft.planning.result import Planned
 from planner_ft.planning.tree import plan_tree
 from planner_ft.support.errors import PlannerError
@@ -57,6 +57,44 @@ def test_a_location_that_the_plan_does_not_leave_open_stops_before_the_task_agen
     with pytest.raises(PlannerError, match='--locate lighthouse: no such place is open; there is "green buoy"'):
         Planner.load(configuration="base").plan(COMMAND, {"lighthouse": (1.0, 2.0)})
     assert len(engine.asked) == 1
+
+
+def test_who_watches_hears_of_the_tasks_before_any_skills_and_of_the_skills_one_by_one(known: Known) -> None:
+    engine = known()
+    heard: list[tuple[int, TasksKnown | SkillsKnown]] = []
+    planned = Planner.load(configuration="base").plan(COMMAND, on_event=lambda event: heard.append((len(engine.asked), event)))
+    (asked, tasks), *skills = heard
+    assert asked == 1 and isinstance(tasks, TasksKnown)
+    assert [(task.title, task.waits_for) for task in tasks.tasks] == [(task.title, task.waits_for) for task in planned.tasks]
+    assert all(task.answer is None for task in tasks.tasks)
+    assert skills == [(2, SkillsKnown(1, planned.tasks[0].answer)), (3, SkillsKnown(4, planned.tasks[3].answer))]
+
+
+def test_what_a_watcher_raises_ends_planning(known: Known) -> None:
+    engine = known()
+
+    def stop(_event: object) -> None:
+        raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        Planner.load(configuration="base").plan(COMMAND, on_event=stop)
+    assert len(engine.asked) == 1
+
+
+def test_the_skills_of_one_task_are_asked_for_alone(known: Known) -> None:
+    engine = known()
+    answer = Planner.load(configuration="base").skills(FIND_AND_ORBIT["tasks"][3])
+    assert answer.plan == SKILLS
+    assert engine.asked == [("task", {"task": "Transit", "parameters": {"target_position": [0, 0]}, "prompt": "Return home."})]
+
+
+def test_no_skills_for_a_task_at_an_open_place_or_without_a_task_agent(known: Known) -> None:
+    engine = known()
+    with pytest.raises(PlannerError, match=r"Transit: its place is open, .*; say where it is first"):
+        Planner.load(configuration="base").skills(FIND_AND_ORBIT["tasks"][1])
+    with pytest.raises(PlannerError, match="there is no Task Agent with --mission-only"):
+        Planner.load(configuration="base", mission_only=True).skills(FIND_AND_ORBIT["tasks"][3])
+    assert engine.asked == []
 
 
 def test_costs_are_summed_per_agent(known: Known) -> None:
