@@ -1,0 +1,151 @@
+"""The approval log: an append-only file of JSON Lines in which every decision about a plan is kept with the plan itself.
+
+Nothing in it is ever deleted or replaced. A record has "sequence", "time" (UTC), "event", "reviewer", "reason", "digest", "plan",
+"acknowledged", "differences", "models", "previous" and "hash"; `chain` says how one hangs on the other.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from dataclasses import asdict
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from planner_ft.document.digest import canonical
+from planner_ft.review.chain import Chain, Head, Problem, Record, read_chain, sealed
+from planner_ft.review.lock import exclusive
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import atomic_writer, compact_json, read_json, sha256_text
+
+__all__ = ["LOG_NAME", "Appended", "Problem", "Record", "append", "check_log", "head_file", "log_beside", "read_log"]
+
+LOG_NAME = "approvals.jsonl"
+
+
+class Appended(NamedTuple):
+    """A record as it stands in the log now, and the file that an unfinished last line was moved to, if there was one."""
+
+    record: Record
+    set_aside: Path | None
+
+
+def log_beside(plan: Path) -> Path:
+    """The log of the plans in the folder of `plan`."""
+    return plan.with_name(LOG_NAME)
+
+
+def head_file(log: Path) -> Path:
+    """The file that holds sequence and hash of the last record."""
+    return log.with_name(f"{log.name}.head")
+
+
+def append(log: Path, values: Record) -> Appended:
+    """Add a record of `values` (without sequence, time, previous and hash). When this returns, the record is on the disk.
+
+    A process that is killed here leaves the record whole or not at all: what it left of a line is moved aside by the next one. Raises
+    PlannerError when the chain is broken, or the record cannot be written.
+    """
+    with exclusive(log):
+        chain = _sound(log, check_log(log))
+        set_aside = _set_aside(log, chain)
+        if chain.records and _read_head(log) != chain.end:
+            # Its writer was killed between the record and the head.
+            _write_head(log, chain.end)
+        record = sealed({**values, "time": datetime.now(UTC).isoformat(timespec="seconds")}, chain.end)
+        _write_line(log, canonical(record) + b"\n")
+        _write_head(log, Head(record["sequence"], record["hash"]))
+    return Appended(record, set_aside)
+
+
+def read_log(log: Path) -> tuple[Record, ...]:
+    """The records, first one first; none where there is no log yet. Raises PlannerError when the chain is broken."""
+    return _sound(log, check_log(log)).records
+
+
+def check_log(log: Path) -> Chain:
+    """The log as it is: `problems` says what was removed, changed, reordered or cut. Raises PlannerError when it cannot be read."""
+    while True:
+        head, data = _read_head(log), _read_bytes(log)
+        # Another process may have added a record in between.
+        if _read_head(log) == head:
+            return read_chain(data, head)
+
+
+def _sound(log: Path, chain: Chain) -> Chain:
+    if chain.problems:
+        more = f" (and {len(chain.problems) - 1} more; plannerft verify --log {log} shows all)" if len(chain.problems) > 1 else ""
+        raise PlannerError(f"{log}: {chain.problems[0].text}{more}; {way_out(log)}")
+    return chain
+
+
+def way_out(log: Path) -> str:
+    """How to go on with a broken log."""
+    return f"put the log and {head_file(log).name} back from a copy, or move both aside to begin a new log, in which plans are approved anew"
+
+
+def _read_bytes(log: Path) -> bytes:
+    try:
+        return log.read_bytes()
+    except FileNotFoundError:
+        return b""
+    except OSError as error:
+        raise PlannerError(f"{log}: cannot be read ({error.strerror}); give another --log") from None
+
+
+def _read_head(log: Path) -> Head | None:
+    path = head_file(log)
+    if not path.exists():
+        return None
+    value = read_json(path)
+    if not isinstance(value, dict) or type(value.get("sequence")) is not int or not isinstance(value.get("hash"), str) or value["sequence"] < 0:
+        raise PlannerError(f"{path}: holds no sequence and hash; {way_out(log)}")
+    return Head(value["sequence"], value["hash"])
+
+
+def _write_head(log: Path, head: Head) -> None:
+    try:
+        with atomic_writer(head_file(log)) as stream:
+            stream.write(compact_json(asdict(head)) + "\n")
+    except PlannerError as error:
+        raise PlannerError(f"record {head.sequence} stands in {log}, but its head file does not know it yet: {error}") from None
+    _sync_folder(log)
+
+
+def _write_line(log: Path, line: bytes) -> None:
+    try:
+        descriptor = os.open(log, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o666)
+        try:
+            while line:
+                line = line[os.write(descriptor, line) :]
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
+    except OSError as error:
+        raise PlannerError(f"{log}: nothing was recorded ({error.strerror}); free some space or give another --log") from None
+    _sync_folder(log)
+
+
+def _set_aside(log: Path, chain: Chain) -> Path | None:
+    """Move the bytes of a line that was never finished, and so never confirmed, into a file of their own."""
+    if not chain.torn:
+        return None
+    aside = log.with_name(f"{log.name}.unfinished-{sha256_text(chain.torn.hex())[:12]}")
+    with atomic_writer(aside, "wb") as stream:
+        stream.write(chain.torn)
+    _sync_folder(log)
+    with open(log, "r+b") as stream:
+        stream.truncate(log.stat().st_size - len(chain.torn))
+        os.fsync(stream.fileno())
+    return aside
+
+
+def _sync_folder(log: Path) -> None:
+    """Have the folder's entries on the disk, too; a system that cannot (Windows) does so by itself."""
+    with contextlib.suppress(OSError):
+        descriptor = os.open(log.parent, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)

@@ -1,0 +1,80 @@
+"""Whether a plan is the one that was approved, and if not, what is different."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from planner_ft.document import PlanDocument, altered, document_digest
+from planner_ft.review.changes import Change, changes
+from planner_ft.review.log import Record, read_log
+
+Status = Literal["approved", "rejected", "altered", "unknown"]
+
+
+@dataclass(frozen=True)
+class Approval:
+    """What the log knows about a plan.
+
+    `approved` and `rejected`: the last decision about exactly this plan. `altered`: another version of it was approved, and `changes` says what
+    is different now, or the file is not what its digest says. `unknown`: no decision. `sequence`, `reviewer`, `time` and `reason` are those of
+    the decision, None without one.
+    """
+
+    status: Status
+    text: str
+    digest: str
+    sequence: int | None = None
+    reviewer: str | None = None
+    time: str | None = None
+    reason: str | None = None
+    changes: tuple[Change, ...] = ()
+
+    def as_json(self) -> dict[str, Any]:
+        return {**asdict(self), "changes": [change.as_json() for change in self.changes]}
+
+
+def approval_of(document: PlanDocument, log: Path) -> Approval:
+    """What the log says about a plan as it is now. Raises PlannerError for a log that is broken or cannot be read."""
+    return approval_in(document, read_log(log), log)
+
+
+def approval_in(document: PlanDocument, records: Sequence[Record], log: Path) -> Approval:
+    """As `approval_of`, of records that were read from `log` already."""
+    digest = document_digest(document)
+    if altered(document):
+        return _altered(document, digest, _relative(document, records), log)
+    last = next((record for record in reversed(records) if record["digest"] == digest), None)
+    if last is not None:
+        return _decided(last, digest)
+    other = _relative(document, records)
+    if other is not None:
+        return _altered(document, digest, other, log)
+    return Approval("unknown", f"not approved: {log} holds no decision about this plan", digest)
+
+
+def _decided(record: Record, digest: str) -> Approval:
+    status: Status = "approved" if record["event"] == "approved" else "rejected"
+    why = f": {record['reason']}" if record["reason"] else ""
+    text = f"{status} by {record['reviewer']} at {record['time']} (record {record['sequence']}){why}"
+    return Approval(status, text, digest, record["sequence"], record["reviewer"], record["time"], record["reason"])
+
+
+def _altered(document: PlanDocument, digest: str, other: Record | None, log: Path) -> Approval:
+    if other is None:
+        return Approval("altered", f"altered by hand: the plan is not what its digest says, and {log} holds no approval of it", digest)
+    found = tuple(changes(other["plan"], document))
+    text = f"altered since {other['reviewer']} approved it at {other['time']} (record {other['sequence']}): {len(found)} change{'s' if len(found) != 1 else ''}"
+    return Approval("altered", text, digest, other["sequence"], other["reviewer"], other["time"], other["reason"], found)
+
+
+def _relative(document: PlanDocument, records: Sequence[Record]) -> Record | None:
+    """The last approval of what this plan was: of its digest, else of the same proposal, else of the same command."""
+    approved = [record for record in reversed(records) if record["event"] == "approved"]
+    for key in ("digest", "proposed", "command"):
+        for record in approved:
+            if key in document and record["plan"].get(key) == document[key]:
+                return record
+    return None
