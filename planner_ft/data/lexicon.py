@@ -16,8 +16,7 @@ from typing import Any
 
 from planner_ft.data.numerals import FRACTIONS, SCALES, SMALL, UNITS
 from planner_ft.data.words import edit_distance
-from planner_ft.vocabulary.definition import BUNDLED
-from planner_ft.vocabulary.logic import LOGIC
+from planner_ft.vocabulary.definition import BUNDLED, UNHASHED
 
 _WORD = re.compile(r"[^\W\d_]{2,}")
 _ENDINGS = ("'s", "s", "es", "ed", "d", "ing", "ly", "er")
@@ -74,7 +73,7 @@ def known_words() -> dict[str, int]:
     counts.update(word for path in sorted(Path(__file__).parent.rglob("*.txt")) for word in _words(path.read_text(encoding="utf-8")))
     known = Counter({word: count for word, count in counts.items() if count > 1})
     known.update(_words((Path(__file__).parent / "things.txt").read_text(encoding="utf-8")))
-    for path in sorted(path for path in BUNDLED.glob("*.toml") if not path.name.endswith(LOGIC)):
+    for path in sorted(path for path in BUNDLED.glob("*.toml") if not path.name.endswith(UNHASHED)):
         known.update(_words(path.read_text(encoding="utf-8")))
     known.update(word for text in _texts(_lexicon()) for word in _words(text))
     known.update([*UNITS, *SMALL, *SCALES, *FRACTIONS])

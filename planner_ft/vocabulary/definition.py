@@ -12,13 +12,16 @@ from typing import Any
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text, sha256_text
 from planner_ft.vocabulary.logic import LOGIC, Logic, build_logic, logic_problems
+from planner_ft.vocabulary.motion import MOTION, Motions, build_motions, motion_problems
 from planner_ft.vocabulary.shape import ROLES, Arrival, Motion, ParameterType, Role, shape_problems
 
 __all__ = ["BUNDLED", "DEFAULT", "ROLES", "Parameter", "Role", "Skill", "Task", "Vocabulary", "build_vocabulary", "bundled_vocabularies", "load_vocabulary"]
 
 BUNDLED = Path(__file__).parent
 DEFAULT = "usv"
-PHRASES = ".phrases.toml"
+PHRASES, VEHICLE, ONTOLOGY = ".phrases.toml", ".vehicle.toml", ".ontology.toml"
+UNHASHED = (LOGIC, MOTION, VEHICLE, ONTOLOGY)
+"""Companion files that no prompt, schema or grammar depends on: they are no part of what adapters were trained on."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +86,8 @@ class Vocabulary:
     """A vehicle's tasks and skills. Positions are metres in the local frame. Two are the same only when they are one object.
 
     `phrases` is the content of the companion file NAME.phrases.toml, from which the task sampler words its prompts, `logic` that of
-    NAME.logic.toml: what tasks give and need when a plan is carried out. `sha256` is the digest of the definition alone.
+    NAME.logic.toml: what tasks give and need when a plan is carried out, `motion` that of NAME.motion.toml: what skills do to the vehicle.
+    `companion` reads the others. `sha256` is the digest of the definition alone.
     """
 
     name: str
@@ -99,6 +103,8 @@ class Vocabulary:
     sha256: str
     phrases: dict[str, Any] = field(default_factory=dict)
     logic: Logic = field(default_factory=Logic)
+    motion: Motions = field(default_factory=Motions)
+    path: Path | None = None
 
     @functools.cached_property
     def task(self) -> dict[str, Task]:
@@ -110,6 +116,10 @@ class Vocabulary:
         """Skills by name."""
         return {skill.name: skill for skill in self.skills}
 
+    def companion(self, ending: str) -> dict[str, Any]:
+        """The content of the file NAME + `ending` beside the definition; nothing where there is none. Raises PlannerError when it is not TOML."""
+        return _companion(self.path, ending) if self.path else {}
+
     def skills_in_role(self, role: Role) -> tuple[Skill, ...]:
         """Skills that can stand in `role`, in the order of the definition."""
         return tuple(skill for skill in self.skills if skill.role == role)
@@ -117,7 +127,7 @@ class Vocabulary:
 
 def bundled_vocabularies() -> list[str]:
     """Names of the definitions that ship with the package."""
-    return sorted(path.stem for path in BUNDLED.glob("*.toml") if not path.name.endswith((PHRASES, LOGIC)))
+    return sorted(path.stem for path in BUNDLED.glob("*.toml") if not path.name.endswith((PHRASES, *UNHASHED)))
 
 
 @functools.lru_cache(maxsize=16)
@@ -132,21 +142,33 @@ def load_vocabulary(source: str | Path = DEFAULT) -> Vocabulary:
         raise PlannerError(f"--vocabulary {source}: no such file, and no bundled vocabulary of that name ({', '.join(bundled_vocabularies())})")
     text = read_text(path)
     raw = _parse(path, text)
-    phrases, logic = _companion(path, PHRASES), _companion(path, LOGIC)
-    return build_vocabulary(raw, phrases, str(path), logic=logic, source=str(source), sha256=sha256_text(text))
+    phrases, logic, motion = (_companion(path, ending) for ending in (PHRASES, LOGIC, MOTION))
+    vocabulary = build_vocabulary(raw, phrases, str(path), logic=logic, motion=motion, source=str(source), sha256=sha256_text(text))
+    return replace(vocabulary, path=path)
 
 
 def build_vocabulary(
-    raw: dict[str, Any], phrases: dict[str, Any], where: str, *, logic: dict[str, Any] | None = None, source: str = "", sha256: str = ""
+    raw: dict[str, Any],
+    phrases: dict[str, Any],
+    where: str,
+    *,
+    logic: dict[str, Any] | None = None,
+    motion: dict[str, Any] | None = None,
+    source: str = "",
+    sha256: str = "",
 ) -> Vocabulary:
-    """The vocabulary of a parsed definition, its phrases and its logic. Raises PlannerError that lists everything wrong, and says `where`."""
+    """The vocabulary of a parsed definition, its phrases, its logic and its motions. Raises PlannerError that lists everything wrong, and says `where`."""
     problems = shape_problems(raw, phrases)
     if not problems:
         vocabulary = _build(raw, phrases, source, sha256)
-        problems = [*_reference_problems(vocabulary), *logic_problems(logic or {}, vocabulary.task)]
+        problems = [
+            *_reference_problems(vocabulary),
+            *logic_problems(logic or {}, vocabulary.task),
+            *motion_problems(motion or {}, vocabulary.task, vocabulary.skill),
+        ]
     if problems:
         raise PlannerError(f"{where}: " + "; ".join(problems))
-    return replace(vocabulary, logic=build_logic(logic or {}))
+    return replace(vocabulary, logic=build_logic(logic or {}), motion=build_motions(motion or {}))
 
 
 def _companion(path: Path, ending: str) -> dict[str, Any]:
