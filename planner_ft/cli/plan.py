@@ -12,7 +12,7 @@ import typer
 from planner_ft.cli.progress import Report, interruptible
 
 if TYPE_CHECKING:
-    from planner_ft.planning.result import Planned
+    from planner_ft.document import PlanDocument
 
 PATIENCE = 3.0
 """Seconds without an answer after which progress is worth telling."""
@@ -24,8 +24,8 @@ def plan(
     locate: Annotated[
         list[str] | None, typer.Option(help='"NAME=x,y": where a place lies that the plan leaves open (metres east, north). Repeatable.', show_default=False)
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON (schemas/planned.schema.json) instead of a tree.")] = False,
-    out: Annotated[Path | None, typer.Option(help="Also write the JSON into this file.", show_default=False)] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print the plan document (schemas/plan.schema.json) instead of a tree.")] = False,
+    out: Annotated[Path | None, typer.Option(help="Also write the plan document into this file: what review and export take.", show_default=False)] = None,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace a file that --out names.")] = False,
     mission_only: Annotated[bool, typer.Option("--mission-only", help="Ask the Mission Agent alone: tasks without their skills.")] = False,
     candidate: Annotated[str, typer.Option(help="Candidate of both agents: a name that `plannerft candidates` lists, a folder, or a hub id.")] = "embedded",
@@ -36,6 +36,9 @@ def plan(
     vocabulary: Annotated[str, typer.Option(help="Vocabulary: a bundled name or a TOML file.")] = "usv",
     device: Annotated[str, typer.Option(help="auto, cpu, cuda or cuda:N.")] = "auto",
     quantization: Annotated[str | None, typer.Option(help="nf4 (4-bit base) or none.", show_default="as the candidate is trained: nf4")] = None,
+    vehicle: Annotated[
+        Path | None, typer.Option(help="TOML file with cruise speed, endurance and operating area of the vehicle.", show_default="the vocabulary's")
+    ] = None,
     mission_candidate: Annotated[str | None, typer.Option(help="Instead of --candidate.", show_default=False, rich_help_panel=AGENTS)] = None,
     task_candidate: Annotated[str | None, typer.Option(help="Instead of --candidate.", show_default=False, rich_help_panel=AGENTS)] = None,
     mission_adapter: Annotated[
@@ -57,19 +60,21 @@ def plan(
         "task_adapter": task_adapter, "configuration": configuration, "mission_configuration": mission_configuration,
         "task_configuration": task_configuration, "vocabulary": vocabulary, "device": device, "quantization": quantization, "mission_only": mission_only,
     }  # fmt: skip
-    planned = _plan(command, locate or [], out, overwrite, named)
-    _print(planned, json)
+    document = _plan(command, locate or [], out, overwrite, vehicle, named)
+    _print(document, json)
     if out is not None:
-        from planner_ft.support.files import write_json
+        from planner_ft.document import write_document
 
-        write_json(out, planned.as_json())
-        typer.echo(str(out), err=True)
-    if not planned.valid:
+        write_document(out, document)
+        typer.echo(f"{out}: next, plannerft review {out}", err=True)
+    if not document["valid"]:
         raise typer.Exit(1)
 
 
-def _plan(command: str, locate: list[str], out: Path | None, overwrite: bool, named: dict[str, Any]) -> Planned:
+def _plan(command: str, locate: list[str], out: Path | None, overwrite: bool, vehicle: Path | None, named: dict[str, Any]) -> PlanDocument:
     """Check what was said, then plan."""
+    from planner_ft.document import build
+    from planner_ft.document._pending import load_vehicle
     from planner_ft.planning.locations import parse_locations
     from planner_ft.planning.planner import Planner, check_command, new_file, read_command
     from planner_ft.planning.settings import PlanSettings
@@ -79,18 +84,19 @@ def _plan(command: str, locate: list[str], out: Path | None, overwrite: bool, na
     locations = parse_locations(locate)
     text = check_command(read_command(sys.stdin.buffer) if command == "-" else command)
     with interruptible(None) as report, Patient(report) as patient, Planner(PlanSettings(**named), patient) as planner:
-        return planner.plan(text, locations)
+        profile = load_vehicle(vehicle, planner.vocabulary)
+        return build(planner.plan(text, locations), planner.vocabulary, profile)
 
 
-def _print(planned: Planned, json: bool) -> None:
+def _print(document: PlanDocument, json: bool) -> None:
     if json:
         from planner_ft.support.files import indented_json
 
-        typer.echo(indented_json(planned.as_json()), nl=False)
+        typer.echo(indented_json(document), nl=False)
         return
-    from planner_ft.planning.tree import plan_tree
+    from planner_ft.document.tree import plan_tree
 
-    typer.echo(plan_tree(planned))
+    typer.echo(plan_tree(document))
 
 
 class Patient:

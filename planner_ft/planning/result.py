@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any
 
 from planner_ft.planning.locations import OpenPlace
@@ -97,38 +97,3 @@ class Planned:
     def complete(self) -> bool:
         """Whether every task has its skills, so that nothing is left to fill in."""
         return self.valid and all(task.answer is not None for task in self.tasks)
-
-    def as_json(self) -> dict[str, Any]:
-        """Everything as one JSON object (schemas/planned.schema.json).
-
-        A task's `skill_sequence` is null where the Task Agent was not asked, and where its answer is not valid.
-        """
-        plan = self.mission.plan or {}
-        return {
-            "command": self.command,
-            "valid": self.valid,
-            "complete": self.complete,
-            "tasks": [_task_json(task) for task in self.tasks],
-            "assumptions": [*plan.get("assumptions", []), *self.mission.notes],
-            "constraints": list(plan.get("constraints", [])),
-            "open_places": [{"name": place.name, "tasks": list(place.tasks)} for place in self.open_places],
-            "located": self.located,
-            **_problems(self.mission),
-            "usage": {agent: asdict(use) for agent, use in self.usage.items()},
-            "peak_memory_bytes": self.peak_memory,
-            "manifest": self.manifest,
-        }
-
-
-def _task_json(task: PlannedTask) -> dict[str, Any]:
-    answer = task.answer
-    told = {"title": task.title, "parameters": task.parameters, "task_prompt": task.task_prompt}
-    if answer is None:
-        return {**told, "skill_sequence": None, **({"waits_for": task.waits_for} if task.waits_for else {})}
-    skills = answer.plan["skill_sequence"] if answer.plan is not None else None
-    return {**told, "skill_sequence": skills, **({"assumptions": list(answer.notes)} if answer.notes else {}), **_problems(answer)}
-
-
-def _problems(answer: Answer) -> dict[str, Any]:
-    """What is wrong with an answer, with its raw text; nothing for a valid one."""
-    return {} if answer.plan is not None else {"problems": list(answer.problems), "output": answer.text}

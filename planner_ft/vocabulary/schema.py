@@ -1,4 +1,4 @@
-"""JSON Schemas (Draft 2020-12) of plans, dataset records, planned commands and manifests, derived from a vocabulary.
+"""JSON Schemas (Draft 2020-12) of plans, dataset records and manifests, derived from a vocabulary.
 
 Key order in `properties` is the order in which plans are serialised. Alternatives are `anyOf` with inline `const`
 names, the form that grammar compilers for constrained decoding take.
@@ -27,11 +27,11 @@ def plan_schema(level: Level, vocabulary: Vocabulary, *, strict: bool) -> Schema
         task = {"anyOf": [_task(task) for task in vocabulary.tasks]} if strict else _structural_task()
         properties: dict[str, Schema] = {"tasks": {"type": "array", "items": task}, **dict.fromkeys(MISSION_KEYS[1:], TEXTS)}
     else:
-        properties = {"skill_sequence": {"type": "array", "items": _step(vocabulary, strict)}}
+        properties = {"skill_sequence": {"type": "array", "items": step_schema(vocabulary, strict)}}
     return {
         "$schema": DRAFT,
         "title": f"{level} plan of the {vocabulary.title}, {'strict' if strict else 'structure only'}",
-        **_object(properties, strict=strict),
+        **object_schema(properties, strict=strict),
     }
 
 
@@ -45,7 +45,7 @@ def record_schema(vocabulary: Vocabulary) -> Schema:
         "required": ["navigation_skill"],
     }
     bound: Schema = {"type": "integer", "minimum": 0}
-    span = _object({"element": {"enum": list(ELEMENTS)}, "start": bound, "end": bound, "text": {"type": "string"}}, strict=True)
+    span = object_schema({"element": {"enum": list(ELEMENTS)}, "start": bound, "end": bound, "text": {"type": "string"}}, strict=True)
     common = {"id": NON_BLANK, "family": NON_BLANK, "prompt": NON_BLANK, "spans": {"type": "array", "items": span}, "tags": TEXTS}
     mission = {"type": "object", "properties": {"tasks": {"type": "array", "items": task}}, "required": ["tasks"]}
     sequence = {"type": "object", "properties": {"skill_sequence": {"type": "array", "items": step}}, "required": ["skill_sequence"]}
@@ -81,7 +81,7 @@ def manifest_schema() -> Schema:
             "created": {"type": "string", "format": "date-time"},
             "seed": {"type": ["integer", "null"]},
             "configuration": {"type": "object"},
-            "inputs": {"type": "object", "additionalProperties": _object({"path": {"type": "string"}, "sha256": digest}, strict=True)},
+            "inputs": {"type": "object", "additionalProperties": object_schema({"path": {"type": "string"}, "sha256": digest}, strict=True)},
             "outputs": {"type": "object", "additionalProperties": digest},
             "versions": {"type": "object", "additionalProperties": {"type": ["string", "null"]}, "required": ["python"]},
             "commit": {"type": ["string", "null"]},
@@ -93,43 +93,13 @@ def manifest_schema() -> Schema:
     }
 
 
-def planned_schema(vocabulary: Vocabulary) -> Schema:
-    """The schema of what `plannerft plan --json` prints: a command, its tasks with their skills, and what they cost."""
-    count: Schema = {"type": "integer", "minimum": 0}
-    seconds: Schema = {"type": "number", "minimum": 0}
-    problems = {"problems": TEXTS, "output": {"type": "string"}}
-    place = _object({"name": NON_BLANK, "tasks": {"type": "array", "items": {"type": "integer", "minimum": 1}, "minItems": 1}}, strict=True)
-    use = _object(
-        {
-            "candidate": NON_BLANK, "configuration": NON_BLANK, "adapter": {"type": ["string", "null"]}, "load_seconds": seconds,
-            "queries": count, "prompt_tokens": count, "tokens": count, "forward_passes": count, "seconds": seconds,
-        },
-        strict=True,
-    )  # fmt: skip
-    properties: dict[str, Schema] = {
-        "command": NON_BLANK, "valid": {"type": "boolean"}, "complete": {"type": "boolean"},
-        "tasks": {"type": "array", "items": {"anyOf": [_planned_task(task, problems) for task in vocabulary.tasks]}},
-        "assumptions": TEXTS, "constraints": TEXTS, "open_places": {"type": "array", "items": place},
-        "located": {"type": "object", "additionalProperties": POSITION}, **problems,
-        "usage": _object({"mission": use, "task": use}, strict=True, required=["mission"]), "peak_memory_bytes": count,
-        "manifest": {key: value for key, value in manifest_schema().items() if key != "$schema"},
-    }  # fmt: skip
-    schema = _object(properties, strict=True, required=[name for name in properties if name not in problems])
-    title = f"planned command of the {vocabulary.title}"
-    return {"$schema": DRAFT, "title": title, **schema, "$defs": {"step": _step(vocabulary, strict=True)}}
-
-
-def _planned_task(task: Task, problems: dict[str, Schema]) -> Schema:
-    sequence = {"anyOf": [{"type": "null"}, {"type": "array", "items": {"$ref": "#/$defs/step"}}]}
-    always = {"title": {"const": task.title}, "parameters": _parameters(task), "task_prompt": {"type": "string"}, "skill_sequence": sequence}
-    return _object({**always, "waits_for": NON_BLANK, "assumptions": TEXTS, **problems}, strict=True, required=list(always))
-
-
 def all_schemas(vocabulary: Vocabulary) -> dict[str, Schema]:
     """Every schema by file name."""
+    from planner_ft.vocabulary.document_schema import document_schema
+
     plans = [(level, strict) for level in LEVELS for strict in (False, True)]
     schemas = {f"{level}.{'strict.' if strict else ''}schema.json": plan_schema(level, vocabulary, strict=strict) for level, strict in plans}
-    others = {"record": record_schema(vocabulary), "planned": planned_schema(vocabulary), "manifest": manifest_schema()}
+    others = {"record": record_schema(vocabulary), "plan": document_schema(vocabulary), "manifest": manifest_schema()}
     return {**schemas, **{f"{name}.schema.json": schema for name, schema in others.items()}}
 
 
@@ -161,7 +131,8 @@ def parameter_schema(parameter: Parameter) -> Schema:
     return POSITION if parameter.type == "position" else NON_BLANK
 
 
-def _object(properties: dict[str, Schema], *, strict: bool, required: list[str] | None = None) -> Schema:
+def object_schema(properties: dict[str, Schema], *, strict: bool, required: list[str] | None = None) -> Schema:
+    """The schema of an object with these properties; all of them are required unless `required` says which."""
     schema: Schema = {"type": "object", "properties": properties, "required": list(properties) if required is None else required}
     if strict:
         schema["additionalProperties"] = False
@@ -169,19 +140,20 @@ def _object(properties: dict[str, Schema], *, strict: bool, required: list[str] 
 
 
 def _structural_task() -> Schema:
-    return _object({"title": {"type": "string"}, "parameters": {"type": "object"}, "task_prompt": {"type": "string"}}, strict=False)
+    return object_schema({"title": {"type": "string"}, "parameters": {"type": "object"}, "task_prompt": {"type": "string"}}, strict=False)
 
 
 def _task(task: Task) -> Schema:
-    return _object({"title": {"const": task.title}, "parameters": _parameters(task), "task_prompt": {"type": "string"}}, strict=True)
+    return object_schema({"title": {"const": task.title}, "parameters": parameters_schema(task), "task_prompt": {"type": "string"}}, strict=True)
 
 
 def _skill(skill: Skill) -> Schema:
-    return _object({"name": {"const": skill.name}, "parameters": _parameters(skill)}, strict=True)
+    return object_schema({"name": {"const": skill.name}, "parameters": parameters_schema(skill)}, strict=True)
 
 
-def _parameters(owner: Task | Skill) -> Schema:
-    schema = _object(
+def parameters_schema(owner: Task | Skill) -> Schema:
+    """The schema of the parameters of a task or a skill."""
+    schema = object_schema(
         {parameter.name: parameter_schema(parameter) for parameter in owner.parameters},
         strict=True,
         required=[parameter.name for parameter in owner.parameters if parameter.required],
@@ -191,15 +163,16 @@ def _parameters(owner: Task | Skill) -> Schema:
     return schema
 
 
-def _step(vocabulary: Vocabulary, strict: bool) -> Schema:
+def step_schema(vocabulary: Vocabulary, strict: bool) -> Schema:
+    """The schema of one step of a skill sequence."""
     if strict:
         of_role = {role: {"anyOf": [_skill(skill) for skill in vocabulary.skills_in_role(role)]} for role in ("navigation", "filter", "perception")}
     else:
-        anything = _object({"name": {"type": "string"}, "parameters": {"type": "object"}}, strict=False)
+        anything = object_schema({"name": {"type": "string"}, "parameters": {"type": "object"}}, strict=False)
         of_role = dict.fromkeys(("navigation", "filter", "perception"), anything)
     skills: dict[str, Schema] = {
         "navigation_skill": of_role["navigation"],
         "filter_skills": {"type": "array", "items": of_role["filter"]},
         "perception_skills": {"type": "array", "items": of_role["perception"]},
     }
-    return _object({**skills, **dict.fromkeys(STEP_KEYS[3:], TEXTS)}, strict=strict)
+    return object_schema({**skills, **dict.fromkeys(STEP_KEYS[3:], TEXTS)}, strict=strict)

@@ -20,7 +20,7 @@ from planner_ft.decoding.engine import Engine
 from planner_ft.support.files import read_json, write_json
 from planner_ft.vocabulary import load_vocabulary
 
-SCHEMA = jsonschema.Draft202012Validator(read_json(Path(__file__).parents[2] / "schemas" / "planned.schema.json"))
+SCHEMA = jsonschema.Draft202012Validator(read_json(Path(__file__).parents[2] / "schemas" / "plan.schema.json"))
 COMMAND = "Go to [30, -12], then come home."
 
 

@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Any
 import jsonschema
 import pytest
 
+from planner_ft.document import build
+from planner_ft.document.tree import plan_tree
 from planner_ft.planning.planner import Planner, SkillsKnown, TasksKnown
 from planner_ft.planning.result import Planned
-from planner_ft.planning.tree import plan_tree
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
+from planner_ft.vocabulary import load_vocabulary
 
 from .conftest import FIND_AND_ORBIT, HOLD, SKILLS, mission, task
 
@@ -20,11 +22,11 @@ if TYPE_CHECKING:
     from .conftest import Known
 
 COMMAND = "Find the green buoy, circle it at 12 m, come home."
-SCHEMA = jsonschema.Draft202012Validator(read_json(Path(__file__).parents[2] / "schemas" / "planned.schema.json"))
+SCHEMA = jsonschema.Draft202012Validator(read_json(Path(__file__).parents[2] / "schemas" / "plan.schema.json"))
 
 
 def as_json(planned: Planned) -> dict[str, Any]:
-    value = planned.as_json()
+    value = build(planned, load_vocabulary())
     SCHEMA.validate(value)
     return value
 
@@ -48,8 +50,8 @@ def test_places_are_filled_in_before_the_task_agent_is_asked(known: Known) -> No
     assert engine.asked[2][1]["parameters"] == {"target_position": [120, -35]}
     assert engine.asked[3][1]["parameters"] == {"center": [120, -35], "radius": 12}
     value = as_json(planned)
-    assert value["complete"] and value["open_places"] == [] and value["located"] == {"the green buoy": [120.0, -35.0]}
-    assert "Located: the green buoy at [120.0,-35.0]" in plan_tree(planned)
+    assert value["complete"] and value["open_places"] == [] and value["located"] == {"green buoy": [120, -35]}
+    assert "Located: green buoy at [120,-35]" in plan_tree(as_json(planned))
 
 
 def test_a_location_that_the_plan_does_not_leave_open_stops_before_the_task_agent(known: Known) -> None:
@@ -111,7 +113,7 @@ def test_notes_of_the_constraint_are_assumptions(known: Known) -> None:
     value = as_json(planned)
     assert value["assumptions"] == ["Home is [0, 0].", "The height of 'a bit' is not known."]
     assert value["tasks"][0]["assumptions"] == ["The height of 'a bit' is not known."]
-    assert " - The height of 'a bit' is not known." in plan_tree(planned)
+    assert " - The height of 'a bit' is not known." in plan_tree(as_json(planned))
 
 
 def test_a_plan_that_was_led_to_its_end_at_the_limit_says_so(known: Known) -> None:
@@ -136,7 +138,7 @@ def test_a_mission_answer_that_is_not_valid_is_shown_with_its_problems(known: Kn
     assert not planned.valid and value["tasks"] == [] and len(engine.asked) == 1
     assert any(problem in text for text in value["problems"])
     assert value["output"] == planned.mission.text
-    assert "the Mission Agent's answer is not a valid plan: " in plan_tree(planned) and problem in plan_tree(planned)
+    assert "the Mission Agent's answer is not a valid plan: " in plan_tree(as_json(planned)) and problem in plan_tree(as_json(planned))
 
 
 def test_a_task_answer_that_is_not_valid_is_shown_and_the_others_are_kept(known: Known) -> None:
@@ -145,13 +147,13 @@ def test_a_task_answer_that_is_not_valid_is_shown_and_the_others_are_kept(known:
     value = as_json(planned)
     assert not value["valid"] and value["tasks"][0]["skill_sequence"] == [HOLD]
     assert value["tasks"][3]["skill_sequence"] is None and value["tasks"][3]["output"].startswith("no JSON at all")
-    assert "(1500 characters; --json prints all)" in plan_tree(planned) and len(plan_tree(planned)) < 3000
+    assert "(1500 characters; --json prints all)" in plan_tree(as_json(planned)) and len(plan_tree(as_json(planned))) < 3000
 
 
 def test_a_command_that_nothing_can_be_done_about_gives_a_plan_without_tasks(known: Known) -> None:
     known({"tasks": [], "assumptions": [], "constraints": ["The vehicle cannot fly."]})
     planned = Planner.load(configuration="base").plan("Fly over the pier.")
-    assert as_json(planned)["complete"] and "no tasks\nConstraints:\n - The vehicle cannot fly." in plan_tree(planned)
+    assert as_json(planned)["complete"] and "no tasks\nConstraints:\n - The vehicle cannot fly." in plan_tree(as_json(planned))
 
 
 def test_the_mission_agent_alone_gives_tasks_without_skills(known: Known) -> None:
@@ -175,7 +177,7 @@ def test_the_tree_shows_steps_places_costs_and_that_no_adapter_is_used(known: Kn
    (skills wait for the position of green buoy)
 """
     )
-    tree = plan_tree(Planner.load(configuration="base").plan(COMMAND))
+    tree = plan_tree(as_json(Planner.load(configuration="base").plan(COMMAND)))
     assert 'Open places (fill in with --locate "NAME=x,y"):\n - green buoy: tasks 2, 3\n' in tree
     assert "Mission Agent  embedded base, no adapter: 1 answer, 10 tokens, 6 forward passes, 0.25 s" in tree
     assert "Task Agent  embedded base, no adapter: 2 answers, 20 tokens, 12 forward passes, 0.50 s" in tree
@@ -183,7 +185,7 @@ def test_the_tree_shows_steps_places_costs_and_that_no_adapter_is_used(known: Kn
 
 def test_no_control_character_of_a_command_reaches_a_terminal(known: Known) -> None:
     known()
-    tree = plan_tree(Planner.load(configuration="base").plan("Go\x1b[2J home\r\nat once"))
+    tree = plan_tree(as_json(Planner.load(configuration="base").plan("Go\x1b[2J home\r\nat once")))
     assert tree.startswith("Go\\x1b[2J home\\r\\nat once\n")
 
 

@@ -1,0 +1,85 @@
+"""Reading and writing plan documents."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+
+from planner_ft.document.digest import document_digest
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import read_json, write_json
+from planner_ft.vocabulary import Vocabulary, load_vocabulary
+from planner_ft.vocabulary.definition import bundled_vocabularies
+from planner_ft.vocabulary.document_schema import FORMAT, VERSION, document_schema
+
+PlanDocument = dict[str, Any]
+"""A plan document (schemas/plan.schema.json). Nobody changes one in place: what changes it returns another."""
+LARGEST_FILE = 64 * 2**20
+"""Bytes of a file that is read at most: a plan of 500 tasks has about 2 MB."""
+
+
+def read_document(path: Path | str, vocabulary: Vocabulary | None = None) -> PlanDocument:
+    """The document in a file; without `vocabulary` that of the bundled vocabulary that it names.
+
+    A wrong digest is no error here: `altered` tells. Raises PlannerError for a file that is missing, cut, no plan, of another version or made
+    with another vocabulary.
+    """
+    path = Path(path)
+    if path.is_file() and path.stat().st_size > LARGEST_FILE:
+        raise PlannerError(
+            f"{path}: has {path.stat().st_size} bytes, more than the {LARGEST_FILE} of any plan; give the file that `plannerft plan --out` wrote"
+        )
+    document = _plan_in(path)
+    vocabulary = vocabulary or vocabulary_of(document, path)
+    _check_vocabulary(document, vocabulary, path)
+    problem = jsonschema.exceptions.best_match(_validator(vocabulary).iter_errors(document))
+    if problem is not None:
+        where = "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in problem.absolute_path).lstrip(".")
+        raise PlannerError(f"{path}: {where or 'the document'}: {_short(problem.message)}; take the file as `plannerft plan` or `plannerft review` wrote it")
+    return document
+
+
+def vocabulary_of(document: PlanDocument, path: Path | str) -> Vocabulary:
+    """The bundled vocabulary that a document names. Raises PlannerError when there is none of that name."""
+    name = document.get("vocabulary", {}).get("name") if isinstance(document.get("vocabulary"), dict) else None
+    if not isinstance(name, str):
+        raise PlannerError(f"{path}: names no vocabulary; take the file as `plannerft plan` wrote it")
+    if name not in bundled_vocabularies():
+        raise PlannerError(f"{path}: was made with the vocabulary {name!r}, which is not bundled; give its file with --vocabulary")
+    return load_vocabulary(name)
+
+
+def write_document(path: Path | str, document: PlanDocument) -> PlanDocument:
+    """Write a document atomically, with its digest; returns what was written. Raises PlannerError when it cannot be written."""
+    written = {**document, "digest": document_digest(document)}
+    write_json(path, written)
+    return written
+
+
+def _plan_in(path: Path) -> PlanDocument:
+    document = read_json(path)
+    if not isinstance(document, dict) or document.get("format") != FORMAT:
+        raise PlannerError(f"{path}: is no plan document; write one with `plannerft plan COMMAND --out {path.name}`")
+    if document.get("version") != VERSION:
+        raise PlannerError(f"{path}: is of version {document.get('version')!r}, and this program reads version {VERSION}; plan the command again")
+    return document
+
+
+def _check_vocabulary(document: PlanDocument, vocabulary: Vocabulary, path: Path) -> None:
+    made = document.get("vocabulary")
+    if not isinstance(made, dict) or made.get("sha256") != vocabulary.sha256:
+        name = made.get("name") if isinstance(made, dict) else None
+        other = f"another vocabulary ({name!r}, other content) than {vocabulary.name!r}"
+        raise PlannerError(f"{path}: was made with {other}; give its file with --vocabulary, or plan again")
+
+
+@cache
+def _validator(vocabulary: Vocabulary) -> Any:
+    return jsonschema.Draft202012Validator(document_schema(vocabulary))
+
+
+def _short(message: str) -> str:
+    return message if len(message) <= 200 else f"{message[:200]} ..."
