@@ -167,7 +167,7 @@ def test_the_mission_agent_alone_gives_tasks_without_skills(known: Known) -> Non
 
 def test_the_tree_shows_steps_places_costs_and_that_no_adapter_is_used(known: Known) -> None:
     known()
-    assert plan_tree(Planner.load(configuration="base").plan(COMMAND)).startswith(
+    assert plan_tree(as_json(Planner.load(configuration="base").plan(COMMAND))).startswith(
         f"""{COMMAND}
  1 SearchAndDetect(target_description="green buoy")
    Find the green buoy.
