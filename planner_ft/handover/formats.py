@@ -66,15 +66,15 @@ class Handover:
 
     @functools.cached_property
     def blocked(self) -> tuple[int, str] | None:
-        """(index from 0 of the first task whose movement is not known, why), None where all are known.
+        """(index from 0 of the first task that waits for a place or for its skills, why), None where none does.
 
-        A format that cannot wait for a place carries no task from here on.
+        A format that cannot wait carries no task from here on. A task that says its movement without skills (a transit) waits for none.
         """
         for index, task in enumerate(self.document["tasks"]):
             if task.get("waits_for"):
                 return index, f'{task["id"]} waits for "{task["waits_for"]}", and the format cannot wait: plan again when it is located'
-            if task["id"] in self.track.open:
-                return index, f"{task['id']} has no movement that is known, and the format cannot go on without it: plan its skills"
+            if task["skill_sequence"] is None and task["id"] in self.track.open:
+                return index, f"{task['id']} has no skills, and the format cannot go on without its movement: plan its skills first"
         return None
 
     @property

@@ -92,20 +92,24 @@ class Ledger:
 
 
 def plan_items(document: dict[str, Any]) -> Iterator[Item]:
-    """Everything that a plan says to a vehicle or to its operator, in the document's order."""
+    """Everything that a plan says to a vehicle or to its operator, in the document's order.
+
+    How the plan came about (sources, edits, the proposal, usage, manifest) and what follows from the rest (ontology, estimate) is no item.
+    """
     yield Item(("command",), None, "the command")
-    for key, value in (document.get("vehicle") or {}).items():
+    for key, value in document["vehicle"].items():
         if value is not None:
             yield Item(("vehicle", key), None, f"the vehicle's {key.replace('_', ' ')}: {_said(value)}")
     for index, task in enumerate(document["tasks"]):
         yield from _task_items(("tasks", index), task)
     for key, one in (("assumptions", "assumption"), ("constraints", "constraint")):
-        yield from (Item((key, index), None, f"{one}: {text}") for index, text in enumerate(document.get(key, ())))
-    for index, place in enumerate(document.get("open_places", ())):
+        yield from (Item((key, index), None, f"{one}: {text}") for index, text in enumerate(document[key]))
+    for index, place in enumerate(document["open_places"]):
         yield Item(("open_places", index), None, f"open place: {place['name']}")
-    for name, position in document.get("located", {}).items():
+    for name, position in document["located"].items():
         yield Item(("located", name), None, f"located: {name} at {_said(position)}")
-    for index, warning in enumerate(document.get("warnings", ())):
+    yield from (Item(("problems", index), None, f"problem: {text}") for index, text in enumerate(document.get("problems", ())))
+    for index, warning in enumerate(document["warnings"]):
         yield Item(("warnings", index), warning.get("task"), f"warning: {warning['text']}")
 
 
@@ -118,6 +122,7 @@ def _task_items(at: Path, task: dict[str, Any]) -> Iterator[Item]:
     for key in ("waits_for", "stale"):
         if task.get(key):
             yield Item((*at, key), name, f"{key.replace('_', ' ')}: {_said(task[key])}")
+    yield from (Item((*at, "located", key), name, f"{key} is the place of {place}") for key, place in task.get("located", {}).items())
     for key in ("assumptions", "problems"):
         yield from (Item((*at, key, index), name, f"{key[:-1]}: {text}") for index, text in enumerate(task.get(key, ())))
     for index, step in enumerate(task["skill_sequence"] or ()):
