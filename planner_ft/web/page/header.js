@@ -1,0 +1,65 @@
+// The bar on top: which plan, whether it is approved, theme; and the messages below it.
+
+import { when } from "./format.js";
+import { html, useState } from "./vendor.js";
+
+const THEMES = [["system", "As the system"], ["sunlight", "Sunlight"], ["night", "Night"]];
+const APPROVALS = { approved: "good", rejected: "bad", altered: "bad", unknown: "open" };
+const NAMES = { approved: "Approved", rejected: "Rejected", altered: "Changed since it was approved", unknown: "Not approved yet" };
+
+export function Header({ store, show }) {
+  const { plan } = store;
+  return html`<header class="bar">
+    <h1>Plan review</h1>
+    <span class="vehicle">${plan.document?.vehicle?.name || plan.vocabulary.name}</span>
+    <label class="picker"><span>Plan</span>
+      <select value=${plan.path || ""} disabled=${Boolean(plan.busy) || plan.plans.length === 0} onChange=${(event) => store.open(event.target.value)}>
+        ${!plan.path && html`<option value="">none</option>`}
+        ${plan.plans.map((path) => html`<option key=${path} value=${path}>${path}</option>`)}
+      </select></label>
+    ${plan.document && html`<${Approval} approval=${plan.approval} />`}
+    <span class="space"></span>
+    ${!store.connected && html`<span class="state bad" role="status">No connection, trying again</span>`}
+    <button onClick=${() => show("command")}>New command</button>
+    <${Theme} />
+    <button aria-label="Keys and help" title="Keys and help (?)" onClick=${() => show("help")}>?</button>
+  </header>`;
+}
+
+function Approval({ approval }) {
+  const by = approval.reviewer && `by ${approval.reviewer}, ${when(approval.time)}, record ${approval.sequence}`;
+  return html`<span class=${`state ${APPROVALS[approval.status] || "open"}`} title=${approval.text}><b>${NAMES[approval.status] || approval.status}</b>${by && html` <span class="by">${by}</span>`}</span>`;
+}
+
+function Theme() {
+  const [theme, set] = useState(document.documentElement.dataset.theme);
+  const choose = (event) => {
+    document.documentElement.dataset.theme = event.target.value;
+    set(event.target.value);
+    try {
+      localStorage.setItem("theme", event.target.value);
+    } catch {
+      // Storage is switched off: the choice holds until the page is closed.
+    }
+  };
+  return html`<label class="picker"><span>Theme</span>
+    <select value=${theme} onChange=${choose}>${THEMES.map(([value, name]) => html`<option value=${value}>${name}</option>`)}</select></label>`;
+}
+
+/** Conflict, failure, and the last thing that happened; each is announced. */
+export function Messages({ store }) {
+  const { conflict, alert, plan } = store;
+  return html`<div class="messages">
+    <div role="alert">
+      ${conflict && html`<div class="message bad">
+        <p><b>Somebody else changed this plan.</b> ${conflict.error} It is shown as it is now; your change “${conflict.label}” was not made.</p>
+        ${conflict.repeat && html`<button onClick=${() => store.repeat(conflict)}>Make my change on the new plan</button>`}
+        <button onClick=${() => store.set({ conflict: null })}>${conflict.repeat ? "Drop my change" : "Understood"}</button>
+      </div>`}
+      ${alert && html`<div class="message bad"><p>${alert}</p><button onClick=${() => store.set({ alert: null })}>Dismiss</button></div>`}
+      ${plan.document && plan.approval.status === "altered" && html`<div class="message bad"><p>${plan.approval.text}</p></div>`}
+    </div>
+    ${plan.busy && plan.busy.what !== "planning" && html`<div class="message"><p>${plan.busy.label}</p></div>`}
+    <p class="unseen" role="status" aria-live="polite">${store.notice}</p>
+  </div>`;
+}
