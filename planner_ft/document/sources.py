@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from typing import Any
 
+from planner_ft.document.language import language
 from planner_ft.document.said import Mention, Said, Span, read_command
 from planner_ft.vocabulary import Parameter, Vocabulary
 
-HOME_WORDS = re.compile(
-    r"\b(?:(?:come|go|head|sail|run|return|get|steam|bring (?:her|it|the boat))\s+)?(?:back\s+)?(?:home|to base|rtb|return|come back|back)\b", re.IGNORECASE
-)
 Source = dict[str, Any]
 """{"kind": one of SOURCES, "spans": [[start, end], ...] of the command, "note"}."""
 
@@ -69,15 +66,15 @@ def _apart(task: Mapping[str, Any], name: str, proposed: Mapping[str, Any] | Non
     if parameter.type == "position" and tuple(value) == vocabulary.unresolved:
         return _from("derived", note="unresolved location: the command gives no coordinates")
     if parameter.type == "position" and tuple(value) == vocabulary.home and not said.mentions(value, parameter):
-        return _home(said)
+        return _home(said, vocabulary)
     if parameter.unit == "deg" and not any(mention.rank == 0 for mention in said.mentions(value, parameter)):
         span = said.turn(abs(value))
         return _from("derived", (span,), f"{said.command[span[0] : span[1]]} of a circle is {value:g} degrees") if span else None
     return None
 
 
-def _home(said: Said) -> Source:
-    words = [match.span() for match in HOME_WORDS.finditer(said.command)]
+def _home(said: Said, vocabulary: Vocabulary) -> Source:
+    words = [match.span() for match in language(vocabulary).words["home"].finditer(said.command)]
     return _from("derived", tuple(words[-1:]), "home") if words else _from("model", note="home, which the command does not speak of")
 
 

@@ -57,16 +57,16 @@ def executable(plan: Mapping[str, Any] | None, expected: Mapping[str, Any], voca
 
 def replay(plan: Mapping[str, Any], vocabulary: Vocabulary, holds: Holds | None = None) -> Stop | None:
     """The first task of a mission plan that cannot be carried out, or None. `holds` is what holds at the start: nothing by default."""
-    return next((stop for stop, _missing in _stops(plan, vocabulary, holds or Holds())), None)
+    return next((stop for stop, _missing in stops(plan, vocabulary, holds or Holds())), None)
 
 
 def on_board(plan: Mapping[str, Any], vocabulary: Vocabulary) -> Holds:
     """What a plan takes for granted: the facts that it needs and the items that it sends before it brings them about."""
-    missing = {fact for stop, facts in _stops(plan, vocabulary, Holds()) if stop.condition == "data collected" for fact in facts}
+    missing = {fact for stop, facts in stops(plan, vocabulary, Holds()) if stop.condition == "data collected" for fact in facts}
     return Holds(facts=frozenset(missing & vocabulary.logic.lacking.keys()), items=frozenset(missing - vocabulary.logic.lacking.keys()))
 
 
-def _stops(plan: Mapping[str, Any], vocabulary: Vocabulary, holds: Holds) -> Iterator[tuple[Stop, frozenset[str]]]:
+def stops(plan: Mapping[str, Any], vocabulary: Vocabulary, holds: Holds) -> Iterator[tuple[Stop, frozenset[str]]]:
     """Every unmet condition with the facts and items that are lacking; a plan goes on behind one as if it were met."""
     entries = [entry if isinstance(entry, dict) else {} for entry in plan["tasks"]]
     logics = [vocabulary.logic.of(str(entry.get("title"))) for entry in entries]

@@ -1,0 +1,32 @@
+"""Places that are not known, and tasks that cannot be carried out where they stand in the plan."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from planner_ft.benchmark.metrics.executability import Condition, Holds, stops
+from planner_ft.document.warnings.warning import Warning, named, warning
+from planner_ft.vocabulary import Vocabulary
+
+KIND_OF: dict[Condition, str] = {
+    "target located": "used-before-found",
+    "vehicle at the place": "not-at-place",
+    "position known": "position-missing",
+    "data collected": "data-not-collected",
+}
+
+
+def order_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
+    """One per open place, and what a replay of the plan stops at."""
+    tasks = document["tasks"]
+    for place in document.get("open_places", ()):
+        first = tasks[place["tasks"][0] - 1]
+        parameter = vocabulary.task[first["title"]].position_parameter
+        needed = ", ".join(tasks[number - 1]["id"] for number in place["tasks"])
+        text = f"Where {place['name']} is, is not known; {needed} cannot be carried out before it is located."
+        yield {**warning("unresolved-location", text, about=place["name"]), "task": first["id"], "parameter": parameter}
+    for stop, _missing in stops({"tasks": tasks}, vocabulary, Holds()):
+        kind = KIND_OF.get(stop.condition)
+        if kind is not None:
+            yield warning(kind, f"{named(tasks[stop.index])} cannot be carried out there: {stop.reason}.", tasks[stop.index])
