@@ -72,6 +72,12 @@ def parse_template(row: str, subject: str, number: int) -> Template:
     wrong = _wrong(slots, lines)
     lines = tuple(_right(line) for line in lines)
     _check_slots(nodes, slots, lines, wrong)
+    return built_template(nodes, lines, subject, number, wrong)
+
+
+def built_template(nodes: tuple[Node, ...], lines: tuple[Line, ...], subject: str, number: int = 0, wrong: frozenset[str] = frozenset()) -> Template:
+    """The template of a text and its intents, which fit together."""
+    slots = list(all_slots(nodes))
     return Template(nodes, lines, subject, number, _kinds(slots, lines), _bound(lines), wrong)
 
 

@@ -10,6 +10,7 @@ from typing import Any
 from planner_ft.data.mission.synthetic import discourse, extras, frames, lexicon, words
 from planner_ft.data.mission.synthetic.clauses import Teller
 from planner_ft.data.mission.synthetic.commands_sample import draw_from_templates
+from planner_ft.data.mission.synthetic.composed import draw_composed
 from planner_ft.data.mission.synthetic.corrections import Scene
 from planner_ft.data.mission.synthetic.intents import Intent
 from planner_ft.data.mission.synthetic.labeller import Planned, label
@@ -20,8 +21,8 @@ from planner_ft.data.mission.synthetic.surface import Register, finished
 
 Record = dict[str, Any]
 
-TEMPLATE_SHARE = 0.7
-"""Share of samples drawn from commands written by hand; the others are composed of phrases."""
+COMPOSED_SHARE, TEMPLATE_SHARE = 0.32, 0.48
+"""Shares of samples put together for their structure and of those drawn from commands written by hand; the others are composed of phrases."""
 EMPTY_SHARE = 0.07
 """Share of composed samples that lead to no task; some of the written ones do too."""
 LONG = 7
@@ -45,7 +46,10 @@ def sample_missions(seed: int, count: int | None = None) -> Iterator[Record]:
 def draw_mission(rng: Random, name: str) -> Record:
     """One sample drawn from `rng`."""
     style = draw_style(rng)
-    if rng.random() < TEMPLATE_SHARE and (record := draw_from_templates(rng, plainer(rng, style), name)) is not None:
+    roll = rng.random()
+    if roll < COMPOSED_SHARE:
+        return draw_composed(rng, plainer(rng, style), name)
+    if roll < COMPOSED_SHARE + TEMPLATE_SHARE and (record := draw_from_templates(rng, plainer(rng, style), name)) is not None:
         return record
     return compose_mission(rng, style, name)
 

@@ -128,7 +128,7 @@ def say_length(rng: Random, style: Style, low: int, high: int, *, far: bool = Fa
     roll = rng.random()
     if far and roll < 0.35:
         return _say_far(rng, style)
-    if roll > 0.985:
+    if roll > 0.975:
         feet = rng.choice([feet for feet in (10, 15, 20, 25, 30, 40, 50, 60, 80, 100, 150, 200, 250, 300, 400, 500) if low <= feet * 0.3048 <= high] or [30])
         return quantity(feet, "foot", feet * 0.3048, rng, style)
     if roll < 0.55:

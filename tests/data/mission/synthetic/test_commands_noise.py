@@ -29,7 +29,7 @@ def test_a_greeting_stands_once():
     assert greeted("Barge Theodora is adrift.", Random(1)).endswith(". Barge Theodora is adrift.")
 
 
-def test_more_than_half_of_the_samples_are_written_commands():
+def test_about_half_of_the_samples_are_written_commands():
     families = [record["family"] for record in sample_missions(9, 1500)]
     written = sum(family.startswith("synthetic-command-") for family in families)
-    assert 0.65 < written / len(families) < 0.75
+    assert 0.43 < written / len(families) < 0.53
