@@ -14,8 +14,10 @@ from planner_ft.cli.export import export
 from planner_ft.cli.gen_data import gen_data
 from planner_ft.cli.plan import plan
 from planner_ft.cli.report import report
+from planner_ft.cli.review import review
 from planner_ft.cli.train import train
 from planner_ft.cli.validate import validate
+from planner_ft.cli.verify import verify
 from planner_ft.cli.vocabulary import vocabulary
 
 app = typer.Typer(
@@ -41,5 +43,5 @@ def options(version: Annotated[bool, typer.Option("--version", callback=_version
     """Options of every command."""
 
 
-for command in (plan, gen_data, validate, candidates, train, bench, score, compare, report, export, vocabulary, doctor):
+for command in (plan, review, verify, gen_data, validate, candidates, train, bench, score, compare, report, export, vocabulary, doctor):
     app.command(command.__name__.replace("_", "-"))(command)

@@ -51,6 +51,10 @@ def train(
     ] = None,
     train_file: Annotated[str | None, typer.Option(help="Training split, instead of --data-dir.", show_default=False, rich_help_panel=RUN)] = None,
     validation_file: Annotated[str | None, typer.Option(help="Validation split; none: no validation.", show_default=False, rich_help_panel=RUN)] = None,
+    corrections: Annotated[
+        str | None,
+        typer.Option(help="JSONL of `review --harvest`, added to the training split alone.", show_default=False, rich_help_panel=RUN),
+    ] = None,
     vocabulary: Annotated[
         str | None, typer.Option(help="Vocabulary: a bundled name or a TOML file. Default: usv.", show_default=False, rich_help_panel=RUN)
     ] = None,
@@ -69,7 +73,8 @@ def train(
     from planner_ft.training.request import build_request
 
     names = {"level": level, "candidate": candidate, "vocabulary": vocabulary, "data_dir": data_dir, "train_file": train_file}
-    request = build_request({**names, "validation_file": validation_file, "output": output}, settings, recipe=recipe, overwrite=overwrite, resume=resume)
+    names |= {"validation_file": validation_file, "corrections": corrections, "output": output}
+    request = build_request(names, settings, recipe=recipe, overwrite=overwrite, resume=resume)
     console = Console()
     if preview or preview_id:
         _preview(request, preview_id, console)

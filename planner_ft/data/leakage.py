@@ -95,6 +95,16 @@ def leakage_report(level: Level, splits: Mapping[str, Records], progress: Callab
     }  # fmt: skip
 
 
+def near_duplicate(prompt: str, records: Records) -> str | None:
+    """The id of the first record whose prompt, as written or masked, is that one or nearly so (see NEAR); None where none is."""
+    wanted = [_shingles(text) for text in (prompt, mask(prompt))]
+    for record in records:
+        text = str(record["prompt"])
+        if any(jaccard(mine, _shingles(other)) >= NEAR for mine, other in zip(wanted, (text, mask(text)), strict=True)):
+            return str(record["id"])
+    return None
+
+
 def _input_text(record: Mapping[str, Any]) -> str:
     """What the model is given: at task level the title and the parameters belong to it."""
     if "task" not in record:

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from planner_ft.decoding.engine import Engine
     from planner_ft.decoding.generate import Generation
 
+CUT_NOTE = "The answer met its limit of tokens"
+"""How the note on an answer that was ended at the limit begins."""
 Progress = Callable[[str, int, int], None]
 """Called with what is being done, how many of it are done and how many there are in all (0: not known)."""
 
@@ -95,7 +97,7 @@ def read_answer(level: Level, text: str, generation: Generation, prompt_tokens: 
         problems.insert(0, f"cut at the limit of {len(generation.ids)} tokens")
     notes = list(generation.notes)
     if generation.cut:
-        notes.append(f"The answer met its limit of tokens and was ended after {len(generation.ids)}; something may be missing.")
+        notes.append(f"{CUT_NOTE} and was ended after {len(generation.ids)}; something may be missing.")
     return Answer(
         text, None if problems else parsed.plan, (generation.error,) if generation.error else tuple(problems), tuple(notes),
         prompt_tokens, len(generation.ids), generation.forward_passes, generation.seconds, generation.cut or generation.finish_reason == "length",

@@ -37,10 +37,14 @@ class Head:
 
 @dataclass(frozen=True)
 class Chain:
-    """A log as it was read: its records, what breaks the chain, and what follows the last newline (a line that was never finished)."""
+    """A log as it was read: its records (none of a broken chain), what breaks the chain, how many lines there are, and what follows the last
+
+    newline: a line that was never finished.
+    """
 
     records: tuple[Record, ...]
     problems: tuple[Problem, ...]
+    lines: int
     torn: bytes = b""
 
     @property
@@ -63,7 +67,7 @@ def read_chain(data: bytes, head: Head | None) -> Chain:
     if not problems:
         problems += _head_problems([record for record in found if isinstance(record, dict)], head)
     records = () if problems else tuple(record for record in found if isinstance(record, dict))
-    return Chain(records, tuple(sorted(problems, key=lambda problem: problem.line)), torn)
+    return Chain(records, tuple(sorted(problems, key=lambda problem: problem.line)), len(lines), torn)
 
 
 def _read_line(line: bytes) -> Record | str:

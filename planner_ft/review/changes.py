@@ -12,8 +12,9 @@ from planner_ft.support.files import compact_json
 MISSING = "nothing"
 LONGEST = 120
 """Characters of a value that are shown."""
-DERIVED = ("ontology", "sources", "open_places", "warnings", "estimate", "valid", "complete", "digest")
-"""What follows from the rest and is told last."""
+DERIVED = ("edits", "ontology", "sources", "open_places", "warnings", "estimate", "valid", "complete")
+"""What follows from the rest, or repeats it, and is told last."""
+DIGEST = "digest"
 
 
 @dataclass(frozen=True)
@@ -29,11 +30,12 @@ class Change:
         return asdict(self)
 
 
-def changes(approved: PlanDocument, now: PlanDocument) -> Iterator[Change]:
+def changes(approved: PlanDocument, now: PlanDocument) -> list[Change]:
     """Every difference between two documents; what derives from others (warnings, estimates) comes last."""
     found = list(_walk("", (), approved, now))
     found.sort(key=lambda change: any(key in DERIVED for key in change.path.split(".")))
-    yield from found
+    # The digest is another whenever anything is: it says something only where it alone was changed.
+    return [change for change in found if change.path != DIGEST] or found
 
 
 def _walk(path: str, words: tuple[str, ...], before: Any, after: Any) -> Iterator[Change]:

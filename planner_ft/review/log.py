@@ -11,7 +11,7 @@ import os
 from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from planner_ft.document.digest import canonical
 from planner_ft.review.chain import Chain, Head, Problem, Record, read_chain, sealed
@@ -19,7 +19,7 @@ from planner_ft.review.lock import exclusive
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import atomic_writer, compact_json, read_json, sha256_text
 
-__all__ = ["LOG_NAME", "Appended", "Problem", "Record", "append", "check_log", "head_file", "log_beside", "read_log"]
+__all__ = ["LOG_NAME", "Appended", "Problem", "Record", "append", "check_log", "existing_log", "head_file", "log_beside", "read_log"]
 
 LOG_NAME = "approvals.jsonl"
 
@@ -39,6 +39,13 @@ def log_beside(plan: Path) -> Path:
 def head_file(log: Path) -> Path:
     """The file that holds sequence and hash of the last record."""
     return log.with_name(f"{log.name}.head")
+
+
+def existing_log(log: Path) -> Path:
+    """The log itself. Raises PlannerError where there is none."""
+    if not log.exists() and not head_file(log).exists():
+        raise PlannerError(f"--log {log}: no such file; plannerft review writes approvals.jsonl beside the plan")
+    return log
 
 
 def append(log: Path, values: Record) -> Appended:

@@ -13,6 +13,7 @@ from planner_ft.prompts import end_of_turn_ids
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.resources import memory_size
 from planner_ft.training.augment import augmented
+from planner_ft.training.corrections import with_corrections
 from planner_ft.training.model import LOGIT_VALUES, memory_levers, uses_gradient_checkpointing
 from planner_ft.training.output import folder_problems, nearest_folder, writable_problem
 from planner_ft.training.report import tracker_problems
@@ -92,22 +93,32 @@ def check_data(request: TrainRequest, prepared: Prepared) -> Finding:
     finding = Finding("data")
     limit = request.settings.max_samples
     prepared.train = read_split(request.train_file, request.level, request.vocabulary, finding.problems, limit)
-    count = request.settings.augment
-    if prepared.train and count:
-        prepared.train = augmented(prepared.train, request.level, request.vocabulary, request.settings.seed, count)
+    added: list[str] = []
+    if prepared.train:
+        prepared.train = _enlarged(request, prepared.train, finding, added)
     if request.validation_file:
         prepared.validation = read_split(request.validation_file, request.level, request.vocabulary, finding.problems)
     else:
         finding.notes.append("no validation split: the last adapter is kept, not the best one")
-    finding.text = ", ".join(f"{len(split.records)} samples in {split.path}" for split in prepared.splits)
-    if count:
-        finding.text += f", {count} of the training samples synthetic"
+    finding.text = ", ".join([*(f"{len(split.records)} samples in {split.path}" for split in prepared.splits), *added])
     if prepared.train and prepared.validation:
         trained = {record.value["prompt"] for record in prepared.train.records}
         shared = [record.id for record in prepared.validation.records if record.value["prompt"] in trained]
         if shared:
             finding.notes.append(f"{len(shared)} validation prompts are in the training split, too (first: {shared[0]}); the validation loss will flatter")
     return finding
+
+
+def _enlarged(request: TrainRequest, train: Split, finding: Finding, added: list[str]) -> Split:
+    """The training split with corrections and synthetic samples, where they are asked for; `added` is told how many of each."""
+    own, count = len(train.records), request.settings.augment
+    if request.corrections:
+        train = with_corrections(train, request.corrections, request.level, request.vocabulary, finding.problems)
+        added.append(f"{len(train.records) - own} of the training samples from {request.corrections}")
+    if count:
+        train = augmented(train, request.level, request.vocabulary, request.settings.seed, count)
+        added.append(f"{count} of the training samples synthetic")
+    return train
 
 
 def check_rendering(request: TrainRequest, prepared: Prepared) -> Finding:

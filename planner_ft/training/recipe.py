@@ -11,7 +11,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text
 
 BUNDLED = Path(__file__).parent / "recipes"
-RUN_KEYS = ("level", "candidate", "vocabulary", "data_dir", "train_file", "validation_file", "output")
+RUN_KEYS = ("level", "candidate", "vocabulary", "data_dir", "train_file", "validation_file", "corrections", "output")
 """What a recipe may say besides settings: the flags of the same names. Paths are relative to the working folder."""
 
 

@@ -20,7 +20,10 @@ DEFAULT_VOCABULARY = "usv"
 
 @dataclass(frozen=True)
 class TrainRequest:
-    """What to train, on what, with which settings, and where to. `validation_file` is None where there is no validation."""
+    """What to train, on what, with which settings, and where to.
+
+    `validation_file` is None where there is no validation, `corrections` where nothing is added to the training split.
+    """
 
     level: Level
     candidate: Candidate
@@ -31,6 +34,7 @@ class TrainRequest:
     resolved: Resolved
     overwrite: bool = False
     resume: bool = False
+    corrections: Path | None = None
 
     @property
     def settings(self) -> TrainSettings:
@@ -55,7 +59,7 @@ def build_request(
 ) -> TrainRequest:
     """Put together flags, recipe, the candidate's own adapter settings, published settings and defaults, in this order.
 
-    `run` holds level, candidate, vocabulary, data_dir, train_file, validation_file and output, None where not given.
+    `run` holds level, candidate, vocabulary, data_dir, train_file, validation_file, corrections and output, None where not given.
     Raises PlannerError that lists every problem, not the first.
     """
     problems: list[str] = []
@@ -80,7 +84,8 @@ def build_request(
         raise PlannerError(problems[0] if len(problems) == 1 else listed("the configuration has", problems))
     train_file, validation_file = _files(level, said)
     output = Path(said.get("output") or Path("adapters") / candidate.slug / level)
-    return TrainRequest(level, candidate, vocabulary, train_file, validation_file, output, resolved, overwrite, resume)
+    corrections = Path(said["corrections"]) if said.get("corrections") else None
+    return TrainRequest(level, candidate, vocabulary, train_file, validation_file, output, resolved, overwrite, resume, corrections)
 
 
 def listed(what: str, problems: list[str]) -> str:

@@ -60,7 +60,7 @@ def run_manifest(request: TrainRequest, run: Run, state: TrainState, splits: dic
         "train",
         seed=settings.seed,
         configuration={**settings.as_dict(), "origin": request.resolved.origin},
-        inputs={role: split.path for role, split in splits.items()},
+        inputs={**{role: split.path for role, split in splits.items()}, **({"corrections": request.corrections} if request.corrections else {})},
         outputs={name: sha256_file(request.output / name) for name in outputs if (request.output / name).is_file()},
         **adapter_record(candidate, request.level, request.vocabulary),
         is_standin=candidate.is_standin,

@@ -1,0 +1,85 @@
+"""`plannerft review`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from planner_ft.review.desk import Desk
+
+DECIDE, HARVEST, SKILLS = "Without a conversation", "Training data from reviewed plans", "The Task Agent that is asked again"
+
+
+def review(
+    plans: Annotated[list[Path] | None, typer.Argument(help="Plan document; with --harvest several.", show_default=False)] = None,
+    log: Annotated[Path | None, typer.Option(help="Approval log.", show_default="approvals.jsonl beside the plan")] = None,
+    name: Annotated[str | None, typer.Option(help="Who reviews; stands in the log.", show_default=False)] = None,
+    vocabulary: Annotated[str | None, typer.Option(help="Vocabulary: a bundled name or a TOML file.", show_default="the plan's, if it is bundled")] = None,
+    show: Annotated[bool, typer.Option("--show", help="Show the plan and ask nothing.", rich_help_panel=DECIDE)] = False,
+    adopt: Annotated[bool, typer.Option("--adopt", help="Take over what was changed in the file by hand, as an edit.", rich_help_panel=DECIDE)] = False,
+    edit: Annotated[
+        list[str] | None,
+        typer.Option(help='Such as "2.radius=15", "remove 3", "locate green buoy=120,-35". Repeatable.', show_default=False, rich_help_panel=DECIDE),
+    ] = None,
+    approve: Annotated[bool, typer.Option("--approve", help="Approve the plan (needs --name).", rich_help_panel=DECIDE)] = False,
+    acknowledge: Annotated[list[str] | None, typer.Option(help="Id of a warning, or all. Repeatable.", show_default=False, rich_help_panel=DECIDE)] = None,
+    reject: Annotated[str | None, typer.Option(help="Reject the plan for this reason (needs --name).", show_default=False, rich_help_panel=DECIDE)] = None,
+    harvest: Annotated[bool, typer.Option("--harvest", help="Make training samples of plans that were edited and approved.", rich_help_panel=HARVEST)] = False,
+    out: Annotated[Path | None, typer.Option(help="JSONL file for the samples.", show_default=False, rich_help_panel=HARVEST)] = None,
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace a file that --out names.", rich_help_panel=HARVEST)] = False,
+    candidate: Annotated[str | None, typer.Option(help="Candidate.", show_default="the one that planned", rich_help_panel=SKILLS)] = None,
+    device: Annotated[str, typer.Option(help="auto, cpu, cuda or cuda:N.", rich_help_panel=SKILLS)] = "auto",
+) -> None:
+    """Read a plan, edit it, approve or reject it. A decision is kept in the approval log, with the plan.
+
+    In a terminal it asks; with --edit, --approve or --reject, or without a terminal, it does not.
+    """
+    if harvest:
+        _harvest(plans or [], log, out, overwrite, vocabulary)
+        return
+    desk = _desk(plans or [], log, name, vocabulary, candidate, device)
+    _review(desk, show, adopt, edit or [], approve, acknowledge or [], reject)
+
+
+def _desk(plans: list[Path], log: Path | None, name: str | None, vocabulary: str | None, candidate: str | None, device: str) -> Desk:
+    """The plan with its log and Task Agent."""
+    from planner_ft.review.desk import open_desk
+    from planner_ft.support.errors import PlannerError
+
+    if len(plans) != 1:
+        raise PlannerError(f"{len(plans)} plans are given; one is reviewed at a time, such as plannerft review plan.json")
+    return open_desk(plans[0], log, vocabulary, name, candidate, device)
+
+
+def _review(desk: Desk, show: bool, adopt: bool, edits: list[str], approve: bool, acknowledged: list[str], reason: str | None) -> None:
+    from planner_ft.review.session import converse, decide, terminal
+    from planner_ft.review.session import show as show_plan
+    from planner_ft.support.errors import PlannerError
+
+    if approve and reason is not None:
+        raise PlannerError("--approve and --reject exclude each other; leave one of them out")
+    console = terminal()
+    if adopt or edits or approve or reason is not None:
+        decide(desk, console, adopt=adopt, edits=edits, approve=approve, acknowledged=acknowledged, reason=reason)
+    elif acknowledged:
+        raise PlannerError("--acknowledge goes with --approve; give both")
+    elif show or not (sys.stdin.isatty() and sys.stdout.isatty()):
+        show_plan(desk, console)
+    else:
+        try:
+            converse(desk, console, input)
+        except KeyboardInterrupt:
+            typer.echo("\ninterrupted; every edit and every decision that was confirmed is saved")
+            raise typer.Exit(130) from None
+
+
+def _harvest(plans: list[Path], log: Path | None, out: Path | None, overwrite: bool, vocabulary: str | None) -> None:
+    from planner_ft.review.harvest import harvest_files
+
+    done = harvest_files(plans, log, out, overwrite=overwrite, vocabulary=vocabulary)
+    for line in done.lines():
+        typer.echo(line)

@@ -1,0 +1,35 @@
+"""The plan's file, which several terminals and browsers may have open: nobody overwrites what somebody else wrote."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+
+from planner_ft.document import PlanDocument, document_digest, write_document
+from planner_ft.review.lock import exclusive
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import read_json
+
+
+class ChangedError(PlannerError):
+    """The plan's file is not what it was when it was read."""
+
+
+@contextlib.contextmanager
+def unchanged(path: Path, digest: str) -> Iterator[None]:
+    """Hold the plan's lock while its file has the content of `digest` (`document_digest` of what was read; the key `digest` may be wrong).
+
+    Raises ChangedError when it has another.
+    """
+    with exclusive(path):
+        value = read_json(path)
+        if not isinstance(value, dict) or document_digest(value) != digest:
+            raise ChangedError(f"{path}: was changed by somebody else since it was read, so nothing was done; read it again")
+        yield
+
+
+def save(path: Path, document: PlanDocument, digest: str) -> PlanDocument:
+    """Write `document` over the plan whose content had `digest` when it was read; returns what was written. Raises ChangedError."""
+    with unchanged(path, digest):
+        return write_document(path, document)
