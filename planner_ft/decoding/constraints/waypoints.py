@@ -20,6 +20,7 @@ from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.grammar import MOST_STEPS
 from planner_ft.decoding.constraints.itinerary import moves_otherwise, read_itinerary
+from planner_ft.decoding.constraints.own_movement import own_movement
 from planner_ft.vocabulary import Vocabulary
 
 Point = g.Point
@@ -42,7 +43,7 @@ AGAIN = re.compile(r"\b(?:clos\w*|back|return\w*|again|revisit\w*|same|twice|tim
 @dataclass(frozen=True)
 class Ground:
     """The facts that waypoints are derived from. `free`: they cannot be read with certainty, and any waypoint may be meant.
-    `itinerary`: they leave no choice, these are the waypoints; with `alone` the task asks for no other movement.
+    `itinerary`: they leave no choice, these are the waypoints (or there are none); with `alone` the task asks for no other movement.
 
     `stays` says that the vehicle may come to a place again, or stay where it is. A path counts as begun with `begun` of its waypoints in a row: with
     fewer where the task is about such a path, since two moves can look like the beginning of many.
@@ -124,7 +125,8 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     if not free:
         facts = _Facts(reading.text, parameters, tuple(place for place in places if place != home) or places, lengths, tuple(said), tuple(counts))
         paths = _paths(facts, task.pattern if task else "", sorted(angles))
-    itinerary = None if reading.numbers_free else read_itinerary(record, vocabulary)
+    whole = None if reading.numbers_free or task is None else own_movement(reading.text, parameters, own[0] if len(own) == 1 else None, task, vocabulary)
+    itinerary = read_itinerary(record, vocabulary) if whole is None and not reading.numbers_free else whole
     itinerary = itinerary if itinerary is None or len(itinerary) <= MOST_STEPS else None
     found = tuple(dict.fromkeys(itertools.islice(paths, MOST_PATHS)))
     begun = 2 if task and task.pattern in ("lawnmower", "square") else 3
@@ -138,7 +140,7 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
         stays=AGAIN.search(reading.text) is not None,
         begun=begun,
         itinerary=itinerary,
-        alone=not moves_otherwise(reading.text),
+        alone=bool(whole) if whole is not None else not moves_otherwise(reading.text),
     )
 
 
