@@ -84,5 +84,5 @@ def state(client: TestClient) -> dict[str, Any]:
     return found
 
 
-def post(client: TestClient, path: str, **body: Any) -> Any:
-    return client.post(path, json=body)
+def post(client: TestClient, address: str, **body: Any) -> Any:
+    return client.post(address, json=body)
