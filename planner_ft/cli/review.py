@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
     from planner_ft.review.desk import Desk
 
-DECIDE, HARVEST, SKILLS = "Without a conversation", "Training data from reviewed plans", "The Task Agent that is asked again"
+DECIDE, WEB, HARVEST, AGENTS = "Without a conversation", "In the browser", "Training data from reviewed plans", "Agents"
 
 
 def review(
@@ -28,21 +28,42 @@ def review(
     approve: Annotated[bool, typer.Option("--approve", help="Approve the plan (needs --name).", rich_help_panel=DECIDE)] = False,
     acknowledge: Annotated[list[str] | None, typer.Option(help="Id of a warning, or all. Repeatable.", show_default=False, rich_help_panel=DECIDE)] = None,
     reject: Annotated[str | None, typer.Option(help="Reject the plan for this reason (needs --name).", show_default=False, rich_help_panel=DECIDE)] = None,
+    web: Annotated[bool, typer.Option("--web", help="Review in the browser; a new mission can be planned there, too.", rich_help_panel=WEB)] = False,
+    port: Annotated[int | None, typer.Option(help="Port of the page.", show_default="a free one", rich_help_panel=WEB)] = None,
+    host: Annotated[str | None, typer.Option(help="Address of the page.", show_default="127.0.0.1: this machine alone", rich_help_panel=WEB)] = None,
+    no_browser: Annotated[bool, typer.Option("--no-browser", help="Print the address and open nothing.", rich_help_panel=WEB)] = False,
     harvest: Annotated[bool, typer.Option("--harvest", help="Make training samples of plans that were edited and approved.", rich_help_panel=HARVEST)] = False,
     out: Annotated[Path | None, typer.Option(help="JSONL file for the samples.", show_default=False, rich_help_panel=HARVEST)] = None,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace a file that --out names.", rich_help_panel=HARVEST)] = False,
-    candidate: Annotated[str | None, typer.Option(help="Candidate.", show_default="the one that planned", rich_help_panel=SKILLS)] = None,
-    device: Annotated[str, typer.Option(help="auto, cpu, cuda or cuda:N.", rich_help_panel=SKILLS)] = "auto",
+    candidate: Annotated[str | None, typer.Option(help="Candidate that plans.", show_default="the one that planned", rich_help_panel=AGENTS)] = None,
+    device: Annotated[str, typer.Option(help="auto, cpu, cuda or cuda:N.", rich_help_panel=AGENTS)] = "auto",
 ) -> None:
     """Read a plan, edit it, approve or reject it. A decision is kept in the approval log, with the plan.
 
     In a terminal it asks; with --edit, --approve or --reject, or without a terminal, it does not.
     """
+    decided = {"--show": show, "--adopt": adopt, "--edit": edit, "--approve": approve, "--acknowledge": acknowledge, "--reject": reject is not None}
+    served = {"--port": port is not None, "--host": host, "--no-browser": no_browser}
+    harvested = {"--out": out, "--overwrite": overwrite}
     if harvest:
+        _refuse("--harvest", {"--web": web, **decided, **served})
         _harvest(plans or [], log, out, overwrite, vocabulary)
-        return
-    desk = _desk(plans or [], log, name, vocabulary, candidate, device)
-    _review(desk, show, adopt, edit or [], approve, acknowledge or [], reject)
+    elif web:
+        _refuse("--web", {**decided, **harvested})
+        _serve(plans or [], log, vocabulary, candidate, device, {"host": host, "port": port, "open_browser": False if no_browser else None})
+    else:
+        _refuse("a review in the terminal", {**served, **harvested})
+        desk = _desk(plans or [], log, name, vocabulary, candidate, device)
+        _review(desk, show, adopt, edit or [], approve, acknowledge or [], reject)
+
+
+def _refuse(mode: str, given: dict[str, Any]) -> None:
+    """Raise PlannerError for flags that this kind of review has no use for."""
+    from planner_ft.support.errors import PlannerError
+
+    unused = [flag for flag, value in given.items() if value]
+    if unused:
+        raise PlannerError(f"{unused[0]} does not go with {mode}; leave one of them out")
 
 
 def _desk(plans: list[Path], log: Path | None, name: str | None, vocabulary: str | None, candidate: str | None, device: str) -> Desk:
@@ -75,6 +96,18 @@ def _review(desk: Desk, show: bool, adopt: bool, edits: list[str], approve: bool
         except KeyboardInterrupt:
             typer.echo("\ninterrupted; every edit and every decision that was confirmed is saved")
             raise typer.Exit(130) from None
+
+
+def _serve(plans: list[Path], log: Path | None, vocabulary: str | None, candidate: str | None, device: str, given: dict[str, Any]) -> None:
+    from planner_ft.review.task_agent import planning_of
+    from planner_ft.support.errors import PlannerError
+    from planner_ft.web import WebSettings, serve
+
+    if len(plans) > 1:
+        raise PlannerError(f"{len(plans)} plans are given; one is opened, and the page offers the others of its folder")
+    plan = plans[0] if plans else None
+    planning = planning_of(plan, vocabulary, candidate, device)
+    serve(plan, WebSettings(log=log, planning=planning, **{name: value for name, value in given.items() if value is not None}))
 
 
 def _harvest(plans: list[Path], log: Path | None, out: Path | None, overwrite: bool, vocabulary: str | None) -> None:
