@@ -40,6 +40,11 @@ _TURN = re.compile(
 _SIGN = re.compile(r"(?:[-−–]|\b(?:minus|negative)\s+)$", re.IGNORECASE)
 _WAY = re.compile(r"\s*(?:m(?:et(?:re|er)s?)?)?\s*(?:(?:to the |due )?(?:east|west|north|south)(?:ings?|wards?)?|[EWNSewns])\b")
 
+_OPENED = re.compile(r"[\[(]\s*(?:[-−–]|minus |negative )?$")
+_LED = re.compile(r"\b(?:at|to|near|around|from|on|cent(?:re|er)|@)\W{0,3}(?:[-−–]|minus |negative )?$", re.IGNORECASE)
+_PLAIN = re.compile(r"\d+(?:\.\d+)?\s*(?:,\s*|\s)(?:[-−–]|minus |negative )?\d+(?:\.\d+)?")
+_AXES = re.compile(r"(?<![a-z])y\s?[=:]?\s?(?:[-−–]|minus )?\d|\d\s?(?:east|west|north|south)\b.*\d", re.IGNORECASE)
+
 
 @dataclass(frozen=True)
 class Mention:
@@ -223,6 +228,15 @@ def _place(piece: Piece, value: Any) -> list[Span]:
         for x, y, start, end in positions(piece.text)
         if abs(x - value[0]) <= 0.0051 and abs(y - value[1]) <= 0.0051
     ]
+
+
+def is_place(text: str, start: int, end: int) -> bool:
+    """Whether two neighbouring numbers are certainly coordinates: in brackets, with axes or directions, or behind a word like "at"."""
+    before = text[max(0, start - 16) : start]
+    if _OPENED.search(before):
+        return True
+    said = text[start:end]
+    return (_LED.search(before) is not None and _PLAIN.fullmatch(said) is not None) or _AXES.search(said) is not None
 
 
 def _pair_spans(piece: Piece) -> list[Span]:

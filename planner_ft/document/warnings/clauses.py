@@ -44,5 +44,5 @@ def said_apart(command: str, wanted: re.Pattern[str], vocabulary: Vocabulary) ->
 def _said(clause: Clause, wanted: re.Pattern[str]) -> Iterator[tuple[int, int]]:
     for match in wanted.finditer(clause.text):
         start = clause.start + match.start()
-        if clause.excluded is None or start < clause.excluded:
+        if clause.excluded is None or start <= clause.excluded:
             yield start, clause.start + match.end()

@@ -15,14 +15,13 @@ LONGEST = 60
 
 
 def command_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
-    """Instructions that nothing in the plan answers. A plan without tasks says itself why."""
-    if not document["tasks"]:
-        return
+    """Instructions that nothing in the plan answers, and of which the plan does not say that it leaves them out."""
     planned = {task["title"] for task in document["tasks"]}
-    told = " ".join([*document.get("constraints", ()), *document.get("assumptions", ())]).casefold()
+    texts = [*document.get("constraints", ()), *document.get("assumptions", ())]
+    declined = " ".join(text for text in texts if language(vocabulary).words["declined"].search(text)).casefold()
     for clause in read_clauses(document["command"], vocabulary):
         for words, start in _unanswered(clause, planned, vocabulary):
-            if words.casefold() not in told:
+            if words.casefold() not in declined:
                 yield warning("not-planned", f'The command asks: "{_quoted(clause, start)}"; no task of the plan does that.', about=words.casefold())
 
 
@@ -36,12 +35,13 @@ def _unanswered(clause: Clause, planned: set[str], vocabulary: Vocabulary) -> It
         if match and not (ask.tasks & planned) and (ask.sends or not sends) and _counts(clause, match.start()):
             yield match[0], match.start()
     impossible = spoken.words["impossible"].match(clause.text.lstrip())
-    if impossible and _counts(clause, 0):
+    # A plan without tasks says itself why.
+    if planned and impossible and _counts(clause, 0):
         yield impossible[0], 0
 
 
 def _counts(clause: Clause, place: int) -> bool:
-    return not clause.corrected and (clause.excluded is None or clause.start + place < clause.excluded)
+    return not clause.corrected and (clause.excluded is None or clause.start + place <= clause.excluded)
 
 
 def _quoted(clause: Clause, start: int) -> str:

@@ -13,7 +13,7 @@ from planner_ft.benchmark.metrics.source import WAYPOINT, source_of
 from planner_ft.benchmark.metrics.values import is_number
 from planner_ft.data.quantities import Quantity, close, positions, quantities
 from planner_ft.document.language import language
-from planner_ft.document.said import Piece, Said, read_command
+from planner_ft.document.said import Piece, Said, is_place, read_command
 from planner_ft.document.warnings.clauses import Clause, read_clauses
 from planner_ft.document.warnings.warning import Warning, named, warning
 from planner_ft.vocabulary import Parameter, Vocabulary
@@ -177,10 +177,9 @@ def _is_measure(text: str, quantity: Quantity) -> bool:
 
 
 def _stated_places(piece: Piece, wanted: Wanted) -> Iterator[tuple[str, list[tuple[float, float]]]]:
-    """(words, what they can stand for) of coordinates in brackets."""
+    """(words, what they can stand for) of what certainly are coordinates."""
     for (start, end), group in itertools.groupby(positions(piece.text), key=lambda item: (item[2], item[3])):
-        before = piece.text[max(0, start - 2) : start].rstrip("-−–")
-        if before[-1:] in ("[", "(") and wanted.at(piece.offset + start):
+        if is_place(piece.text, start, end) and wanted.at(piece.offset + start):
             following = quantities(piece.text[end : end + 40])
             taken_back = following and wanted.correction.search(piece.text[end : end + 40], 0, following[0].start)
             if not taken_back:
