@@ -15,7 +15,7 @@ from planner_ft.data.mission.synthetic.composed_values import tell_apart, tell_c
 from planner_ft.data.mission.synthetic.composed_wishes import slots_of
 from planner_ft.data.mission.synthetic.numbers import Style
 
-KINDS = {"order": 36, "targets": 34, "apart": 11, "shared": 9, "placed": 11, "corrected": 4, "dropped": 5}
+KINDS = {"order": 38, "targets": 32, "apart": 12, "shared": 9, "placed": 12, "corrected": 4, "dropped": 5}
 """How often each kind of structure is drawn."""
 TELL = {
     "order": tell_order, "targets": tell_targets, "apart": tell_apart, "shared": tell_shared, "placed": tell_placed, "corrected": tell_corrected,

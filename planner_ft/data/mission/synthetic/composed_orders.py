@@ -8,21 +8,23 @@ from itertools import pairwise
 from random import Random
 
 from planner_ft.data.mission.synthetic.composed_values import stated_apart
-from planner_ft.data.mission.synthetic.composed_wishes import Wish, chosen, clauses, draw_ending, draw_titles, may_say_it, new_wish, phrases
+from planner_ft.data.mission.synthetic.composed_wishes import AUXILIARIES, Wish, chosen, clauses, draw_ending, draw_titles, may_say_it, new_wish, phrases
 
 TAG = re.compile(r"<([A-DZ]) (imp|ger|np|done|call|got|has|is|tobe)>")
-SAME_PLACE, DOUBLE, AROUND, APART = 0.25, 0.2, 0.25, 0.12
+TURNED, SAME_PLACE, DOUBLE, AROUND, APART = 0.8, 0.25, 0.2, 0.25, 0.12
 
 
 @cache
-def frames() -> tuple[tuple[str, bool], ...]:
-    """Every frame, and whether other sentences may stand around it."""
-    return tuple((frame, name == "open") for name in ("open", "whole") for frame in phrases("orders")[name])
+def frames(*, turned: bool) -> tuple[tuple[str, bool], ...]:
+    """The frames in which the first thing is (not) said first, and whether other sentences may stand around each."""
+    found = ((frame, name == "open") for name in ("open", "whole") for frame in phrases("orders")[name])
+    return tuple((frame, is_open) for frame, is_open in found if turned == (frame.find("<A") > frame.find("<B")))
 
 
 def tell_order(rng: Random) -> tuple[str, list[Wish]]:
     """The text of a command with slots, and its wishes in the order of execution."""
-    frame, is_open = frames()[int(rng.random() * len(frames()))]
+    pool = frames(turned=rng.random() < TURNED)
+    frame, is_open = pool[int(rng.random() * len(pool))]
     frame = chosen(frame, rng)
     letters = sorted({match[1] for match in TAG.finditer(frame)})
     wishes = _wishes(rng, len(letters))
@@ -79,7 +81,7 @@ def _filled(rng: Random, frame: str, groups: dict[str, list[Wish]]) -> str:
             return groups[match[1]][0].call(rng)
         clauses_told = []
         for wish in groups[match[1]]:
-            again = bool(last) and wish.place == last[-1] and may_say_it(wish) and not repeated
+            again = bool(last) and wish.place == last[-1] and may_say_it(wish) and not repeated and match[2] not in AUXILIARIES
             clauses_told.append(wish.tell(rng, match[2], "it" if again and rng.random() < 0.8 else None))
             last.append(wish.place)
         return _joined(rng, clauses_told, match[2])

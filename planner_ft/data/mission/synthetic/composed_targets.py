@@ -26,7 +26,7 @@ def tell_targets(rng: Random) -> Told:
     """The text of a command with slots, and its wishes in the order of execution."""
     text, wishes = rng.choices(*_FORMS)[0](rng)
     opening = rng.choice(phrases("targets")["opening"])
-    text = f"{opening}{text}"
+    text = _after(opening, text) if opening and not text.startswith(("I ", "I'd ")) else opening + text
     if rng.random() < ENDING_SHARE:
         last = draw_ending(rng, 9)
         text += chosen(rng.choice(phrases("targets")["ending"]), rng).replace("<Z imp>", last.tell(rng, "imp"))
@@ -117,7 +117,8 @@ def _valued(rng: Random, *, plain: bool = False) -> Wish:
     """A wish with values; `plain` with a single one."""
     while True:
         wish = new_wish(rng, 1, _title(rng))
-        if len(found := VALUE.findall(wish.values)) and (not plain or len(found) == 1):
+        found = VALUE.findall(wish.values)
+        if found and not (plain and (len(found) > 1 or wish.values.startswith("("))):
             return wish
 
 
@@ -254,6 +255,20 @@ def _at_each(rng: Random) -> Told:
     return ahead, told
 
 
+def _by_number(rng: Random) -> Told:
+    """The places are listed, then spoken of as the first, the second and so on."""
+    count = rng.choice((2, 2, 3))
+    wishes = [new_wish(rng, number, _title(rng), place=f"T{number}") for number in range(1, count + 1)]
+    names = rng.choice(
+        (("the first", "the second", "the third"), ("the first one", "the second one", "the last"), ("number one", "number two", "number three"))
+    )
+    if count == 2 and rng.random() < 0.35:
+        names = ("the former", "the latter", "")
+    parts = [wish.tell(rng, "imp", name) for wish, name in zip(wishes, names, strict=False)]
+    listed = ", ".join(f"{{T{number}}}" for number in range(1, count)) + f" and {{T{count}}}"
+    return f"{_say(rng, 'listed').replace('Y', listed)} {rng.choice((', ', '; ', ', then ', '. Then ')).join(parts)}.", wishes
+
+
 def _look_alikes(rng: Random) -> Told:
     """Two things of a kind that differ in their look: "the red one", "the other one"."""
     intro = _say(rng, "pair")
@@ -279,6 +294,6 @@ def _other(rng: Random) -> str:
 
 
 _FORMS = (
-    (_all_alike, _own_values, _respectively, _same_at, _blocks, _gapped, _at_each, _look_alikes),
-    (24, 14, 7, 17, 17, 8, 7, 9),
+    (_all_alike, _own_values, _respectively, _same_at, _blocks, _gapped, _at_each, _by_number, _look_alikes),
+    (24, 14, 7, 17, 16, 8, 7, 8, 9),
 )

@@ -20,9 +20,9 @@ NOUN_JOINTS = (", then ", " and then ", ", after that ", ", followed by ", "; th
 ORDINALS = (("the first", "the second", "the third"), ("the former", "the latter"), ("the first one", "the last one"))
 
 
-def chained(rng: Random, wishes: list[Wish], last: str = "") -> str:
-    """The clauses in the order of execution; `last` is the place that was spoken of before."""
-    mood = "np" if rng.random() < NOUN_SHARE else "imp"
+def chained(rng: Random, wishes: list[Wish], last: str = "", *, nouns: float = NOUN_SHARE) -> str:
+    """The clauses in the order of execution; `last` is the place that was spoken of before, `nouns` the share of "I want the lap round ..."."""
+    mood = "np" if rng.random() < nouns else "imp"
     text = rng.choice(NOUN_OPENINGS) if mood == "np" else ""
     joints = NOUN_JOINTS if mood == "np" else JOINTS
     for index, wish in enumerate(wishes):
@@ -39,9 +39,8 @@ def stated_apart(rng: Random, wishes: list[Wish]) -> str:
     stated = statements(rng, [wish for wish in wishes if wish.apart])
     if not stated:
         return ""
-    opening = rng.choice(("", "", "", "Figures: ", "The numbers: ", "Details: ", "And ", "To be exact: ", "As for the figures: "))
-    joints = (", ", "; ") if any(":" in text for text in stated) or len(stated) > 2 else (", ", "; ", " and ")
-    text = ("" if len(stated) == 1 else opening) + rng.choice(joints).join(stated)
+    opening = rng.choice(("", "", "", "Figures: ", "The numbers: ", "Details: ", "To be exact: ", "As for the figures: "))
+    text = ("" if len(stated) == 1 else opening) + rng.choice((", ", "; ")).join(stated)
     return f" {text}." if rng.random() < 0.75 else f" ({text[0].upper()}{text[1:]}.)"
 
 
@@ -76,11 +75,11 @@ def tell_apart(rng: Random) -> tuple[str, list[Wish]]:
     wishes = [_valued(rng, number, title) for number, title in enumerate(titles, 1)]
     for wish in wishes:
         wish.apart = True
-    text = chained(rng, wishes)
     if rng.random() < 0.25:
+        text = chained(rng, wishes, nouns=0)
         lead = rng.choice(("; ", ", ")).join(statements(rng, wishes))
         return f"{lead}: {rng.choice(('those are the figures. Now', 'bear that in mind, then', 'noted? Then', 'with these'))} {text}.", wishes
-    return f"{text}.{stated_apart(rng, wishes)}", wishes
+    return f"{chained(rng, wishes)}.{stated_apart(rng, wishes)}", wishes
 
 
 def tell_shared(rng: Random) -> tuple[str, list[Wish]]:

@@ -78,7 +78,7 @@ class Wish:
         while self.apart and VALUE.search(form):
             form = self._form(rng, mood)
         if self.values and not self.apart and not VALUE.search(form):
-            ahead = mood == "imp" and self.values.startswith(AHEAD) and rng.random() < AHEAD_SHARE
+            ahead = mood == "imp" and self.values.startswith(AHEAD) and "," not in self.values and rng.random() < AHEAD_SHARE
             form = f"{self.values} {form}" if ahead else f"{form} {self.values}"
         return self.numbered(_placed(form, self.place_words(rng) if place is None else place))
 
