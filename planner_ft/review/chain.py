@@ -111,13 +111,13 @@ def _order_problems(found: list[Record | str]) -> Iterator[Problem]:
 
 
 def _misplaced(number: int, sequence: int, expected: int, places: dict[int, list[int]]) -> str:
-    elsewhere = places.get(expected)
-    if elsewhere:
-        return (
-            f"line {number} holds record {sequence} where record {expected} belongs, which stands in line {elsewhere[0]}; lines changed places or were repeated"
-        )
-    missing = f"record {expected} is" if sequence <= expected + 1 else f"records {expected} to {sequence - 1} are"
-    return f"line {number} holds record {sequence} where record {expected} belongs; {missing} missing: lines were removed"
+    holds = f"line {number} holds record {sequence} where record {expected} belongs"
+    if expected in places:
+        return f"{holds}, which stands in line {places[expected][0]}; lines changed places or were repeated"
+    if sequence < expected:
+        return f"{holds}; lines changed places or were repeated"
+    missing = f"record {expected} is" if sequence == expected + 1 else f"records {expected} to {sequence - 1} are"
+    return f"{holds}; {missing} missing: lines were removed"
 
 
 def _head_problems(records: list[Record], head: Head | None) -> Iterator[Problem]:
