@@ -12,7 +12,7 @@ from planner_ft.data.mission.synthetic.commands_draw import draw_command
 from planner_ft.data.mission.synthetic.commands_format import base_of
 from planner_ft.data.mission.synthetic.composed import KINDS, compose_template
 from planner_ft.data.mission.synthetic.composed_orders import TAG, frames, tell_order
-from planner_ft.data.mission.synthetic.composed_wishes import AUXILIARIES, chosen, clauses, slots_of
+from planner_ft.data.mission.synthetic.composed_wishes import AUXILIARIES, VALUE, chosen, clauses, slots_of
 from planner_ft.data.mission.synthetic.numbers import draw_style
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems
@@ -129,7 +129,7 @@ def test_figures_that_follow_reach_their_tasks():
     for seed in range(60):
         text, wishes, expected = drawn(composed_values.tell_apart, seed)
         for wish in wishes:
-            wanted = {base_of(name) for name in wish.said} - {"F", "S"}
+            wanted = set(VALUE.findall(wish.values))
             task = next(parameters for title, parameters in own(expected) if title == wish.title)
             assert {{"scan": "scan_width_degrees"}.get(name, name) for name in wanted} <= set(task), text
 
