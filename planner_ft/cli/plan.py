@@ -74,7 +74,7 @@ def plan(
 def _plan(command: str, locate: list[str], out: Path | None, overwrite: bool, vehicle: Path | None, named: dict[str, Any]) -> PlanDocument:
     """Check what was said, then plan."""
     from planner_ft.document import build
-    from planner_ft.document._pending import load_vehicle
+    from planner_ft.document.vehicle import load_vehicle
     from planner_ft.planning.locations import parse_locations
     from planner_ft.planning.planner import Planner, check_command, new_file, read_command
     from planner_ft.planning.settings import PlanSettings

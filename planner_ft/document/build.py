@@ -6,10 +6,10 @@ import copy
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.document._pending import Vehicle, load_vehicle
 from planner_ft.document.files import PlanDocument
 from planner_ft.document.places import locate_parameters
 from planner_ft.document.revise import revise
+from planner_ft.document.vehicle import Vehicle, load_vehicle
 from planner_ft.planning.result import Answer, Planned, PlannedTask
 from planner_ft.vocabulary.document_schema import FORMAT, VERSION
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from planner_ft.document._pending import check, estimate, sources, warnings
 from planner_ft.document.digest import document_digest
+from planner_ft.document.estimate import estimate
 from planner_ft.document.files import PlanDocument
+from planner_ft.document.ontology import check
 from planner_ft.document.places import places_of
+from planner_ft.document.sources import sources
+from planner_ft.document.warnings import warnings
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.document_schema import document_keys, task_keys
 from planner_ft.vocabulary.plans import canonical_parameters
