@@ -21,11 +21,12 @@ LISTS = ("stop_conditions", "failure_modes", "expected_outputs")
 
 @dataclass(frozen=True)
 class Item:
-    """One thing that a plan says: where it stands, the task's id (None: of the whole plan), what it is in words."""
+    """One thing that a plan says: where it stands, the task's id (None: of the whole plan), what it is in words, and the step (from 1)."""
 
     path: Path
     task: str | None
     what: str
+    step: int | None = None
 
 
 @dataclass(frozen=True)
@@ -83,12 +84,23 @@ class Ledger:
         return Account(frozenset(self._carried), self._told(changed), self._told(lost), frozenset(changed), frozenset(lost))
 
     def _told(self, entries: dict[Path, str]) -> tuple[Loss, ...]:
-        """One loss per task and reason, in the plan's order."""
-        grouped: dict[tuple[str | None, str], list[str]] = {}
+        """One loss per task and reason, in the plan's order; what several steps say alike is told once."""
+        grouped: dict[tuple[str | None, str], dict[str, list[int | None]]] = {}
         for path, why in entries.items():
             item = self.items[path]
-            grouped.setdefault((item.task, why), []).append(item.what)
-        return tuple(Loss(task, "; ".join(what), why) for (task, why), what in grouped.items())
+            grouped.setdefault((item.task, why), {}).setdefault(item.what, []).append(item.step)
+        return tuple(Loss(task, "; ".join(what + _steps_told(steps) for what, steps in told.items()), why) for (task, why), told in grouped.items())
+
+
+def _steps_told(steps: list[int | None]) -> str:
+    """ " (step 2)", " (steps 1-3, 7)", or nothing for what is no part of a step."""
+    numbers = sorted({step for step in steps if step is not None})
+    if not numbers:
+        return ""
+    starts = [number for number in numbers if number - 1 not in numbers]
+    ends = [number for number in numbers if number + 1 not in numbers]
+    told = ", ".join(f"{start}" if start == end else f"{start}-{end}" for start, end in zip(starts, ends, strict=True))
+    return f" (step{'s' if len(numbers) > 1 else ''} {told})"
 
 
 def plan_items(document: dict[str, Any]) -> Iterator[Item]:
@@ -125,24 +137,23 @@ def _task_items(at: Path, task: dict[str, Any]) -> Iterator[Item]:
     yield from (Item((*at, "located", key), name, f"{key} is the place of {place}") for key, place in task.get("located", {}).items())
     for key in ("assumptions", "problems"):
         yield from (Item((*at, key, index), name, f"{key[:-1]}: {text}") for index, text in enumerate(task.get(key, ())))
-    for index, step in enumerate(task["skill_sequence"] or ()):
-        yield from _step_items((*at, "skill_sequence", index), name, step, f"step {index + 1}")
+    for number, step in enumerate(task["skill_sequence"] or (), start=1):
+        yield from (Item((*at, "skill_sequence", number - 1, *path), name, what, number) for path, what in _step_items(step))
 
 
-def _step_items(at: Path, task: str, step: dict[str, Any], where: str) -> Iterator[Item]:
-    yield from _skill_items((*at, "navigation_skill"), task, step["navigation_skill"], where)
+def _step_items(step: dict[str, Any]) -> Iterator[tuple[Path, str]]:
+    yield from _skill_items(("navigation_skill",), step["navigation_skill"])
     for key in ("filter_skills", "perception_skills"):
         for index, skill in enumerate(step[key]):
-            yield from _skill_items((*at, key, index), task, skill, where)
+            yield from _skill_items((key, index), skill)
     for key in LISTS:
-        one = key[:-1].replace("_", " ")
-        yield from (Item((*at, key, index), task, f"{where}, {one}: {text}") for index, text in enumerate(step[key]))
+        yield from (((key, index), f"{key[:-1].replace('_', ' ')}: {text}") for index, text in enumerate(step[key]))
 
 
-def _skill_items(at: Path, task: str, skill: dict[str, Any], where: str) -> Iterator[Item]:
-    yield Item((*at, "name"), task, f"{where}, {skill['name']}")
+def _skill_items(at: Path, skill: dict[str, Any]) -> Iterator[tuple[Path, str]]:
+    yield (*at, "name"), str(skill["name"])
     for key, value in skill["parameters"].items():
-        yield Item((*at, "parameters", key), task, f"{where}, {skill['name']} {key} = {_said(value)}")
+        yield (*at, "parameters", key), f"{skill['name']} {key} = {_said(value)}"
 
 
 def _said(value: Any) -> str:

@@ -5,6 +5,8 @@ Which commands Rover knows, and what it makes of their parameters, is read from 
 
 - a time is a whole number of seconds, and one beyond 32767 is taken as none: a longer hold becomes several items;
 - a turn by an angle may never end where it passes north, so that every turn is written as the absolute heading that the plan expects;
+- a change of speed fails while a boat holds its position, which it does at the end of most commands; of two in a row the second is executed
+  when the next command has begun;
 - an altitude of 0 above home means the altitude at hand.
 """
 
@@ -38,7 +40,7 @@ REASONS = {
     "stop_conditions": "the autopilot ends a command by its own criteria",
     "failure_modes": "the autopilot has failsafes of its own, and none per command",
     "expected_outputs": WORDS,
-    "navigation_skill": "the autopilot has no such command",
+    "navigation_skill": "the autopilot's command has no place for it",
     "filter_skills": "the autopilot has no such command",
     "parameters": "the movement is carried as the skills say it",
     "vehicle": "it is a setting of the autopilot",
@@ -48,7 +50,8 @@ BY_MOTION = {
     "heading": "the autopilot keeps the bow on its way",
     "drift": "the autopilot has no command that lets the vehicle drift: it goes on with the next step",
     "wait": "the autopilot cannot tell when the vehicle is steady, and no time is stated",
-    "turn-by": "where the bow points before is not known, and the autopilot turns to headings",
+    "turn-to": "its heading is not stated",
+    "turn-by": "its angle or the heading before it is not known, and the autopilot turns to headings",
     "arc": "its radius or angle is not stated",
 }
 
@@ -111,24 +114,20 @@ class _Writer:
         self.items: list[MissionItem] = []
         self.way: list[Point] = [handover.vocabulary.home]
         self.heading: float | None = None
+        self.speed = self.document["vehicle"]["cruise_speed"]
         self.ledger = handover.ledger()
         for path in self.ledger.items:
-            self.ledger.lose(*path, why=next((REASONS[key] for key in reversed(path) if key in REASONS), WORDS))
+            self.ledger.lose(*path, why=next((REASONS[key] for key in path if key in REASONS), WORDS))
 
     def write_task(self, index: int) -> None:
         """Write the steps of a task; a task without skills goes where its parameters say."""
         task, at = self.document["tasks"][index], ("tasks", index)
         first = len(self.way)
-        speed = self._stated_speed(task)
-        if speed is not None:
-            self._add(DO_CHANGE_SPEED, (1, task["parameters"][speed], -1, 0))
-            self.ledger.carry(*at, "parameters", speed)
+        self._change_speed(task, at)
         for number, step in enumerate(task["skill_sequence"] or ()):
             self._write_step((*at, "skill_sequence", number), step, self.legs.get((task["id"], number)))
         if task["skill_sequence"] is None:
             self._go(self.legs[task["id"], 0])
-        if speed is not None:
-            self._add(DO_CHANGE_SPEED, (1, self.document["vehicle"]["cruise_speed"], -1, 0))
         known = self.vocabulary.task.get(task["title"])
         place = known.position_parameter if known else None
         if place and any(math.dist(task["parameters"].get(place, (math.inf, 0)), point) < 0.01 for point in self.way[first:]):
@@ -163,10 +162,16 @@ class _Writer:
                         found.append((("tasks", index, "skill_sequence", number, "filter_skills", place), corners))
         return found
 
-    def _stated_speed(self, task: dict[str, Any]) -> str | None:
-        """The parameter by which a task states its speed."""
+    def _change_speed(self, task: dict[str, Any], at: Path) -> None:
+        """Write the speed that a task states; a task that states none goes at the vehicle's own."""
         known = self.vocabulary.task.get(task["title"])
-        return next((item.name for item in known.parameters if item.unit == "m/s" and task["parameters"].get(item.name)), None) if known else None
+        name = next((item.name for item in known.parameters if item.unit == "m/s" and task["parameters"].get(item.name)), None) if known else None
+        speed = task["parameters"][name] if name else self.document["vehicle"]["cruise_speed"]
+        if speed != self.speed:
+            self.items += [MissionItem(DO_CHANGE_SPEED, (1, speed, -1, 0))] * 2
+            self.speed = speed
+        if name:
+            self.ledger.carry(*at, "parameters", name)
 
     def _write_step(self, at: Path, step: dict[str, Any], leg: Leg | None) -> None:
         for place, skill in enumerate(step["filter_skills"]):
@@ -213,20 +218,19 @@ class _Writer:
     def _step_turn(self, at: Path, motion: Motion, given: dict[str, Any], _leg: Leg) -> None:
         if self.flies:
             self.ledger.lose(*at, why="an ArduPilot multicopter turns only beside a movement")
-        elif motion.kind == "turn-to":
+        elif motion.kind == "turn-to" and motion.value("heading", given) is not None:
             self._turn_to(motion.value("heading", given))
             self._carry(at, motion, given, ("heading",))
-        elif self.heading is not None:
-            angle = float(motion.value("angle", given))
+        elif motion.kind == "turn-by" and motion.value("angle", given) is not None and self.heading is not None:
+            angle, start = float(motion.value("angle", given)), self.heading
             count = max(1, math.ceil(abs(angle) / WIDEST_TURN))
-            start = self.heading
             for part in range(1, count + 1):
                 self._turn_to(start + angle * part / count)
             self._carry(at, motion, given, ("angle",), "as the headings that the plan expects")
 
     def _turn_to(self, heading: float) -> None:
         self.heading = heading % 360
-        self._add(NAV_SET_YAW_SPEED, (self.heading, 0, 0, 0))
+        self.items.append(MissionItem(NAV_SET_YAW_SPEED, (self.heading, 0, 0, 0)))
 
     def _go(self, leg: Leg, altitude: float = 0.0) -> None:
         if leg.metres:
@@ -239,9 +243,6 @@ class _Writer:
 
     def _at(self, command: int, place: tuple[float, float], first: float = 0, altitude: float = 0.0) -> None:
         self.items.append(MissionItem(command, (first, 0, 0, 0), *place, altitude, FRAME_RELATIVE_ALTITUDE))
-
-    def _add(self, command: int, parameters: tuple[float, float, float, float]) -> None:
-        self.items.append(MissionItem(command, parameters))
 
     def _carry(self, at: Path, motion: Motion, given: dict[str, Any], roles: tuple[str, ...], form: str = "") -> None:
         self.ledger.carry(*at, "name", form=form)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from planner_ft.handover.formats import Format, Handover, Written
-from planner_ft.handover.mission import FRAME_RELATIVE_ALTITUDE, WORDS, MissionItem, build_mission
+from planner_ft.handover.mission import FRAME_RELATIVE_ALTITUDE, WORDS, MissionItem, build_mission, coordinate
 from planner_ft.support.files import indented_json
 
 ARDUPILOT = 3
@@ -51,7 +51,8 @@ def write(handover: Handover) -> Written:
 
 def _home(handover: Handover) -> tuple[float, float]:
     assert handover.origin is not None
-    return handover.origin.to_geographic(*handover.vocabulary.home)
+    latitude, longitude = handover.origin.to_geographic(*handover.vocabulary.home)
+    return coordinate(latitude), coordinate(longitude)
 
 
 def _item(number: int, item: MissionItem) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from planner_ft.document import read_document
 from planner_ft.handover.formats import DRAFT, Format, Handover, Written, format_names, load_format
 from planner_ft.handover.geodesy import Origin
+from planner_ft.handover.ledger import Account
 from planner_ft.handover.losses import loss_report
 from planner_ft.review.log import log_beside
 from planner_ft.review.verify import approval_of
@@ -39,12 +40,12 @@ class HandoverSettings:
 
 @dataclass(frozen=True)
 class HandedOver:
-    """A file that was written, the report beside it, and what it says about losses."""
+    """A file that was written, the report beside it, and the account of what the file holds."""
 
     format: Format
     file: Path
     report: Path
-    written: Written
+    account: Account
 
 
 def hand_over(settings: HandoverSettings) -> list[HandedOver]:
@@ -55,14 +56,15 @@ def hand_over(settings: HandoverSettings) -> list[HandedOver]:
     formats = _formats(settings)
     vocabulary = load_vocabulary(settings.vocabulary) if settings.vocabulary else None
     handover = _handover(settings, vocabulary)
-    made = []
-    for chosen in formats:
-        file = _file(settings, chosen, draft=handover.approval is None)
-        made.append(HandedOver(chosen, file, file.with_name(file.name + REPORT), _write(chosen, handover)))
-    for one in made:
-        write_text(one.file, one.written.text)
-        write_text(one.report, loss_report(handover, one.format, one.file.name, one.written.account))
-    return made
+    files = [_file(settings, chosen, draft=handover.approval is None) for chosen in formats]
+    made = [_write(chosen, handover) for chosen in formats]
+    done = []
+    for chosen, file, written in zip(formats, files, made, strict=True):
+        report = file.with_name(file.name + REPORT)
+        write_text(file, written.text)
+        write_text(report, loss_report(handover, chosen, file.name, written.account))
+        done.append(HandedOver(chosen, file, report, written.account))
+    return done
 
 
 def _formats(settings: HandoverSettings) -> list[Format]:
