@@ -16,7 +16,6 @@ from planner_ft.handover.bt_nodes import HANDLE, LOCATE, REPORT, STOP, Node, mod
 from planner_ft.handover.bt_values import RESERVED, UNREADABLE, attribute, plain_name, plain_names, readable
 from planner_ft.handover.formats import Format, Handover, Written
 from planner_ft.handover.ledger import Ledger, Path
-from planner_ft.support.files import compact_json
 
 Element = ElementTree.Element
 COMMENT_FORM = "as words in a comment"
@@ -90,9 +89,9 @@ class _Tree:
         """A task's prompt and parameters, as entries of its own blackboard."""
         task = self.document["tasks"][index]
         ports = self.nodes.tasks[task["title"]].ports
-        said = {name: (("tasks", index, "parameters", name), value) for name, value in task["parameters"].items()}
-        said["task_prompt"] = (("tasks", index, "task_prompt"), task["task_prompt"])
-        return {ports[name].name: self._value(path, value) for name, (path, value) in said.items()}
+        values = {name: self._value(("tasks", index, "parameters", name), value) for name, value in task["parameters"].items()}
+        values["task_prompt"] = self._value(("tasks", index, "task_prompt"), task["task_prompt"])
+        return {ports[name].name: text for name, text in values.items()}
 
     def _value(self, path: Path, value: Any) -> str:
         text, form = attribute(value)
@@ -184,25 +183,17 @@ class _Tree:
         yield _comment(self.handover.name)
         yield _comment(f"approval: {self.handover.mark}")
         yield _comment(f"local frame: {self.handover.vocabulary.frame}")
-        yield self._said(f"command: {self.document['command']}", "command")
-        for key, value in (self.document.get("vehicle") or {}).items():
-            if ("vehicle", key) in self.ledger:
-                yield self._said(f"vehicle, {key}: {value if isinstance(value, str) else compact_json(value)}", "vehicle", key)
-        for key in ("assumptions", "constraints"):
-            yield from (self._said(f"{key[:-1]}: {text}", key, number) for number, text in enumerate(self.document[key]))
-        for name, position in self.document["located"].items():
-            yield self._said(f"located: {name} at {compact_json(position)}", "located", name)
-        yield from (self._said(f"warning: {warning['text']}", "warnings", number) for number, warning in enumerate(self.document["warnings"]))
+        for path, item in self.ledger.items.items():
+            if path[0] not in ("tasks", "open_places"):
+                yield self._said(f"command: {self.document['command']}" if path == ("command",) else item.what, path)
 
     def _notes(self, index: int) -> Iterator[str]:
-        """What is said of a task beside its parameters and its skills."""
-        task = self.document["tasks"][index]
-        if task.get("stale"):
-            yield self._said("stale: the task was edited after its skills were planned", "tasks", index, "stale")
-        for key in ("assumptions", "problems"):
-            yield from (self._said(f"{key[:-1]}: {text}", "tasks", index, key, number) for number, text in enumerate(task.get(key, ())))
+        """What is said of a task beside its title, its parameters and its skills."""
+        for path, item in self.ledger.items.items():
+            if path[:2] == ("tasks", index) and path[2] not in ("title", "task_prompt", "parameters", "waits_for", "skill_sequence"):
+                yield self._said(item.what, path)
 
-    def _said(self, words: str, *path: str | int) -> str:
+    def _said(self, words: str, path: Path) -> str:
         self.ledger.carry(*path, form=COMMENT_FORM)
         return _comment(words)
 

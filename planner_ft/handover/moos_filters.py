@@ -1,0 +1,89 @@
+"""The behaviours that keep a vehicle inside a boundary and away from obstacles while a plan's movements run.
+
+Sources: as in moos_moves; BHV_OpRegionV24 takes convex polygons alone, BHV_AvoidObstacleV24 is spawned by alerts of pObstacleMgr.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Any
+
+from planner_ft.handover.moos_text import number, points
+
+INSIDE = ""
+NOT_CONVEX = "as a SKILL_ variable alone: the helm's boundary must be convex, and this one is not"
+NO_POLYGON = "as a SKILL_ variable alone: it says no boundary"
+CLEARANCE = "by BHV_AvoidObstacleV24, which needs pObstacleMgr to tell it of obstacles"
+
+
+@dataclass(frozen=True)
+class Guard:
+    """A behaviour that runs beside the movements `first` to `last`."""
+
+    first: int
+    last: int
+    behaviour: str
+    name: str
+    settings: tuple[tuple[str, str], ...]
+
+
+def guards(filters: Iterable[tuple[int, str, Any]]) -> Iterator[Guard]:
+    """One behaviour per run of movements that keep the same boundary or clearance, of (movement's number, kind, polygon or distance)."""
+    by_value: dict[tuple[str, str], tuple[Any, list[int]]] = {}
+    for movement, kind, value in filters:
+        by_value.setdefault((kind, repr(value)), (value, []))[1].append(movement)
+    runs = sorted((run[0], run[-1], kind, value) for (kind, _text), (value, numbers) in by_value.items() for run in _runs(numbers))
+    for count, (first, last, kind, value) in enumerate(runs, start=1):
+        settings = _region(value) if kind == "boundary" else _avoidance(value, count)
+        behaviour = "BHV_OpRegionV24" if kind == "boundary" else "BHV_AvoidObstacleV24"
+        yield Guard(first, last, behaviour, f"{kind}_{count}_", settings)
+
+
+def _runs(numbers: list[int]) -> Iterator[list[int]]:
+    """Consecutive numbers together."""
+    distinct = sorted(set(numbers))
+    for _offset, run in groupby(enumerate(distinct), key=lambda pair: pair[1] - pair[0]):
+        yield [number for _index, number in run]
+
+
+def _region(polygon: Any) -> tuple[tuple[str, str], ...]:
+    return (("save_poly", points((float(x), float(y)) for x, y in polygon)),)
+
+
+def _avoidance(distance: float | None, count: int) -> tuple[tuple[str, str], ...]:
+    """The clearance is the closest approach that the behaviour accepts; it takes interest at four times the distance."""
+    spawned = (("templating", "spawn"), ("updates", f"OBSTACLE_ALERT_{count}"))
+    if not distance:
+        return spawned
+    named = {"min_util_cpa_dist": 1, "max_util_cpa_dist": 2, "pwt_inner_dist": 2, "pwt_outer_dist": 4, "completed_dist": 5}
+    return (*spawned, *((key, number(distance * factor)) for key, factor in named.items()))
+
+
+def _bounded(polygon: Any) -> tuple[bool, str]:
+    if not polygon:
+        return False, NO_POLYGON
+    return (True, INSIDE) if _is_convex([(float(x), float(y)) for x, y in polygon]) else (False, NOT_CONVEX)
+
+
+def _cleared(_distance: float | None) -> tuple[bool, str]:
+    return True, CLEARANCE
+
+
+def _is_convex(corners: list[tuple[float, float]]) -> bool:
+    """Whether a polygon has an area and turns one way alone, once around."""
+    count = len(corners)
+    sides = [(corners[(i + 1) % count][0] - corners[i][0], corners[(i + 1) % count][1] - corners[i][1]) for i in range(count)]
+    turns = [sides[i][0] * sides[(i + 1) % count][1] - sides[i][1] * sides[(i + 1) % count][0] for i in range(count)]
+    return count > 2 and (all(turn > 0 for turn in turns) or all(turn < 0 for turn in turns)) and _turns_once(sides)
+
+
+def _turns_once(sides: list[tuple[float, float]]) -> bool:
+    """Whether the sides change the sign of their x twice at most: a star with five points does so more often."""
+    signs = [side[0] > 0 or (side[0] == 0 and side[1] > 0) for side in sides]
+    return sum(first != second for first, second in zip(signs, [*signs[1:], signs[0]], strict=True)) <= 2
+
+
+GUARDED: dict[str, Callable[[Any], tuple[bool, str]]] = {"boundary": _bounded, "clearance": _cleared}
+"""Per kind of filter whether a behaviour stands for its polygon or distance, and how it does or why not."""
