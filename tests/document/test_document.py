@@ -15,7 +15,7 @@ from planner_ft.document import PlanDocument, altered, apply, differences, docum
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 
-from ..handover.plans import DRONE, USV, document, step, task
+from ..documents import DRONE, USV, document, step, task
 
 
 @pytest.fixture(scope="module")

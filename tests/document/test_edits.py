@@ -14,7 +14,7 @@ from planner_ft.document import PlanDocument, adopt, altered, apply, differences
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.document_schema import document_schema
 
-from ..handover.plans import USV, document, step, task
+from ..documents import USV, document, step, task
 
 SCHEMA = jsonschema.Draft202012Validator(document_schema(USV))
 COMMAND = "Find the green buoy, circle it at 12 m, hold for a minute, come home."
