@@ -18,7 +18,7 @@ Edit = dict[str, Any]
 HELP = (
     ("2.radius=15", "set a parameter of task 2; nothing after = takes it out"),
     ("2.1.x=30", "set a parameter of the skill that moves the vehicle in step 1 of task 2"),
-    ("2.1.CaptureImage.count=4", "... or of a skill by its name (CaptureImage#2: the second of that name)"),
+    ("2.1.LogLidarSlice.scan_angle=30", "... or of a skill by its name (LogLidarSlice#2: the second of that name)"),
     ("prompt 2 = TEXT", "say anew what the Task Agent is to do"),
     ("locate green buoy=120,-35", "say where a place is (metres east, north)"),
     ("remove 3", "take task 3 out"),

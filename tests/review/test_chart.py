@@ -1,0 +1,70 @@
+"""The sketch of a track."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner_ft.document.track import Boundary, Circle, Leg, Point, Target, Track
+from planner_ft.review.chart import chart
+
+
+def path(*points: Point, circles: tuple[Circle, ...] = (), boundaries: tuple[Boundary, ...] = (), targets: tuple[Target, ...] = ()) -> Track:
+    legs = (Leg("t1", 0, "GoToXY", "go", points, 0.0, 0.0),) if points else ()
+    return Track(legs, circles, boundaries, targets, ())
+
+
+def sketch(track: Track, columns: int = 60, rows: int = 16, braille: bool = True) -> tuple[list[str], list[str]]:
+    """The drawing, and the lines below it."""
+    lines = chart(track, ["t1", "t2"], (0, 0), columns=columns, rows=rows, braille=braille)
+    end = next((number for number, line in enumerate(lines) if "north is up" in line), 0)
+    return lines[:end], lines[end:]
+
+
+def place(drawing: list[str], mark: str) -> tuple[int, int]:
+    """Column and row of a character."""
+    row = next(number for number, line in enumerate(drawing) if mark in line)
+    return drawing[row].index(mark), row
+
+
+@pytest.mark.parametrize(("end", "right", "down"), [((100, 0), 1, 0), ((-100, 0), -1, 0), ((0, 100), 0, -1), ((0, -100), 0, 1), ((50, 50), 1, -1)])
+def test_east_is_right_and_north_is_up(end: Point, right: int, down: int) -> None:
+    drawing, _legend = sketch(path((0, 0), end))
+    (home_column, home_row), (column, row) = place(drawing, "H"), place(drawing, "1")
+    assert ((column > home_column) - (column < home_column), (row > home_row) - (row < home_row)) == (right, down)
+
+
+@pytest.mark.parametrize("extent", [0.01, 7.0, 250.0, 1e6])
+@pytest.mark.parametrize("braille", [True, False])
+def test_it_fits_and_the_scale_bar_is_as_long_as_it_says(extent: float, braille: bool) -> None:
+    drawing, legend = sketch(path((0, 0), (extent, 0)), braille=braille)
+    assert len(drawing) <= 16 and all(len(line) <= 60 for line in drawing)
+    bar = len(legend[0].split(" ")[0]) - 2
+    metres = float(legend[0].split(" ")[1])
+    per_column = extent / (place(drawing, "1")[0] - place(drawing, "H")[0])
+    assert bar * per_column == pytest.approx(metres, rel=0.2)
+
+
+def test_circles_and_boundaries_are_drawn_around_what_they_enclose() -> None:
+    circle = Circle("t1", (50, 0), 40, None)
+    square = Boundary("t1", 0, ((0, -60), (120, -60), (120, 60), (0, 60)))
+    plain = sketch(path((0, 0), (50, 0)))[0]
+    drawing = sketch(path((0, 0), (50, 0), circles=(circle,), boundaries=(square,)))[0]
+    assert len(drawing) > len(plain)
+    middle = drawing[place(drawing, "1")[1]]
+    assert sum(letter not in " " for letter in middle[middle.index("1") :]) >= 3
+
+
+def test_targets_without_a_place_stand_below_by_name() -> None:
+    targets = (Target("green buoy", None, "t1"), Target("pier", (30.0, 4.5), "t2"))
+    drawing, legend = sketch(path((0, 0), (50, 0), targets=targets))
+    assert "not located yet: green buoy" in legend and "* pier at [30, 4.5]" in legend and any("*" in line for line in drawing)
+    assert sketch(path(targets=targets[:1]))[1] == ["(nothing moves that can be drawn)", "not located yet: green buoy"]
+
+
+@pytest.mark.parametrize("far", [1e12, 1e308, -1e308])
+def test_what_is_beyond_all_maps_is_left_out(far: float) -> None:
+    assert "(nothing moves that can be drawn)" in sketch(path((0, 0), (far, 0)))[1]
+
+
+def test_without_braille_there_is_only_ascii() -> None:
+    assert all("\n".join(part).isascii() for part in sketch(path((0, 0), (30, 40), circles=(Circle("t1", (0, 0), 10, 90),)), braille=False))
