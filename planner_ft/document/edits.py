@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
 from typing import Any
 
@@ -176,9 +176,10 @@ def _replace(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None
     _forget_places(document)
 
 
-TEXT, WHOLE = (str, "a text"), (int, "a whole number")
-TASK = {"task": (str, "the id of a task")}
-KINDS: dict[str, tuple[dict[str, tuple[type, str]], Callable[[PlanDocument, Edit, Vocabulary], None]]] = {
+TEXT: tuple[type, str] = (str, "a text")
+WHOLE: tuple[type, str] = (int, "a whole number")
+TASK: Mapping[str, tuple[type, str]] = {"task": (str, "the id of a task")}
+KINDS: dict[str, tuple[Mapping[str, tuple[type, str]], Callable[[PlanDocument, Edit, Vocabulary], None]]] = {
     "locate": ({"name": TEXT, "position": (list, "a position [x, y]")}, _locate),
     "parameter": ({**TASK, "name": TEXT}, _parameter),
     "prompt": ({**TASK, "text": TEXT}, _prompt),
