@@ -102,7 +102,8 @@ class PlanFile:
                 raise PlannerError(
                     f"{now.path.name} was changed by hand; take the changes over with `plannerft review {now.path.name} --adopt` before you edit it"
                 )
-            write_document(now.path, made(now.document))
+            written = write_document(now.path, made(now.document))
+            self._read = signature(now.path), Current(now.path, written, written["digest"])
 
     @contextmanager
     def held(self, revision: str) -> Iterator[Current]:
