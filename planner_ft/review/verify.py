@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from planner_ft.document import PlanDocument, altered, document_digest
+from planner_ft.document import PlanDocument, document_digest
 from planner_ft.review.changes import Change, changes
 from planner_ft.review.log import Record, read_log
 
@@ -44,7 +44,7 @@ def approval_of(document: PlanDocument, log: Path) -> Approval:
 def approval_in(document: PlanDocument, records: Sequence[Record], log: Path) -> Approval:
     """As `approval_of`, of records that were read from `log` already."""
     digest = document_digest(document)
-    if altered(document):
+    if document.get("digest") != digest:
         return _altered(document, digest, _relative(document, records), log)
     last = next((record for record in reversed(records) if record["digest"] == digest), None)
     if last is not None:

@@ -33,9 +33,11 @@ def task(title: str, parameters: dict[str, Any], prompt: str = "") -> dict[str, 
     return {"title": title, "parameters": parameters, "task_prompt": prompt or f"{title}."}
 
 
-def mission_document(command: str, tasks: list[dict[str, Any]], skills: dict[int, list[dict[str, Any]]], vocabulary: Vocabulary) -> PlanDocument:
+def mission_document(
+    command: str, tasks: list[dict[str, Any]], skills: dict[int, list[dict[str, Any]]], vocabulary: Vocabulary, assumptions: tuple[str, ...] = ()
+) -> PlanDocument:
     """The document of a mission plan, with the skills of some of its tasks (by number, from 1)."""
-    plan = {"tasks": tasks, "assumptions": [], "constraints": []}
+    plan = {"tasks": tasks, "assumptions": list(assumptions), "constraints": []}
     places = open_places(plan, vocabulary)
     waiting = {number: place.name for place in places for number in place.tasks}
     planned = tuple(
