@@ -74,7 +74,7 @@ def own_movement(text: str, parameters: dict[str, Any], own: Point | None, task:
 def _places(text: str) -> list[tuple[float, float, int, int]]:
     """The places of a sentence, without sizes; where some stand in brackets, those alone."""
     found = [place for place in positions(text) if not w.SIZE.search(text[place[2] : place[3]])]
-    return [place for place in found if text[place[2]] in "[("] or found
+    return [place for place in found if text[: place[2]].endswith(("[", "("))] or found
 
 
 def _path(text: str, parameters: dict[str, Any], own: Point, task: Task) -> Path | None:
