@@ -6,6 +6,8 @@ with the reason.
 
 from __future__ import annotations
 
+import functools
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,9 +15,11 @@ from typing import Any
 
 from planner_ft.data.completeness import completeness_problems
 from planner_ft.data.leakage import near_duplicate
+from planner_ft.data.lexicon import is_known
 from planner_ft.data.mission.source import find_source
 from planner_ft.data.stated import states_position
 from planner_ft.data.validation import canonical_record, record_problems
+from planner_ft.data.words import says
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.grounded import TOO_LONG
 from planner_ft.document import PlanDocument, read_document
@@ -108,6 +112,7 @@ def sample(document: PlanDocument, approval: Approval, held_out: HeldOut, vocabu
         "prompt": document["command"], "expected": _expected(document, reviewed, vocabulary), "provenance": {**provenance, "corrected": corrected},
     }  # fmt: skip
     problems = record_problems("mission", record, vocabulary) or list(completeness_problems("mission", record, vocabulary))
+    problems = problems or list(text_problems(record, _texts_of(proposed)))
     if problems:
         more = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
         raise LeftOutError(f"it breaks a labelling rule: {problems[0]}{more}")
@@ -115,6 +120,31 @@ def sample(document: PlanDocument, approval: Approval, held_out: HeldOut, vocabu
         if (near := near_duplicate(document["command"], records)) is not None:
             raise LeftOutError(f"the command is a near duplicate of {near} in the {name} set, which nothing is trained on")
     return record
+
+
+def text_problems(record: dict[str, Any], proposed: Sequence[str]) -> Iterator[str]:
+    """Texts of a sample that speak of what is not in it: of a text value that was `proposed` and taken out, or in words that nobody knows.
+
+    A reviewer reads values before sentences, and a small model misspells names in sentences that it spelt rightly in a value.
+    """
+    expected = record["expected"]
+    values = _texts_of(expected["tasks"])
+    said = " ".join([record["prompt"], *values])
+    # What the command itself names may be spoken of, unless it is a part of another name.
+    gone = [name for name in dict.fromkeys(proposed) if name not in values and (name not in record["prompt"] or any(name in value for value in values))]
+    for text in [*(task["task_prompt"] for task in expected["tasks"]), *expected["assumptions"], *expected["constraints"]]:
+        unknown = [word for word in says(said, text, misspelt=False) if len(word) > 1 and not all(map(is_known, re.findall(r"[^\W\d_]+", word)))]
+        if unknown:
+            yield f"{text!r} has a word that neither the command nor the lexicon has: {unknown[0]}"
+        # A value that stays may have the other one's words in it.
+        rest = functools.reduce(lambda left, value: left.replace(value, ""), sorted(values, key=len, reverse=True), text)
+        yield from (f"{text!r} speaks of {name!r}, which was taken out" for name in gone if name in rest)
+
+
+def _texts_of(tasks: Sequence[dict[str, Any]]) -> list[str]:
+    """The text values of tasks."""
+    values = [value for task in tasks for value in task["parameters"].values()]
+    return [text for value in values for text in (value if isinstance(value, list) else [value]) if isinstance(text, str)]
 
 
 def _commanded(tasks: Sequence[dict[str, Any]], command: str, vocabulary: Vocabulary) -> list[dict[str, Any]]:
@@ -132,8 +162,8 @@ def _expected(document: PlanDocument, tasks: Sequence[dict[str, Any]], vocabular
     notes = {*read(document["command"], vocabulary).notes, TOO_LONG}
     return {
         "tasks": [{key: task[key] for key in TASK_KEYS} for task in tasks],
-        "assumptions": [text for text in document["assumptions"] if text not in notes and not text.startswith(CUT_NOTE)],
-        "constraints": list(document["constraints"]),
+        "assumptions": [text for text in dict.fromkeys(document["assumptions"]) if text not in notes and not text.startswith(CUT_NOTE)],
+        "constraints": list(dict.fromkeys(document["constraints"])),
     }
 
 

@@ -15,7 +15,7 @@ from planner_ft.document import PlanDocument, apply, write_document
 from planner_ft.planning.agents import CUT_NOTE
 from planner_ft.review import approve, log_beside, reject
 from planner_ft.review.commands import parse_edit
-from planner_ft.review.harvest import Harvest, harvest_files
+from planner_ft.review.harvest import Harvest, harvest_files, text_problems
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import Vocabulary
@@ -140,3 +140,24 @@ def test_what_is_missing_in_the_call_is_said(tmp_path: Path) -> None:
     for plans, out in (([], tmp_path / "out.jsonl"), ([tmp_path / "plan.json"], None)):
         with pytest.raises(PlannerError, match="--harvest needs plans and --out"):
             harvest_files(plans, None, out)
+
+
+@pytest.mark.parametrize(
+    ("assumption", "reason"),
+    [
+        ("The position of the grey fishing Inack is unknown until it has been found.", "has a word that neither the command nor the lexicon has: inack"),
+        ("The position of the grey fishing is unknown until it has been found.", "speaks of 'grey fishing', which was taken out"),
+    ],
+)
+def test_sentences_about_what_the_plan_does_not_have_are_not_learned(tmp_path: Path, usv: Vocabulary, assumption: str, reason: str) -> None:
+    document = wrong(usv, assumptions=(assumption,))
+    searched = [task("SearchAndDetect", {"target_description": "grey fishing"}, "Search for the grey fishing smack."), *document["tasks"]]
+    entries = [{key: entry[key] for key in ("title", "parameters", "task_prompt")} for entry in searched]
+    plan = reviewed(tmp_path / "plan.json", mission_document(COMMAND, entries, {}, usv, (assumption,)), usv, "remove 1", *CORRECTIONS)
+    assert reason in refusal(tmp_path / "out.jsonl", plan)
+
+
+def test_the_sentences_of_the_curated_set_are_almost_all_accepted() -> None:
+    records = read_jsonl(find_source() / "train.jsonl")
+    refused = [record["id"] for record in records if list(text_problems(record, []))]
+    assert len(refused) <= len(records) // 50

@@ -49,7 +49,8 @@ def ask(models: Path, data: Path, tmp_path: Path) -> Callable[..., Any]:
 
     def build(**values: Any) -> Any:
         run = {"level": "mission", "candidate": STANDIN, "data_dir": str(data), "output": str(tmp_path / "adapter")}
-        run |= {key: values.pop(key) for key in ("level", "candidate", "data_dir", "output", "vocabulary", "train_file", "validation_file", "corrections") if key in values}
+        names = ("level", "candidate", "data_dir", "output", "vocabulary", "train_file", "validation_file", "corrections")
+        run |= {key: values.pop(key) for key in names if key in values}
         options = {key: values.pop(key) for key in ("recipe", "overwrite", "resume") if key in values}
         return build_request(run, values, **options)
 
