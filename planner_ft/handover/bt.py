@@ -15,7 +15,7 @@ from xml.etree import ElementTree
 from planner_ft.handover.bt_nodes import HANDLE, LOCATE, REPORT, STOP, Node, model_element, nodes_of
 from planner_ft.handover.bt_values import RESERVED, UNREADABLE, attribute, plain_name, plain_names, readable
 from planner_ft.handover.formats import Format, Handover, Written
-from planner_ft.handover.ledger import Ledger, Path
+from planner_ft.handover.ledger import Item, Ledger, Path
 
 Element = ElementTree.Element
 COMMENT_FORM = "as words in a comment"
@@ -35,6 +35,10 @@ class _Tree:
         self.ledger: Ledger = handover.ledger()
         self.nodes = nodes_of(handover.vocabulary)
         tasks = self.document["tasks"]
+        self.notes: dict[int, list[Item]] = {}
+        for item in self.ledger.items.values():
+            if item.path[0] == "tasks" and item.path[2] not in ("title", "task_prompt", "parameters", "waits_for", "skill_sequence"):
+                self.notes.setdefault(int(item.path[1]), []).append(item)
         self.trees = plain_names([f"{task['id']} {task['title']}" for task in tasks], {node.id for node in self.nodes.all})
         ports = {port.name for node in self.nodes.all for port in node.ports.values()}
         self.places = plain_names([place["name"] for place in self.document["open_places"]], {*RESERVED, *ports})
@@ -189,9 +193,7 @@ class _Tree:
 
     def _notes(self, index: int) -> Iterator[str]:
         """What is said of a task beside its title, its parameters and its skills."""
-        for path, item in self.ledger.items.items():
-            if path[:2] == ("tasks", index) and path[2] not in ("title", "task_prompt", "parameters", "waits_for", "skill_sequence"):
-                yield self._said(item.what, path)
+        return (self._said(item.what, item.path) for item in self.notes.get(index, ()))
 
     def _said(self, words: str, path: Path) -> str:
         self.ledger.carry(*path, form=COMMENT_FORM)

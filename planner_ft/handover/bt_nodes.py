@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 from xml.etree import ElementTree
 
-from planner_ft.handover.bt_values import PORT_TYPES, RESERVED, plain_names
+from planner_ft.handover.bt_values import PORT_TYPES, RESERVED, plain_name, plain_names
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import Parameter, Skill, Task
 
@@ -163,7 +163,9 @@ def _ports(owner: Skill | Task) -> dict[str, Port]:
     if isinstance(owner, Task):
         return {**ports, "task_prompt": Port(names["task_prompt"], "std::string", "the whole intent of the task")}
     if owner.output:
-        name = plain_names([*names.values(), owner.output], RESERVED)[owner.output]
+        # An observation is given, and an observation comes out: two ports.
+        taken = {*RESERVED, *names.values()}
+        name = plain_name(f"{owner.output}_out" if plain_name(owner.output) in taken else owner.output, taken)
         ports["output"] = Port(name, "", f"what the skill gives: {owner.output}", output=True)
     return ports
 

@@ -7,13 +7,13 @@ docs/handover.md says how it is used; the sources of the syntax are named in moo
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.document.track import Leg
 from planner_ft.handover.formats import Format, Handover, Written
-from planner_ft.handover.ledger import LISTS, Ledger, Path
+from planner_ft.handover.ledger import LISTS, Item, Ledger, Path
 from planner_ft.handover.moos_filters import GUARDED, Guard, guards
 from planner_ft.handover.moos_moves import UNENDED, Move, move_of
 from planner_ft.handover.moos_text import CHANGED, Behaviour, comment, is_changed, quoted, variable
@@ -28,8 +28,9 @@ WORDS_FORM = {
     "failure_modes": "as words in a comment: the helm does not watch for it",
     "expected_outputs": COMMENT_FORM,
 }
-SECOND = "speed"
-"""What the second behaviour of a movement adds."""
+FIRST, SECOND = "move", "speed"
+"""What the name of a movement's behaviours ends with."""
+UNKNOWN = "the plan does not say the movement: where it begins, its radius and its angle must be known"
 DEFAULT_SPEED = 1.0
 """Metres per second where the plan's vehicle says none."""
 
@@ -41,17 +42,13 @@ def write(handover: Handover) -> Written:
 
 @dataclass(frozen=True)
 class _Place:
-    """A movement's place in the plan: its number from 1, its task's index, its step in the task (None: a task without skills)."""
+    """A movement in the plan: its number from 1, its task's index, its step in the task (None: a task without skills), and what is done."""
 
     number: int
     task: int
     step: int | None
-    leg: Leg
-
-    @property
-    def name(self) -> str:
-        """ "t2_1": the task's id and the step, from 1."""
-        return f"{self.leg.task}_{1 if self.step is None else self.step + 1}"
+    name: str
+    move: Move
 
 
 class _File:
@@ -62,19 +59,33 @@ class _File:
         self.ledger: Ledger = handover.ledger()
         self.cruise_speed = float((self.document.get("vehicle") or {}).get("cruise_speed") or DEFAULT_SPEED)
         self.places = list(self._places())
+        self.notes: dict[int, list[Item]] = {}
+        for item in self.ledger.items.values():
+            if item.path[0] == "tasks" and item.path[2] != "skill_sequence":
+                self.notes.setdefault(int(item.path[1]), []).append(item)
 
     def _places(self) -> Iterator[_Place]:
-        index = {task["id"]: number for number, task in enumerate(self.document["tasks"][: self.handover.ready])}
-        for number, leg in enumerate((leg for leg in self.handover.track.legs if leg.task in index), start=1):
-            yield _Place(number, index[leg.task], leg.step if leg.skill else None, leg)
+        """The movements of every task that can be handed over; a step whose movement is not known is lost."""
+        legs = {(leg.task, leg.step): leg for leg in self.handover.track.legs}
+        numbers = itertools.count(1)
+        for index, task in enumerate(self.document["tasks"][: self.handover.ready]):
+            for number, skill in enumerate([None] if task["skill_sequence"] is None else [step["navigation_skill"] for step in task["skill_sequence"]]):
+                motion = self.vocabulary.motion.of(skill["name"]) if skill else None
+                known = skill is None or motion is not None
+                move = move_of(motion, skill["parameters"] if skill else {}, legs.get((task["id"], number)), self.cruise_speed) if known else None
+                if move:
+                    yield _Place(next(numbers), index, number if skill else None, f"{task['id']}_{number + 1}", move)
+                elif skill:
+                    self.ledger.lose("tasks", index, "skill_sequence", number, why=UNKNOWN)
 
     def written(self) -> Written:
         lines = [*self._head(), ""]
         for guard in guards(self._filters()):
             lines += [*self._guard(guard), ""]
+        of_task = {index: list(places) for index, places in itertools.groupby(self.places, key=lambda place: place.task)}
         for index in range(self.handover.ready):
             lines += [*comment("-" * 100), *self._task_words(index)]
-            for place in (place for place in self.places if place.task == index):
+            for place in of_task.get(index, ()):
                 lines += [*self._movement(place), ""]
         if self.handover.blocked:
             first, why = self.handover.blocked
@@ -103,21 +114,18 @@ class _File:
         yield f"initialize MISSION_NAME = {quoted(self.handover.name)}"
 
     def _task_words(self, index: int) -> Iterator[str]:
-        task, at = self.document["tasks"][index], ("tasks", index)
+        task = self.document["tasks"][index]
         yield from comment(f"{task['id']} {task['title']}: {task['task_prompt']}")
-        for path, item in self.ledger.items.items():
-            if path[:2] == at and path[2] != "skill_sequence":
-                if path[2] not in ("title", "task_prompt"):
-                    yield from comment(item.what)
-                self.ledger.carry(*path, form=COMMENT_FORM)
+        for item in self.notes[index]:
+            if item.path[2] not in ("title", "task_prompt"):
+                yield from comment(item.what)
+            self.ledger.carry(*item.path, form=COMMENT_FORM)
 
     # ------------------------------------------------------------ movements
 
     def _movement(self, place: _Place) -> Iterator[str]:
         step: Mapping[str, Any] = {} if place.step is None else self.document["tasks"][place.task]["skill_sequence"][place.step]
         skill = step.get("navigation_skill", {"name": "", "parameters": {}})
-        motion = self.vocabulary.motion.of(skill["name"])
-        move = move_of(place.leg, motion, skill["parameters"], self.cruise_speed)
         yield from comment(f"{place.name}: {skill['name']} {compact_json(skill['parameters'])}")
         for key in LISTS:
             if step.get(key):
@@ -125,16 +133,16 @@ class _File:
         if place.step is None:
             self.ledger.carry("tasks", place.task, "parameters", self.vocabulary.task[self.document["tasks"][place.task]["title"]].position_parameter or "")
         else:
-            self._account(("tasks", place.task, "skill_sequence", place.step), step, move)
-        for number, (kind, settings) in enumerate(move.behaviours):
-            yield from self._behaviour(place, step, move, number, kind, settings)
+            self._account(("tasks", place.task, "skill_sequence", place.step), step, place.move)
+        for number, (kind, settings) in enumerate(place.move.behaviours):
+            yield from self._behaviour(place, step, number, kind, settings)
 
-    def _behaviour(self, place: _Place, step: Mapping[str, Any], move: Move, number: int, kind: str, settings: list[tuple[str, str]]) -> list[str]:
+    def _behaviour(self, place: _Place, step: Mapping[str, Any], number: int, kind: str, settings: list[tuple[str, str]]) -> list[str]:
         """A block of the file. The first behaviour of a movement posts its flags, and the next step."""
         # The helm takes no name that another one begins with: "t1_1" and "t1_10" could not stand in one file.
-        name = f"{place.name}_{SECOND if number else place.leg.kind}"
+        name = f"{place.name}_{SECOND if number else FIRST}"
         conditions = [("condition", "DEPLOY = true"), ("condition", f"{STEP} = {place.number}")]
-        flags = [] if number else [*self._flags(step, move), *([("endflag", flag) for flag in self._next(place)] if move.ends else [])]
+        flags = [] if number else [*self._flags(step, place.move), *([("endflag", flag) for flag in self._next(place)] if place.move.ends else [])]
         return Behaviour(kind, name, [("pwt", "100"), *conditions, *flags, *settings]).lines()
 
     def _flags(self, step: Mapping[str, Any], move: Move) -> Iterator[tuple[str, str]]:

@@ -34,8 +34,8 @@ def guards(filters: Iterable[tuple[int, str, Any]]) -> Iterator[Guard]:
     by_value: dict[tuple[str, str], tuple[Any, list[int]]] = {}
     for movement, kind, value in filters:
         by_value.setdefault((kind, repr(value)), (value, []))[1].append(movement)
-    runs = sorted((run[0], run[-1], kind, value) for (kind, _text), (value, numbers) in by_value.items() for run in _runs(numbers))
-    for count, (first, last, kind, value) in enumerate(runs, start=1):
+    spans = [(run[0], run[-1], kind, value) for (kind, _text), (value, numbers) in by_value.items() for run in _runs(numbers)]
+    for count, (first, last, kind, value) in enumerate(sorted(spans, key=lambda span: span[:3]), start=1):
         settings = _region(value) if kind == "boundary" else _avoidance(value, count)
         behaviour = "BHV_OpRegionV24" if kind == "boundary" else "BHV_AvoidObstacleV24"
         yield Guard(first, last, behaviour, f"{kind}_{count}_", settings)

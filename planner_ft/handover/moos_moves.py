@@ -7,11 +7,11 @@ behaviour asks for both, so that every movement asks for both.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from planner_ft.document.track import Leg
+from planner_ft.document.track import Leg, Point
 from planner_ft.handover.moos_text import number, points
 from planner_ft.vocabulary.motion import Motion
 
@@ -48,32 +48,40 @@ class Move:
     losses: Mapping[str, str] = field(default_factory=dict)
 
 
-def move_of(leg: Leg, motion: Motion | None, parameters: Mapping[str, Any], cruise_speed: float) -> Move:
-    """The behaviours of a leg. `motion` is None for a task without skills, whose leg says where to go; speeds in m/s."""
+def move_of(motion: Motion | None, parameters: Mapping[str, Any], leg: Leg | None, cruise_speed: float) -> Move | None:
+    """The behaviours of a movement, None where the plan does not say enough for one. Speeds are m/s.
+
+    `motion` is None for a task without skills, and for a skill that nothing is declared for; `leg` is the movement in the plan's track, None
+    where the track does not know it.
+    """
     kind = motion.kind if motion else "go"
-    given = {role: motion.value(role, parameters) for role in motion.parameters} if motion else {}
-    speed = leg.metres / leg.seconds if leg.metres and leg.seconds else cruise_speed
+    given = {role: motion.value(role, parameters) for role in motion.parameters} if motion else dict(zip("xy", leg.points[-1], strict=True)) if leg else {}
+    speed = leg.metres / leg.seconds if leg and leg.metres and leg.seconds else cruise_speed
     return MOVES[kind](leg, {role: value for role, value in given.items() if value is not None}, speed)
 
 
-def _waypoints(leg: Leg, speed: float) -> tuple[str, Settings]:
+def _waypoints(corners: Sequence[Point], speed: float) -> tuple[str, Settings]:
     settings = [("speed", number(speed)), ("capture_radius", number(CAPTURE_RADIUS)), ("slip_radius", number(SLIP_RADIUS))]
-    return "BHV_Waypoint", [*settings, ("points", points(leg.points[1:]))]
+    return "BHV_Waypoint", [*settings, ("points", points(corners))]
 
 
-def _go(leg: Leg, given: Mapping[str, Any], speed: float) -> Move:
+def _go(_leg: Leg | None, given: Mapping[str, Any], speed: float) -> Move | None:
+    if "x" not in given or "y" not in given:
+        return None
     losses = {role: why for role, why in (("heading", NO_HEADING), ("altitude", NO_ALTITUDE)) if role in given}
-    return Move((_waypoints(leg, speed),), forms={"x": "", "y": ""}, losses=losses)
+    return Move((_waypoints([(given["x"], given["y"])], speed),), forms={"x": "", "y": ""}, losses=losses)
 
 
-def _arc(leg: Leg, given: Mapping[str, Any], speed: float) -> Move:
+def _arc(leg: Leg | None, given: Mapping[str, Any], speed: float) -> Move | None:
+    if leg is None:
+        return None
     form = f"as {len(leg.points) - 1} waypoints on the circle"
     if abs(given["angle"]) > DRAWN:
         form += f", which end after {number(DRAWN)} degrees"
-    return Move((_waypoints(leg, speed),), forms={"radius": form, "angle": form})
+    return Move((_waypoints(leg.points[1:], speed),), forms={"radius": form, "angle": form})
 
 
-def _hold(leg: Leg, given: Mapping[str, Any], speed: float) -> Move:
+def _hold(_leg: Leg | None, given: Mapping[str, Any], speed: float) -> Move:
     settings = [("center_activate", "true"), ("outer_speed", number(speed)), ("transit_speed", number(speed))]
     radius, forms, losses = given.get("radius"), {"time": ""}, {}
     if radius:
@@ -84,7 +92,7 @@ def _hold(leg: Leg, given: Mapping[str, Any], speed: float) -> Move:
     return _timed("BHV_StationKeep", settings, given.get("time"), Move((), forms=forms, losses=losses))
 
 
-def _drift(leg: Leg, given: Mapping[str, Any], speed: float) -> Move:
+def _drift(_leg: Leg | None, given: Mapping[str, Any], _speed: float) -> Move:
     # A full stop asks for no speed; without the delay it would be complete, and the step over, as soon as the vehicle has stopped.
     time = given.get("time")
     return _timed("BHV_FullStop", [("delay_complete", number(time or 0))], time, Move((), forms={"time": ""}))
@@ -96,14 +104,14 @@ def _timed(kind: str, settings: Settings, time: float | None, move: Move) -> Mov
     return Move(((kind, [*settings, *more]),), ends=time is not None, forms=move.forms, losses=move.losses)
 
 
-def _turn_to(leg: Leg, given: Mapping[str, Any], speed: float) -> Move:
+def _turn_to(leg: Leg | None, given: Mapping[str, Any], speed: float) -> Move:
     if "heading" not in given:
         return _turn_by(leg, {}, speed)
     heading = [("heading", number(given["heading"] % 360)), ("complete_thresh", number(TURN_THRESHOLD)), ("duration", number(LONGEST_TURN))]
     return Move((("BHV_ConstantHeading", heading), ("BHV_ConstantSpeed", [("speed", number(TURN_SPEED))])), forms={"heading": TURN_FORM})
 
 
-def _turn_by(leg: Leg, given: Mapping[str, Any], speed: float) -> Move:
+def _turn_by(_leg: Leg | None, given: Mapping[str, Any], _speed: float) -> Move:
     angle = given.get("angle", 0)
     turn = [("fix_turn", number(abs(angle))), ("turn_dir", "star" if angle >= 0 else "port"), ("speed", number(TURN_SPEED)), ("timeout", number(LONGEST_TURN))]
     return Move((("BHV_FixedTurn", turn),), forms={"angle": TURN_FORM})
@@ -111,6 +119,6 @@ def _turn_by(leg: Leg, given: Mapping[str, Any], speed: float) -> Move:
 
 DRAWN = 3600.0
 """Degrees of an arc that a plan's track holds."""
-MOVES: dict[str, Callable[[Leg, Mapping[str, Any], float], Move]] = {
+MOVES: dict[str, Callable[[Leg | None, Mapping[str, Any], float], Move | None]] = {
     "go": _go, "arc": _arc, "hold": _hold, "wait": _hold, "drift": _drift, "turn-to": _turn_to, "turn-by": _turn_by,
 }  # fmt: skip
