@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from planner_ft.document.language import clauses, language
 from planner_ft.vocabulary import Vocabulary
 
+NO = re.compile(r"^no\W+", re.IGNORECASE)
+
 
 @dataclass(frozen=True)
 class Clause:
@@ -30,8 +32,8 @@ def read_clauses(command: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
     for start, end in clauses(command):
         text = command[start:end]
         excluded = words["exclusion"].search(text)
-        behind = command[end : end + 24]
-        corrected = words["correction"].match(behind.lstrip(" ,.;:!?-")) is not None
+        behind = command[end : end + 24].lstrip(" ,.;:!?-")
+        corrected = any(words["correction"].match(said) for said in (behind, NO.sub("", behind)))
         found.append(Clause(start, end, text, start + excluded.start() if excluded else None, corrected))
     return tuple(found)
 

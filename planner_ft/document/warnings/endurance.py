@@ -52,7 +52,8 @@ def _ends_away(tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Ma
         if known.pattern == DOCKING or visual_dock or place_of(task, vocabulary) == vocabulary.home:
             return None
         if known.arrival != "none":
-            return task
+            found: Mapping[str, Any] = task
+            return found
     return None
 
 

@@ -23,8 +23,7 @@ def space_warnings(document: Mapping[str, Any], path: Track, vocabulary: Vocabul
     tasks = {task["id"]: task for task in document["tasks"]}
     points = {name: list(_reached(legs)) for name, legs in _by_task(path.legs).items()}
     for name, where, polygon in _boundaries(document, path, vocabulary):
-        reached = _reached(leg for leg in path.legs if leg.task == name and where in (None, leg.step))
-        outside = _first_outside(reached, polygon)
+        outside = _first_outside(_reached(leg for leg in path.legs if leg.task == name and where in (None, leg.step)), polygon)
         if outside:
             yield warning("outside-boundary", f"{named(tasks[name])} goes to {_shown(outside)}, which is outside its boundary.", tasks[name])
     vehicle = document.get("vehicle") or {}
