@@ -36,7 +36,7 @@ class Planning:
         self.why: str | None = None
         self._agents: Mapping[Level, Agent] = {}
         self._lock = threading.Lock()
-        self._work: queue.SimpleQueue[Work] = queue.SimpleQueue()
+        self._work: queue.SimpleQueue[Work | None] = queue.SimpleQueue()
         self._stopping = threading.Event()
         # A daemon: what the agents compute keeps nobody from ending the program.
         self._thread = threading.Thread(target=self._run, name="agents", daemon=True)
@@ -48,6 +48,13 @@ class Planning:
     def stop(self) -> None:
         """End what the agents do as soon as they say something of it."""
         self._stopping.set()
+        self._work.put(None)
+
+    def ended(self, seconds: float) -> bool:
+        """Whether the thread has ended, or does so within this time."""
+        if self._thread.ident is not None:
+            self._thread.join(seconds)
+        return not self._thread.is_alive()
 
     def go_on(self) -> None:
         """Raises StoppedError when the server ends."""
@@ -78,8 +85,8 @@ class Planning:
     def _run(self) -> None:
         planner = self._load()
         self.changed()
-        while planner is not None and not self._stopping.is_set():
-            self._do(self._work.get(), planner)
+        while planner is not None and (work := self._work.get()) is not None:
+            self._do(work, planner)
 
     def _load(self) -> Planner | None:
         """The planner with its base in memory; None, and `why`, when that cannot be."""

@@ -31,23 +31,27 @@ GRACE = 1
 """Seconds that answers which are on their way are given when the server ends."""
 
 
-def serve(plan: Path | None, settings: WebSettings, vehicle: Vehicle | None = None) -> None:
-    """Serve the review of a plan, or of the plans to come, until Ctrl-C.
+def serve(plan: Path | None, settings: WebSettings) -> None:
+    """Serve the review of a plan, or of the plans to come, until Ctrl-C. Plans to come are for the vehicle of the plan that is given.
 
-    Prints the address with its key, and opens it in the browser where there is a screen. Raises PlannerError for a plan that cannot be
+    Prints the address with its key, and opens it in the browser where there is a screen. Ends the process itself when the agents are still at
+    work. Raises PlannerError for a plan that cannot be
     read and an address that cannot be listened on.
     """
     vocabulary = load_vocabulary(settings.planning.vocabulary)
-    if plan is not None:
-        read_document(plan, vocabulary)
+    vehicle = Vehicle(**read_document(plan, vocabulary)["vehicle"]) if plan is not None else None
     with _listening(settings) as listener:
         door = Door(settings.host, listener.getsockname()[1])
         session = Session(plan, settings, vocabulary, vehicle)
-        _say_where(settings, door)
         try:
+            _say_where(settings, door)
             _Server(session, door).run(sockets=[listener])
         except KeyboardInterrupt:
             print(_farewell(session), flush=True)
+        if not session.planning.ended(GRACE / 2):
+            # What the agents compute cannot be stopped at once, and tearing their thread down would crash. All that counts is on the disk.
+            sys.stderr.flush()
+            os._exit(0)
 
 
 class _Server(uvicorn.Server):

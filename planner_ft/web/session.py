@@ -35,7 +35,8 @@ class Session:
     """What the pages see and do. Its methods raise PlannerError with the sentence that the page shows, and may be called from any thread."""
 
     def __init__(self, plan: Path | None, settings: WebSettings, vocabulary: Vocabulary, vehicle: Vehicle | None = None) -> None:
-        self.settings, self.vocabulary, self.vehicle = settings, vocabulary, vehicle
+        """`vehicle` is the one that new commands are planned for: the vocabulary's own by default."""
+        self.vocabulary, self.vehicle = vocabulary, vehicle
         folder = settings.folder or (plan.parent if plan else Path())
         self.file = PlanFile(plan, folder, vocabulary)
         self.events = Events()

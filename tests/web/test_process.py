@@ -41,10 +41,11 @@ serve(plan if plan.is_file() else None, WebSettings(open_browser=False, folder=p
 PROMPT = {"kind": "prompt", "task": "t1", "text": "Find it."}
 NO_AGENTS = "planning.Planning._load = lambda self: None"
 BUSY_AGENTS = """
+import torch
 class Endless:
     def plan(self, *_arguments):
         while True:
-            sum(range(100_000))
+            torch.ones(300, 300) @ torch.ones(300, 300)
 planning.Planning._load = lambda self: Endless()
 """
 
