@@ -59,7 +59,8 @@ class Harvest:
         for path, sample in self.samples.items():
             yield f"{path}: {sample['id']}: {'; '.join(sample['provenance']['corrected'])}"
         yield from (f"{path}: left out: {reason}" for path, reason in self.left_out.items())
-        yield f"{self.out}: {len(self.samples)} samples; train with plannerft train --level mission --corrections {self.out}"
+        count = len(self.samples)
+        yield f"{self.out}: {count} sample{'s' if count > 1 else ''}; train with plannerft train --level mission --corrections {self.out}"
 
 
 def harvest_files(plans: Sequence[Path], log: Path | None, out: Path | None, *, overwrite: bool = False, vocabulary: str | None = None) -> Harvest:

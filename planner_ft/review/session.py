@@ -47,7 +47,7 @@ def make_edit(desk: Desk, text: str, console: Console) -> None:
         say(console, f" - {difference.text}", "cyan")
     if not changed:
         say(console, "nothing is different")
-    say(console, f"saved; {len(desk.document['warnings'])} warnings")
+    say(console, f"saved; {_warnings(desk)}")
 
 
 def tell_decision(done: Appended, desk: Desk, console: Console) -> None:
@@ -115,7 +115,7 @@ def _adopt(desk: Desk, console: Console) -> None:
     desk.adopt()
     for difference in differences(desk.document):
         say(console, f" - {difference.text}", "cyan")
-    say(console, f"what was changed by hand is an edit of the plan now; saved; {len(desk.document['warnings'])} warnings")
+    say(console, f"what was changed by hand is an edit of the plan now; saved; {_warnings(desk)}")
 
 
 def _approve(desk: Desk, console: Console, read: Read) -> bool:
@@ -134,6 +134,11 @@ def _name(desk: Desk, read: Read) -> str:
     if not desk.by:
         desk.by = read("your name: ").strip() or None
     return desk.by or ""
+
+
+def _warnings(desk: Desk) -> str:
+    count = len(desk.document["warnings"])
+    return f"{count or 'no'} warning{'s' if count != 1 else ''}"
 
 
 def _help(console: Console) -> None:
