@@ -21,9 +21,9 @@ export function Changes({ store }) {
   const { differences, document } = store.plan;
   const last = document.edits[document.edits.length - 1];
   return html`<section class="panel changes" aria-labelledby="changes-title">
-    <header><h2 id="changes-title">Changed from the proposal</h2>
+    <header><h2 id="changes-title">Changes</h2>
       <button disabled=${!last} title="Takes the last change back (u)" onClick=${() => store.undo()}>Undo</button></header>
-    ${differences.length === 0 && html`<p class="soft">Nothing: this is what the model proposed.</p>`}
+    ${differences.length === 0 && html`<p class="soft">None: this is what the model proposed.</p>`}
     <ul>${differences.map((change) => html`<li key=${change.text}>
       <b>${title(change, store)}</b>
       <span class="sides"><del>${value(change.kind, change.before)}</del><span class="unseen"> became </span><span aria-hidden="true"> → </span><ins>${value(change.kind, change.after)}</ins></span></li>`)}</ul>

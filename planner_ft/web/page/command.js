@@ -5,8 +5,8 @@ import { html } from "./vendor.js";
 export const ELEMENTS = {
   objective: ["Objective", "what is to be achieved"],
   target: ["Target", "where, or at what"],
-  sensors: ["Sensors and data", "what is to be recorded"],
-  constraints: ["Constraints", "limits, hazards, the way back"],
+  sensor: ["Sensors and data", "what is to be recorded"],
+  constraint: ["Constraints", "limits, hazards, the way back"],
 };
 
 /** Cuts [0, length) wherever a span starts or ends: [{start, end, elements, lit}]. Positions count characters, not UTF-16 units. */
@@ -35,11 +35,11 @@ export function Command({ store }) {
       if (!elements.length && !lit) return text;
       return html`<span key=${start} class=${[...elements, lit ? "lit" : ""].join(" ")} title=${elements.map((name) => ELEMENTS[name][0]).join(", ")}>${text}</span>`;
     })}</blockquote>
-    <dl class="legend">${Object.entries(ELEMENTS).map(([element, [name, meaning]]) => {
+    ${(ontology.elements.length > 0 || ontology.missing.length > 0) && html`<dl class="legend">${Object.entries(ELEMENTS).map(([element, [name, meaning]]) => {
       const said = ontology.elements.filter((span) => span.element === element);
       return html`<div key=${element}><dt class=${element} title=${meaning}>${name}</dt>
         <dd>${said.length ? said.map((span) => `“${span.text}”`).join(", ") : html`<em>not said</em>`}</dd></div>`;
-    })}</dl>
+    })}</dl>`}
     ${ontology.questions.length > 0 && html`<div class="questions"><h3>The command leaves open</h3><ul>${ontology.questions.map((question) => html`<li>${question}</li>`)}</ul></div>`}
   </section>`;
 }

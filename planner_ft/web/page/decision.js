@@ -33,9 +33,9 @@ export function Decision({ store }) {
   };
   const approved = plan.approval.status === "approved";
   const label = lack.length ? `Approve: ${lack.map(([what]) => what).join(" and ")} lacking` : approved ? "Approve again" : "Approve this plan";
-  return html`<form class="decision" aria-label="Decision" onSubmit=${approve}>
+  return html`<form class="decision" id="decision" aria-label="Decision" onSubmit=${approve}>
     <p class="standing"><b>${approved ? "Approved." : "Nothing moves before this plan is approved."}</b>
-      ${" "}${count(plan.document.tasks.length, "task")}, ${plan.document.complete ? "all with skills" : "not complete"}; digest <code>${plan.revision.slice(0, 12)}</code></p>
+      ${" "}${count(plan.document.tasks.length, "task")}, ${plan.document.complete ? "all with steps" : "not complete"}.</p>
     <${Refusal} id="decision-refused" text=${refused} />
     <label class="name" for="reviewer"><span>Your name</span><input id="reviewer" autocomplete="name" maxlength="200" value=${name} onInput=${write} aria-describedby="decision-refused" /></label>
     <button type="button" class="refuse" onClick=${() => setRejecting(true)}>Reject …</button>
@@ -51,7 +51,8 @@ function Reject({ store, name, setName, close }) {
   useEffect(() => field.current.focus(), []);
   const send = async (event) => {
     event.preventDefault();
-    const sentence = await store.reject(name.trim(), reason.trim());
+    const lack = !reason.trim() ? "your reason" : !name.trim() ? "your name" : null;
+    const sentence = lack ? `A rejection needs ${lack}.` : await store.reject(name.trim(), reason.trim());
     if (sentence) refuse(sentence);
     else close();
   };

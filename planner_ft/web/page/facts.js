@@ -6,7 +6,7 @@ import { html } from "./vendor.js";
 export function Facts({ store }) {
   const { assumptions, constraints } = store.plan.document;
   return html`<section class="panel facts" aria-labelledby="facts-title">
-    <h2 id="facts-title">Estimate, assumptions, constraints</h2>
+    <h2 id="facts-title">Estimate</h2>
     <${Estimate} store=${store} />
     <${Texts} title="The model takes for granted" texts=${assumptions} none="nothing" />
     <${Texts} title="The mission fails if this is violated" texts=${constraints} none="no constraint was named" />

@@ -19,6 +19,7 @@ export function Header({ store, show }) {
       </select></label>
     ${plan.document && html`<${Approval} approval=${plan.approval} />`}
     <span class="space"></span>
+    <span class="saving" role="status">${store.changing > 0 ? "Saving …" : ""}</span>
     ${!store.connected && html`<span class="state bad" role="status">No connection, trying again</span>`}
     <button onClick=${() => show("command")}>New command</button>
     <${Theme} />

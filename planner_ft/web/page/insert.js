@@ -24,7 +24,7 @@ export function Insert({ store, at, close }) {
   return html`<${Dialog} title="Insert a task" close=${close} wide>
     <form class="form" onSubmit=${send}>
       <label>Task<select value=${title} onChange=${(event) => choose(event.target.value)}>${categories.map((category) => html`<optgroup key=${category} label=${category}>
-        ${vocabulary.tasks.filter((task) => task.category === category).map((task) => html`<option key=${task.title}>${task.title}</option>`)}</optgroup>`)}</select></label>
+        ${vocabulary.tasks.filter((task) => task.category === category).map((task) => html`<option key=${task.title} value=${task.title}>${task.title}</option>`)}</optgroup>`)}</select></label>
       <p class="soft">${kind.description}</p>
       <label>Place in the order<select value=${place} onChange=${(event) => setPlace(event.target.value)}>
         ${document.tasks.map((task, index) => html`<option key=${task.id} value=${index}>${index + 1}, before ${task.title}</option>`)}

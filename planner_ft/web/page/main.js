@@ -13,6 +13,8 @@ import { Tasks } from "./tasks.js";
 import { html, render, useEffect, useReducer, useState } from "./vendor.js";
 import { Warnings } from "./warnings.js";
 
+const PARTS = [["warnings", "Warnings"], ["command-title", "Command"], ["tasks-title", "Tasks"], ["chart-title", "Chart"], ["decision", "Decision"]];
+
 function Page() {
   const [, draw] = useReducer((n) => n + 1, 0);
   const [store] = useState(() => new Store(draw));
@@ -32,7 +34,8 @@ function Page() {
     <${Messages} store=${store} />
     ${plan.busy && plan.busy.what === "planning" && html`<${Progress} store=${store} />`}
     ${document_
-      ? html`<main class="plan">
+      ? html`<nav class="jump" aria-label="Parts of the page">${PARTS.map(([goal, name]) => html`<a key=${goal} href=${`#${goal}`}>${name}</a>`)}</nav>
+          <main class="plan">
             <div class="column told" key=${plan.path}>
               <${Warnings} store=${store} />
               <${Command} store=${store} />

@@ -79,11 +79,11 @@ export function Waypoints({ store, at, size, taken }) {
   const ends = track.legs.filter((leg) => leg.points.length > 1).map((leg) => ({ leg, pixel: at(leg.points[leg.points.length - 1]), text: `${numbers[leg.task] + 1}.${leg.step + 1}` }))
     .filter(({ pixel: [x, y] }) => x > -20 && y > -20 && x < size.width + 20 && y < size.height + 20);
   const first = ({ leg }) => (store.selected?.task === leg.task ? (store.selected.step === leg.step ? 0 : 1) : 2);
-  const named = [...ends].sort((a, b) => first(a) - first(b)).filter(({ pixel: [x, y], text }) => taken.claim(x + 6, y - 18, text.length * 7 + 4, 16));
+  const named = ends.filter(({ leg }) => !store.selected || store.selected.task === leg.task).sort((a, b) => first(a) - first(b)).filter(({ pixel: [x, y], text }) => taken.claim(x + 6, y - 18, text.length * 7 + 4, 16));
   const faint = (leg) => (store.selected && store.selected.task !== leg.task ? "faint" : "");
   return html`<g class="waypoints">
     ${ends.map(({ leg, pixel: [x, y] }, i) => html`<circle key=${i} class=${`${colour(numbers[leg.task])} ${faint(leg)}`} data-task=${leg.task} data-step=${leg.step} cx=${x} cy=${y} r="3.5" />`)}
-    ${named.map(({ leg, pixel: [x, y], text }) => html`<text key=${text} class=${`${colour(numbers[leg.task])} ${faint(leg)}`} x=${x + 8} y=${y - 6}>${text}</text>`)}
+    ${named.map(({ leg, pixel: [x, y], text }) => html`<text key=${text} class=${colour(numbers[leg.task])} x=${x + 8} y=${y - 6}>${text}</text>`)}
   </g>`;
 }
 

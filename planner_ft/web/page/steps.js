@@ -35,7 +35,7 @@ function Skill({ store, task, where, skill, label }) {
   const known = store.plan.vocabulary.skills[skill.name]?.parameters || [];
   const change = (name, value) => store.edit({ kind: "skill", task: task.id, ...where, name, value }, `${label} ${name}`);
   return html`<div class="skill"><span class="name" title=${store.plan.vocabulary.skills[skill.name]?.description}>${skill.name}</span>
+    <${Add} short store=${store} label=${label} known=${known} given=${skill.parameters} change=${change} />
     ${Object.entries(skill.parameters).map(([name, value]) => html`<span key=${name} class="parameter"><span class="key">${name}</span>
-      <${Value} store=${store} label=${label} parameter=${known.find((one) => one.name === name) || unknownParameter(name, value)} value=${value} change=${(next) => change(name, next)} /></span>`)}
-    <${Add} short store=${store} label=${label} known=${known} given=${skill.parameters} change=${change} /></div>`;
+      <${Value} store=${store} label=${label} parameter=${known.find((one) => one.name === name) || unknownParameter(name, value)} value=${value} change=${(next) => change(name, next)} /></span>`)}</div>`;
 }

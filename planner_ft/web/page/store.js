@@ -20,7 +20,7 @@ export class Store {
     this.placing = null; // the name of the target that is being placed on the chart
     this.sent = 0;
     this.shown = 0;
-    this.changing = 0;
+    this.changing = 0; // own changes that are not answered yet
   }
 
   set(values) {
@@ -73,7 +73,7 @@ export class Store {
   /** Asks for a change of the plan shown. Returns null, or the sentence that says why it was refused. `label` names the change where it must be made again. */
   async change(path, body, label, { repeat = true, done = "" } = {}) {
     const asked = ++this.sent;
-    this.changing += 1;
+    this.set({ changing: this.changing + 1 });
     try {
       const answer = await post(path, { revision: this.plan.revision, ...body });
       if (answer.document !== undefined) this.receive(answer, asked, "own");
@@ -86,7 +86,7 @@ export class Store {
       this.set({ conflict: { error: error.message, label, repeat: repeat ? () => this.change(path, body, label, { repeat, done }) : null } });
       return error.message;
     } finally {
-      this.changing -= 1;
+      this.set({ changing: this.changing - 1 });
     }
   }
 

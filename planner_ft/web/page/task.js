@@ -23,10 +23,9 @@ export function Task({ store, task, index, last, tab, keys, move, remove, open, 
     <div class="top">
       <span class="handle" title="Drag to another place in the order" aria-hidden="true" ...${handle}>⠿</span>
       <button class="head" tabindex=${tab} aria-expanded=${open} aria-current=${chosen ? "true" : null} onClick=${() => (chosen || !open ? toggle() : null) || store.select({ task: task.id })} onKeyDown=${(event) => keys(event, task, index)}>
-        <span class="number">${number}</span> <span class="title">${task.title}</span> <span class="category">${kind?.category || "not in the definition"}</span>
+        <span class="number">${number}</span> <span class="title">${task.title}</span> <span class="id" title="The name of this task in warnings and in the file">${task.id}</span> <span class="category">${[kind?.category || "not in the definition", way > 0 && metres(way), time > 0 && seconds(time)].filter(Boolean).join(" · ")}</span>
         ${warnings.length > 0 && html` <span class="flag">${count(warnings.length, "warning")}</span>`}
       </button>
-      <span class="way">${way > 0 ? `${metres(way)} · ` : ""}${time > 0 ? seconds(time) : ""}</span>
       <span class="tools">
         <button aria-label=${`Earlier: ${label}`} title="Earlier (Alt+↑)" disabled=${index === 0} onClick=${() => move(task, index, index - 1)}>↑</button>
         <button aria-label=${`Later: ${label}`} title="Later (Alt+↓)" disabled=${last} onClick=${() => move(task, index, index + 1)}>↓</button>
@@ -69,10 +68,10 @@ function Parameter({ store, task, name, value, known, label }) {
   const letters = [...store.plan.document.command];
   const words = spans.map(([start, end]) => `“${letters.slice(start, end).join("")}”`).join(" ");
   const change = (next) => store.edit({ kind: "parameter", task: task.id, name, value: next }, `${label}, ${name} ${next === null ? "left out" : shown(next)}`);
-  return html`<div class=${`parameter ${chosen ? "chosen" : ""}`} data-parameter=${name} onMouseEnter=${light} onMouseLeave=${dark} onFocusIn=${light} onFocusOut=${dark}>
+  return html`<div class=${`parameter ${chosen ? "chosen" : ""}`} data-parameter=${name} onMouseEnter=${light} onMouseLeave=${dark} onfocusin=${light} onfocusout=${dark}>
     <dt>${name}</dt>
     <dd><${Value} store=${store} label=${label} parameter=${known} value=${value} change=${change} />
-      ${source && html`<span class=${`source ${source.kind}`} title=${source.note || ""}>${KINDS[source.kind] || source.kind}${words && html` <q>${words}</q>`}${!words && source.note ? `: ${source.note}` : ""}
+      ${source && html`<span class=${`source ${source.kind}`} title=${source.note || ""}>${source.kind === "located" && source.note ? source.note : html`${KINDS[source.kind] || source.kind}${words && html` <q>${words}</q>`}${!words && source.note ? `: ${source.note}` : ""}`}
         ${changed && html` <span class="was">proposed ${withUnit(proposed, known.unit)}</span>`}</span>`}</dd>
   </div>`;
 }

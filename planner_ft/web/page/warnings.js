@@ -21,9 +21,9 @@ function Warning({ store, warning }) {
   const done = store.isAcknowledged(warning);
   return html`<li class=${done ? "done" : ""} data-warning=${warning.id}>
     <label><input type="checkbox" checked=${done} onChange=${(event) => store.acknowledge(warning, event.target.checked)} /><span>${warning.text}</span></label>
-    <span class="kind">${warning.kind.replaceAll("-", " ")}</span>
-    ${number > 0 && html`<a href=${`#task-${warning.task}`} onClick=${(event) => show(event, store, warning)}>Show task ${number}${warning.parameter ? `, ${warning.parameter}` : ""}</a>`}
-    ${target && html`<button class="plain" onClick=${() => store.set({ placing: target.name })}>Place it on the chart</button>`}
+    <div class="more"><span class="kind">${warning.kind.replaceAll("-", " ")}</span>
+    ${number > 0 && html`<a href=${`#task-${warning.task}`} onClick=${(event) => show(event, store, warning)} aria-label=${`Show task ${number}${warning.parameter ? `, ${warning.parameter}` : ""}`}>Task ${number}${warning.parameter ? `, ${warning.parameter}` : ""}</a>`}
+    ${target && html`<button class="plain" onClick=${() => store.set({ placing: target.name })} aria-label=${`Place ${target.name} on the chart`}>Place it</button>`}</div>
   </li>`;
 }
 
