@@ -136,20 +136,17 @@ def _cut(shape: BaseGeometry) -> BaseGeometry:
     import shapely
     from shapely.affinity import translate
 
-    if not shape.is_valid:
-        shape = shapely.make_valid(shape)
+    whole = shape if shape.is_valid else shapely.make_valid(shape)
     parts: list[BaseGeometry] = []
     for turn in (-1, 0, 1):
         window = shapely.box(360 * turn - 180, -90, 360 * turn + 180, 90)
-        part = translate(shape.intersection(window), -360 * turn)
-        parts += [
-            piece for piece in shapely.get_parts(part) if piece.geom_type in (shape.geom_type, shape.geom_type.removeprefix("Multi")) and not piece.is_empty
-        ]
-    return (
-        parts[0]
-        if len(parts) == 1
-        else shapely.orient_polygons({"Polygon": shapely.MultiPolygon, "LineString": shapely.MultiLineString}[parts[0].geom_type](parts))
-    )
+        pieces = shapely.get_parts(translate(whole.intersection(window), -360 * turn))
+        parts += [piece for piece in pieces if piece.geom_type == shape.geom_type and not piece.is_empty]
+    if not parts:
+        # A polygon without an inside.
+        return translate(shape, -360 * round(shape.bounds[0] / 360))
+    several = {"Point": shapely.MultiPoint, "LineString": shapely.MultiLineString, "Polygon": shapely.MultiPolygon}[shape.geom_type]
+    return shapely.orient_polygons(parts[0] if len(parts) == 1 else several(parts))
 
 
 def _corners(circle: Circle) -> list[Point]:
