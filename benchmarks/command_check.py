@@ -4,7 +4,7 @@
 
 Against the spans of data/mission: whether an element is there, and whether it is missing (precision, recall and F1 over commands), and how
 far the spans cover the same letters (over characters). An element that nearly every command has is "there" with a high F1 whatever the
-check does: look at "missing". The words were written with the training split at hand; the validation split was not looked at.
+check does: look at "missing". The words were written with the training split at hand; nothing was changed for the validation split.
 """
 
 from __future__ import annotations

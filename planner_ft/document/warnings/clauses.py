@@ -15,7 +15,10 @@ NO = re.compile(r"^no\W+", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Clause:
-    """A clause of a command from `start` to `end`. `excluded`: where what it rules out begins; `corrected`: the next words take it back."""
+    """A clause of a command from `start` to `end`.
+
+    `excluded`: where what it rules out begins, before `start` where it only tells of something; `corrected`: the next words take it back.
+    """
 
     start: int
     end: int
@@ -31,10 +34,11 @@ def read_clauses(command: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
     found = []
     for start, end in clauses(command):
         text = command[start:end]
+        told = words["told"].search(text)
         excluded = words["exclusion"].search(text)
         behind = command[end : end + 24].lstrip(" ,.;:!?-")
         corrected = any(words["correction"].match(said) for said in (behind, NO.sub("", behind)))
-        found.append(Clause(start, end, text, start + excluded.start() if excluded else None, corrected))
+        found.append(Clause(start, end, text, start - 1 if told else start + excluded.start() if excluded else None, corrected))
     return tuple(found)
 
 

@@ -21,8 +21,8 @@ from planner_ft.vocabulary.plans import step_skills
 
 COURSE = re.compile(r"\b(?:heading|bearing|course)(?: of)?\W{1,3}$", re.IGNORECASE)
 CLOCK = re.compile(r"^\s*(?:o'?clock|am\b|pm\b|hours? (?:utc|gmt|zulu|local|ago)|z\b)", re.IGNORECASE)
-MOMENTS = ("a second", "a minute", "a moment", "a day", "second")
-"""Words that are no time to be kept."""
+MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORECASE)
+"""Words that are no time to be kept: "a second", "a good day"."""
 
 
 def value_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
@@ -167,11 +167,15 @@ def _stated(piece: Piece, wanted: Wanted) -> Iterator[tuple[str, tuple[float, ..
             values.append(quantity.value + following.value)
             used.add(index + 1)
             end = following.end
+        elif following and quantity.unit == "s" and following.unit is None and following.start - quantity.end <= 1 and quantity.said:
+            # "five minutes forty"
+            values.append(quantity.value + following.value * quantity.value / quantity.said / 60)
+            end = following.end
         yield piece.text[quantity.start : end], tuple(values)
 
 
 def _is_measure(text: str, quantity: Quantity) -> bool:
-    if CLOCK.match(text, quantity.end) or quantity.unit == "%" or text[quantity.start : quantity.end].lower() in MOMENTS:
+    if CLOCK.match(text, quantity.end) or quantity.unit == "%" or MOMENT.fullmatch(text, quantity.start, quantity.end):
         return False
     return quantity.unit is not None or COURSE.search(text, max(0, quantity.start - 20), quantity.start) is not None
 
