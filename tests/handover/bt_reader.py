@@ -71,7 +71,7 @@ class Runner:
             "Inverter": lambda _node, children: {"S": "F", "F": "S"}.get(answer := self._tick(children[0]), answer),
             "KeepRunningUntilFailure": lambda _node, children: {"S": "R"}.get(answer := self._tick(children[0]), answer),
             "AlwaysSuccess": lambda _node, _children: "S",
-            "SubTree": lambda node, _children: self._tick([child for child in self.trees[node.get("ID")] if isinstance(child.tag, str)][0]),
+            "SubTree": lambda node, _children: self._tick(next(child for child in self.trees[node.get("ID")] if isinstance(child.tag, str))),
         }
         return kinds.get(node.tag, self._leaf)(node, children)
 

@@ -103,7 +103,9 @@ def test_a_text_in_braces_is_no_blackboard_entry() -> None:
 def test_what_is_said_of_the_plan_stands_in_comments() -> None:
     plan = document(MAST, command="Go -- now -->", assumptions=["calm sea -"], constraints=["before dark"], warnings=[("t1", "far out")])
     text = " ".join(str(comment.text) for comment in tree(plan).iter(etree.Comment))
-    assert all(said in text for said in ("command: Go - - now - ->", "assumption: calm sea -", "constraint: before dark", "warning: far out", "approved by Ada"))
+    assert all(
+        said in text for said in ("command: Go - - now - ->", "assumption: calm sea -", "constraint: before dark", "warning: far out", "approved by Ada")
+    )
 
 
 def test_a_draft_is_called_one_where_the_tree_begins() -> None:
