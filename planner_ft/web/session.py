@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 LONGEST_COMMAND = 20_000
 """Characters."""
+EDITS = ("locate", "parameter", "prompt", "remove", "move", "insert", "skill")
+"""The kinds of edits that a page makes: not those that record what an agent answered or what was adopted."""
 State = dict[str, Any]
 
 
@@ -49,7 +51,7 @@ class Session:
     # ------------------------------------------------------------ what a page sees
 
     def state(self) -> State:
-        """Everything that a page shows. Raises PlannerError when the plan or the log cannot be read."""
+        """Everything that a page shows. Raises PlannerError when the plan cannot be read."""
         return {
             **self._plan_state(), "planner": self.planning.as_json(), "busy": self.planning.busy,
             "vocabulary": vocabulary_json(self.vocabulary), "plans": self.file.plans(),
@@ -73,6 +75,8 @@ class Session:
 
     def edit(self, revision: str, edit: dict[str, Any]) -> State:
         """Make one edit."""
+        if edit.get("kind") not in EDITS:
+            raise PlannerError(f"edit {str(edit.get('kind'))[:40]!r}: is none that a page makes; there is {', '.join(EDITS)}")
         self.file.change(revision, lambda document: apply(document, edit, self.vocabulary))
         return self._changed()
 
@@ -178,13 +182,23 @@ class Session:
 
     def _seen(self, now: Current | None) -> State:
         if now is None:
-            approval = {"status": "unknown", "text": "there is no plan yet", "reviewer": None, "time": None, "sequence": None}
-            return {"document": None, "path": None, "revision": None, "differences": [], "track": None, "approval": approval}
+            return {"document": None, "path": None, "revision": None, "differences": [], "track": None, "approval": _undecided("there is no plan yet")}
         return {
             "document": now.document, "path": now.path.name, "revision": now.revision,
             "differences": [difference.as_json() for difference in differences(now.document)],
-            "track": track(now.document, self.vocabulary).as_json(), "approval": approval_of(now.document, self.log).as_json(),
+            "track": track(now.document, self.vocabulary).as_json(), "approval": self._approval(now.document),
         }  # fmt: skip
+
+    def _approval(self, document: PlanDocument) -> dict[str, Any]:
+        """What the log says of the plan. A log that is broken keeps nobody from looking at the plan."""
+        try:
+            return approval_of(document, self.log).as_json()
+        except PlannerError as error:
+            return _undecided(str(error))
+
+
+def _undecided(text: str) -> dict[str, Any]:
+    return {"status": "unknown", "text": text, "reviewer": None, "time": None, "sequence": None}
 
 
 def _no_agent(_task: Mapping[str, Any]) -> Answer:

@@ -21,6 +21,7 @@ from planner_ft.web.settings import WebSettings
 from tests.planning.conftest import FIND_AND_ORBIT, SKILLS, known  # noqa: F401
 
 COMMAND = "Find the green buoy, circle it at 12 m, come home."
+MARKUP = """<script>alert(1)</script> & "quoted" </title>\u2028 [bold]x[/bold] \x1b[2J \U0001f6a4"""
 PORT = 8765
 BASE = f"http://127.0.0.1:{PORT}"
 REMOVE = {"kind": "remove", "task": "t4"}

@@ -9,15 +9,18 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from starlette.testclient import TestClient
 
 from planner_ft.document import altered, apply, document_digest, read_document, write_document
+from planner_ft.document.edits import KINDS
 from planner_ft.review import read_log
 from planner_ft.vocabulary import load_vocabulary
-from tests.web.conftest import COMMAND, REMOVE, Serve, make_document, post, state
+from tests.web.conftest import COMMAND, MARKUP, REMOVE, Serve, make_document, post, state
 
 LOCATE = {"kind": "locate", "name": "green buoy", "position": [120, -35]}
-MARKUP = """<script>alert(1)</script> & "quoted" </title>\u2028 [bold]x[/bold] \x1b[2J \U0001f6a4"""
+DOCUMENT = make_document()
 
 
 def edit(client: TestClient, change: dict[str, Any], revision: str | None = None) -> Any:
@@ -71,7 +74,9 @@ def test_an_edit_is_on_the_disk_when_it_is_answered(client: TestClient, plan: Pa
         ({"kind": "parameter", "task": "t3", "name": "radius", "value": "wide"}, "radius"),
         ({"kind": "parameter", "task": "t9", "name": "radius", "value": 4}, "task t9"),
         ({"kind": "fly"}, "'fly'"),
-        ({}, "is not known"),
+        ({}, "is none that a page makes"),
+        ({"kind": "replace", "tasks": []}, "is none that a page makes"),
+        ({"kind": "skills", "task": "t1", "skill_sequence": []}, "is none that a page makes"),
         ({"kind": "locate", "name": "lighthouse", "position": [1, 2]}, "lighthouse"),
         ({"kind": "locate", "name": "green buoy", "position": [1e400, 2]}, "Infinity"),
     ],
@@ -212,8 +217,10 @@ def test_a_log_that_was_tampered_with_is_said(client: TestClient, plan: Path) ->
     decide(client)
     log = plan.parent / "approvals.jsonl"
     log.write_text(log.read_text().replace("Ada Lind", "Eve Lind"))
-    answered = client.get("/api/state")
-    assert answered.status_code == 422 and "approvals.jsonl" in answered.json()["error"] and "changed" in answered.json()["error"]
+    shown = state(client)
+    assert shown["approval"]["status"] == "unknown" and "approvals.jsonl" in shown["approval"]["text"] and "changed" in shown["approval"]["text"]
+    refused = decide(client)
+    assert refused.status_code == 422 and "approvals.jsonl" in refused.json()["error"]
 
 
 def test_another_plan_of_the_folder_is_shown_when_asked_for(client: TestClient, plan: Path) -> None:
@@ -238,3 +245,24 @@ def test_the_page_and_its_files_are_served_with_their_types(client: TestClient) 
     client.cookies.clear()
     script = client.get("/static/main.js")
     assert script.status_code == 200 and script.headers["content-type"].startswith("text/javascript")
+
+
+WORDS = ["", "t1", "t3", "green buoy", "radius", "center", "navigation", MARKUP]
+VALUES = st.recursive(
+    st.none() | st.booleans() | st.integers(-3, 10**19) | st.floats() | st.sampled_from(WORDS),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(["name", "title", "id", "x"]), inner, max_size=3),
+    max_leaves=4,
+)
+KEYS = ("task", "name", "value", "position", "text", "to", "at", "title", "parameters", "task_prompt", "skill_sequence", "step", "role", "index", "tasks", "id")
+EDITS = st.fixed_dictionaries({"kind": st.sampled_from([*KINDS, None, [], {}])}, optional=dict.fromkeys(KEYS, VALUES))
+
+
+@settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(change=EDITS)
+def test_any_edit_is_made_or_refused_in_a_sentence(serve_plan: Serve, plan: Path, change: dict[str, Any]) -> None:
+    client = serve_plan(plan)
+    write_document(plan, DOCUMENT)
+    text = json.dumps({"revision": state(client)["revision"], "edit": change})
+    answered = client.post("/api/edit", content=text, headers={"Content-Type": "application/json"})
+    assert answered.status_code in (200, 422) and (answered.status_code == 200 or len(answered.json()["error"]) > 10)
+    assert read_document(plan) == state(client)["document"] and not altered(read_document(plan))

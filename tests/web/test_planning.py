@@ -17,7 +17,7 @@ from planner_ft.document import read_document
 from planner_ft.support.errors import PlannerError
 from planner_ft.web.events import MOST_WAITING, Events
 from tests.planning.conftest import FIND_AND_ORBIT, HOLD, SKILLS, Known, KnownAnswers, mission, task
-from tests.web.conftest import COMMAND, REMOVE, Serve, post, state
+from tests.web.conftest import COMMAND, MARKUP, REMOVE, Serve, post, state
 
 Told = list[tuple[str, Any]]
 
@@ -103,6 +103,18 @@ def test_places_can_be_given_with_the_command(serve_plan: Serve, known: Known) -
         post(client, "/api/plan", command=COMMAND, locate={"green buoy": [120, -35.5]})
         page.until(lambda told: saw("skills")(told) and rested(client)(told))
         assert state(client)["document"]["located"] == {"green buoy": [120, -35.5]} and state(client)["document"]["complete"]
+
+
+def test_a_command_with_markup_comes_back_as_it_was_given(serve_plan: Serve, known: Known, tmp_path: Path) -> None:
+    known()
+    with serve_plan(None) as client:
+        page = Listener(client.app_state["session"].events)
+        assert post(client, "/api/plan", command=MARKUP).status_code == 202
+        assert state(client)["busy"] is None or state(client)["busy"]["command"] == MARKUP
+        told = page.until(lambda told: saw("skills")(told) and rested(client)(told))
+        assert next(data for kind, data in told if kind == "progress")["command"] == MARKUP
+        assert state(client)["document"]["command"] == MARKUP
+    assert [read_document(path)["command"] for path in tmp_path.glob("plan-*.json")] == [MARKUP]
 
 
 def test_two_plans_of_one_second_do_not_meet(serve_plan: Serve, plan: Path) -> None:
