@@ -1,7 +1,7 @@
 // A new command, and the agents at work on it: tasks first, then the skills of one task after the other.
 
 import { Dialog, Refusal } from "./dialog.js";
-import { count, shown } from "./format.js";
+import { count, same, shown } from "./format.js";
 import { html, useEffect, useRef, useState } from "./vendor.js";
 
 export function NewCommand({ store, close }) {
@@ -39,13 +39,13 @@ export function Progress({ store }) {
     ${busy.command && html`<blockquote class="command">${busy.command}</blockquote>`}
     <p role="status" aria-live="polite">${busy.label}${busy.total > 0 ? `: ${busy.done} of ${count(busy.total, "task")} have their skills` : ""}</p>
     <progress max=${busy.total || 1} value=${busy.total ? busy.done : null} aria-label="Tasks with skills"></progress>
-    ${tasks && html`<ol class="draft" aria-label=${`${tasks.length} tasks, ${ready} with skills`}>${tasks.map((task, index) => html`<${Draft} key=${index} task=${task} number=${index + 1} steps=${skills[task.id || `t${index + 1}`]} />`)}</ol>`}
+    ${tasks && html`<ol class="draft" aria-label=${`${tasks.length} tasks, ${ready} with skills`}>${tasks.map((task, index) => html`<${Draft} key=${index} task=${task} number=${index + 1} unresolved=${store.plan.vocabulary.unresolved} steps=${skills[task.id || `t${index + 1}`]} />`)}</ol>`}
   </section>`;
 }
 
-function Draft({ task, number, steps }) {
+function Draft({ task, number, steps, unresolved }) {
   const names = steps && steps.map((step) => step.navigation_skill.name);
-  return html`<li class=${steps ? "ready" : "waiting"}><b>${number}</b> ${task.title}
-    <span class="soft">${Object.entries(task.parameters).map(([name, value]) => `${name} ${shown(value)}`).join(" · ")}</span>
-    <span class="steps">${names ? (names.length ? `${count(names.length, "step")}: ${names.slice(0, 6).join(", ")}${names.length > 6 ? " …" : ""}` : "no skills") : "…"}</span></li>`;
+  return html`<li class=${steps ? "ready" : ""}><b>${number} ${task.title}</b>${" "}
+    <span class="soft">${Object.entries(task.parameters).map(([name, value]) => `${name} ${same(value, unresolved) ? "not located yet" : shown(value)}`).join(" · ")}</span>
+    <span class="steps">${task.waits_for ? `waits for the place of ${task.waits_for}` : !names ? "…" : names.length ? `${count(names.length, "step")}: ${names.slice(0, 6).join(", ")}${names.length > 6 ? " …" : ""}` : "no skills"}</span></li>`;
 }

@@ -3,7 +3,7 @@
 import { when } from "./format.js";
 import { html, useState } from "./vendor.js";
 
-const THEMES = [["system", "As the system"], ["sunlight", "Sunlight"], ["night", "Night"]];
+const THEMES = [["system", "System theme"], ["sunlight", "Sunlight"], ["night", "Night"]];
 const APPROVALS = { approved: "good", rejected: "bad", altered: "bad", unknown: "open" };
 const NAMES = { approved: "Approved", rejected: "Rejected", altered: "Changed since it was approved", unknown: "Not approved yet" };
 

@@ -19,10 +19,9 @@ function Warning({ store, warning }) {
   const number = warning.task && store.task(warning.task).number;
   const target = store.plan.document.open_places.find((open) => warning.id === `unresolved-location:${open.name}`);
   const done = store.isAcknowledged(warning);
-  return html`<li class=${done ? "done" : ""} data-warning=${warning.id}>
+  return html`<li class=${done ? "done" : ""} data-warning=${warning.id} title=${warning.kind.replaceAll("-", " ")}>
     <label><input type="checkbox" checked=${done} onChange=${(event) => store.acknowledge(warning, event.target.checked)} /><span>${warning.text}</span></label>
-    <div class="more"><span class="kind">${warning.kind.replaceAll("-", " ")}</span>
-    ${number > 0 && html`<a href=${`#task-${warning.task}`} onClick=${(event) => show(event, store, warning)} aria-label=${`Show task ${number}${warning.parameter ? `, ${warning.parameter}` : ""}`}>Task ${number}${warning.parameter ? `, ${warning.parameter}` : ""}</a>`}
+    <div class="more">${number > 0 && html`<a href=${`#task-${warning.task}`} onClick=${(event) => show(event, store, warning)} aria-label=${`Show task ${number}${warning.parameter ? `, ${warning.parameter}` : ""}`}>Task ${number}${warning.parameter ? `, ${warning.parameter}` : ""}</a>`}
     ${target && html`<button class="plain" onClick=${() => store.set({ placing: target.name })} aria-label=${`Place ${target.name} on the chart`}>Place it</button>`}</div>
   </li>`;
 }

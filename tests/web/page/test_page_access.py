@@ -8,15 +8,23 @@ from typing import Any
 import pytest
 
 from tests.report.test_browser import CONTRAST
-from tests.web.page_browser import Page, chromium, make_plan, opened, start  # noqa: F401
+from tests.web.page.conftest import Page, make_plan
 
 pytestmark = pytest.mark.browser
 Opened = Callable[..., Page]
 
-EVERYTHING = "document.querySelectorAll('details').forEach((one) => { one.open = true; }); document.querySelectorAll('.fold[aria-expanded=false]').forEach((one) => one.click())"
-SMALL = """return [...document.querySelectorAll('button, select, input, summary, .chip, .jump a, .warnings a')].filter((one) => one.checkVisibility() && !one.closest('.unseen'))
+EVERYTHING = """document.querySelectorAll('details').forEach((one) => { one.open = true; });
+document.querySelectorAll('.fold[aria-expanded=false]').forEach((one) => one.click())"""
+SMALL = """return [...document.querySelectorAll('button, select, input, summary, .chip, .jump a, .warnings a')]
+  .filter((one) => one.checkVisibility() && !one.closest('.unseen'))
   .map((one) => [one, (one.type === 'checkbox' ? one.closest('label') : one).getBoundingClientRect()])
   .filter(([, box]) => Math.round(box.height) < 44 || Math.round(box.width) < 44).map(([one, box]) => [one.outerHTML.slice(0, 90), box.width, box.height])"""
+LINES = """const part = (v) => (v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
+const luminance = (c) => c.match(/[\\d.]+/g).slice(0, 3).map(part).reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+const ratio = (a, b) => (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+const water = luminance(getComputedStyle(document.querySelector('.frame')).backgroundColor);
+return [...document.querySelectorAll('.leg polyline:not(.reach), .home path')]
+  .map((one) => ratio(luminance(getComputedStyle(one).stroke), water)).filter((found) => found < 3)"""
 OUTLINE = "const s = getComputedStyle(document.activeElement); return s.outlineStyle === 'solid' && parseFloat(s.outlineWidth) >= 2"
 
 
@@ -104,10 +112,7 @@ def test_text_stands_out_from_its_background(opened: Opened, dark: bool, least: 
     script = script.replace("getComputedStyle(node), fill", "getComputedStyle(node), enabled = true, fill")
     found = [entry for entry in page.run(script) if entry[0].lower() not in ("option", "optgroup")]
     assert found == []
-    lines = """const luminance = (c) => c.match(/[\\d.]+/g).slice(0, 3).map((v) => (v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4).reduce((s, v, i) => s + v * [0.2126, 0.7152, 0.0722][i], 0);
-      const ratio = (a, b) => (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05), water = luminance(getComputedStyle(document.querySelector('.frame')).backgroundColor);
-      return [...document.querySelectorAll('.leg polyline:not(.reach), .home path')].map((one) => ratio(luminance(getComputedStyle(one).stroke), water)).filter((found) => found < 3)"""
-    assert page.run(lines) == []
+    assert page.run(LINES) == []
 
 
 @pytest.mark.parametrize("width", [320, 390, 768, 1024, 1280, 1440])
@@ -117,6 +122,8 @@ def test_no_width_needs_to_scroll_sideways(opened: Opened, width: int) -> None:
     page.run("document.querySelector('#task-t3 [data-parameter=radius] .value').click()")
     page.one(".edit")
     assert page.run("return document.documentElement.scrollWidth") <= width
+    if width >= 1280:
+        assert page.run("return document.documentElement.scrollHeight") <= 800
     wide = "return [...document.querySelectorAll('.panel')].filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.className)"
     assert page.run(wide) == []
 
@@ -131,5 +138,6 @@ def test_fingers_hit_every_control(opened: Opened, width: int) -> None:
 
 def test_nothing_moves_where_motion_is_to_be_reduced(opened: Opened) -> None:
     page = opened()
-    script = "return [...document.querySelectorAll('*')].filter((one) => parseFloat(getComputedStyle(one).transitionDuration) > 0 || getComputedStyle(one).animationName !== 'none').length"
+    script = """return [...document.querySelectorAll('*')].map((one) => getComputedStyle(one))
+      .filter((style) => parseFloat(style.transitionDuration) > 0 || style.animationName !== 'none').length"""
     assert page.run(script) == 0

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from planner_ft.document import write_document
-from tests.web.page_browser import TASKS, Page, chromium, go, make_plan, opened, start, step  # noqa: F401
+from tests.web.page.conftest import TASKS, Page, go, make_plan, step
 
 pytestmark = pytest.mark.browser
 Opened = Callable[..., Page]

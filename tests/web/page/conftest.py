@@ -207,10 +207,8 @@ class Page:
 
     def says(self, selector: str, text: str) -> None:
         """Waits until an element of that kind says the text."""
-        self.until(
-            f"return [...document.querySelectorAll({json.dumps(selector)})].some((one) => one.textContent.replaceAll('\\u00a0', ' ').includes({json.dumps(text)}))",
-            f"{selector}: {text}",
-        )
+        said = f"(one) => one.textContent.replaceAll('\\u00a0', ' ').includes({json.dumps(text)})"
+        self.until(f"return [...document.querySelectorAll({json.dumps(selector)})].some({said})", f"{selector}: {text}")
 
     def gone(self, selector: str) -> None:
         self.until(f"return document.querySelector({json.dumps(selector)}) === null", f"no {selector}")
