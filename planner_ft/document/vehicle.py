@@ -40,6 +40,9 @@ def load_vehicle(path: Path | str | None, vocabulary: Vocabulary) -> Vehicle:
     """
     own = vocabulary.companion(VEHICLE)
     if path is None:
+        if not own:
+            beside = f"{vocabulary.path.stem if vocabulary.path else vocabulary.name}{VEHICLE}"
+            raise PlannerError(f"vocabulary {vocabulary.name}: has no vehicle profile; write {beside} beside its definition, or give one with --vehicle FILE")
         return _built(own, f"{vocabulary.name}{VEHICLE}")
     try:
         raw = tomllib.loads(read_text(path))

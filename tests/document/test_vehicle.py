@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
 
 from planner_ft.document.vehicle import check_area, load_vehicle
 from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.definition import BUNDLED
 
-from ..documents import DRONE, USV
+from ..documents import DRONE, USV, document, step, task
 
 
 def test_the_bundled_profile_stands_beside_the_definition() -> None:
@@ -42,6 +45,17 @@ def test_a_profile_with_mistakes_is_refused_by_name(tmp_path: Path, text: str, s
     with pytest.raises(PlannerError, match=r"mine\.toml: ") as caught:
         load_vehicle(tmp_path / "mine.toml", USV)
     assert said in str(caught.value)
+
+
+def test_a_vehicle_without_companion_files_needs_a_profile_and_nothing_else(tmp_path: Path) -> None:
+    shutil.copy(BUNDLED / "inspection_drone.toml", tmp_path / "mine.toml")
+    mine = load_vocabulary(tmp_path / "mine.toml")
+    with pytest.raises(PlannerError, match=r"no vehicle profile; write mine\.vehicle\.toml .*--vehicle"):
+        load_vehicle(None, mine)
+    (tmp_path / "mine.vehicle.toml").write_text('name = "mine"\ncruise_speed = 2\nendurance = 900\nturn_rate = 30\n')
+    plan = document([task("FlyToPoint", {"target_position": [5, 5]}, [step("FlyToXY", {"x": 5, "y": 5})])], mine, command="Fly to [5, 5].")
+    assert plan["estimate"] == {"length": 0, "seconds": 0, "open": ["t1"]}
+    assert plan["tasks"][0]["sources"]["target_position"]["kind"] == "command"
 
 
 def test_an_area_is_a_polygon_of_metres() -> None:
