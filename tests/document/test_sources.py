@@ -32,6 +32,7 @@ def words(plan: PlanDocument, index: int, name: str) -> list[str]:
         ("Find the grean barell.", "SearchAndDetect", {"target_description": "green barrel"}, ["grean barell"]),
         ("There are two buoys. Inspect the red one.", "SearchAndDetect", {"target_description": "red buoy"}, ["buoys", "red"]),
         ("Send the sonar log, then the photos.", "SmartDataHarvest", {"target_list": ["sonar log", "photos"]}, ["sonar log", "photos"]),
+        ("Shoot a panorama and wait minute at each.", "HorizontalPanorama", {"wait": 60}, ["minute"]),
         ("Pass it at one metre per second.", "ParallelStructurePass", {"speed": 1}, ["one metre per second"]),
     ],
 )

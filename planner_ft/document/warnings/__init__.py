@@ -29,6 +29,8 @@ def warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Warnin
         *command_warnings(document, vocabulary),
         *value_warnings(document, vocabulary),
     ]
-    # Two of one id say the same: the first stays.
-    unique = {item["id"]: item for item in reversed(found)}
+    unique: dict[str, Warning] = {}
+    for item in found:
+        # Two of one id say the same: the first stays.
+        unique.setdefault(item["id"], item)
     return sorted(unique.values(), key=lambda item: KINDS.index(item["kind"]))

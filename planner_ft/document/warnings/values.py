@@ -20,7 +20,7 @@ from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
 COURSE = re.compile(r"\b(?:heading|bearing|course)(?: of)?\W{1,3}$", re.IGNORECASE)
-CLOCK = re.compile(r"^\s*(?:o'?clock|am\b|pm\b|hours? (?:utc|gmt|zulu|local|ago)|z\b)", re.IGNORECASE)
+CLOCK = re.compile(r"\s*(?:o['’]?clock|am\b|pm\b|utc\b|gmt\b|zulu\b|local\b|ago\b)", re.IGNORECASE)
 MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORECASE)
 """Words that are no time to be kept: "a second", "a good day"."""
 

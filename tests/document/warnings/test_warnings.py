@@ -86,7 +86,7 @@ def test_a_value_that_reached_no_task(command: str, lost: str) -> None:
     "command",
     [
         "Go to [31, 41], no, make that [30, 40], and come home.",
-        "Go to [30, 40] and come home. We have 3 boats and contact 17 here since 14 o'clock.",
+        "Go to [30, 40] and come home. We have 3 boats and contact 17 here since 14 o'clock, or 10 hours UTC.",
         "Go to [30, 40] and come home, and skip the five minutes of waiting.",
     ],
 )
@@ -212,6 +212,11 @@ def test_warnings_are_unique_and_the_most_serious_come_first() -> None:
     plan = planned("Hold for 9 hours, orbit it, and come home.", THERE, task("PerformOrbit", {"center": OPEN, "radius": 9}, None, "Circle it."))
     found = [item["kind"] for item in plan["warnings"]]
     assert found == sorted(found, key=KINDS.index) and len({item["id"] for item in plan["warnings"]}) == len(found) > 3
+
+
+def test_warnings_of_one_kind_stand_in_the_order_of_the_plan() -> None:
+    plan = planned("Go to [30, 40] and come home.", *({**THERE, "skill_sequence": None} for _number in range(3)), HOME)
+    assert [item["task"] for item in plan["warnings"]] == ["t1", "t2", "t3"]
 
 
 def test_expected_plans_raise_no_false_alarm() -> None:
