@@ -1,7 +1,7 @@
 // Approve or reject. The button says what is still lacking, and leads there.
 
 import { Dialog, Refusal } from "./dialog.js";
-import { count } from "./format.js";
+import { count, when } from "./format.js";
 import { html, useEffect, useRef, useState } from "./vendor.js";
 
 function lacking(store, name) {
@@ -34,7 +34,7 @@ export function Decision({ store }) {
   const approved = plan.approval.status === "approved";
   const label = lack.length ? `Approve: ${lack.map(([what]) => what).join(" and ")} lacking` : approved ? "Approve again" : "Approve this plan";
   return html`<form class="decision" id="decision" aria-label="Decision" onSubmit=${approve}>
-    <p class="standing"><b>${approved ? "Approved." : "Nothing moves before this plan is approved."}</b>
+    <p class="standing"><b>${approved ? `Approved by ${plan.approval.reviewer}, ${when(plan.approval.time)}, record ${plan.approval.sequence}.` : "Nothing moves before this plan is approved."}</b>
       ${" "}${count(plan.document.tasks.length, "task")}, ${plan.document.complete ? "all with steps" : "not complete"}.</p>
     <${Refusal} id="decision-refused" text=${refused} />
     <label class="name" for="reviewer"><span>Your name</span><input id="reviewer" autocomplete="name" maxlength="200" value=${name} onInput=${write} aria-describedby="decision-refused" /></label>

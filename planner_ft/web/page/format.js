@@ -17,8 +17,8 @@ export function metres(value) {
 export function seconds(value) {
   const all = Math.round(value);
   const [hours, minutes, rest] = [Math.floor(all / 3600), Math.floor((all % 3600) / 60), all % 60];
-  if (hours) return `${hours} h ${String(minutes).padStart(2, "0")} min`;
-  return minutes ? `${minutes} min ${String(rest).padStart(2, "0")} s` : `${rest} s`;
+  if (hours) return `${hours}\u00a0h\u00a0${String(minutes).padStart(2, "0")}\u00a0min`;
+  return minutes ? `${minutes}\u00a0min\u00a0${String(rest).padStart(2, "0")}\u00a0s` : `${rest}\u00a0s`;
 }
 
 const isPlace = (value) => Array.isArray(value) && value.length === 2 && value.every((part) => typeof part === "number");

@@ -28,8 +28,8 @@ export function Header({ store, show }) {
 }
 
 function Approval({ approval }) {
-  const by = approval.reviewer && `by ${approval.reviewer}, ${when(approval.time)}, record ${approval.sequence}`;
-  return html`<span class=${`state ${APPROVALS[approval.status] || "open"}`} title=${approval.text}><b>${NAMES[approval.status] || approval.status}</b>${by && html` <span class="by">${by}</span>`}</span>`;
+  const by = approval.reviewer && `by ${approval.reviewer}`;
+  return html`<span class=${`state ${APPROVALS[approval.status] || "open"}`} title=${[approval.text, when(approval.time), approval.sequence && `record ${approval.sequence}`].filter(Boolean).join("; ")}><b>${NAMES[approval.status] || approval.status}</b>${by && html` <span class="by">${by}</span>`}</span>`;
 }
 
 function Theme() {

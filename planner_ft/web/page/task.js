@@ -71,7 +71,7 @@ function Parameter({ store, task, name, value, known, label }) {
   return html`<div class=${`parameter ${chosen ? "chosen" : ""}`} data-parameter=${name} onMouseEnter=${light} onMouseLeave=${dark} onfocusin=${light} onfocusout=${dark}>
     <dt>${name}</dt>
     <dd><${Value} store=${store} label=${label} parameter=${known} value=${value} change=${change} />
-      ${source && html`<span class=${`source ${source.kind}`} title=${source.note || ""}>${source.kind === "located" && source.note ? source.note : html`${KINDS[source.kind] || source.kind}${words && html` <q>${words}</q>`}${!words && source.note ? `: ${source.note}` : ""}`}
+      ${source && html`<span class=${`source ${source.kind}`} title=${source.note || ""}>${source.kind === "located" && source.note ? source.note : html`${KINDS[source.kind] || source.kind}${words && html` <q>${words}</q>`}${!words && source.note && !changed ? `: ${source.note}` : ""}`}
         ${changed && html` <span class="was">proposed ${withUnit(proposed, known.unit)}</span>`}</span>`}</dd>
   </div>`;
 }
