@@ -214,6 +214,10 @@ def test_warnings_are_unique_and_the_most_serious_come_first() -> None:
     assert found == sorted(found, key=KINDS.index) and len({item["id"] for item in plan["warnings"]}) == len(found) > 3
 
 
+def test_notes_stand_behind_what_is_serious() -> None:
+    assert kinds(planned("Go to [30, 41].", THERE), notes=True)[-1] == "ends-away"
+
+
 def test_warnings_of_one_kind_stand_in_the_order_of_the_plan() -> None:
     plan = planned("Go to [30, 40] and come home.", *({**THERE, "skill_sequence": None} for _number in range(3)), HOME)
     assert [item["task"] for item in plan["warnings"]] == ["t1", "t2", "t3"]
