@@ -92,15 +92,17 @@ class Ledger:
         return tuple(Loss(task, "; ".join(what + _steps_told(steps) for what, steps in told.items()), why) for (task, why), told in grouped.items())
 
 
+def ranges(numbers: list[int]) -> str:
+    """ "1-3, 7" of sorted numbers."""
+    starts = [number for number in numbers if number - 1 not in numbers]
+    ends = [number for number in numbers if number + 1 not in numbers]
+    return ", ".join(f"{start}" if start == end else f"{start}-{end}" for start, end in zip(starts, ends, strict=True))
+
+
 def _steps_told(steps: list[int | None]) -> str:
     """ " (step 2)", " (steps 1-3, 7)", or nothing for what is no part of a step."""
     numbers = sorted({step for step in steps if step is not None})
-    if not numbers:
-        return ""
-    starts = [number for number in numbers if number - 1 not in numbers]
-    ends = [number for number in numbers if number + 1 not in numbers]
-    told = ", ".join(f"{start}" if start == end else f"{start}-{end}" for start, end in zip(starts, ends, strict=True))
-    return f" (step{'s' if len(numbers) > 1 else ''} {told})"
+    return f" (step{'s' if len(numbers) > 1 else ''} {ranges(numbers)})" if numbers else ""
 
 
 def plan_items(document: dict[str, Any]) -> Iterator[Item]:

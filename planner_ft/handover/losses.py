@@ -6,14 +6,16 @@ from collections.abc import Iterator, Sequence
 
 from planner_ft.document.tree import plain
 from planner_ft.handover.formats import Format, Handover
-from planner_ft.handover.ledger import Account, Loss
+from planner_ft.handover.ledger import Account, Loss, ranges
 
 
 def loss_summary(account: Account) -> str:
-    """One line: how much of the plan is in the file."""
+    """One line: how much of the plan is in the file, and which tasks do not move as planned."""
     lost, changed = len(account.lost_paths), len(account.changed_paths)
     total = len(account.carried) + lost
-    return f"{len(account.carried)} of {total} entries carried, {changed} of them in another form; {lost} lost"
+    still = sorted({int(path[1]) + 1 for path in account.lost_paths if path[4:] == ("navigation_skill", "name")})
+    movements = f"; MOVEMENTS LOST in task{'s' if len(still) > 1 else ''} {ranges(still)}" if still else ""
+    return f"{len(account.carried)} of {total} entries carried, {changed} of them in another form; {lost} lost{movements}"
 
 
 def loss_lines(account: Account) -> Iterator[str]:

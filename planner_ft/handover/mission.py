@@ -42,7 +42,7 @@ REASONS = {
     "expected_outputs": WORDS,
     "navigation_skill": "the autopilot's command has no place for it",
     "filter_skills": "the autopilot has no such command",
-    "parameters": "the movement is carried as the skills say it",
+    "parameters": "a mission is written from the skills, not from the task's own values",
     "vehicle": "it is a setting of the autopilot",
 }
 BY_MOTION = {
@@ -52,7 +52,7 @@ BY_MOTION = {
     "wait": "the autopilot cannot tell when the vehicle is steady, and no time is stated",
     "turn-to": "its heading is not stated",
     "turn-by": "its angle or the heading before it is not known, and the autopilot turns to headings",
-    "arc": "its radius or angle is not stated",
+    "arc": "its radius or its angle is not stated, so that nobody knows where it ends: state both and plan again",
 }
 
 

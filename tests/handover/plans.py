@@ -136,7 +136,8 @@ def _tasks(draw: st.DrawFn, vocabulary: Vocabulary, reach: float) -> dict[str, A
         if draw(st.integers(0, 5)) == 0
         else draw(st.lists(_steps(vocabulary, reach), min_size=1, max_size=3))
     )
-    return task(known.title, parameters, steps, draw(TEXTS))
+    extra = {"assumptions": draw(st.lists(TEXTS, min_size=1, max_size=2)), "stale": True, "located": {name: draw(TEXTS) for name in parameters}}
+    return {**task(known.title, parameters, steps, draw(TEXTS)), **{key: value for key, value in extra.items() if draw(st.integers(0, 3)) == 0}}
 
 
 @st.composite

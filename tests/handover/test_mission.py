@@ -88,7 +88,7 @@ def test_a_turn_from_an_unknown_heading_is_lost() -> None:
     [
         (step("DriftWithCurrent", {"time": 60}), "no command that lets the vehicle drift"),
         (step("WaitForStability", {"threshold": 2}), "cannot tell when the vehicle is steady"),
-        (step("ArcTurn", {"delta_yaw": 40}), "radius or angle is not stated"),
+        (step("ArcTurn", {"delta_yaw": 40}), "radius or its angle is not stated"),
         (step("RotateToHeading"), "heading is not stated"),
     ],
 )

@@ -118,6 +118,18 @@ def test_the_command_prints_what_is_lost(plan: Path, monkeypatch: pytest.MonkeyP
     assert "  changed  t2: ArcTurn (step 1)" in shown
 
 
+def test_a_movement_that_is_lost_stands_in_the_first_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "plan.json"
+    lost = task("PerformOrbit", {"center": [120, -35], "radius": 25}, [step("ArcTurn", {"radius": 25})])
+    write_document(path, built([MAST[0], lost, lost, MAST[3]]))
+    assert run(monkeypatch, path, "--format", "qgc", "--origin", "1,1", "--draft") == 0
+    assert "; MOVEMENTS LOST in tasks 2-3 (report: " in capsys.readouterr().out.splitlines()[0]
+    assert "MOVEMENTS LOST in tasks 2-3." in (tmp_path / "plan.DRAFT.plan.losses.md").read_text(encoding="utf-8")
+    write_document(path, built(MAST))
+    assert run(monkeypatch, path, "--format", "qgc", "--origin", "1,1", "--draft", "--overwrite") == 0
+    assert "MOVEMENTS LOST" not in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
