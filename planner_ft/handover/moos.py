@@ -14,7 +14,7 @@ from typing import Any
 
 from planner_ft.handover.formats import Format, Handover, Written
 from planner_ft.handover.ledger import LISTS, Item, Ledger, Path
-from planner_ft.handover.moos_filters import GUARDED, Guard, guards
+from planner_ft.handover.moos_filters import GUARDED, Guard, guards, is_region
 from planner_ft.handover.moos_moves import UNENDED, Move, move_of
 from planner_ft.handover.moos_text import CHANGED, Behaviour, comment, is_changed, quoted, variable
 from planner_ft.support.files import compact_json
@@ -28,6 +28,7 @@ WORDS_FORM = {
     "failure_modes": "as words in a comment: the helm does not watch for it",
     "expected_outputs": COMMENT_FORM,
 }
+AREA_FORM = f"{COMMENT_FORM}: the helm's boundary must be convex, and this one is not"
 FIRST, SECOND = "move", "speed"
 """What the name of a movement's behaviours ends with."""
 UNKNOWN = "the plan does not say the movement: where it begins, its radius and its angle must be known"
@@ -180,6 +181,7 @@ class _File:
 
     def _filters(self) -> Iterator[tuple[int, str, Any]]:
         """(number of the movement, kind, polygon or distance) of every filter that a behaviour stands for; the rest are flags alone."""
+        yield from self._area()
         for place in self.places:
             if place.step is None:
                 continue
@@ -196,6 +198,17 @@ class _File:
                         self.ledger.carry(*at, key, number, form=form)
                         if guarded:
                             yield place.number, motion.kind, value
+
+    def _area(self) -> Iterator[tuple[int, str, Any]]:
+        """The vehicle's area, as a boundary of every movement."""
+        area = (self.document.get("vehicle") or {}).get("area")
+        if not area:
+            return
+        if is_region(area):
+            self.ledger.carry("vehicle", "area")
+            yield from ((place.number, "boundary", area) for place in self.places)
+        else:
+            self.ledger.carry("vehicle", "area", form=AREA_FORM)
 
     def _guard(self, guard: Guard) -> Iterator[str]:
         span = f"{STEP} = {guard.first}" if guard.first == guard.last else f"({STEP} >= {guard.first}) and ({STEP} <= {guard.last})"

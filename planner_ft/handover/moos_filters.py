@@ -5,12 +5,12 @@ Sources: as in moos_moves; BHV_OpRegionV24 takes convex polygons alone, BHV_Avoi
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
 
-from planner_ft.handover.moos_text import number, points
+from planner_ft.handover.moos_text import Point, number, points
 
 INSIDE = ""
 NOT_CONVEX = "as a SKILL_ variable alone: the helm's boundary must be convex, and this one is not"
@@ -48,8 +48,35 @@ def _runs(numbers: list[int]) -> Iterator[list[int]]:
         yield [number for _index, number in run]
 
 
+def is_region(polygon: Sequence[Sequence[float]]) -> bool:
+    """Whether the helm takes a polygon as a region: it has an area, and turns one way alone, once around. A file with another is refused."""
+    corners = _corners(polygon)
+    turns = [_turn(corners, index) for index in range(len(corners))]
+    return len(corners) > 2 and (min(turns) > 0 or max(turns) < 0) and _goes_once_around(corners)
+
+
+def _corners(polygon: Sequence[Sequence[float]]) -> list[Point]:
+    """The corners as they are written, without those that repeat another one or lie on a side: the helm refuses some."""
+    rounded = [(round(float(x), 3), round(float(y), 3)) for x, y in polygon]
+    distinct = [corner for index, corner in enumerate(rounded) if corner != rounded[index - 1]] or rounded
+    return [corner for index, corner in enumerate(distinct) if _turn(distinct, index)]
+
+
+def _turn(corners: list[Point], index: int) -> float:
+    """To which side the way round turns at a corner: above 0 to the left, 0 within a square millimetre of straight on."""
+    (ax, ay), (bx, by), (cx, cy) = (corners[(index + offset) % len(corners)] for offset in (-1, 0, 1))
+    turn = (bx - ax) * (cy - by) - (by - ay) * (cx - bx)
+    return turn if abs(turn) > 1e-6 else 0.0
+
+
+def _goes_once_around(corners: list[Point]) -> bool:
+    """Whether the sides change their direction along x twice: a star with five points does so more often."""
+    ahead = [(corners[index][0], corners[index][1]) > (corners[index - 1][0], corners[index - 1][1]) for index in range(len(corners))]
+    return sum(first != second for first, second in zip(ahead, [*ahead[1:], ahead[0]], strict=True)) == 2
+
+
 def _region(polygon: Any) -> tuple[tuple[str, str], ...]:
-    return (("save_poly", points((float(x), float(y)) for x, y in polygon)),)
+    return (("save_poly", points(_corners(polygon))),)
 
 
 def _avoidance(distance: float | None, count: int) -> tuple[tuple[str, str], ...]:
@@ -64,25 +91,11 @@ def _avoidance(distance: float | None, count: int) -> tuple[tuple[str, str], ...
 def _bounded(polygon: Any) -> tuple[bool, str]:
     if not polygon:
         return False, NO_POLYGON
-    return (True, INSIDE) if _is_convex([(float(x), float(y)) for x, y in polygon]) else (False, NOT_CONVEX)
+    return (True, INSIDE) if is_region(polygon) else (False, NOT_CONVEX)
 
 
 def _cleared(_distance: float | None) -> tuple[bool, str]:
     return True, CLEARANCE
-
-
-def _is_convex(corners: list[tuple[float, float]]) -> bool:
-    """Whether a polygon has an area and turns one way alone, once around."""
-    count = len(corners)
-    sides = [(corners[(i + 1) % count][0] - corners[i][0], corners[(i + 1) % count][1] - corners[i][1]) for i in range(count)]
-    turns = [sides[i][0] * sides[(i + 1) % count][1] - sides[i][1] * sides[(i + 1) % count][0] for i in range(count)]
-    return count > 2 and (all(turn > 0 for turn in turns) or all(turn < 0 for turn in turns)) and _turns_once(sides)
-
-
-def _turns_once(sides: list[tuple[float, float]]) -> bool:
-    """Whether the sides change the sign of their x twice at most: a star with five points does so more often."""
-    signs = [side[0] > 0 or (side[0] == 0 and side[1] > 0) for side in sides]
-    return sum(first != second for first, second in zip(signs, [*signs[1:], signs[0]], strict=True)) <= 2
 
 
 GUARDED: dict[str, Callable[[Any], tuple[bool, str]]] = {"boundary": _bounded, "clearance": _cleared}

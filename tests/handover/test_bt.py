@@ -100,6 +100,13 @@ def test_a_text_in_braces_is_no_blackboard_entry() -> None:
     assert [loss.what for loss in written.account.changed if "braces" in loss.why] == ["stop condition: {x} (step 1); stop condition: = (step 1)"]
 
 
+def test_a_list_whose_entries_hold_semicolons_is_json() -> None:
+    lists = [["a", "b"], ["a; b", "c"], ["json:x"]]
+    steps = [step("StationKeep", perception=[("DetectObjects", {"class_list": names})]) for names in lists]
+    found = [node.get("class_list") for node in tree(document([task("Diagnostics", {}, steps)])).iter("DetectObjects") if node.get("class_list")]
+    assert found == ["a;b", 'json:["a; b", "c"]', 'json:["json:x"]']
+
+
 def test_what_is_said_of_the_plan_stands_in_comments() -> None:
     plan = document(MAST, command="Go -- now -->", assumptions=["calm sea -"], constraints=["before dark"], warnings=[("t1", "far out")])
     text = " ".join(str(comment.text) for comment in tree(plan).iter(etree.Comment))

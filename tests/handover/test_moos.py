@@ -148,10 +148,26 @@ def test_boundaries_and_clearances_stand_for_the_steps_that_have_them() -> None:
     assert guarding[1].one("min_util_cpa_dist") == "6"
 
 
+def test_the_vehicles_area_is_a_boundary_of_the_whole_mission() -> None:
+    text, account = written(MAST, area=[[-200, -200], [300, -200], [300, 200], [-200, 200]])
+    regions = [one for one in read(text).behaviours if one.kind == "BHV_OpRegionV24"]
+    assert regions[0].all("condition")[1] == "(MISSION_STEP >= 1) and (MISSION_STEP <= 4)"
+    assert ("vehicle", "area") not in account.changed_paths
+    text, account = written(MAST, area=[[0, 0], [300, 0], [10, 10], [0, 300]])
+    assert len([one for one in read(text).behaviours if one.kind == "BHV_OpRegionV24"]) == 1
+    assert ("vehicle", "area") in account.changed_paths
+
+
+@pytest.mark.parametrize("polygon", [[*SQUARE, SQUARE[0]], [SQUARE[0], [25, 0], *SQUARE[1:]], [SQUARE[0], *SQUARE]], ids=["closed", "on a side", "twice"])
+def test_corners_that_the_helm_may_refuse_are_left_out(polygon: list[list[float]]) -> None:
+    found = file([task("Diagnostics", {}, [step("StationKeep", {"time": 5}, filters=[("BoundaryEnforcement", {"poly_coords": polygon})])])])
+    assert sorted(found.behaviours[0].corners("save_poly")) == sorted(tuple(map(float, corner)) for corner in SQUARE)
+
+
 @pytest.mark.parametrize(
     "polygon",
-    [[[0, 0], [50, 0], [10, 10], [0, 50]], [[0, 0], [50, 0]], [[0, 3], [2, -3], [-3, 1], [3, 1], [-2, -3]], []],
-    ids=["dent", "no area", "star", "none"],
+    [[[0, 0], [50, 0], [10, 10], [0, 50]], [[0, 0], [50, 0]], [[0, 3], [2, -3], [-3, 1], [3, 1], [-2, -3]], [[1, 1], [1, 1], [1, 1]], []],
+    ids=["dent", "no area", "star", "a point", "none"],
 )
 def test_a_boundary_that_the_helm_refuses_is_no_behaviour_and_the_account_says_so(polygon: list[list[float]]) -> None:
     text, account = written([task("Diagnostics", {}, [step("StationKeep", {"time": 5}, filters=[("BoundaryEnforcement", {"poly_coords": polygon})])])])
