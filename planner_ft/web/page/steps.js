@@ -31,10 +31,13 @@ function Step({ store, task, number, step, index, legs }) {
   ${texts.length > 0 && html`<tr class=${`texts ${chosen ? "chosen" : ""}`}><td colspan="3">${texts.map(([what, rows]) => html`<span key=${what}><b>${what}</b> ${rows.join(", ")}</span>`)}</td></tr>`}`;
 }
 
+/** A name that may be broken between its words, as in Boundary|Enforcement. */
+const parts = (name) => name.split(/(?<=[a-z])(?=[A-Z])/).flatMap((word, i) => (i ? [html`<wbr />`, word] : [word]));
+
 function Skill({ store, task, where, skill, label }) {
   const known = store.plan.vocabulary.skills[skill.name]?.parameters || [];
   const change = (name, value) => store.edit({ kind: "skill", task: task.id, ...where, name, value }, `${label} ${name}`);
-  return html`<div class="skill"><span class="name" title=${store.plan.vocabulary.skills[skill.name]?.description}>${skill.name}</span>
+  return html`<div class="skill"><span class="name" title=${store.plan.vocabulary.skills[skill.name]?.description}>${parts(skill.name)}</span>
     <${Add} short store=${store} label=${label} known=${known} given=${skill.parameters} change=${change} />
     ${Object.entries(skill.parameters).map(([name, value]) => html`<span key=${name} class="parameter"><span class="key">${name}</span>
       <${Value} store=${store} label=${label} parameter=${known.find((one) => one.name === name) || unknownParameter(name, value)} value=${value} change=${(next) => change(name, next)} /></span>`)}</div>`;
