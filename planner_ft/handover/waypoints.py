@@ -1,6 +1,6 @@
 """The format `waypoints`: the plain text mission "QGC WPL 110" (https://mavlink.io/en/file_formats/).
 
-Item 0 is home, as ArduPilot has it. A draft says so in a first comment, which Mission Planner and MAVProxy pass over and QGroundControl
+Item 0 is home, as ArduPilot has it. A draft says so in a first comment, which pymavlink (MAVProxy) and MAVSDK pass over and QGroundControl
 refuses.
 """
 
