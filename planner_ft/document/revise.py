@@ -28,7 +28,7 @@ def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
     revised = {
         **document, "tasks": tasks, "valid": valid, "complete": valid and all(task["skill_sequence"] is not None for task in tasks),
         "open_places": [{"name": place.name, "tasks": list(place.tasks)} for place in places],
-        "ontology": document["ontology"] if "ontology" in document else check(document["command"], vocabulary),
+        "ontology": check(document["command"], vocabulary),
     }  # fmt: skip
     for task, found in zip(tasks, sources(revised, vocabulary), strict=True):
         task["sources"] = found

@@ -26,7 +26,7 @@ def order_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Itera
     for place in document.get("open_places", ()):
         first = tasks[place["tasks"][0] - 1]
         parameter = vocabulary.task[first["title"]].position_parameter
-        needed = ", ".join(tasks[number - 1]["id"] for number in place["tasks"])
+        needed = f"task{'s' if len(place['tasks']) > 1 else ''} {', '.join(map(str, place['tasks']))}"
         text = f"Where {place['name']} is, is not known; {needed} cannot be carried out before it is located."
         yield {**warning("unresolved-location", text, about=place["name"]), "task": first["id"], "parameter": parameter}
     yield from _elsewhere(tasks, vocabulary)

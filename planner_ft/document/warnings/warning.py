@@ -22,9 +22,9 @@ def warning(kind: str, text: str, task: Mapping[str, Any] | None = None, paramet
     """A warning about a task, one of its parameters, or the plan; `about` tells several of one kind apart."""
     name = task["id"] if task else None
     parts = [part for part in (kind, name, parameter, about) if part]
-    return {"id": ":".join(parts), "kind": kind, "task": name, "parameter": parameter, "text": text}
+    return {"id": ":".join(parts), "kind": kind, "task": name, "parameter": parameter, "text": text[:1].upper() + text[1:]}
 
 
 def named(task: Mapping[str, Any]) -> str:
-    """A task as sentences name it."""
-    return f"{task['id']} {task['title']}"
+    """A task as sentences name it, by its `number` in the plan."""
+    return f"task {task['number']}, {task['title']}"

@@ -47,7 +47,7 @@ def test_a_right_plan_has_no_warning() -> None:
 def test_a_value_that_the_command_never_said() -> None:
     plan = planned("Go to [30, 41] and come home.", THERE, HOME)
     assert "value-not-said" in kinds(plan)
-    assert text_of(plan, "value-not-said") == "t1 Transit: target_position is [30, 40], which the command does not say."
+    assert text_of(plan, "value-not-said") == "Task 1, Transit: target_position is [30, 40], which the command does not say."
 
 
 def test_a_skill_s_value_that_neither_command_nor_task_leads_to() -> None:
