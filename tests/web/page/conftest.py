@@ -32,7 +32,7 @@ from planner_ft.web.session import Session
 from planner_ft.web.settings import WebSettings
 from tests.report.test_browser import missing
 
-PATIENCE = 20
+PATIENCE = 60
 """Seconds after which what a test waits for does not come."""
 COMMAND = "Find the green buoy, circle it at 12 m with video, survey depths over 20 by 20 m at [60, -30] with lanes every 10 m, come home."
 Step = dict[str, Any]
