@@ -5,7 +5,10 @@ from __future__ import annotations
 import copy
 from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
+from functools import cache
 from typing import Any
+
+import jsonschema
 
 from planner_ft.document.digest import altered
 from planner_ft.document.files import PlanDocument
@@ -14,11 +17,14 @@ from planner_ft.document.revise import revise
 from planner_ft.document.reword import reword
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
+from planner_ft.vocabulary.document_schema import task_schema
 from planner_ft.vocabulary.plans import canonical_value, plan_problems, step_skills, value_problem
 
 Edit = dict[str, Any]
 """{"kind": one of KINDS, ...}: what to change."""
 LONGEST_PROMPT = 4000
+LONGEST_SHOWN = 120
+"""Characters of a value that a sentence repeats."""
 MOST_TASKS = 1000
 
 
@@ -55,9 +61,12 @@ def _record(edit: Edit, by: str | None) -> dict[str, Any]:
 def _applied(document: PlanDocument, record: dict[str, Any], vocabulary: Vocabulary) -> PlanDocument:
     edit = copy.deepcopy(record["edit"])
     kind = edit.get("kind") if isinstance(edit, dict) else None
-    if kind not in KINDS:
-        raise PlannerError(f"edit {kind!r}: is not known; there is {', '.join(KINDS)}")
+    if not isinstance(kind, str) or kind not in KINDS:
+        raise PlannerError(f"edit {_short(repr(kind))}: is not known; there is {', '.join(KINDS)}")
     keys, change = KINDS[kind]
+    unknown = [key for key in edit if key not in ("kind", *keys, *OPTIONAL.get(kind, ()))]
+    if unknown:
+        raise PlannerError(f"edit {kind}: has no {_short(unknown[0])}; leave it out")
     for key, (types, what) in keys.items():
         if key not in edit or not isinstance(edit[key], types) or isinstance(edit[key], bool):
             raise PlannerError(f"edit {kind}: {key} must be {what}")
@@ -76,7 +85,7 @@ def _locate(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
     found = tasks_at(name, document["tasks"], vocabulary)
     if not found:
         known = [*(place.name for place in places_of(document["tasks"], vocabulary)), *document["located"]]
-        raise PlannerError(f"{name}: no such place is open; there is {', '.join(known) or 'none'}")
+        raise PlannerError(f"{_short(name)}: no such place is open; there is {', '.join(known) or 'none'}")
     for task, parameter in found:
         task["parameters"][parameter] = position
         task["located"] = {**task.get("located", {}), parameter: name}
@@ -122,7 +131,7 @@ def _move(document: PlanDocument, edit: Edit, _vocabulary: Vocabulary) -> None:
 def _insert(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
     title = edit["title"]
     if title not in vocabulary.task:
-        raise PlannerError(f"{title}: is no task of this vehicle; there is {', '.join(vocabulary.task)}")
+        raise PlannerError(f"{_short(title)}: is no task of this vehicle; there is {', '.join(vocabulary.task)}")
     if len(document["tasks"]) >= MOST_TASKS:
         raise PlannerError(f"insert {title}: the plan has {MOST_TASKS} tasks, and no more fit; plan two missions")
     given = edit.get("parameters", {})
@@ -145,8 +154,11 @@ def _skills(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
     task["skill_sequence"] = copy.deepcopy(edit["skill_sequence"])
     for key in ("stale", "assumptions", "problems", "output"):
         task.pop(key, None)
-    if edit.get("assumptions"):
-        task["assumptions"] = list(edit["assumptions"])
+    assumptions = edit.get("assumptions", [])
+    if not isinstance(assumptions, list) or not all(isinstance(text, str) for text in assumptions):
+        raise PlannerError("edit skills: assumptions must be a list of texts")
+    if assumptions:
+        task["assumptions"] = assumptions
 
 
 def _skill(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
@@ -171,7 +183,13 @@ def _skill(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
 
 def _replace(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
     for task in edit["tasks"]:
-        _check(task, vocabulary)
+        if isinstance(task, dict) and {"id", "title", "parameters", "task_prompt"} <= task.keys():
+            _check(task, vocabulary)
+        found = jsonschema.exceptions.best_match(_task_validator(vocabulary).iter_errors(task))
+        if found is not None:
+            raise PlannerError(f"edit replace: {_short(found.message)}")
+    if len({task["id"] for task in edit["tasks"]}) < len(edit["tasks"]):
+        raise PlannerError("edit replace: two tasks have one id; give every task its own")
     document["tasks"] = copy.deepcopy(edit["tasks"])
     _forget_places(document)
 
@@ -191,6 +209,8 @@ KINDS: dict[str, tuple[Mapping[str, tuple[type, str]], Callable[[PlanDocument, E
     "skill": ({**TASK, "step": WHOLE, "role": TEXT, "index": WHOLE, "name": TEXT}, _skill),
 }
 """Per kind of edit the keys that it needs, and what makes it."""
+OPTIONAL = {"parameter": ("value",), "insert": ("parameters", "task_prompt", "id"), "skills": ("assumptions",), "skill": ("value",)}
+"""Keys that an edit may have besides; the id of an inserted task is always given anew."""
 
 
 # ---------------------------------------------------------------- parts
@@ -201,19 +221,19 @@ def _task(document: PlanDocument, edit: Edit) -> dict[str, Any]:
         if task["id"] == edit["task"]:
             found: dict[str, Any] = task
             return found
-    raise PlannerError(f"task {edit['task']}: is not in the plan; there is {', '.join(task['id'] for task in document['tasks']) or 'none'}")
+    raise PlannerError(f"task {_short(edit['task'])}: is not in the plan; there is {', '.join(task['id'] for task in document['tasks']) or 'none'}")
 
 
 def _known(owner: Task | Skill, title: str, name: str) -> Parameter:
     if name not in owner.by_name:
-        raise PlannerError(f"{name}: is no parameter of {title}; there is {', '.join(owner.by_name) or 'none'}")
+        raise PlannerError(f"{_short(name)}: is no parameter of {title}; there is {', '.join(owner.by_name) or 'none'}")
     return owner.by_name[name]
 
 
 def _value(value: Any, parameter: Parameter, name: str) -> Any:
     problem = value_problem(value, parameter)
     if problem:
-        raise PlannerError(f"{name}: {problem}{f' ({parameter.unit})' if parameter.unit else ''}")
+        raise PlannerError(f"{name}: {_short(problem)}{f' ({parameter.unit})' if parameter.unit else ''}")
     return canonical_value(value)
 
 
@@ -221,6 +241,15 @@ def _prompt_text(text: Any) -> str:
     if not isinstance(text, str) or len(text) > LONGEST_PROMPT:
         raise PlannerError(f"the task prompt must be a text of at most {LONGEST_PROMPT} characters")
     return text.strip()
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]} ..."
+
+
+@cache
+def _task_validator(vocabulary: Vocabulary) -> Any:
+    return jsonschema.Draft202012Validator(task_schema(vocabulary))
 
 
 def _index(index: int, count: int) -> int:

@@ -112,7 +112,7 @@ class _Pen:
 
     def __init__(self, vocabulary: Vocabulary, vehicle: Mapping[str, Any]) -> None:
         self.vocabulary = vocabulary
-        self.cruise_speed, self.turn_rate = vehicle.get("cruise_speed"), vehicle.get("turn_rate")
+        self.cruise_speed, self.turn_rate, self.orbit_angle = (vehicle.get(name) for name in ("cruise_speed", "turn_rate", "orbit_angle"))
         self.here: Point | None = vocabulary.home
         self.heading = 0.0
         self.legs: list[Leg] = []
@@ -171,8 +171,13 @@ class _Pen:
         self.here = goal
 
     def _arc(self, task: Mapping[str, Any], step: int, skill: str, motion: Motion, given: Mapping[str, Any]) -> None:
-        """A circle around the task's centre, to which the vehicle first goes straight; without a centre, a curve from where it heads."""
+        """A circle around the task's centre, to which the vehicle first goes straight; without a centre, a curve from where it heads.
+
+        How far round a centre is the vehicle's own affair where the skill does not say.
+        """
         radius, angle = motion.value("radius", given), motion.value("angle", given)
+        if angle is None and self._center is not None:
+            angle = self.orbit_angle
         if self.here is None or radius is None or angle is None:
             self._leave_open(task)
             return

@@ -13,24 +13,36 @@ from planner_ft.support.files import read_text
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import VEHICLE
 
-AMOUNTS = {"cruise_speed": "m/s", "endurance": "s", "turn_rate": "degrees per second"}
+AMOUNTS = {"cruise_speed": "m/s", "endurance": "s", "turn_rate": "degrees per second", "orbit_angle": "degrees"}
 LARGEST = 1e9
+FULL_CIRCLE = 360
 
 
 @dataclass(frozen=True)
 class Vehicle:
-    """`cruise_speed` in m/s, `endurance` in seconds, `turn_rate` in degrees per second, `area` in local metres (None: anywhere)."""
+    """`cruise_speed` in m/s, `endurance` in seconds, `turn_rate` in degrees per second, `area` in local metres (None: anywhere).
+
+    `orbit_angle` (degrees) is how far the vehicle goes round a target when nobody says how far.
+    """
 
     name: str
     cruise_speed: float
     endurance: float
     turn_rate: float
+    orbit_angle: float
     area: tuple[tuple[float, float], ...] | None = None
 
     def as_json(self) -> dict[str, Any]:
         """The profile as it stands in a plan document."""
         area = None if self.area is None else [list(corner) for corner in self.area]
-        return {"name": self.name, "cruise_speed": self.cruise_speed, "endurance": self.endurance, "turn_rate": self.turn_rate, "area": area}
+        return {
+            "name": self.name,
+            "cruise_speed": self.cruise_speed,
+            "endurance": self.endurance,
+            "turn_rate": self.turn_rate,
+            "orbit_angle": self.orbit_angle,
+            "area": area,
+        }
 
 
 def load_vehicle(path: Path | str | None, vocabulary: Vocabulary) -> Vehicle:
@@ -64,6 +76,7 @@ def check_area(corners: Any) -> tuple[tuple[float, float], ...]:
 
 
 def _built(raw: dict[str, Any], where: str) -> Vehicle:
+    raw = {"orbit_angle": FULL_CIRCLE, **raw}
     unknown = [key for key in raw if key not in ("name", *AMOUNTS, "area")]
     if unknown:
         raise PlannerError(f"{where}: unknown key {unknown[0]!r}; there is name, {', '.join(AMOUNTS)}, area")
@@ -76,7 +89,7 @@ def _built(raw: dict[str, Any], where: str) -> Vehicle:
         area = None if raw.get("area") is None else check_area(raw["area"])
     except PlannerError as error:
         raise PlannerError(f"{where}: {error}") from None
-    return Vehicle(raw["name"].strip(), raw["cruise_speed"], raw["endurance"], raw["turn_rate"], area)
+    return Vehicle(raw["name"].strip(), raw["cruise_speed"], raw["endurance"], raw["turn_rate"], raw["orbit_angle"], area)
 
 
 def _is_number(value: Any) -> bool:

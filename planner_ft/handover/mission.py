@@ -201,7 +201,12 @@ class _Writer:
         for point in leg.points[1:]:
             self._waypoint(point)
         self.heading = bearing(*leg.points[-2:])
-        self._carry(at, motion, given, ("radius", "angle"), f"as {len(leg.points) - 1} waypoints along the arc")
+        own = (
+            ""
+            if motion.value("angle", given) is not None
+            else f"; the plan says no angle, {self.document['vehicle']['orbit_angle']:g} degrees are the vehicle's own"
+        )
+        self._carry(at, motion, given, ("radius", "angle"), f"as {len(leg.points) - 1} waypoints along the arc{own}")
 
     def _step_hold(self, at: Path, motion: Motion, given: dict[str, Any], leg: Leg) -> None:
         """Hold where the step begins (degrees of 0: where the vehicle is)."""

@@ -76,7 +76,9 @@ def _arc(leg: Leg | None, given: Mapping[str, Any], speed: float) -> Move | None
     if leg is None:
         return None
     form = f"as {len(leg.points) - 1} waypoints on the circle"
-    if abs(given["angle"]) > DRAWN:
+    if "angle" not in given:
+        form += ", as far round as the vehicle's profile says: the plan says no angle"
+    elif abs(given["angle"]) > DRAWN:
         form += f", which end after {number(DRAWN)} degrees"
     return Move((_waypoints(leg.points[1:], speed),), forms={"radius": form, "angle": form})
 

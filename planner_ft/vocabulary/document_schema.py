@@ -55,6 +55,11 @@ def document_schema(vocabulary: Vocabulary) -> Schema:
     }
 
 
+def task_schema(vocabulary: Vocabulary) -> Schema:
+    """The schema of one task as it is proposed or edited: without the sources of its values."""
+    return {**_task(vocabulary, derived=False), "$defs": {"step": step_schema(vocabulary, strict=True)}}
+
+
 def _task(vocabulary: Vocabulary, *, derived: bool) -> Schema:
     return {"anyOf": [_one_task(task, derived=derived) for task in vocabulary.tasks]}
 
@@ -98,7 +103,8 @@ def _warning() -> Schema:
 def _vehicle() -> Schema:
     area = {"anyOf": [NULL, {"type": "array", "items": POSITION, "minItems": 3}]}
     positive: Schema = {"type": "number", "exclusiveMinimum": 0}
-    return object_schema({"name": NON_BLANK, "cruise_speed": positive, "endurance": positive, "turn_rate": positive, "area": area}, strict=True)
+    amounts = dict.fromkeys(("cruise_speed", "endurance", "turn_rate", "orbit_angle"), positive)
+    return object_schema({"name": NON_BLANK, **amounts, "area": area}, strict=True)
 
 
 def _estimate() -> Schema:

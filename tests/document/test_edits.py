@@ -83,6 +83,12 @@ def test_a_skill_can_be_set(plan: PlanDocument) -> None:
     ("edit", "sentence"),
     [
         ({"kind": "fly"}, "edit 'fly': is not known"),
+        ({"kind": []}, "edit []: is not known"),
+        ({"kind": "remove", "task": "t1", "note": "x"}, "edit remove: has no note"),
+        ({"kind": "remove", "task": "x" * 9000}, "x ...: is not in the plan"),
+        ({"kind": "replace", "tasks": [{"title": "Fly"}]}, "edit replace: "),
+        ({"kind": "replace", "tasks": [7]}, "edit replace: 7 is not"),
+        ({"kind": "skills", "task": "t1", "skill_sequence": [], "assumptions": [3]}, "assumptions must be a list of texts"),
         ({"kind": "remove", "task": "t9"}, "task t9: is not in the plan; there is t1, t2"),
         ({"kind": "remove"}, "edit remove: task must be the id of a task"),
         ({"kind": "move", "task": "t1", "to": 9}, "place 10: the plan has places 1 to 5"),

@@ -69,7 +69,7 @@ def document(
     ]
     plan = {
         "command": command, "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
-        "vehicle": {"name": "boat", "cruise_speed": 1.5, "endurance": 7200, "turn_rate": 20, "area": area}, "tasks": entries,
+        "vehicle": {"name": "boat", "cruise_speed": 1.5, "endurance": 7200, "turn_rate": 20, "orbit_angle": 360, "area": area}, "tasks": entries,
         "assumptions": list(assumptions), "constraints": list(constraints), "located": {},
         "open_places": [{"name": place.name, "tasks": list(place.tasks)} for place in places],
         "warnings": [{"id": f"w{n}", "kind": "odd", "task": where, "parameter": None, "text": text} for n, (where, text) in enumerate(warnings)],
