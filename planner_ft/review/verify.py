@@ -71,10 +71,13 @@ def _altered(document: PlanDocument, digest: str, other: Record | None, log: Pat
 
 
 def _relative(document: PlanDocument, records: Sequence[Record]) -> Record | None:
-    """The last approval of what this plan was: of its digest, else of the same proposal, else of the same command."""
+    """The last approval of what this plan was: of its digest, else of the same proposal, else of the same command in the same run.
+
+    A command that is planned again makes another plan: nobody altered the first.
+    """
     approved = [record for record in reversed(records) if record["event"] == "approved"]
-    for key in ("digest", "proposed", "command"):
+    for keys in (("digest",), ("proposed", "manifest"), ("command", "manifest")):
         for record in approved:
-            if key in document and record["plan"].get(key) == document[key]:
+            if all(key in document and record["plan"].get(key) == document[key] for key in keys):
                 return record
     return None

@@ -32,27 +32,35 @@ def task_keys() -> tuple[str, ...]:
 
 def document_schema(vocabulary: Vocabulary) -> Schema:
     """The schema of what `plannerft plan` writes: a command with its tasks and skills, where each value is from, and what a reviewer must know."""
+    schema = _document(_task(vocabulary, derived=True), _task(vocabulary, derived=False))
+    shared = {"step": step_schema(vocabulary, strict=True), "source": _source()}
+    return {"$schema": DRAFT, "title": f"plan of the {vocabulary.title}", **schema, "$defs": shared}
+
+
+def frame_schema() -> Schema:
+    """The schema of a document but for what the vocabulary says of tasks and skills: titles, parameters and steps are of any kind."""
+    anything: Schema = {"type": "object"}
+    steps = {"anyOf": [NULL, _array(anything)]}
+    tasks = [_framed(NON_BLANK, anything, steps, derived=derived) for derived in (True, False)]
+    return {"$schema": DRAFT, **_document(*tasks), "$defs": {"source": _source()}}
+
+
+def _document(task: Schema, proposed_task: Schema) -> Schema:
     place = object_schema({"name": NON_BLANK, "tasks": {"type": "array", "items": {"type": "integer", "minimum": 1}, "minItems": 1}}, strict=True)
     located: Schema = {"type": "object", "additionalProperties": POSITION}
-    proposed = {"tasks": _array(_task(vocabulary, derived=False)), "assumptions": TEXTS, "constraints": TEXTS, "located": located}
+    proposed = {"tasks": _array(proposed_task), "assumptions": TEXTS, "constraints": TEXTS, "located": located}
     edit = object_schema({"time": {"type": "string"}, "by": {"type": ["string", "null"]}, "edit": {"type": "object", "required": ["kind"]}}, strict=True)
     named = object_schema({"name": NON_BLANK, "sha256": DIGEST}, strict=True)
     kinds: dict[str, Schema] = {
         "format": {"const": FORMAT}, "version": {"const": VERSION}, "command": NON_BLANK, "vocabulary": named, "vehicle": _vehicle(), "ontology": _ontology(),
-        "valid": {"type": "boolean"}, "complete": {"type": "boolean"}, "warnings": _array(_warning()), "tasks": _array(_task(vocabulary, derived=True)),
+        "valid": {"type": "boolean"}, "complete": {"type": "boolean"}, "warnings": _array(_warning()), "tasks": _array(task),
         "assumptions": TEXTS, "constraints": TEXTS, "open_places": _array(place), "located": located, **PROBLEMS, "estimate": _estimate(),
         "edits": _array(edit), "proposed": object_schema(proposed, strict=True),
         "usage": object_schema({"mission": _use(), "task": _use()}, strict=True, required=["mission"]),
         "peak_memory_bytes": COUNT, "manifest": {key: value for key, value in manifest_schema().items() if key != "$schema"}, "digest": DIGEST,
     }  # fmt: skip
     properties = {name: kinds[name] for name in document_keys()}
-    schema = object_schema(properties, strict=True, required=[name for name in properties if name not in PROBLEMS])
-    return {
-        "$schema": DRAFT,
-        "title": f"plan of the {vocabulary.title}",
-        **schema,
-        "$defs": {"step": step_schema(vocabulary, strict=True), "source": _source()},
-    }
+    return object_schema(properties, strict=True, required=[name for name in properties if name not in PROBLEMS])
 
 
 def task_schema(vocabulary: Vocabulary) -> Schema:
@@ -65,14 +73,11 @@ def _task(vocabulary: Vocabulary, *, derived: bool) -> Schema:
 
 
 def _one_task(task: Task, *, derived: bool) -> Schema:
-    sequence = {"anyOf": [NULL, _array({"$ref": "#/$defs/step"})]}
-    always = {
-        "id": NON_BLANK,
-        "title": {"const": task.title},
-        "parameters": parameters_schema(task),
-        "task_prompt": {"type": "string"},
-        "skill_sequence": sequence,
-    }
+    return _framed({"const": task.title}, parameters_schema(task), {"anyOf": [NULL, _array({"$ref": "#/$defs/step"})]}, derived=derived)
+
+
+def _framed(title: Schema, parameters: Schema, skills: Schema, *, derived: bool) -> Schema:
+    always = {"id": NON_BLANK, "title": title, "parameters": parameters, "task_prompt": {"type": "string"}, "skill_sequence": skills}
     sources = {"type": "object", "additionalProperties": {"$ref": "#/$defs/source"}}
     then = {
         "stale": {"const": True},

@@ -8,12 +8,15 @@ import json
 from pathlib import Path
 from typing import Any
 
+import jsonschema
 import pytest
 import rfc8785
 
 from planner_ft.document import PlanDocument, altered, apply, differences, document_digest, read_document, write_document
+from planner_ft.document.files import document_problem
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.document_schema import document_schema
 
 from ..documents import DRONE, USV, document, step, task
 
@@ -69,6 +72,45 @@ def test_what_is_no_whole_plan_is_named_in_one_sentence(plan: PlanDocument, tmp_
     with pytest.raises(PlannerError) as caught:
         read_document(path)
     assert str(path) in str(caught.value) and sentence in str(caught.value) and "\n" not in str(caught.value)
+
+
+BREAKS: list[tuple[str, Any]] = [
+    ("id", 3),
+    ("id", None),
+    ("title", "Fly"),
+    ("title", 3),
+    ("parameters", {}),
+    ("parameters", {"target_position": [1]}),
+    ("parameters", {"target_position": [1, "2"]}),
+    ("parameters", {"target_position": [1, 2], "speed": 1}),
+    ("parameters", []),
+    ("task_prompt", 5),
+    ("skill_sequence", 3),
+    ("skill_sequence", [3]),
+    ("skill_sequence", [{}]),
+    ("skill_sequence", None),
+    ("skill_sequence", []),
+    ("skill_sequence", [step("Fly")]),
+    ("skill_sequence", [step("GoToXY", {"x": 1})]),
+    ("skill_sequence", [step("DetectObjects")]),
+    ("skill_sequence", [{**step("StationKeep"), "more": 1}]),
+    ("skill_sequence", [{**step("StationKeep"), "stop_conditions": [1]}]),
+    ("stale", True),
+    ("stale", False),
+    ("sources", {"target_position": {"kind": "guess"}}),
+    ("sources", {"target_position": {"kind": "command", "spans": [[0]]}}),
+    ("located", {"target_position": ""}),
+    ("note", 1),
+]
+
+
+@pytest.mark.parametrize(("key", "value"), BREAKS)
+@pytest.mark.parametrize("proposed", [False, True])
+def test_reading_accepts_what_the_published_schema_accepts(plan: PlanDocument, key: str, value: Any, proposed: bool) -> None:
+    changed = copy.deepcopy(plan)
+    (changed["proposed"] if proposed else changed)["tasks"][0][key] = value
+    by_schema = jsonschema.Draft202012Validator(document_schema(USV)).is_valid(changed)
+    assert (document_problem(changed, USV) is None) == by_schema
 
 
 def test_a_plan_of_another_vehicle_is_read_with_its_own_vocabulary(tmp_path: Path) -> None:
