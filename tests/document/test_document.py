@@ -17,8 +17,7 @@ from planner_ft.document.files import document_problem
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.document_schema import document_schema
-
-from ..documents import DRONE, USV, document, step, task
+from tests.documents import DRONE, USV, document, step, task
 
 
 @pytest.fixture(scope="module")

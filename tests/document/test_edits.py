@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from planner_ft.document import PlanDocument, adopt, altered, apply, differences, undo
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.document_schema import document_schema
-
-from ..documents import USV, document, step, task
+from tests.documents import USV, document, step, task
 
 SCHEMA = jsonschema.Draft202012Validator(document_schema(USV))
 COMMAND = "Find the green buoy, circle it at 12 m, hold for a minute, come home."

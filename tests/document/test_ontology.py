@@ -10,8 +10,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.definition import BUNDLED
-
-from ..documents import DRONE, USV
+from tests.documents import DRONE, USV
 
 
 def elements(command: str) -> dict[str, list[str]]:

@@ -7,8 +7,7 @@ import pytest
 from planner_ft.data import stated
 from planner_ft.document.said import pieces, read_command
 from planner_ft.vocabulary import Parameter
-
-from ..documents import USV
+from tests.documents import USV
 
 METRES, TEXT, PLACE = Parameter("radius", "number", "m"), Parameter("what", "text"), Parameter("where", "position", "m")
 FILLER = "Look at the old pier and its ladder. "

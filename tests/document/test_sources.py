@@ -7,8 +7,7 @@ from typing import Any
 import pytest
 
 from planner_ft.document import PlanDocument, apply
-
-from ..documents import DRONE, USV, document, task
+from tests.documents import DRONE, USV, document, task
 
 
 def source(command: str, title: str, parameters: dict[str, Any], name: str) -> dict[str, Any]:

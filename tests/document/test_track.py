@@ -10,8 +10,7 @@ import pytest
 
 from planner_ft.document.estimate import estimate
 from planner_ft.document.track import Track, track
-
-from ..documents import DRONE, USV, document, step, task
+from tests.documents import DRONE, USV, document, step, task
 
 
 def of(*tasks: dict[str, Any]) -> Track:

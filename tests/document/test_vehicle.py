@@ -11,8 +11,7 @@ from planner_ft.document.vehicle import check_area, load_vehicle
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.definition import BUNDLED
-
-from ..documents import DRONE, USV, document, step, task
+from tests.documents import DRONE, USV, document, step, task
 
 
 def test_the_bundled_profile_stands_beside_the_definition() -> None:

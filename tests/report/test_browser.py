@@ -5,14 +5,13 @@ Skipped where there is no chromium, chromedriver or selenium; PLANNERFT_REQUIRE_
 
 from __future__ import annotations
 
-import os
-import shutil
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
 
 from planner_ft.report.write import write_report
+from tests.browser import headless_chromium
 from tests.report.conftest import ANSWERS, HOSTILE, write_data, write_run
 
 pytestmark = pytest.mark.browser
@@ -37,15 +36,6 @@ return found;
 """
 
 
-def missing() -> str | None:
-    try:
-        import selenium  # noqa: F401
-    except ImportError:
-        return "selenium is not installed (the extra `browser`)"
-    absent = [name for name in ("chromium", "chromedriver") if shutil.which(name) is None]
-    return f"{' and '.join(absent)} not found (Debian: apt-get install chromium chromium-driver)" if absent else None
-
-
 @pytest.fixture(scope="module")
 def report(tmp_path_factory: pytest.TempPathFactory) -> str:
     folder = tmp_path_factory.mktemp("browser")
@@ -56,22 +46,7 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> str:
 @pytest.fixture(scope="module")
 def chromium() -> Iterator[Any]:
     """One browser for all tests; it may not reach any host."""
-    reason = missing()
-    if reason and os.environ.get("PLANNERFT_REQUIRE_BROWSER") == "1":
-        pytest.fail(reason)
-    if reason:
-        pytest.skip(reason)
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
-
-    options = webdriver.ChromeOptions()
-    options.binary_location = str(shutil.which("chromium"))
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--host-resolver-rules=MAP * ~NOTFOUND"):
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
-    yield driver
-    driver.quit()
+    yield from headless_chromium()
 
 
 @pytest.fixture

@@ -6,9 +6,7 @@ Skipped where there is no chromium, chromedriver or selenium; PLANNERFT_REQUIRE_
 from __future__ import annotations
 
 import json
-import os
 import queue
-import shutil
 import socket
 import threading
 from collections.abc import Callable, Iterator
@@ -30,7 +28,7 @@ from planner_ft.web.guard import Door
 from planner_ft.web.planning import Planning
 from planner_ft.web.session import Session
 from planner_ft.web.settings import WebSettings
-from tests.report.test_browser import missing
+from tests.browser import headless_chromium
 
 PATIENCE = 60
 """Seconds after which what a test waits for does not come."""
@@ -157,23 +155,7 @@ def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[
 @pytest.fixture(scope="module")
 def chromium() -> Iterator[Any]:
     """One browser for the tests of a module; it may not reach any host but this machine's."""
-    reason = missing()
-    if reason and os.environ.get("PLANNERFT_REQUIRE_BROWSER") == "1":
-        pytest.fail(reason)
-    if reason:
-        pytest.skip(reason)
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
-
-    options = webdriver.ChromeOptions()
-    options.binary_location = str(shutil.which("chromium"))
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"):
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
-    driver.set_script_timeout(PATIENCE)
-    yield driver
-    driver.quit()
+    yield from headless_chromium("127.0.0.1")
 
 
 class Page:
