@@ -118,9 +118,21 @@ def test_the_command_prints_what_is_lost(plan: Path, monkeypatch: pytest.MonkeyP
     assert "  changed  t2: ArcTurn (step 1)" in shown
 
 
+@pytest.mark.parametrize("name", ["qgc", "moos"])
+def test_a_circle_without_an_angle_is_the_vehicles_own_and_said_to_be(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "plan.json"
+    orbit = task("PerformOrbit", {"center": [120, -35], "radius": 25}, [step("ArcTurn", {"radius": 25})])
+    write_document(path, built([MAST[0], orbit, MAST[3]]))
+    assert run(monkeypatch, path, "--format", name, "--origin", "1,1", "--draft") == 0
+    shown = capsys.readouterr().out
+    assert "MOVEMENTS LOST" not in shown and "the plan says no angle" in shown
+
+
 def test_a_movement_that_is_lost_stands_in_the_first_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "plan.json"
-    lost = task("PerformOrbit", {"center": [120, -35], "radius": 25}, [step("ArcTurn", {"radius": 25})])
+    lost = task("PerformOrbit", {"center": [120, -35], "radius": 25}, [step("ArcTurn")])
     write_document(path, built([MAST[0], lost, lost, MAST[3]]))
     assert run(monkeypatch, path, "--format", "qgc", "--origin", "1,1", "--draft") == 0
     assert "; MOVEMENTS LOST in tasks 2-3 (report: " in capsys.readouterr().out.splitlines()[0]

@@ -43,7 +43,7 @@ HOME = re.compile(r"\b(?:home|base|start\w*)\b", re.IGNORECASE)
 AREA = re.compile(r"\b(?:depths?|bathymetr\w+|sounding\w*|seabed|sea floor|bottom|grid|lawn-?mower|lines|lanes)\b", re.IGNORECASE)
 OTHERWISE = re.compile(
     r"\b(?:clock-?wise|counter\w*|anti\w*|corners?|sides?|mid-?\w*|half|edge|turn\w*|rotat\w*|arc|north\w*|south\w*|east\w*|west\w*|zig\w*|spiral\w*|twice|times|"
-    r"points?|waypoints?|steps?|legs?|stop\w*|hold\w*|stay\w*|wait\w*|before|face|facing|passes|between|while|and)\b",
+    r"start\w*|begin\w*|points?|waypoints?|steps?|legs?|stop\w*|hold\w*|stay\w*|wait\w*|before|face|facing|passes|between|while|and)\b",
     re.IGNORECASE,
 )
 """Words that a movement other than the plain one may be meant with."""
