@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.document import PlanDocument, apply, document_digest
+from planner_ft.document import PlanDocument, apply, document_digest, revise
 from planner_ft.review import approval_of, approve, log_beside, read_log, reject
 from planner_ft.review.approval import UnacknowledgedError
 from planner_ft.support.errors import PlannerError
@@ -126,6 +126,12 @@ def test_a_plan_of_another_command_is_unknown(document: PlanDocument, log: Path)
     approve(document, log, "Ann", ["all"])
     other = sealed(document, command="Sink.", proposed={**document["proposed"], "constraints": ["other"]})
     assert approval_of(other, log).status == "unknown"
+
+
+def test_a_command_that_is_planned_again_is_another_plan(document: PlanDocument, log: Path, usv: Vocabulary) -> None:
+    approve(document, log, "Ada", ["all"])
+    again = revise({**document, "manifest": {**document["manifest"], "created": "2026-01-01T00:00:00+00:00"}}, usv)
+    assert again["command"] == document["command"] and approval_of(again, log).status == "unknown"
 
 
 def test_a_rejected_plan_that_was_altered_is_not_compared_with_the_rejection(document: PlanDocument, log: Path) -> None:
