@@ -149,7 +149,7 @@ class Source:
         """Stated places, waypoints of the paths that follow from the facts, and points a stated way off one of them in a stated direction."""
         ground = self._ground
         off = (g.offset(base, bearing, length) for base in ground.places for bearing in ground.bearings for length in ground.lengths)
-        return frozenset(itertools.chain(ground.places, off, *ground.paths))
+        return frozenset(itertools.chain(ground.places, off, ground.itinerary or (), *ground.paths))
 
 
 def source_of(level: Level, record: dict[str, Any], vocabulary: Vocabulary) -> Source:

@@ -7,6 +7,7 @@ length that the task does not have is no such sentence.
 
 from __future__ import annotations
 
+import math
 import re
 from typing import Any
 
@@ -91,11 +92,14 @@ def _path(text: str, parameters: dict[str, Any], own: Point, task: Task) -> Path
 
 
 def _grid(parameters: dict[str, Any], own: Point) -> Path | None:
+    """The lanes of a grid; where the spacing does not divide the width, as many as fit, from the south-west corner on."""
     width, length, spacing = (_number(parameters, name) for name in ("width", "length", "spacing"))
     if not width or not length or not spacing:
         return None
-    lanes = g.lane_count(width, spacing)
-    return tuple(g.lawnmower(own, width, length, spacing)) if lanes is not None and 2 <= lanes <= w.MOST_LANES else None
+    across = math.floor(width / spacing + 1e-9) * spacing
+    if not 2 <= round(across / spacing) + 1 <= w.MOST_LANES:
+        return None
+    return tuple(g.lawnmower((own[0] - (width - across) / 2, own[1]), across, length, spacing))
 
 
 def _number(parameters: dict[str, Any], name: str) -> float | None:

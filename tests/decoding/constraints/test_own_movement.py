@@ -30,6 +30,12 @@ def test_a_grid_a_square_and_a_track_are_those_of_the_parameters() -> None:
     assert read("SubseaCableTrack", track, (0, 10), start=[0, 10], heading=90, max_dist=50) == ((0, 10), (50, 10))
 
 
+def test_a_grid_whose_spacing_does_not_divide_its_width_has_the_lanes_that_fit() -> None:
+    grid = {"center": [0, 0], "width": 40, "length": 30, "spacing": 12}
+    lanes = read("BathymetryGridSurvey", "Survey the depths around [0, 0] over 40 m by 30 m with lines 12 m apart.", (0, 0), **grid)
+    assert lanes is not None and [x for x, _y in lanes] == [-20, -20, -8, -8, 4, 4, 16, 16] and lanes[0] == (-20, -15)
+
+
 def test_a_place_that_was_found_is_gone_to() -> None:
     assert read("Transit", "Go to the barge once it has been found.", (7, -3), target_position=[7, -3]) == ((7, -3),)
     assert read("Transit", "Return home to [0, 0].", (0, 0), target_position=[0, 0]) == ((0, 0),)
@@ -46,7 +52,7 @@ def test_what_is_performed_on_site_has_no_waypoint(prompt: str) -> None:
 @pytest.mark.parametrize(
     "prompt",
     [
-        "Survey the depths around [40, 20] over 20 m by 30 m with lines 12 m apart.",
+        "Survey the depths around [40, 20] over 20 m by 30 m with lines 11 m apart.",
         "Survey the depths around [41, 20] over 20 m by 30 m with lines 10 m apart.",
         "Survey the depths around [40, 20] over 20 m by 30 m with lines 10 m apart, lanes east-west.",
         "Survey the depths around [40, 20] with lines 10 m apart. Then go to [5, 5].",
