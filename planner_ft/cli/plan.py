@@ -74,6 +74,7 @@ def plan(
 def _plan(command: str, locate: list[str], out: Path | None, overwrite: bool, vehicle: Path | None, named: dict[str, Any]) -> PlanDocument:
     """Check what was said, then plan."""
     from planner_ft.document import build
+    from planner_ft.document.ontology import check
     from planner_ft.document.vehicle import load_vehicle
     from planner_ft.planning.locations import parse_locations
     from planner_ft.planning.planner import Planner, check_command, new_file, read_command
@@ -85,6 +86,8 @@ def _plan(command: str, locate: list[str], out: Path | None, overwrite: bool, ve
     text = check_command(read_command(sys.stdin.buffer) if command == "-" else command)
     with interruptible(None) as report, Patient(report) as patient, Planner(PlanSettings(**named), patient) as planner:
         profile = load_vehicle(vehicle, planner.vocabulary)
+        for question in check(text, planner.vocabulary)["questions"]:
+            typer.echo(f"the command does not say: {question}", err=True)
         return build(planner.plan(text, locations), planner.vocabulary, profile)
 
 

@@ -27,7 +27,6 @@ def _lines(document: PlanDocument) -> Iterator[str]:
     yield from _list_lines("Constraints", document["constraints"])
     open_places = [f"{place['name']}: task{'s' if len(place['tasks']) > 1 else ''} {_numbers(place['tasks'])}" for place in document["open_places"]]
     yield from _list_lines('Open places (fill in with --locate "NAME=x,y")', open_places)
-    yield from _list_lines("The command does not say", document["ontology"]["questions"])
     yield from _list_lines("Warnings", [warning["text"] for warning in document["warnings"]])
     yield ""
     for agent, use in document["usage"].items():

@@ -50,6 +50,7 @@ def test_a_command_becomes_a_tree(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     assert "    1. GoToXY(x=30, y=-12)" in shown.out
     assert "Mission Agent  embedded base+schema, no adapter: 1 answer, " in shown.out and "\npeak memory " in shown.out
     assert list(tmp_path.iterdir()) == []
+    assert shown.err.startswith("the command does not say: Which sensor"), "what is missing is asked before anything is planned"
 
 
 def test_an_adapter_that_lies_here_is_used_and_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
