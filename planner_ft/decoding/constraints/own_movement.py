@@ -36,7 +36,7 @@ ON_SITE = re.compile(
     re.IGNORECASE,
 )
 """Verbs of what is performed where the vehicle was brought before."""
-ONWARD = re.compile(r"\b(?:then|before|afterwards|next|finally|go|going|proceed\w*|return\w*|home|(?:to|from|towards|via|way) [\[(])", re.IGNORECASE)
+ONWARD = re.compile(r"\b(?:(?:then|before|afterwards|next|finally|go|going|proceed\w*|return\w*|home)\b|(?:to|from|towards|via|way) [\[(])", re.IGNORECASE)
 """Words of another movement beside that."""
 NAME = re.compile(r"\b[A-Z]+\d*-\d+(?:-\d+)?\b")
 """A name with numbers ("buoy J92-6"), which is no place."""
@@ -56,7 +56,9 @@ def own_movement(text: str, parameters: dict[str, Any], own: Point | None, task:
     places = _places(plain)
     if re.search(r"[.;:!?]\s", plain) or len(places) > 1:
         return None
-    bare = "".join(plain[:start] + " " * (end - start) + plain[end:] for _x, _y, start, end in places) or plain
+    bare = plain
+    for _x, _y, start, end in places:
+        bare = bare[:start] + " " * (end - start) + bare[end:]
     if task.arrival == "transit":
         return () if ON_SITE.match(bare) and not ONWARD.search(plain) and not any(stated_ways(bare, [])) else None
     beginning = BEGINNINGS.get(task.pattern)

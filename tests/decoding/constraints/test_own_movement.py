@@ -41,7 +41,7 @@ def test_a_place_that_was_found_is_gone_to() -> None:
     assert read("Transit", "Return home to [0, 0].", (0, 0), target_position=[0, 0]) == ((0, 0),)
 
 
-@pytest.mark.parametrize("prompt", ["Circle the mast at [12, 30] at a stand-off of 25 m.", "Orbit the mast."])
+@pytest.mark.parametrize("prompt", ["Circle the mast at [12, 30] at a stand-off of 25 m.", "Orbit the mast.", "Circle the barge Goedthorpe at [12, 30]."])
 def test_what_is_performed_on_site_has_no_waypoint(prompt: str) -> None:
     parameters = {"center": [12, 30], "radius": 25}
     assert read("PerformOrbit", prompt, (12, 30), **parameters) == ()
