@@ -21,7 +21,7 @@ from planner_ft.data.mission.synthetic.surface import Register, finished
 
 Record = dict[str, Any]
 
-COMPOSED_SHARE, TEMPLATE_SHARE = 0.32, 0.48
+COMPOSED_SHARE, TEMPLATE_SHARE = 0.10, 0.78
 """Shares of samples put together for their structure and of those drawn from commands written by hand; the others are composed of phrases."""
 EMPTY_SHARE = 0.07
 """Share of composed samples that lead to no task; some of the written ones do too."""
