@@ -86,12 +86,26 @@ def completion_loss(model: Any, body: Any, rows: Rows, rank: int = 0, world: int
     The sum over the ranks is the loss of the batch.
     """
     answers = int((rows.labels != IGNORE).sum())
-    labels = torch.from_numpy(rows.labels[rank::world]).flatten()
+    own = share_of(rows, rank, world)
+    labels = torch.from_numpy(own.labels).flatten()
     places = (labels != IGNORE).nonzero().squeeze(1)
     with torch.autocast("cpu", dtype=torch.bfloat16):
         # Padding stands on the right, where no token sees it: attention needs no mask but the causal one.
-        hidden = body(input_ids=torch.from_numpy(rows.input_ids[rank::world]), use_cache=False)[0]
+        hidden = body(input_ids=torch.from_numpy(own.input_ids), use_cache=False)[0]
     return summed_cross_entropy(hidden.flatten(0, 1)[places], model.lm_head.weight, labels[places]) / max(1, answers)
+
+
+def share_of(rows: Rows, rank: int, world: int) -> Rows:
+    """The rows of a batch that a rank computes, two at least: a row without labels stands in where there are too few.
+
+    Every rank must have gradients to sum, and the compiled model is made for more rows than one.
+    """
+    ids, labels = rows.input_ids[rank::world], rows.labels[rank::world]
+    missing = max(0, 2 - len(ids))
+    if missing:
+        ids = np.concatenate([ids, np.repeat(rows.input_ids[:1], missing, 0)])
+        labels = np.concatenate([labels, np.full((missing, labels.shape[1]), IGNORE)])
+    return Rows(ids, labels, rows.tokens)
 
 
 def optimizers(model: nn.Module, settings: PretrainSettings) -> list[torch.optim.Optimizer]:

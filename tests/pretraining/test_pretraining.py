@@ -67,11 +67,21 @@ def test_padding_does_not_change_the_loss(shard: Path, tokenizer: Any) -> None:
     assert completion_loss(model, model.model, rows_of(samples, 256, 0)).item() == pytest.approx(np.average(apart, weights=weights), rel=2e-3)
 
 
-def test_shares_of_a_batch_add_up_to_it(shard: Path, tokenizer: Any) -> None:
+@pytest.mark.parametrize("count", [1, 2, 5])
+def test_shares_of_a_batch_add_up_to_it(shard: Path, tokenizer: Any, count: int) -> None:
     model: Any = new_model(TINY, len(tokenizer), SPECIAL)
-    rows = rows_of(load_shard(shard)[:5], 1024, 0)
-    shares = [completion_loss(model, model.model, rows, rank, 2).item() for rank in range(2)]
-    assert sum(shares) == pytest.approx(completion_loss(model, model.model, rows).item(), rel=2e-3)
+    rows = rows_of(load_shard(shard)[:count], 1024, 0)
+
+    def gradients(rank: int, world: int) -> list[torch.Tensor]:
+        model.zero_grad()
+        completion_loss(model, model.model, rows, rank, world).backward()
+        return [value.grad.clone() for value in model.parameters()]
+
+    shares, whole = [gradients(rank, 2) for rank in range(2)], gradients(0, 1)
+    for first, second, wanted in zip(*shares, whole, strict=True):
+        assert torch.allclose(first + second, wanted, rtol=0.05, atol=2e-3)
+    losses = [completion_loss(model, model.model, rows, rank, 2).item() for rank in range(2)]
+    assert sum(losses) == pytest.approx(completion_loss(model, model.model, rows).item(), rel=2e-3)
 
 
 def test_the_loss_falls_and_an_interrupted_run_continues(shard: Path, tokenizer: Any, tmp_path: Path) -> None:
