@@ -156,6 +156,6 @@ def test_structures_have_their_share_of_the_samples():
     counts = Counter(record["family"] for record in sample_missions(9, 1500))
     assert sum(counts.values()) == 1500
     kinds = {kind: counts[f"synthetic-composed-{kind}"] / 1500 for kind in KINDS}
-    assert kinds["order"] > 0.08 and kinds["targets"] > 0.08
-    assert kinds["apart"] + kinds["shared"] + kinds["placed"] + kinds["corrected"] > 0.08
-    assert sum(kinds.values()) < 0.45
+    assert kinds["order"] > 0.02 and kinds["targets"] > 0.02
+    assert kinds["apart"] + kinds["shared"] + kinds["placed"] + kinds["corrected"] > 0.02
+    assert 0.07 < sum(kinds.values()) < 0.14
