@@ -11,7 +11,9 @@ from planner_ft.data.mission.synthetic.numbers import Style
 from planner_ft.data.mission.synthetic.positions import say_position
 
 ARTICLE = re.compile(r"(?:^|(?<=[\s(\"“—–-]))([Aa])n? $")
-SOUNDS_VOWEL = re.compile(r"(?:[aeioåøöäéAEIO]|u(?!ni(?!d|n|m)|se|su|ti|ri|to|ro)|U(?![a-z]?[a-z]?i)|8|11(?!\d)|18(?!\d)|hour|honest|[FHLMNRSX](?:[A-Z0-9-]|\b(?!')))")
+SOUNDS_VOWEL = re.compile(
+    r"(?:[aeioåøöäéAEIO]|u(?!ni(?!d|n|m)|se|su|ti|ri|to|ro)|U(?![a-z]?[a-z]?i)|8|11(?!\d)|18(?!\d)|hour|honest|[FHLMNRSX](?:[A-Z0-9-]|\b(?!')))"
+)
 SOUNDS_CONSONANT = re.compile(r"(?:one\b|once\b|eu|Eu|one-|ROV|RIB|SAR|NATO|LED\b|USV|UAV)")
 ABBREVIATED = ("approx.", "no.", "nr.", "e.g.", "i.e.", "ca.", "vs.", "ref.", "dr.", "mr.", "ms.", "st.", "capt.", "...")
 SENTENCE = re.compile(r"(^|[.!?]\s+|[.!?][\"”)]\s+|\n)([a-zåøöäé])(?=[\w'’-]*)")
