@@ -2,7 +2,10 @@
 
 import itertools
 import json
+import os
 import re
+import subprocess
+import sys
 
 import pytest
 
@@ -62,6 +65,13 @@ def test_unseen_families_occur_nowhere_else():
 def test_endless_stream_continues_the_counted_one():
     endless = list(itertools.islice(sample_tasks(USV, 3, None, "train"), 60))
     assert endless == sampled("train", 60)
+
+
+def test_samples_do_not_depend_on_the_order_of_sets():
+    code = "import itertools, json, zlib; from planner_ft.data.task.sampler import sample_tasks; from planner_ft.vocabulary import load_vocabulary; "
+    code += "print(zlib.crc32(json.dumps(list(itertools.islice(sample_tasks(load_vocabulary(), 7, None, 'train'), 380))).encode()))"
+    runs = [subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True, check=True) for seed in ("0", "1")]
+    assert runs[0].stdout == runs[1].stdout
 
 
 def test_numbers_have_two_decimals_at_most():

@@ -47,7 +47,7 @@ class Drawing:
     def _task_values(self) -> None:
         """Task parameters that the text refers to are there; positions are known where something is calculated from them."""
         context = self.context
-        for name in self.bound.params:
+        for name in sorted(self.bound.params):
             context.require(name)
             context.used.add(name)
         place = context.task.position_parameter
