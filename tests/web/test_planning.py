@@ -110,7 +110,8 @@ def test_a_command_with_markup_comes_back_as_it_was_given(serve_plan: Serve, kno
     with serve_plan(None) as client:
         page = Listener(client.app_state["session"].events)
         assert post(client, "/api/plan", command=MARKUP).status_code == 202
-        assert state(client)["busy"] is None or state(client)["busy"]["command"] == MARKUP
+        busy = state(client)["busy"]
+        assert busy is None or busy["command"] == MARKUP
         told = page.until(lambda told: saw("skills")(told) and rested(client)(told))
         assert next(data for kind, data in told if kind == "progress")["command"] == MARKUP
         assert state(client)["document"]["command"] == MARKUP
