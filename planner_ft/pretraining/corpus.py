@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 IGNORE = -100
 HANDED_DOWN, HANDED_DOWN_SEED = 0.1, 50_000_000
 """Share of the task inputs that come from missions, and what keeps those missions apart from the mission samples."""
-WIDTH_STEP = 32
+WIDTH_STEP = 8
 """Batches are this many positions wide, or a multiple."""
 Sample = tuple[NDArray[np.int64], int]
 """Token ids and the length of the prompt among them."""
