@@ -24,6 +24,7 @@ from planner_ft.decoding.limits import MAX_NEW_TOKENS, Limits
 from planner_ft.decoding.passes import Decoder, ModelDecoder
 from planner_ft.decoding.phrases import phrase_book
 from planner_ft.decoding.sampling import Sampling
+from planner_ft.decoding.second_look import SecondLook
 from planner_ft.prompts import end_of_turn_ids, render_prompt
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
@@ -48,7 +49,8 @@ class Engine:
 
     `lean` holds the lean forms of a small model (see `lean`) by adapter, None for the base; where it is empty, `model`
     decodes, a model of transformers. `width` is the size of the logits. `adapters` are the levels that have one,
-    `threads` the CPU threads that it decodes with; None leaves torch's number.
+    `threads` the CPU threads that it decodes with; None leaves torch's number. At strength grounded a mission plan that lacks
+    a stated value gets a `second_look`.
     """
 
     model: Any
@@ -60,6 +62,7 @@ class Engine:
     adapters: frozenset[Level]
     threads: int | None = None
     speed: Speed = field(default_factory=Speed)
+    second_look: bool = True
     factories: dict[tuple[Level, Strength], ConstraintFactory | None] = field(default_factory=dict)
     books: dict[Level, PhraseBook] = field(default_factory=dict)
 
@@ -127,11 +130,14 @@ class Engine:
     def method(self, level: Level, configuration: Configuration, sampling: Sampling | None = None) -> Method:
         """How the answers of a configuration are generated."""
         constraint, drafting = self._factory(level, configuration.strength), self.speed.drafting
-        return Method(constraint, self.speed.fast_forward, drafting, self._likeness, self._book(level) if drafting else None, sampling)
+        look = self._second_look if self.second_look and level == "mission" and configuration.strength == "grounded" else None
+        return Method(constraint, self.speed.fast_forward, drafting, self._likeness, self._book(level) if drafting else None, sampling, look)
 
     def text(self, answer: Generation) -> str:
         """The raw text of an answer, without the token that ended it; other special tokens stay visible."""
-        ids = answer.ids[:-1] if answer.finish_reason == "stop" else answer.ids
+        return self._decoded(answer.ids[:-1] if answer.finish_reason == "stop" else answer.ids)
+
+    def _decoded(self, ids: Sequence[int]) -> str:
         return str(self.tokenizer.decode(list(ids), skip_special_tokens=False, clean_up_tokenization_spaces=False))
 
     def release(self) -> None:
@@ -172,6 +178,16 @@ class Engine:
         if level not in self.books:
             self.books[level] = phrase_book(level, self.tokenizer, self.vocabulary, self.limits[level].end_ids[0])
         return self.books[level]
+
+    @functools.cached_property
+    def _second_look(self) -> SecondLook:
+        """A look at how many values of its command a mission plan lacks."""
+        from planner_ft.document.lost import count_lost
+
+        def lacks(record: dict[str, Any], ids: Sequence[int]) -> int | None:
+            return count_lost(str(record.get("prompt", "")), self._decoded(ids[:-1]), self.vocabulary)
+
+        return SecondLook(lacks)
 
     @functools.cached_property
     def _likeness(self) -> Likeness:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import torch
@@ -20,6 +20,7 @@ from planner_ft.decoding.limits import Limits
 from planner_ft.decoding.passes import Decoder
 from planner_ft.decoding.row import FinishReason, Row
 from planner_ft.decoding.sampling import Sampling
+from planner_ft.decoding.second_look import SecondLook
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.plans import Level
 
@@ -44,8 +45,8 @@ class Generation:
 
     `finish_reason`: "stop" (an end-of-turn token), "length" (cut at the limit) or "error" (`error` says why).
     `first_token_s` is the time from the batch's begin until its first tokens were known. `forward_passes` are those that the answer
-    took part in. Of its tokens, `forced_tokens` left no choice and `drafted_tokens` were drafted rightly. `notes` and `cut` are the
-    constraint's (see `constraints`).
+    took part in, those of a second look included. Of its tokens, `forced_tokens` left no choice and `drafted_tokens` were drafted
+    rightly. `notes` and `cut` are the constraint's (see `constraints`), `alternatives` the answers that a second look weighed against it.
     """
 
     ids: tuple[int, ...]
@@ -58,15 +59,16 @@ class Generation:
     notes: tuple[str, ...] = ()
     cut: bool = False
     first_token_s: float | None = None
+    alternatives: int = 0
 
 
 @dataclass(frozen=True)
 class Method:
-    """How tokens are chosen, and what saves forward passes; an answer depends on `constraint` and `sampling` alone.
+    """How tokens are chosen, and what saves forward passes; an answer depends on `constraint`, `sampling` and `second_look` alone.
 
-    Without `sampling` the most probable token is taken. `constraint` is enforced, and with `fast_forward` the tokens that it
-    forces are fed together. With `drafting` likely tokens are verified in one pass, from the prompt, the answer so far and
-    `book` (see `drafting`).
+    Without `sampling` the most probable token is taken, and `second_look` decides which answers are weighed against others.
+    `constraint` is enforced, and with `fast_forward` the tokens that it forces are fed together. With `drafting` likely tokens are
+    verified in one pass, from the prompt, the answer so far and `book` (see `drafting`).
     """
 
     constraint: ConstraintFactory | None = None
@@ -75,13 +77,15 @@ class Method:
     likeness: Likeness = lambda token: token
     book: PhraseBook | None = None
     sampling: Sampling | None = None
+    second_look: SecondLook | None = None
 
-    def row(self, query: Query, limits: Limits, longest: int) -> Row:
-        """The beginning of an answer. Raises PlannerError when the constraint needs more room than `longest` tokens."""
+    def row(self, query: Query, limits: Limits, longest: int, begun: Sequence[int] = ()) -> Row:
+        """The beginning of an answer, its first tokens `begun`. Raises PlannerError when the constraint needs more room than `longest` tokens."""
         constraint = self.constraint.start(query.record, longest) if self.constraint else None
         drafter = Drafter(query.prompt, self.likeness, self.book) if self.drafting else None
         sampler = self.sampling.sampler(query.name, longest) if self.sampling else None
-        return Row(query.prompt, limits, longest, constraint, drafter, fast_forward=self.fast_forward, sampler=sampler)
+        remembers = self.second_look is not None and sampler is None
+        return Row(query.prompt, limits, longest, constraint, drafter, fast_forward=self.fast_forward, sampler=sampler, begun=begun, remembers=remembers)
 
 
 PLAIN = Method(fast_forward=False, drafting=False)
@@ -112,18 +116,37 @@ def generate_unordered(
             except PlannerError as error:
                 yield index, Generation((), "error", 0.0, str(error))
         try:
-            yield from _generate_batch(decoder, rows, began)
+            for index, answer in _generate_batch(decoder, dict(rows), began):
+                yield index, _look_again(decoder, queries[index], limits, method, rows[index], answer)
         except torch.OutOfMemoryError as error:
             raise PlannerError(
                 f"the device has too little memory for --batch-size {batch_size}; give a smaller one (what is done is kept for --resume)"
             ) from error
 
 
-def _begin(decoder: Decoder, query: Query, limits: Limits, method: Method) -> Row:
+def _begin(decoder: Decoder, query: Query, limits: Limits, method: Method, begun: Sequence[int] = ()) -> Row:
     room = limits.max_new_tokens if decoder.context is None else min(limits.max_new_tokens, decoder.context - len(query.prompt))
     if room < 1:
         raise PlannerError(f"the prompt of {len(query.prompt)} tokens leaves no room in the model's context of {decoder.context}")
-    return method.row(query, limits, room)
+    return method.row(query, limits, room, begun)
+
+
+def _look_again(decoder: Decoder, query: Query, limits: Limits, method: Method, row: Row, answer: Generation) -> Generation:
+    """The answer, or an alternative to it that a second look prefers; with the cost of all that were tried."""
+    look = method.second_look
+    if look is None or not row.choices or not look.lacks(query.record, answer.ids):
+        return answer
+    began = time.perf_counter()
+    beginnings = look.beginnings(row)
+    rows = [_begin(decoder, query, limits, method, beginning.ids) for beginning in beginnings]
+    for _index, _answer in _generate_batch(decoder, {index: other for index, other in enumerate(rows) if not other.finished}, began):
+        pass
+    chosen = look.best(query.record, [(row, 0.0), *((other, beginning.logprob) for other, beginning in zip(rows, beginnings, strict=True))])
+    passes = answer.forward_passes + max((other.forward_passes for other in rows), default=0)
+    seconds = answer.seconds + time.perf_counter() - began
+    if chosen:
+        answer = _generation(rows[chosen - 1], seconds, answer.first_token_s or 0.0)
+    return replace(answer, seconds=seconds, forward_passes=passes, alternatives=len(rows))
 
 
 @torch.inference_mode()
@@ -148,6 +171,7 @@ def _generate_batch(decoder: Decoder, batch: dict[int, Row], began: float) -> It
         for index, row in list(rows.items()):
             if row.finished:
                 yield index, _generation(rows.pop(index), share, first)
+        began = time.perf_counter()
         if rows:
             passes.forget(wrong)
             if len(kept) < len(wanted):

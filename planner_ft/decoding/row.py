@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -17,12 +18,23 @@ from planner_ft.decoding.sampling import Sampler
 FinishReason = Literal["stop", "length", "error"]
 
 
+@dataclass(frozen=True)
+class Choice:
+    """A choice of the model at a place of its answer: the token's log probability among those allowed, and what came second, with its own."""
+
+    place: int
+    logprob: float
+    second: int
+    second_logprob: float
+
+
 class Row:
     """An answer of at most `longest` tokens to a prompt.
 
     `ids` is the answer so far; its last tokens, which the model has not been fed yet, are `pending`, and `draft` stands
     behind them. With `fast_forward`, tokens that the constraint forces join the answer without a choice by the model.
-    Choices are the most probable tokens, or drawn by `sampler`.
+    Choices are the most probable tokens, or drawn by `sampler`. The answer begins with `begun`; with `remembers`, `choices`
+    keeps the model's choices behind it that had an alternative.
     """
 
     def __init__(
@@ -35,6 +47,8 @@ class Row:
         *,
         fast_forward: bool = True,
         sampler: Sampler | None = None,
+        begun: Sequence[int] = (),
+        remembers: bool = False,
     ) -> None:
         self.end_ids = limits.end_ids
         self.longest = longest
@@ -47,6 +61,9 @@ class Row:
         self.draft: list[int] = []
         self.finished: FinishReason | None = None
         self.forward_passes = self.forced_tokens = self.drafted_tokens = 0
+        self.choices: list[Choice] | None = [] if remembers else None
+        for token in begun:
+            self._add(token)
         self._add_forced()
         self.pending += self.ids
         self._propose()
@@ -86,9 +103,12 @@ class Row:
         """Add the model's choice and what it forces; return both."""
         before = len(self.ids)
         if self.sampler is not None:
-            self._add(self.sampler.draw(before, logits, self.constraint.mask() if self.constraint else None))
+            token = self.sampler.draw(before, logits, self.constraint.mask() if self.constraint else None)
         else:
-            self._add(best if self._allows(best) else self._best_allowed(logits))
+            token = best if self._allows(best) else self._best_allowed(logits)
+        if self.choices is not None:
+            self._remember(token, logits)
+        self._add(token)
         self._add_forced()
         return self.ids[before:]
 
@@ -97,12 +117,28 @@ class Row:
 
     def _best_allowed(self, logits: Tensor) -> int:
         """The most probable token of those that the constraint allows, even where logits are infinite or no numbers."""
-        assert self.constraint is not None
+        allowed = self._allowed(logits)
+        return int(allowed[logits[allowed].argmax()])
+
+    def _allowed(self, logits: Tensor) -> Tensor:
+        """The tokens that the constraint allows."""
+        if self.constraint is None:
+            return torch.arange(len(logits), device=logits.device)
         bits = np.unpackbits(self.constraint.mask().view(np.uint8), bitorder="little")[: len(logits)]
         allowed = torch.from_numpy(np.flatnonzero(bits)).to(logits.device)
         if not len(allowed):
             raise RuntimeError("the constraint allows no token")
-        return int(allowed[logits[allowed].argmax()])
+        return allowed
+
+    def _remember(self, token: int, logits: Tensor) -> None:
+        """Keep the choice of a token, where there is an alternative."""
+        assert self.choices is not None
+        allowed = self._allowed(logits)
+        if len(allowed) > 1:
+            logprobs = torch.log_softmax(logits[allowed].float(), 0)
+            logprob = float(logprobs[allowed == token])
+            best = logprobs.masked_fill_(allowed == token, -torch.inf).argmax()
+            self.choices.append(Choice(len(self.ids), logprob, int(allowed[best]), float(logprobs[best])))
 
     def _add(self, token: int) -> None:
         """A token joins the answer."""

@@ -10,10 +10,10 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
+from planner_ft.document.clauses import Clause, read_clauses
 from planner_ft.document.language import Language, language
 from planner_ft.document.said import Span, pieces
 from planner_ft.document.said_numbers import find_places, is_place
-from planner_ft.document.warnings.clauses import Clause, read_clauses
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.schema import ELEMENTS
 

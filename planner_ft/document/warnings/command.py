@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from planner_ft.document.clauses import Clause, read_clauses
 from planner_ft.document.language import language
-from planner_ft.document.warnings.clauses import Clause, read_clauses
 from planner_ft.document.warnings.warning import Warning, warning
 from planner_ft.vocabulary import Vocabulary
 

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.data.rules import DOCKING
+from planner_ft.document.clauses import said_apart
 from planner_ft.document.language import language
 from planner_ft.document.track import Point, Track, place_of
-from planner_ft.document.warnings.clauses import said_apart
 from planner_ft.document.warnings.warning import Warning, named, warning
 from planner_ft.vocabulary import Vocabulary
 

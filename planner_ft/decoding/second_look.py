@@ -1,0 +1,54 @@
+"""A second look at an answer that lacks something of what was asked for.
+
+Greedy decoding never goes back: where a choice was nearly even, the other token may have led to the better answer. So when an
+answer lacks values that its input states, its least certain choices are taken the other way, one at a time, and each is gone
+on with to its end. Of all answers that are not much less probable than the first, the one that lacks least is given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from planner_ft.decoding.row import Row
+
+
+@dataclass(frozen=True)
+class Beginning:
+    """The first tokens of an alternative, and their log probability among the tokens that were allowed."""
+
+    ids: tuple[int, ...]
+    logprob: float
+
+
+@dataclass(frozen=True)
+class SecondLook:
+    """`lacks(record, ids)` counts what an answer lacks; None where that cannot be told, and the answer stays as it is.
+
+    At most `alternatives` are tried, and one that is less probable than the answer by more than `margin` (in nats) is not taken.
+    """
+
+    lacks: Callable[[dict[str, Any], Sequence[int]], int | None]
+    alternatives: int = 5
+    margin: float = 4.5
+
+    def beginnings(self, row: Row) -> list[Beginning]:
+        """Where the alternatives to an answer begin: its least certain choices, decided the other way."""
+        before, found = 0.0, []
+        for choice in row.choices or ():
+            doubt = choice.logprob - choice.second_logprob
+            found.append((doubt, Beginning((*row.ids[: choice.place], choice.second), before + choice.second_logprob)))
+            before += choice.logprob
+        found.sort(key=lambda item: item[0])
+        return [beginning for doubt, beginning in found[: self.alternatives] if doubt <= self.margin]
+
+    def best(self, record: dict[str, Any], rows: Iterable[tuple[Row, float]]) -> int:
+        """The index of the answer to give, among rows with the log probability of what each began with; the first row is the answer itself."""
+        rated: list[tuple[int, float, int]] = []
+        for index, (row, began) in enumerate(rows):
+            logprob = began + sum(choice.logprob for choice in row.choices or ())
+            lacks = self.lacks(record, row.ids)
+            if lacks is not None and (not rated or logprob >= -rated[0][1] - self.margin):
+                rated.append((lacks, -logprob, index))
+        return min(rated)[2]
