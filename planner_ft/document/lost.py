@@ -22,6 +22,8 @@ COURSE = re.compile(r"\b(?:heading|bearing|course)(?: of)?\W{1,3}$", re.IGNORECA
 CLOCK = re.compile(r"\s*(?:o['’]?clock|am\b|pm\b|utc\b|gmt\b|zulu\b|local\b|ago\b)", re.IGNORECASE)
 MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORECASE)
 """Words that are no time to be kept: "a second", "a good day"."""
+NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
+"""All that stands between a value and the one that takes its place: "45 minutes, no, ten minutes"."""
 
 
 def count_lost(command: str, answer: str, vocabulary: Vocabulary) -> int | None:
@@ -93,8 +95,9 @@ def _stated(piece: Piece, wanted: Wanted) -> Iterator[tuple[str, tuple[float, ..
         following = found[index + 1] if index + 1 < len(found) else None
         if index in used or not _is_measure(piece.text, quantity) or not wanted.at(piece.offset + quantity.start):
             continue
-        if following and following.start - quantity.end <= 30 and wanted.correction.search(piece.text, quantity.end, following.start):
-            continue
+        if following and following.start - quantity.end <= 30:
+            if wanted.correction.search(piece.text, quantity.end, following.start) or NO.fullmatch(piece.text, quantity.end, following.start):
+                continue
         values, end = [quantity.value], quantity.end
         if following and quantity.unit == following.unit == "s" and following.start - quantity.end <= 5:
             values.append(quantity.value + following.value)

@@ -1,0 +1,40 @@
+"""How many of its command's values a mission plan lacks."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from planner_ft.document.lost import count_lost
+from planner_ft.vocabulary import load_vocabulary
+
+
+def task(title: str, **parameters: Any) -> dict[str, Any]:
+    return {"title": title, "parameters": parameters, "task_prompt": "Anything that says 45 m."}
+
+
+GO, HOLD = task("Transit", target_position=[20, 60]), task("KeepStation", duration=600)
+
+
+@pytest.mark.parametrize(
+    ("command", "tasks", "lost"),
+    [
+        ("Hold at [20, 60] for ten minutes.", [GO, HOLD], 0),
+        ("Hold at [20, 60] for ten minutes.", [GO], 1),
+        ("Hold at [20, 60] for ten minutes.", [HOLD], 1),
+        ("Hold at [20, 60] for ten minutes, then go once round the buoy, 45 m off.", [GO, HOLD], 1),
+        ("Hold at [20, 60] for 45 minutes, no, ten minutes.", [GO, HOLD], 0),
+        ("Hold at [20, 60] for ten minutes. Don't circle the buoy at 45 m.", [GO, HOLD], 0),
+        ("Hold at [20, 60] for ten minutes and count 45 seals.", [GO, HOLD], 0),
+        ("Hold at [20, 60] for ten minutes.", [], None),
+        ("Hold at [20, 60] for 1.2.3 minutes.", [GO], None),
+    ],
+)
+def test_stated_values_that_no_parameter_has(command: str, tasks: list[dict[str, Any]], lost: int | None) -> None:
+    assert count_lost(command, json.dumps({"tasks": tasks, "assumptions": [], "constraints": []}), load_vocabulary()) == lost
+
+
+def test_what_is_no_plan_lacks_nothing_that_could_be_told() -> None:
+    assert count_lost("Hold at [20, 60].", '{"tasks":[', load_vocabulary()) is None
