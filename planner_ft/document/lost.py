@@ -95,9 +95,8 @@ def _stated(piece: Piece, wanted: Wanted) -> Iterator[tuple[str, tuple[float, ..
         following = found[index + 1] if index + 1 < len(found) else None
         if index in used or not _is_measure(piece.text, quantity) or not wanted.at(piece.offset + quantity.start):
             continue
-        if following and following.start - quantity.end <= 30:
-            if wanted.correction.search(piece.text, quantity.end, following.start) or NO.fullmatch(piece.text, quantity.end, following.start):
-                continue
+        if following and _replaced(piece.text[quantity.end : following.start], wanted):
+            continue
         values, end = [quantity.value], quantity.end
         if following and quantity.unit == following.unit == "s" and following.start - quantity.end <= 5:
             values.append(quantity.value + following.value)
@@ -108,6 +107,11 @@ def _stated(piece: Piece, wanted: Wanted) -> Iterator[tuple[str, tuple[float, ..
             values.append(quantity.value + following.value * quantity.value / quantity.said / 60)
             end = following.end
         yield piece.text[quantity.start : end], tuple(values)
+
+
+def _replaced(between: str, wanted: Wanted) -> bool:
+    """Whether the words between two values say that the second takes the place of the first."""
+    return len(between) <= 30 and (wanted.correction.search(between) is not None or NO.fullmatch(between) is not None)
 
 
 def _is_measure(text: str, quantity: Quantity) -> bool:
