@@ -50,7 +50,7 @@ class Engine:
     `lean` holds the lean forms of a small model (see `lean`) by adapter, None for the base; where it is empty, `model`
     decodes, a model of transformers. `width` is the size of the logits. `adapters` are the levels that have one,
     `threads` the CPU threads that it decodes with; None leaves torch's number. At strength grounded a mission plan that lacks
-    a stated value gets a `second_look`.
+    something of its command gets a `second_look`.
     """
 
     model: Any
@@ -181,11 +181,11 @@ class Engine:
 
     @functools.cached_property
     def _second_look(self) -> SecondLook:
-        """A look at how many values of its command a mission plan lacks."""
-        from planner_ft.document.lost import count_lost
+        """A look at how much of its command a mission plan lacks."""
+        from planner_ft.document.lacking import count_lacking
 
         def lacks(record: dict[str, Any], ids: Sequence[int]) -> int | None:
-            return count_lost(str(record.get("prompt", "")), self._decoded(ids[:-1]), self.vocabulary)
+            return count_lacking(str(record.get("prompt", "")), self._decoded(ids[:-1]), self.vocabulary)
 
         return SecondLook(lacks)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import bisect
 import itertools
-import json
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ from planner_ft.benchmark.metrics.values import is_number
 from planner_ft.data.quantities import Quantity, close, positions, quantities
 from planner_ft.document.clauses import Clause, read_clauses
 from planner_ft.document.language import language
-from planner_ft.document.said import Piece, Said, is_place, read_command
+from planner_ft.document.said import Piece, Said, is_place
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
@@ -24,16 +23,6 @@ MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORE
 """Words that are no time to be kept: "a second", "a good day"."""
 NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
 """All that stands between a value and the one that takes its place: "45 minutes, no, ten minutes"."""
-
-
-def count_lost(command: str, answer: str, vocabulary: Vocabulary) -> int | None:
-    """How many stated values the parameters of a mission plan in JSON lack; None where there is no task or the command cannot be read with certainty."""
-    try:
-        plan = json.loads(answer)
-    except ValueError:
-        return None
-    tasks, said = plan["tasks"], read_command(command, vocabulary)
-    return None if said.unread or not tasks else sum(1 for _words in lost_values(said, tasks, (), vocabulary))
 
 
 def lost_values(said: Said, tasks: Sequence[Mapping[str, Any]], texts: Iterable[str], vocabulary: Vocabulary) -> Iterator[str]:

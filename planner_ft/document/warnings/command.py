@@ -20,9 +20,15 @@ def command_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Ite
     texts = [*document.get("constraints", ()), *document.get("assumptions", ())]
     declined = " ".join(text for text in texts if language(vocabulary).words["declined"].search(text)).casefold()
     for clause in read_clauses(document["command"], vocabulary):
-        for words, start in _unanswered(clause, planned, vocabulary):
+        for words, start in (*_unanswered(clause, planned, vocabulary), *_impossible(clause, planned, vocabulary)):
             if words.casefold() not in declined:
                 yield warning("not-planned", f'The command asks: "{_quoted(clause, start)}"; no task of the plan does that.', about=words.casefold())
+
+
+def unanswered(command: str, planned: set[str], vocabulary: Vocabulary) -> Iterator[str]:
+    """The words that ask for a task of the vocabulary where none of those that answer them is among the titles that are planned."""
+    for clause in read_clauses(command, vocabulary):
+        yield from (words for words, _start in _unanswered(clause, planned, vocabulary))
 
 
 def _unanswered(clause: Clause, planned: set[str], vocabulary: Vocabulary) -> Iterator[tuple[str, int]]:
@@ -34,7 +40,11 @@ def _unanswered(clause: Clause, planned: set[str], vocabulary: Vocabulary) -> It
         # What is sent is named by how it came about, which may be long ago: "send the panorama".
         if match and not (ask.tasks & planned) and (ask.sends or not sends) and _counts(clause, match.start()):
             yield match[0], match.start()
-    impossible = spoken.words["impossible"].match(clause.text.lstrip())
+
+
+def _impossible(clause: Clause, planned: set[str], vocabulary: Vocabulary) -> Iterator[tuple[str, int]]:
+    """The words that begin with what no task can do."""
+    impossible = language(vocabulary).words["impossible"].match(clause.text.lstrip())
     # A plan without tasks says itself why.
     if planned and impossible and _counts(clause, 0):
         yield impossible[0], 0

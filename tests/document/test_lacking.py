@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.document.lost import count_lost
+from planner_ft.document.lacking import count_lacking
 from planner_ft.vocabulary import load_vocabulary
 
 
@@ -33,8 +33,8 @@ GO, HOLD = task("Transit", target_position=[20, 60]), task("KeepStation", durati
     ],
 )
 def test_stated_values_that_no_parameter_has(command: str, tasks: list[dict[str, Any]], lost: int | None) -> None:
-    assert count_lost(command, json.dumps({"tasks": tasks, "assumptions": [], "constraints": []}), load_vocabulary()) == lost
+    assert count_lacking(command, json.dumps({"tasks": tasks, "assumptions": [], "constraints": []}), load_vocabulary()) == lost
 
 
 def test_what_is_no_plan_lacks_nothing_that_could_be_told() -> None:
-    assert count_lost("Hold at [20, 60].", '{"tasks":[', load_vocabulary()) is None
+    assert count_lacking("Hold at [20, 60].", '{"tasks":[', load_vocabulary()) is None
