@@ -136,17 +136,21 @@ def _look_again(decoder: Decoder, query: Query, limits: Limits, method: Method, 
     look = method.second_look
     if look is None or not row.choices or not look.lacks(query.record, answer.ids):
         return answer
-    began = time.perf_counter()
-    beginnings = look.beginnings(row)
-    rows = [_begin(decoder, query, limits, method, beginning.ids) for beginning in beginnings]
-    for _index, _answer in _generate_batch(decoder, {index: other for index, other in enumerate(rows) if not other.finished}, began):
-        pass
-    chosen = look.best(query.record, [(row, 0.0), *((other, beginning.logprob) for other, beginning in zip(rows, beginnings, strict=True))])
-    passes = answer.forward_passes + max((other.forward_passes for other in rows), default=0)
+    began, passes = time.perf_counter(), answer.forward_passes
+    rows, chosen = [(row, 0.0)], 0
+    for _round in range(look.rounds):
+        beginnings = look.beginnings(*rows[chosen])
+        others = [_begin(decoder, query, limits, method, beginning.ids) for beginning in beginnings]
+        for _index, _answer in _generate_batch(decoder, {index: other for index, other in enumerate(others) if not other.finished}, began):
+            pass
+        passes += max((other.forward_passes for other in others), default=0)
+        rows += [(other, beginning.logprob) for other, beginning in zip(others, beginnings, strict=True)]
+        before, chosen = chosen, look.best(query.record, rows)
+        if chosen == before or not look.lacks(query.record, rows[chosen][0].ids):
+            break
     seconds = answer.seconds + time.perf_counter() - began
-    if chosen:
-        answer = _generation(rows[chosen - 1], seconds, answer.first_token_s or 0.0)
-    return replace(answer, seconds=seconds, forward_passes=passes, alternatives=len(rows))
+    answer = _generation(rows[chosen][0], seconds, answer.first_token_s or 0.0) if chosen else answer
+    return replace(answer, seconds=seconds, forward_passes=passes, alternatives=len(rows) - 1)
 
 
 @torch.inference_mode()

@@ -1,8 +1,9 @@
 """A second look at an answer that lacks something of what was asked for.
 
 Greedy decoding never goes back: where a choice was nearly even, the other token may have led to the better answer. So when an
-answer lacks values that its input states, its least certain choices are taken the other way, one at a time, and each is gone
-on with to its end. Of all answers that are not much less probable than the first, the one that lacks least is given.
+answer lacks something that its input asks for, its least certain choices are taken the other way, one at a time, and each is
+gone on with to its end. Of all answers that are not much less probable than the first, the one that lacks least is taken, and
+looked at in the same way, once.
 """
 
 from __future__ import annotations
@@ -26,16 +27,18 @@ class Beginning:
 class SecondLook:
     """`lacks(record, ids)` counts what an answer lacks; None where that cannot be told, and the answer stays as it is.
 
-    At most `alternatives` are tried, and one that is less probable than the answer by more than `margin` (in nats) is not taken.
+    In each of `rounds` at most `alternatives` are tried, and one that is less probable than the first answer by more than `margin`
+    (in nats) is not taken.
     """
 
     lacks: Callable[[dict[str, Any], Sequence[int]], int | None]
     alternatives: int = 5
     margin: float = 4.5
+    rounds: int = 2
 
-    def beginnings(self, row: Row) -> list[Beginning]:
-        """Where the alternatives to an answer begin: its least certain choices, decided the other way."""
-        before, found = 0.0, []
+    def beginnings(self, row: Row, began: float) -> list[Beginning]:
+        """Where the alternatives to an answer begin: its least certain choices, decided the other way. What it began with itself stays."""
+        before, found = began, []
         for choice in row.choices or ():
             doubt = choice.logprob - choice.second_logprob
             found.append((doubt, Beginning((*row.ids[: choice.place], choice.second), before + choice.second_logprob)))

@@ -21,8 +21,6 @@ from planner_ft.decoding.second_look import SecondLook
 from planner_ft.vocabulary import load_vocabulary
 from tests.decoding.test_fast_forward import LIMITS, QUERIES, Toy, ToyFactory
 
-Found = tuple[int, float, list[int]]
-
 
 def elevens(record: dict[str, Any], ids: Sequence[int]) -> int:
     """What answers lack in these tests: the other word, wherever 11 stands."""
@@ -48,31 +46,37 @@ def gone_on(model: Any, prompt: Sequence[int], begun: Sequence[int], rounds: int
     return ids, choices
 
 
-def expected(model: Any, query: Any, most: int, margin: float) -> list[int]:
+def expected(model: Any, query: Any, look: SecondLook) -> list[int]:
     """The answer that is to be given, found by going through all alternatives."""
     rounds = query.record["rounds"]
     answer, choices = gone_on(model, query.prompt, [], rounds)
-    if not elevens({}, answer):
-        return answer
     whole = sum(logprob for _place, logprob, _other, _its in choices)
-    rated = [(elevens({}, answer), -whole, answer)]
-    ranked = sorted(range(len(choices)), key=lambda index: choices[index][1] - choices[index][3])
-    for index in ranked[:most]:
-        place, _logprob, other, its = choices[index]
-        ids, behind = gone_on(model, query.prompt, [*answer[:place], other], rounds)
-        total = sum(item[1] for item in choices[:index]) + its + sum(item[1] for item in behind)
-        if total >= whole - margin:
-            rated.append((elevens({}, ids), -total, ids))
-    return min(rated)[2]
+    rated = [(elevens({}, answer), -whole, answer, choices, 0.0)]
+    chosen = 0
+    for _round in range(look.rounds):
+        lacking, _logprob, answer, choices, began = rated[chosen]
+        if not lacking:
+            break
+        for index in sorted(range(len(choices)), key=lambda index: choices[index][1] - choices[index][3])[: look.alternatives]:
+            place, logprob, other, its = choices[index]
+            if logprob - its > look.margin:
+                continue
+            ids, behind = gone_on(model, query.prompt, [*answer[:place], other], rounds)
+            start = began + sum(item[1] for item in choices[:index]) + its
+            rated.append((elevens({}, ids), -start - sum(item[1] for item in behind), ids, behind, start))
+        fitting = [index for index, item in enumerate(rated) if -item[1] >= whole - look.margin]
+        before, chosen = chosen, min(fitting, key=lambda index: (*rated[index][:2], index))
+        if chosen == before:
+            break
+    return rated[chosen][2]
 
 
-@pytest.mark.parametrize(("most", "margin"), [(5, 4.5), (2, 1.0), (60, math.inf)])
+@pytest.mark.parametrize("look", [SecondLook(elevens), SecondLook(elevens, 2, 1.0, 1), SecondLook(elevens, 60, math.inf, 1), SecondLook(elevens, 1, 9.0, 4)])
 @pytest.mark.parametrize("batch_size", [1, 8])
-def test_the_answer_that_lacks_least_is_given(decoder: Decoder, toy_model: Any, batch_size: int, most: int, margin: float) -> None:
+def test_the_answer_that_lacks_least_is_given(decoder: Decoder, toy_model: Any, batch_size: int, look: SecondLook) -> None:
     plain = [list(answer.ids) for answer in generate(decoder, QUERIES, LIMITS, Method(ToyFactory()))]
-    wanted = [expected(toy_model, query, most, margin) for query in QUERIES]
+    wanted = [expected(toy_model, query, look) for query in QUERIES]
     assert sum(one != other for one, other in zip(plain, wanted, strict=True)) >= 1
-    look = SecondLook(elevens, most, margin)
     for method in (Method(ToyFactory(), second_look=look), Method(ToyFactory(), fast_forward=False, drafting=False, second_look=look)):
         assert [list(answer.ids) for answer in generate(decoder, QUERIES, LIMITS, method, batch_size=batch_size)] == wanted
 

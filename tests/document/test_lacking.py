@@ -1,4 +1,4 @@
-"""How many of its command's values a mission plan lacks."""
+"""How much of its command a mission plan lacks."""
 
 from __future__ import annotations
 
@@ -19,21 +19,26 @@ GO, HOLD = task("Transit", target_position=[20, 60]), task("KeepStation", durati
 
 
 @pytest.mark.parametrize(
-    ("command", "tasks", "lost"),
+    ("command", "tasks", "lacking"),
     [
         ("Hold at [20, 60] for ten minutes.", [GO, HOLD], 0),
         ("Hold at [20, 60] for ten minutes.", [GO], 1),
         ("Hold at [20, 60] for ten minutes.", [HOLD], 1),
-        ("Hold at [20, 60] for ten minutes, then go once round the buoy, 45 m off.", [GO, HOLD], 1),
+        ("Hold at [20, 60] for ten minutes, then go once round the buoy, 45 m off.", [GO, HOLD], 2),
         ("Hold at [20, 60] for 45 minutes, no, ten minutes.", [GO, HOLD], 0),
         ("Hold at [20, 60] for ten minutes. Don't circle the buoy at 45 m.", [GO, HOLD], 0),
         ("Hold at [20, 60] for ten minutes and count 45 seals.", [GO, HOLD], 0),
+        ("Check your sensors and hold at [20, 60] for ten minutes.", [GO, HOLD], 1),
+        ("Check your sensors and hold at [20, 60] for ten minutes.", [task("Diagnostics"), GO, HOLD], 0),
+        ("No sensor check. Hold at [20, 60] for ten minutes.", [GO, HOLD], 0),
+        ("Hold at [20, 60] for ten minutes.", [GO, HOLD, HOLD], 1),
+        ("Hold at [20, 60] for ten minutes.", [GO, HOLD, task("Transit", target_position=[0, 0]), HOLD], 0),
         ("Hold at [20, 60] for ten minutes.", [], None),
         ("Hold at [20, 60] for 1.2.3 minutes.", [GO], None),
     ],
 )
-def test_stated_values_that_no_parameter_has(command: str, tasks: list[dict[str, Any]], lost: int | None) -> None:
-    assert count_lacking(command, json.dumps({"tasks": tasks, "assumptions": [], "constraints": []}), load_vocabulary()) == lost
+def test_what_no_task_answers(command: str, tasks: list[dict[str, Any]], lacking: int | None) -> None:
+    assert count_lacking(command, json.dumps({"tasks": tasks, "assumptions": [], "constraints": []}), load_vocabulary()) == lacking
 
 
 def test_what_is_no_plan_lacks_nothing_that_could_be_told() -> None:
