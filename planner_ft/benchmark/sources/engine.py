@@ -56,9 +56,10 @@ class EngineSource:
             yield index, self._answered(answer, len(queries[index].prompt), size)
 
     def _answered(self, answer: Generation, prompt_tokens: int, size: int) -> Answered:
+        more = {"batch": size, **({"alternatives": answer.alternatives} if answer.alternatives else {})}
         return Answered(
             output=self.engine.text(answer), seconds=answer.seconds, finish_reason=answer.finish_reason, tokens=len(answer.ids),
-            prompt_tokens=prompt_tokens, forward_passes=answer.forward_passes, error=answer.error, more={"batch": size},
+            prompt_tokens=prompt_tokens, forward_passes=answer.forward_passes, error=answer.error, more=more,
         )  # fmt: skip
 
     def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Timed]]:
