@@ -34,6 +34,8 @@ _EVERY = re.compile(r"\b(?:every|each|per)\s+$", re.IGNORECASE)
 _SMALL_SOUTH = re.compile(r"(\d\s?[ew]\W{1,5}\d+(?:\.\d+)?\s?)s(?![a-z])|(?<![\w.])(\d+(?:\.\d+)?\s?)s(?=\W{1,5}\d+(?:\.\d+)?\s?[ew](?![a-z]))")
 _HALF = re.compile(r"\band (?:a )?half[ -](hour|minute|kilometre|kilometer|mile|metre|meter)\b", re.IGNORECASE)
 _NUMBER_ARTICLE = re.compile(r"(\d) (an? (?:hour|minute|kilometre|kilometer|mile|metre|meter|day)\b)", re.IGNORECASE)
+_DIGITS = {word: str(int(value)) for word, value in SMALL.items() if value < 10 and word != "couple"}
+_RADIO = re.compile(rf"\b({'|'.join(_DIGITS)}) ({'|'.join(_DIGITS)})(?= ({'|'.join(unit for unit in UNITS if len(unit) > 2)})\b)", re.IGNORECASE)
 _EXPONENT = re.compile(r"(?<![\w.])\d+(?:\.\d+)?e\+?\d{1,2}(?!\w)", re.IGNORECASE)
 
 
@@ -42,7 +44,7 @@ def rewritings(text: str) -> tuple[str, ...]:
     """The text, and the ways in which it can be written out otherwise; at most MOST_REWRITINGS in all."""
     text = _VULGAR.sub(lambda match: f" {float(match[1] or 0) + VULGAR[match[2]]:g}", text)
     found = dict.fromkeys([text])
-    makers = (_with_numerals, _with_units, _with_articles, _thousands, _clock, _south, _apart, _speak, _cuts)
+    makers = (_with_numerals, _with_units, _with_articles, _thousands, _clock, _south, _apart, _speak, _radio, _cuts)
     for maker in makers:
         for known in list(found) if maker is not _cuts else [*found][:3]:
             found.update(dict.fromkeys(itertools.islice(maker(known), MOST_REWRITINGS)))
@@ -137,6 +139,12 @@ def _speak(text: str) -> Iterator[str]:
     """ "4 an hour" as "for an hour", "2 the pier" as "to the pier"."""
     if _SPEAK.search(text):
         yield _SPEAK.sub(lambda match: "for" if match[0] == "4" else "to", text)
+
+
+def _radio(text: str) -> Iterator[str]:
+    """ "lanes one five metres apart", as it is said over the radio; three digits and more are read so anyway."""
+    if _RADIO.search(text):
+        yield _RADIO.sub(lambda match: _DIGITS[match[1].lower()] + _DIGITS[match[2].lower()], text)
 
 
 def _south(text: str) -> Iterator[str]:

@@ -43,6 +43,8 @@ from planner_ft.data.stated import MOST_REWRITINGS, rewritings, stated_numbers, 
         ("one time around", 360, "deg"),
         ("south-bound", 180, "deg"),
         ("the cable, sw, 917 metres", 225, "deg"),
+        ("lanes one five metres apart", 15, "m"),
+        ("a field of view of three zero degrees", 30, "deg"),
     ],
 )
 def test_values_are_found_however_they_are_said(text: str, value: float, unit: str) -> None:

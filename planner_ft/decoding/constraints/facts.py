@@ -28,6 +28,7 @@ MEASURES = ("m", "s", "m/s", "degC")
 BEFORE_NUMBERS = frozenset({"at", "by", "of", "to", "for", "in", "is", "every", "each", "speed", "about", "around", "than", "off", "within"})
 """Words behind which "one" is a number and no pronoun."""
 NO_THINGS = frozenset({"towards", "across", "as", "this", "is", "less", "plus", "minus", "times", "always", "was", "has", "afterwards", "upwards", "outwards"})
+_AND_A = re.compile(rf"(?<![a-z])(?:{'|'.join(AND)}) (?:an? )?$", re.IGNORECASE)
 _WORD_BEFORE = re.compile(r"([a-z]+)\W*$", re.IGNORECASE)
 _WORD_BEHIND = re.compile(r"[ -]([a-z]+s)\b(?!['’])", re.IGNORECASE)
 _NUMBER = r"[-−–]?\d+(?:\.\d+)?"
@@ -97,7 +98,7 @@ def without_counts(text: str) -> str:
         word = text[quantity.start : quantity.end].lower()
         before, behind = _WORD_BEFORE.search(text[: quantity.start]), _WORD_BEHIND.match(text[quantity.end :])
         said_before = before[1].lower() if before else ""
-        stands = (word == "one" and said_before not in BEFORE_NUMBERS) or (word in FRACTIONS and said_before not in AND)
+        stands = (word == "one" and said_before not in BEFORE_NUMBERS) or (word in FRACTIONS and not _AND_A.search(text[: quantity.start]))
         if quantity.unit is None and (stands or (behind is not None and _is_thing(behind[1].lower()))):
             pieces.append(text[end : quantity.start])
             end = quantity.end

@@ -36,6 +36,7 @@ ROUND = re.compile(r"\b(?:square|round|around|about|circle|ring|circuit|perimete
 UNKNOWN = re.compile(r"\b(?:zig-?zag|spiral|triang\w+|hexagon\w*|pentagon\w*|octagon\w*|figure|ellip\w+|oval|diamond|half ?way|midpoint|mirror\w*)\b", re.I)
 """Shapes whose waypoints are not derived here."""
 FOUR = re.compile(r"\b(?:(?:four|4)\W(?:corner|point|waypoint|mid|side)\w*|corners? (?:only|alone)|only (?:the )?(?:four )?corners)\b", re.I)
+HALF = re.compile(r"\bhalf (?:of )?(?:the |its |this )?(?:\w+ )?(?:square|round|ring|way round|side|circuit)\b|\bhalf only\b", re.I)
 CLOSED = re.compile(r"\b(?:clos(?:e|es|ed|ing)|(?:back|return\w*) (?:at|to|on) (?:the |its |your )?(?:start|first|same))\b", re.I)
 AGAIN = re.compile(r"\b(?:clos\w*|back|return\w*|again|revisit\w*|same|twice|times|repeat\w*|between|patrol\w*|laps?|home|start\w*|once more)\b", re.I)
 
@@ -123,7 +124,8 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     paths: Iterator[Path] = iter(())
     task = vocabulary.task.get(str(record.get("task")))
     if not free:
-        facts = _Facts(reading.text, parameters, tuple(place for place in places if place != home) or places, lengths, tuple(said), tuple(counts))
+        centres = tuple(place for place in places if place != home or place in own)
+        facts = _Facts(reading.text, parameters, centres or places, lengths, tuple(said), tuple(counts))
         paths = _paths(facts, task.pattern if task else "", sorted(angles))
     whole = None if reading.numbers_free or task is None else own_movement(reading.text, parameters, own[0] if len(own) == 1 else None, task, vocabulary)
     itinerary = read_itinerary(record, vocabulary) if whole is None and not reading.numbers_free else whole
@@ -161,6 +163,7 @@ def _paths(facts: _Facts, pattern: str, angles: list[float]) -> Iterator[Path]:
         for centre, (width, length, spacing) in itertools.product(facts.centres, dict.fromkeys(_sizes(facts))):
             for middle in (centre, *_middles(centre, width, length, facts.text)):
                 yield from _grids(middle, width, length, spacing)
+        yield from _between_corners(facts)
     if pattern == "square" or ROUND.search(facts.text):
         for centre, radius in itertools.product(facts.centres, facts.lengths):
             for start, clockwise in itertools.product(g.SQUARE_STARTS, (False, True)):
@@ -176,6 +179,8 @@ def _rings(square: Path, text: str) -> Iterator[Path]:
     yield from _closed(square, text)
     if FOUR.search(text):
         yield from _closed(square[::2], text)
+    if HALF.search(text):
+        yield square[: len(square) // 2 + 1]
 
 
 def _closed(ring: Path, text: str) -> Iterator[Path]:
@@ -206,6 +211,21 @@ def _middles(corner: Point, width: float, length: float, prompt: str) -> list[Po
     if "corner" not in prompt.lower():
         return []
     return [g.point(corner[0] + x * width / 2, corner[1] + y * length / 2) for x, y in itertools.product((1, -1), repeat=2)]
+
+
+def _between_corners(facts: _Facts) -> Iterator[Path]:
+    """The lanes of areas that two stated places are opposite corners of."""
+    for one, other in itertools.combinations(facts.centres, 2):
+        width, length = abs(one[0] - other[0]), abs(one[1] - other[1])
+        for lanes in (lanes for lanes in facts.counts if width and length):
+            yield from _grids(_middle(one, other), width, length, width / (lanes - 1))
+            yield from _grids(_middle(one, other), width, length, length / (lanes - 1))
+        for spacing in facts.lengths if width and length else ():
+            yield from _grids(_middle(one, other), width, length, spacing)
+
+
+def _middle(one: Point, other: Point) -> Point:
+    return g.point((one[0] + other[0]) / 2, (one[1] + other[1]) / 2)
 
 
 def _grids(centre: Point, width: float, length: float, spacing: float) -> Iterator[Path]:

@@ -47,7 +47,7 @@ CLAUSE = re.compile(r"[.;,:]")
 ROW = re.compile(rf"[\[(]?{_PAIR}(?:\s*(?:,|;|and|,\s*and|to)?\s*{_PAIR}){{2,}}[\])]?")
 BOX = re.compile(rf"{_PAIR}\s*to\s*{_PAIR}")
 FENCE = re.compile(
-    r"\b(?:\w*fence\w*|fecne|bound\w*|box|polygon|rectangle|limit\w*|inside|within|zone|corners|perimeter|region|leav\w+)\b[^.;]{0,60}$", re.IGNORECASE
+    r"\b(?:\w*fence\w*|fecne|bound\w*|box|polygon|rectangle|limit\w*|inside|outside|within|zone|corners|perimeter|region|leav\w+)\b[^.;]{0,60}$", re.IGNORECASE
 )
 
 # Shapes

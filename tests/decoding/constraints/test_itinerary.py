@@ -58,6 +58,7 @@ def test_a_square_is_laid_out_by_the_rules_and_by_what_the_prompt_says(prompt: s
         ("SubseaCableTrack", "Go to the start, then run the maximum distance along the track heading.", TRACK, [(10, 20), (210, 20)]),
         ("SubseaCableTrack", "Go to the start, turn to 90 degrees, then run 100 m along that bearing.", {"start": [0, 0]}, [(0, 0), (100, 0)]),
         ("Transit", "Head for [3, 4] inside the fence (0, 0), (9, 0), (9, 9), (0, 9).", {}, [(3, 4)]),
+        ("Transit", "Head for [3, 4], not outside (0, 0), (9, 0), (9, 9), (0, 9) at any time.", {}, [(3, 4)]),
     ],
 )  # fmt: skip
 def test_legs_are_walked_in_the_order_of_the_prompt(task: str, prompt: str, parameters: dict[str, Any], path: list[g.Point]) -> None:

@@ -32,6 +32,27 @@ def test_a_grid_can_be_stated_in_the_prompt_alone_also_by_a_corner() -> None:
     assert follows(facts, g.lawnmower((30, 40), 40, 60, 20))
 
 
+def test_an_area_can_be_stated_by_two_opposite_corners() -> None:
+    facts = ground("BathymetryGridSurvey", "Area from (10, 10) up to (40, 50), north-south lanes 10 m apart, from the north-west corner.", center=[25, 30])
+    assert follows(facts, g.lawnmower((25, 30), 30, 40, 10, "north-west"))
+    facts = ground("SearchAndDetect", "Comb the rectangle between [210, 140] and [180, 80] in three lanes spread evenly, the right-hand one first.")
+    assert follows(facts, g.lawnmower((195, 110), 30, 60, 15, "north-east"))
+
+
+def test_a_grid_can_lie_round_home() -> None:
+    facts = ground("BathymetryGridSurvey", "Sound a 20 x 40 m area about the origin, lanes 20 m apart, where you like to begin.", center=[0, 0])
+    assert follows(facts, g.lawnmower((0, 0), 20, 40, 20))
+
+
+def test_half_a_square_is_left_at_its_middle() -> None:
+    facts = ground(
+        "SurveyTarget", "The western half of the square only, from the middle of the north side, counter-clockwise.", target_position=[30, 40], radius=10
+    )
+    assert follows(facts, g.survey_square((30, 40), 10, "north")[:5])
+    whole = ground("SurveyTarget", "The square from the middle of the north side on, where it is safe.", target_position=[30, 40], radius=10)
+    assert not follows(whole, g.survey_square((30, 40), 10, "north")[:5])
+
+
 def test_a_survey_square_may_start_anywhere_and_go_either_way_round() -> None:
     facts = ground("SurveyTarget", "Survey it on a square, beginning where the light is best.", target_position=[30, 40], radius=10)
     assert follows(facts, g.survey_square((30, 40), 10))
