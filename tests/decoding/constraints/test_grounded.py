@@ -75,6 +75,7 @@ def test_what_nobody_said_cannot(embedded: Any, entry: tuple[str, dict[str, Any]
         ("panorama of this one and that one, a quarter overlap", {"overlap": 25}, True),
         ("panorama of this one and that one, a quarter overlap", {"wait": 1}, False),
         ("panorama, waiting hour and half each", {"wait": 5400}, True),
+        ("panorama, waiting minute and a half each", {"wait": 90}, True),
     ],
 )
 def test_a_number_that_counts_things_is_no_measure(embedded: Any, prompt: str, parameters: dict[str, Any], possible: bool) -> None:
