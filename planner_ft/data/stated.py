@@ -77,6 +77,11 @@ def states_position(text: str, position: list[float]) -> bool:
     return any(close(x, position[0]) and close(y, position[1]) for x, y in stated_positions(text))
 
 
+def radio_digits(text: str) -> str:
+    """A text with "lanes one five metres apart", as it is said over the radio, in figures; three digits and more are read so anyway."""
+    return _RADIO.sub(lambda match: _DIGITS[match[1].lower()] + _DIGITS[match[2].lower()], text)
+
+
 def _numbers(text: str, unit: str | None) -> Iterator[float]:
     numbers = quantities(text)
     yield from (quantity.value for quantity in numbers if quantity.unit in (unit, None))
@@ -142,9 +147,8 @@ def _speak(text: str) -> Iterator[str]:
 
 
 def _radio(text: str) -> Iterator[str]:
-    """ "lanes one five metres apart", as it is said over the radio; three digits and more are read so anyway."""
     if _RADIO.search(text):
-        yield _RADIO.sub(lambda match: _DIGITS[match[1].lower()] + _DIGITS[match[2].lower()], text)
+        yield radio_digits(text)
 
 
 def _south(text: str) -> Iterator[str]:

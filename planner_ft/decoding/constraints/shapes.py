@@ -98,7 +98,7 @@ def _sizes(text: str, places: list[Place], facts: Facts) -> tuple[float, float, 
     """Width, length and spacing: those of the text, else the task's own; each length of the text must be one of them."""
     said: dict[str, float] = {}
     rest = stated_sizes(text, places)
-    for name, value, used in _named_sizes(text, rest):
+    for name, value, used in named_sizes(text, rest):
         if said.setdefault(name, value) != value:
             raise Uncertain
         rest = [found for found in rest if found[1] not in used]
@@ -108,7 +108,7 @@ def _sizes(text: str, places: list[Place], facts: Facts) -> tuple[float, float, 
     return sizes[0], sizes[1], sizes[2]  # type: ignore[return-value]
 
 
-def _named_sizes(text: str, lengths: list[tuple[float, int, int]]) -> Iterator[tuple[str, float, set[int]]]:
+def named_sizes(text: str, lengths: list[tuple[float, int, int]]) -> Iterator[tuple[str, float, set[int]]]:
     """(name, value, places in the text) of the sizes that a text names."""
     for value, start, end in lengths:
         before, behind = text[:start], text[end:]
@@ -140,7 +140,7 @@ def _along(text: str) -> g.Axis:
 def _grid_corner(text: str) -> g.Corner:
     """The corner that a grid starts at."""
     plain = w.LANES_Y.sub(" ", w.LANES_X.sub(" ", text))
-    named = {_named_corner(match) for match in w.CORNER.finditer(plain)}
+    named = {named_corner(match) for match in w.CORNER.finditer(plain)}
     rest = w.STEP.sub(" ", w.CORNER.sub(" ", plain))
     steps = [match[1].lower() for match in w.STEP.finditer(plain)]
     if len(named) > 1 or w.COMPASS.search(rest) or (not named and (steps or w.BEGINS.search(rest))):
@@ -151,7 +151,8 @@ def _grid_corner(text: str) -> g.Corner:
     return corner
 
 
-def _named_corner(match: re.Match[str]) -> g.Corner:
+def named_corner(match: re.Match[str]) -> g.Corner:
+    """The corner that a match of CORNER names."""
     south, west = (match[3][0], match[3][1]) if match[3] else (match[1], match[2])
     return next(corner for corner in g.CORNERS if corner.startswith(south[0].lower()) and corner.split("-")[1].startswith(west[0].lower()))
 
@@ -176,7 +177,7 @@ def _radius(text: str, places: list[Place], facts: Facts) -> float:
 
 
 def _square_start(text: str) -> str:
-    corners = {str(_named_corner(match)) for match in w.CORNER.finditer(text)}
+    corners = {str(named_corner(match)) for match in w.CORNER.finditer(text)}
     plain = w.CORNER.sub(" ", text)
     sides = {re.sub(r"ern$", "", match[1] or match[2]).lower() for match in w.SIDE.finditer(plain)}
     named = corners | sides

@@ -20,6 +20,7 @@ from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.grammar import MOST_STEPS
 from planner_ft.decoding.constraints.itinerary import moves_otherwise, read_itinerary
+from planner_ft.decoding.constraints.one_shape import one_shape
 from planner_ft.decoding.constraints.own_movement import own_movement
 from planner_ft.vocabulary import Vocabulary
 
@@ -46,6 +47,8 @@ class Ground:
     """The facts that waypoints are derived from. `free`: they cannot be read with certainty, and any waypoint may be meant.
     `itinerary`: they leave no choice, these are the waypoints (or there are none); with `alone` the task asks for no other movement.
 
+    `shaped`: the task is one of the paths, run once; other waypoints are stated places.
+
     `stays` says that the vehicle may come to a place again, or stay where it is. A path counts as begun with `begun` of its waypoints in a row: with
     fewer where the task is about such a path, since two moves can look like the beginning of many.
     """
@@ -54,6 +57,7 @@ class Ground:
     lengths: tuple[float, ...]
     bearings: tuple[float, ...]
     paths: tuple[Path, ...]
+    shaped: bool = False
     free: bool = False
     stays: bool = False
     begun: int = 2
@@ -68,6 +72,9 @@ class Ground:
         onward = dict.fromkeys(path[done] for path, done in begun if done < len(path))
         if onward and begun[0][1] >= self.begun:
             return list(onward)
+        if self.shaped:
+            starts = () if any(_within(path, before) for path in self.paths) else self._starts
+            return [point for point in dict.fromkeys((*starts, *self.places)) if point not in before]
         bases = dict.fromkeys((*before[-1:], *self.places))
         away = (g.offset(base, bearing, length) for base in bases for length in self.lengths for bearing in self.bearings)
         options = dict.fromkeys(itertools.chain(self.places, before, self._starts, onward, away))
@@ -106,6 +113,11 @@ class Ground:
         return passing
 
 
+def _within(path: Path, before: Path) -> bool:
+    """Whether a path was run."""
+    return any(before[place : place + len(path)] == path for place in range(len(before) - len(path) + 1))
+
+
 def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     """The facts of a task input. Waypoints are free where its numbers cannot be read with certainty."""
     reading = read(str(record.get("prompt", "")), vocabulary)
@@ -132,12 +144,16 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     itinerary = itinerary if itinerary is None or len(itinerary) <= MOST_STEPS else None
     found = tuple(dict.fromkeys(itertools.islice(paths, MOST_PATHS)))
     begun = 2 if task and task.pattern in ("lawnmower", "square") else 3
-    free = free and itinerary is None
+    shape = None if unread or task is None or itinerary is not None else one_shape(reading.text, parameters, task, own[0] if len(own) == 1 else None)
+    if shape is not None:
+        (found, places), begun = shape, 1
+    free = free and itinerary is None and shape is None
     return Ground(
         places,
         lengths,
         tuple(sorted(angles)),
         found,
+        shaped=shape is not None,
         free=free,
         stays=AGAIN.search(reading.text) is not None,
         begun=begun,
