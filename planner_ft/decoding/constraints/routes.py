@@ -106,10 +106,8 @@ class TaskScript:
     def _names(self) -> str:
         """The navigation skills that may follow."""
         ground = self.ground
-        only_waypoints = ground.alone and ground.itinerary is not None
-        offered = [
-            skill for skill in self.vocabulary.skills_in_role("navigation") if (ground.following(self.before) if coordinates(skill) else not only_waypoints)
-        ]
+        skills = self.vocabulary.skills_in_role("navigation")
+        offered = [skill for skill in skills if (ground.following(self.before) if coordinates(skill) else not ground.waypoints_alone)]
         return Grammar().text(" | ".join(literal(patterns.quoted(skill.name)) for skill in offered))
 
     def _movement(self) -> str:

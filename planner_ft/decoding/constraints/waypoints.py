@@ -45,7 +45,7 @@ AGAIN = re.compile(r"\b(?:clos\w*|back|return\w*|again|revisit\w*|same|twice|tim
 @dataclass(frozen=True)
 class Ground:
     """The facts that waypoints are derived from. `free`: they cannot be read with certainty, and any waypoint may be meant.
-    `itinerary`: they leave no choice, these are the waypoints (or there are none); with `alone` the task asks for no other movement.
+    `itinerary`: they leave no choice, these are the waypoints (or there are none); with `alone` the task asks for no movement beside its waypoints.
 
     `shaped`: the task is one of the paths, run once; other waypoints are stated places.
 
@@ -85,9 +85,16 @@ class Ground:
         if self.itinerary is not None:
             done = len(before) >= len(self.itinerary)
             return "not yet" if not done else "must" if self.alone else "may"
+        if self.shaped and any(_within(path, before) for path in self.paths):
+            return "must" if self.alone and not self.places else "may"
         begun = self._begun(before)
         ends = not begun or begun[0][1] < self.begun or any(done == len(path) for path, done in begun)
         return "may" if ends else "not yet"
+
+    @property
+    def waypoints_alone(self) -> bool:
+        """Whether every step goes to a waypoint."""
+        return self.alone and (self.itinerary is not None or self.shaped)
 
     def _begun(self, before: Path) -> list[tuple[Path, int]]:
         """Paths of which the last waypoints are the beginning, with how many: those with the most."""
