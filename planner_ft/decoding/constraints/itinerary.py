@@ -30,10 +30,16 @@ def read_itinerary(record: dict[str, Any], vocabulary: Vocabulary) -> Path | Non
     parts = [part for part in w.PART.split(text) if part and part.strip()]
     facts = Facts(parameters, _own_place(parameters), g.point(*vocabulary.home), len(parts) == 1, _turned(text))
     walked: list[Point] = []
+    shaped: list[list[Point]] = []
     try:
         for part in _with_details(parts):
-            walked += _part(part, facts, walked)
+            found = _part(part, facts, walked)
+            walked += found
+            shaped += [found] if _shapes(part) else []
     except Uncertain:
+        return None
+    # "Mow the area after that, lanes north-south" speaks of one grid.
+    if any(one == two for one, two in itertools.pairwise(shaped)):
         return None
     if any(one == two for one, two in itertools.pairwise(walked)) or g.point(*vocabulary.unresolved) in walked:
         return None

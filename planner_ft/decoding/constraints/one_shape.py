@@ -55,6 +55,8 @@ def one_shape(text: str, parameters: dict[str, Any], task: Task, own: Point | No
     lanes = WITHIN_LANES.sub(" ", w.LANES_Y.sub(" ", w.LANES_X.sub(" ", plain)))
     if OTHER_WAY.search(plain) or w.TO_OWN.search(plain) or any(stated_ways(lanes, [])):
         return None
+    if any(w.AT_CORNER.search(plain[: place.start]) for place in places[:1]):
+        return None
     apart = [place.point for place in places if place.point != own]
     if len(apart) == 2 and AREA.search(plain) and task.pattern == "lawnmower":
         area: tuple[Point, Point] | None = (apart[0], apart[1])
