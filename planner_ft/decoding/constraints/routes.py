@@ -92,7 +92,7 @@ class TaskScript:
         return None
 
     def closing(self) -> Script:
-        return replace(self, ground=replace(self.ground, paths=(), itinerary=None, alone=False))
+        return replace(self, ground=replace(self.ground, paths=(), itinerary=None, alone=False, shaped=False))
 
     def _behind(self, text: str) -> TaskScript:
         """The script with the waypoint of the step that is being written."""

@@ -47,7 +47,7 @@ class Ground:
     """The facts that waypoints are derived from. `free`: they cannot be read with certainty, and any waypoint may be meant.
     `itinerary`: they leave no choice, these are the waypoints (or there are none); with `alone` the task asks for no movement beside its waypoints.
 
-    `shaped`: the task is one of the paths, run once; other waypoints are stated places.
+    `shaped`: the task is one of the paths, run once; other waypoints are the places `apart` from it.
 
     `stays` says that the vehicle may come to a place again, or stay where it is. A path counts as begun with `begun` of its waypoints in a row: with
     fewer where the task is about such a path, since two moves can look like the beginning of many.
@@ -58,6 +58,7 @@ class Ground:
     bearings: tuple[float, ...]
     paths: tuple[Path, ...]
     shaped: bool = False
+    apart: tuple[Point, ...] = ()
     free: bool = False
     stays: bool = False
     begun: int = 2
@@ -74,7 +75,7 @@ class Ground:
             return list(onward)
         if self.shaped:
             starts = () if any(_within(path, before) for path in self.paths) else self._starts
-            return [point for point in dict.fromkeys((*starts, *self.places)) if point not in before]
+            return [point for point in dict.fromkeys((*starts, *self.apart)) if point not in before]
         bases = dict.fromkeys((*before[-1:], *self.places))
         away = (g.offset(base, bearing, length) for base in bases for length in self.lengths for bearing in self.bearings)
         options = dict.fromkeys(itertools.chain(self.places, before, self._starts, onward, away))
@@ -86,7 +87,7 @@ class Ground:
             done = len(before) >= len(self.itinerary)
             return "not yet" if not done else "must" if self.alone else "may"
         if self.shaped and any(_within(path, before) for path in self.paths):
-            return "must" if self.alone and not self.places else "may"
+            return "must" if self.alone and not self.apart else "may"
         begun = self._begun(before)
         ends = not begun or begun[0][1] < self.begun or any(done == len(path) for path, done in begun)
         return "may" if ends else "not yet"
@@ -152,8 +153,9 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     found = tuple(dict.fromkeys(itertools.islice(paths, MOST_PATHS)))
     begun = 2 if task and task.pattern in ("lawnmower", "square") else 3
     shape = None if unread or task is None or itinerary is not None else one_shape(reading.text, parameters, task, own[0] if len(own) == 1 else None)
+    apart: tuple[Point, ...] = ()
     if shape is not None:
-        (found, places), begun = shape, 1
+        (found, apart), begun = shape, 1
     free = free and itinerary is None and shape is None
     return Ground(
         places,
@@ -161,6 +163,7 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
         tuple(sorted(angles)),
         found,
         shaped=shape is not None,
+        apart=apart,
         free=free,
         stays=AGAIN.search(reading.text) is not None,
         begun=begun,

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import random
 from typing import Any
 
+import numpy as np
 import pytest
 
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.cues import ANY, read_cues
+from planner_ft.decoding.constraints.factory import constraint_factory
+from planner_ft.decoding.constraints.grammar import SchemaValues
+from planner_ft.decoding.constraints.routes import STEP_OPENS, TaskScript
 from planner_ft.decoding.constraints.waypoints import Ground, read_ground
 from planner_ft.vocabulary import load_vocabulary
 
@@ -90,3 +95,30 @@ def test_cues() -> None:
     assert read_cues("Mow the area.") == (read_cues("")) and read_cues("").corners == ("south-west",) and read_cues("").turns == (False,)
     assert read_cues("East-west lanes, from the NE corner, clockwise.") == type(ANY)(("north-east",), ("x",), ("north-east",), (True,))
     assert read_cues("Lanes, the other way round, starting where you like.").turns == ANY.turns
+
+
+def test_an_answer_that_must_close_can_go_somewhere_else() -> None:
+    facts = ground("SurveyTarget", "The usual survey square at the radius given.", SQUARE)
+    script = TaskScript(VOCABULARY, SchemaValues(), facts).closing()
+    named = script.following('{"skill_sequence":[' + STEP_OPENS)
+    assert named is not None
+    movement = named[1].following("GoToXY")
+    assert movement is not None and movement[0]
+    assert isinstance(script, TaskScript) and script.ground.following(())
+
+
+def test_any_limit_is_kept(tokenizer: Any) -> None:
+    record = {"task": "BathymetryGridSurvey", "prompt": "Lawnmower over the area, from the north-east corner.", "parameters": GRID}
+    ends = (int(tokenizer.eos_token_id),)
+    factory = constraint_factory(tokenizer, "task", VOCABULARY, "grounded", end_ids=ends, limit=4096)
+    assert factory is not None
+    rng = random.Random(0)
+    for limit in range(factory.least_tokens, factory.least_tokens + 400, 40):
+        answer = factory.start(record, limit)
+        for _token in range(limit):
+            allowed = np.flatnonzero(np.unpackbits(answer.mask().view(np.uint8), bitorder="little"))
+            token = int(rng.choice(list(allowed)))
+            answer.accept(token)
+            if token in ends:
+                break
+        assert answer.ended
