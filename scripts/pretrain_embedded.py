@@ -12,6 +12,7 @@ import argparse
 import dataclasses
 import json
 from concurrent.futures import ProcessPoolExecutor
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -39,23 +40,56 @@ def tokenizer_of(work: Path, arguments: argparse.Namespace) -> Any:
     return PreTrainedTokenizerFast.from_pretrained(folder)
 
 
-def make_shard(job: tuple[Path, Path, int, int, float, int]) -> dict[str, int]:
+def make_shard(job: tuple[Path, Path, Path | None, int, int, float, int]) -> dict[str, int]:
     """Write one shard of the corpus (worker process)."""
     from transformers import PreTrainedTokenizerFast
 
     from planner_ft.pretraining.corpus import encode_shard
+    from planner_ft.pretraining.emphasis import Emphasis
 
-    path, tokenizer, seed, count, share, longest = job
+    path, tokenizer, emphasis, seed, count, share, longest = job
     return encode_shard(
-        path, PreTrainedTokenizerFast.from_pretrained(tokenizer), load_vocabulary(), seed=seed, count=count, mission_share=share, longest=longest
+        path,
+        PreTrainedTokenizerFast.from_pretrained(tokenizer),
+        load_vocabulary(),
+        seed=seed,
+        count=count,
+        mission_share=share,
+        longest=longest,
+        emphasis=Emphasis.load(emphasis) if emphasis else None,
     )
+
+
+def emphasis_of(work: Path, arguments: argparse.Namespace, settings: PretrainSettings) -> Path | None:
+    """The file that says which samples the corpus keeps, fitted to the losses of `--init` first where there is none."""
+    if arguments.hard_share >= 1:
+        return None
+    if not arguments.init:
+        raise SystemExit("--hard-share needs --init: the model whose losses tell hard samples from easy ones.")
+    path = work / "emphasis.npz"
+    if not path.is_file():
+        import torch
+        from transformers import LlamaForCausalLM
+
+        from planner_ft.pretraining.corpus import encoded
+        from planner_ft.pretraining.emphasis import fit, weighted_losses
+        from planner_ft.pretraining.kernels import CAUSAL, register_attention
+
+        register_attention()
+        tokenizer = tokenizer_of(work, arguments)
+        drawn = encoded(tokenizer, load_vocabulary(), seed=arguments.corpus_seed - 1, mission_share=arguments.mission_share, longest=settings.longest)
+        samples = [sample for sample in islice(drawn, arguments.scored_samples) if sample is not None]
+        model = LlamaForCausalLM.from_pretrained(arguments.init, dtype=torch.bfloat16, attn_implementation=CAUSAL).eval()
+        fit(samples, weighted_losses(model, samples, tokenizer), arguments.hard_share).save(path)
+    return path
 
 
 def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSettings) -> list[Path]:
     """The corpus as shard files, those that are missing written first."""
     paths = [work / "corpus" / f"shard-{index:03d}.npz" for index in range(arguments.shards)]
+    emphasis = emphasis_of(work, arguments, settings)
     jobs = [
-        (path, work / "tokenizer", arguments.corpus_seed + index, arguments.shard_samples, arguments.mission_share, settings.longest)
+        (path, work / "tokenizer", emphasis, arguments.corpus_seed + index, arguments.shard_samples, arguments.mission_share, settings.longest)
         for index, path in enumerate(paths)
         if not path.is_file()
     ]
@@ -99,7 +133,7 @@ def export(work: Path, folder: Path, tokenizer: Any, model: Any, settings: Pretr
 def corpus_summary(work: Path) -> dict[str, Any]:
     """Samples and tokens of the corpus in all, and the commits of the generators that wrote it: shards may be replaced while a run goes on."""
     parts = [json.loads(path.read_text()) for path in sorted((work / "corpus").glob("*.json"))]
-    sums = {key: sum(part[key] for part in parts) for key in ("samples", "tokens", "left_out")}
+    sums = {key: sum(part.get(key, 0) for part in parts) for key in ("samples", "tokens", "left_out", "passed_over")}
     return {**sums, "generators": sorted({part["commit"] for part in parts if part.get("commit")})}
 
 
@@ -112,6 +146,8 @@ def main() -> None:
     parser.add_argument("--shards", type=int, default=20)
     parser.add_argument("--shard-samples", type=int, default=12_000)
     parser.add_argument("--mission-share", type=float, default=0.6)
+    parser.add_argument("--hard-share", type=float, default=1.0, help="share of the drawn tokens that is kept, those hard for --init first")
+    parser.add_argument("--scored-samples", type=int, default=8000, help="samples whose losses tell hard from easy")
     parser.add_argument("--corpus-seed", type=int, default=1000)
     parser.add_argument("--tokenizer-samples", type=int, default=20_000)
     parser.add_argument("--vocabulary-size", type=int, default=4096)

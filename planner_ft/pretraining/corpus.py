@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from planner_ft.data.mission.synthetic import sample_missions
 from planner_ft.data.task.handed_down import handed_down_tasks
 from planner_ft.data.task.sampler import sample_tasks
+from planner_ft.pretraining.emphasis import Emphasis, Encoded
 from planner_ft.prompts.render import render_sample
 from planner_ft.prompts.text import completion_text, user_text
 from planner_ft.support.files import atomic_writer
@@ -68,26 +69,47 @@ def tokenizer_texts(vocabulary: Vocabulary, seed: int, count: int, mission_share
         yield completion_text(level, record["expected"], vocabulary)
 
 
+def encoded(tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, seed: int, mission_share: float, longest: int) -> Iterator[Encoded | None]:
+    """Endless rendered samples; None stands for one of more than `longest` tokens."""
+    for level, record in stream(vocabulary, seed, mission_share):
+        rendered = render_sample(level, record, tokenizer, vocabulary)
+        ids = np.array(rendered.input_ids, dtype=np.int64)
+        yield Encoded(level, user_text(level, record, vocabulary), ids, rendered.prompt_length) if len(ids) <= longest else None
+
+
 def encode_shard(
-    path: Path, tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, seed: int, count: int, mission_share: float, longest: int
+    path: Path,
+    tokenizer: PreTrainedTokenizerBase,
+    vocabulary: Vocabulary,
+    *,
+    seed: int,
+    count: int,
+    mission_share: float,
+    longest: int,
+    emphasis: Emphasis | None = None,
 ) -> dict[str, int]:
-    """Write `count` tokenised samples as one .npz file; return counts. Samples over `longest` tokens are left out."""
-    samples = stream(vocabulary, seed, mission_share)
+    """Write `count` tokenised samples as one .npz file; return counts.
+
+    Samples over `longest` tokens are left out and counted, those that `emphasis` passes over are drawn again and counted.
+    """
+    draw = np.random.default_rng(seed)
     ids: list[NDArray[np.uint16]] = []
     prompts: list[int] = []
-    left_out = 0
-    for _ in range(count):
-        level, record = next(samples)
-        rendered = render_sample(level, record, tokenizer, vocabulary)
-        if len(rendered.input_ids) > longest:
+    left_out = passed_over = 0
+    for sample in encoded(tokenizer, vocabulary, seed=seed, mission_share=mission_share, longest=longest):
+        if sample is None:
             left_out += 1
-            continue
-        ids.append(np.array(rendered.input_ids, dtype=np.uint16))
-        prompts.append(rendered.prompt_length)
+        elif emphasis is not None and draw.random() >= emphasis.probability(sample):
+            passed_over += 1
+        else:
+            ids.append(sample.ids.astype(np.uint16))
+            prompts.append(sample.prompt)
+        if len(ids) + left_out == count:
+            break
     lengths = np.array([len(item) for item in ids], dtype=np.int32)
     with atomic_writer(path, "wb") as stream_:
         np.savez(stream_, ids=np.concatenate(ids), lengths=lengths, prompts=np.array(prompts, dtype=np.int32))
-    return {"samples": len(ids), "tokens": int(lengths.sum()), "left_out": left_out}
+    return {"samples": len(ids), "tokens": int(lengths.sum()), "left_out": left_out, "passed_over": passed_over}
 
 
 def load_shard(path: Path) -> list[Sample]:
