@@ -32,7 +32,7 @@ SCORING_TOKENS = 4096
 """Tokens in a batch whose losses are measured."""
 
 # Text that the metrics do not compare, or not alone, and waypoints that strength grounded computes.
-_MISSION_TEXT = re.compile(r'"task_prompt":"((?:[^"\\]|\\.)*)"|"assumptions":\[(.*?)\],"constraints":|"constraints":\[(.*)\]\}')
+_MISSION_TEXT = re.compile(r'"task_prompt":"((?:[^"\\]|\\.)*)"|"assumptions":\[(.*?)\](?=,"constraints":)|"constraints":\[(.*)\]\}')
 _MISSION_WEIGHTS = (0.3, 0.2, 0.4)
 _WAYPOINT = re.compile(r'"name":"GoToXY","parameters":\{"x":([-\d.]+),"y":([-\d.]+)')
 _WAYPOINT_WEIGHT = 0.3
