@@ -18,7 +18,7 @@ from planner_ft.data.quantities import bearings, close, positions, quantities
 from planner_ft.data.stated import stated_positions
 from planner_ft.data.task import geometry as g
 from planner_ft.data.words import says
-from planner_ft.decoding.constraints.facts import MEASURES, Reading, number_words, own_texts, read, sector_counts, turned, without_counts, without_pairs
+from planner_ft.decoding.constraints.facts import MEASURES, Reading, own_numbers, own_texts, read, sector_counts, turned, without_counts, without_pairs
 from planner_ft.decoding.constraints.waypoints import Ground, read_ground
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -170,7 +170,14 @@ def _task_source(text: str, vocabulary: Vocabulary) -> Source:
     record = json.loads(text)
     parameters = record["parameters"] if isinstance(record["parameters"], dict) else {}
     places = tuple((value[0], value[1]) for value in parameters.values() if _is_place(value))
-    return Source(record["prompt"], vocabulary, record, own_numbers=tuple(number_words(record)), own_places=places, own_texts=tuple(own_texts(record)))
+    return Source(
+        record["prompt"],
+        vocabulary,
+        record,
+        own_numbers=tuple(number for number, _unit in own_numbers(record, vocabulary)),
+        own_places=places,
+        own_texts=tuple(own_texts(record)),
+    )
 
 
 def _near(value: float, said: float) -> bool:

@@ -73,7 +73,7 @@ class Factory:
         if names_unresolved(record, self.vocabulary):
             return Answer(self.tokens, self._schema, limit, self._reserve)
         values, ground = GroundedTaskValues(record, self.vocabulary), read_ground(record, self.vocabulary)
-        script: Script = TaskScript(self.vocabulary, values, ground)
+        script: Script = TaskScript(self.vocabulary, values, ground, str(record.get("prompt", "")))
         if ground.free:
             script = Whole(plan_grammar("task", self.vocabulary, ResolvedValues(FreeWaypoints(values), self.vocabulary)))
         return Answer(self.tokens, script, limit, self._reserve, values.notes)

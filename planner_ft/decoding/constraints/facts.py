@@ -118,13 +118,15 @@ def usable(values: Iterable[float], parameter: Parameter) -> list[float]:
     return sorted(value for value in within if parameter.type != "integer" or value == int(value))
 
 
-def number_words(record: dict[str, Any]) -> Iterator[float]:
-    """Every number in a task's parameters."""
+def own_numbers(record: dict[str, Any], vocabulary: Vocabulary) -> Iterator[tuple[float, str | None]]:
+    """Every number in a task's parameters, with its unit; without one where the vocabulary does not say it."""
+    task = vocabulary.task.get(str(record.get("task")))
     parameters = record.get("parameters")
-    for value in parameters.values() if isinstance(parameters, dict) else ():
+    for name, value in parameters.items() if isinstance(parameters, dict) else ():
+        unit = task.by_name[name].unit if task and name in task.by_name else None
         for item in value if isinstance(value, list) else [value]:
             if isinstance(item, int | float) and not isinstance(item, bool):
-                yield item
+                yield item, unit
 
 
 def own_texts(record: dict[str, Any]) -> Iterator[str]:

@@ -263,13 +263,6 @@ def step_tail(grammar: Grammar, values: Values) -> str:
     return grammar.rule(f"{' '.join(lists)} {literal('}')}")
 
 
-def named_skills(grammar: Grammar, vocabulary: Vocabulary, role: Role, values: Values) -> str | None:
-    """The rule of a skill of this role behind `{"name":"`; None where the vocabulary has none that can be written."""
-    bodies = ((skill, skill_body(grammar, skill, values)) for skill in vocabulary.skills_in_role(role))
-    options = [f"{literal(patterns.quoted(skill.name))} {body}" for skill, body in bodies if body]
-    return grammar.rule(" | ".join(options)) if options else None
-
-
 def skill_body(grammar: Grammar, skill: Skill, values: Values) -> str | None:
     """The rule of a skill behind its name, up to its closing brace; None where a required parameter has no value."""
     parameters = _parameters(grammar, skill, values)
@@ -278,8 +271,10 @@ def skill_body(grammar: Grammar, skill: Skill, values: Values) -> str | None:
 
 
 def _skills(grammar: Grammar, vocabulary: Vocabulary, role: Role, values: Values) -> str | None:
-    named = named_skills(grammar, vocabulary, role, values)
-    return grammar.rule(f"{literal(SKILL_OPENS)} {named}") if named else None
+    """The rule of a skill of this role; None where the vocabulary has none that can be written."""
+    bodies = ((skill, skill_body(grammar, skill, values)) for skill in vocabulary.skills_in_role(role))
+    options = [f"{literal(patterns.quoted(skill.name))} {body}" for skill, body in bodies if body]
+    return grammar.rule(f"{literal(SKILL_OPENS)} {grammar.rule(' | '.join(options))}") if options else None
 
 
 def _parameters(grammar: Grammar, owner: Task | Skill, values: Values) -> str | None:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from planner_ft.data.quantities import quantities
-from planner_ft.decoding.constraints.facts import MOST_CROSSED, number_words, own_texts, sector_counts, turned, usable
+from planner_ft.decoding.constraints.facts import MOST_CROSSED, own_numbers, own_texts, sector_counts, turned, usable
 from planner_ft.decoding.constraints.grammar import MOST_TEXTS, Grammar, Narrowed, Positions, SchemaValues, items, written, written_number
 from planner_ft.decoding.constraints.grounded import GroundedValues, one_of
 from planner_ft.decoding.constraints.spans import Spans
@@ -22,16 +22,16 @@ class GroundedTaskValues(GroundedValues):
     def __init__(self, record: dict[str, Any], vocabulary: Vocabulary) -> None:
         prompt = str(record.get("prompt", ""))
         super().__init__(prompt, vocabulary)
-        self._own = list(number_words(record))
+        self._own = list(own_numbers(record, vocabulary))
         self._texts = list(own_texts(record))
         self._spans = Spans([prompt, *self._texts], named=True)
-        self._counts = sector_counts([*(quantity.said for quantity in quantities(prompt)), *self._own])
+        self._counts = sector_counts([*(quantity.said for quantity in quantities(prompt)), *(number for number, _unit in self._own)])
 
     def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str | None:
         said = self._reading.numbers(parameter)
         if said is None:
             return super().number(grammar, parameter, without)
-        facts = [*said, *self._own]
+        facts = [*said, *(number for number, unit in self._own if None in (unit, parameter.unit) or unit == parameter.unit)]
         values = usable([*facts, *(turned(facts, self._counts) if parameter.unit == "deg" else ())], parameter)
         return one_of(grammar, (written_number(value) for value in values if value not in without))
 

@@ -6,10 +6,10 @@ A step goes somewhere else than the step before it, to a place that the facts of
 
 from __future__ import annotations
 
+import functools
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from planner_ft.decoding.constraints import patterns
 from planner_ft.decoding.constraints.answer import Script
@@ -20,17 +20,19 @@ from planner_ft.decoding.constraints.grammar import (
     Context,
     Grammar,
     Narrowed,
+    SchemaValues,
     Values,
     key,
-    named_skills,
     skill_body,
     step_tail,
     written_number,
 )
 from planner_ft.decoding.constraints.patterns import literal
+from planner_ft.decoding.constraints.repeats import Step, UnlikeValues, repeatable, spent
 from planner_ft.decoding.constraints.state import coordinates
 from planner_ft.decoding.constraints.waypoints import Ending, Ground, Path, Point
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
+from planner_ft.vocabulary.definition import Role
 from planner_ft.vocabulary.plans import STEP_KEYS
 
 FILTERS, PERCEPTIONS = (key(name) + "[" for name in STEP_KEYS[1:3])
@@ -60,93 +62,129 @@ class RouteValues(Narrowed):
 
 @dataclass(frozen=True)
 class TaskScript:
-    """The parts of an answer: the names that may follow, what stands behind the chosen name, then the skills beside it.
+    """The parts of an answer: the names that may follow, then what stands behind the chosen name, up to the next one.
 
-    A part ends where a name begins: tokenizers keep signs and letters apart. Only the short part with the waypoint is new in every step;
-    the others come again and are compiled once. `before` are the waypoints so far, `steps` their number with all other steps; `chosen` is
-    the skill whose name was written last, `written` what stands behind it so far.
+    A part ends where a name begins: tokenizers keep signs and letters apart. Parts that come again in another step are compiled once.
+    `before` are the waypoints so far, `steps` the movements of the steps that are written; `chosen` is the skill whose name was written
+    last, None where a name is to follow; `written` is the text of the step that is being written, as far as its parts are matched, and `beside` are the
+    skills of the list that is being written.
     """
 
     vocabulary: Vocabulary
     values: Values
     ground: Ground
+    text: str = ""
     before: Path = ()
-    steps: int = 0
+    steps: tuple[Step, ...] = ()
     chosen: Skill | None = None
+    role: Role = "navigation"
     written: str = ""
+    beside: tuple[Step, ...] = ()
 
     def opening(self) -> str:
         return Grammar().text(f"{literal('{' + key('skill_sequence') + '[')} ({literal(STEP_OPENS)} | {literal(CLOSES)})")
 
     def following(self, text: str) -> tuple[str, Script] | None:
         if self.chosen is None and text in self.vocabulary.skill:
-            chosen = replace(self, chosen=self.vocabulary.skill[text])
-            return chosen._movement(), chosen
+            chosen = replace(self, chosen=self.vocabulary.skill[text], written=self.written + text)
+            return chosen._behind_name(), chosen
+        if not text.endswith(SKILL_OPENS):
+            return None
         if text.endswith(STEP_OPENS):
-            ahead = self if self.chosen is None else replace(self._behind(text), steps=self.steps + 1, chosen=None, written="")
-            return ahead._names(), ahead
-        for role, opens in (("filter", FILTERS), ("perception", PERCEPTIONS)):
-            if text.endswith(opens + SKILL_OPENS):
-                ahead = replace(self, written=text)
-                return ahead._beside(role, ending=self.ground.ending(ahead._behind("").before)), ahead
-        return None
+            ahead = self if self.chosen is None else self._behind_step(text)
+            ahead = replace(ahead, chosen=None, role="navigation", written=STEP_OPENS, beside=())
+        else:
+            ahead = self._behind_skill(text)
+        return ahead._names(), ahead
 
     def closing(self) -> Script:
         return replace(self, ground=replace(self.ground, paths=(), itinerary=None, alone=False, shaped=False))
 
-    def _behind(self, text: str) -> TaskScript:
-        """The script with the waypoint of the step that is being written."""
-        pair = coordinates(self.chosen) if self.chosen else ()
-        if not pair:
-            return self
-        start = (self.written + text).index("{")
-        parameters, _end = json.JSONDecoder().raw_decode((self.written + text)[start:])
-        return replace(self, before=(*self.before, (parameters[pair[0].name], parameters[pair[1].name])))
+    def _behind_step(self, text: str) -> TaskScript:
+        """The script behind a step, with its movement and its waypoint."""
+        movement = self._first_of((self.written + text)[len(STEP_OPENS) - len(SKILL_OPENS) :])
+        point = waypoint(movement)
+        return replace(self, steps=(*self.steps, movement), before=(*self.before, point) if point else self.before)
+
+    def _behind_skill(self, text: str) -> TaskScript:
+        """The script at the name of a filter or perception skill."""
+        role: Role = "filter" if text.endswith(FILTERS + SKILL_OPENS) else "perception" if text.endswith(PERCEPTIONS + SKILL_OPENS) else self.role
+        whole = self.written + text
+        beside = (*self.beside, self._first_of(whole[whole.rindex(SKILL_OPENS, 0, -len(SKILL_OPENS)) :])) if role == self.role else ()
+        return replace(self, chosen=None, role=role, written=whole, beside=beside)
+
+    def _first_of(self, text: str) -> Step:
+        """The skill that a text begins with."""
+        entry, _end = json.JSONDecoder().raw_decode(text)
+        return self.vocabulary.skill[entry["name"]], entry["parameters"]
 
     def _names(self) -> str:
-        """The navigation skills that may follow."""
-        ground = self.ground
-        skills = self.vocabulary.skills_in_role("navigation")
-        offered = [skill for skill in skills if (ground.following(self.before) if coordinates(skill) else not ground.waypoints_alone)]
-        return Grammar().text(" | ".join(literal(patterns.quoted(skill.name)) for skill in offered))
+        """The names that may follow."""
+        skills = self.vocabulary.skills_in_role(self.role)
+        offered = [skill for skill in skills if self._offers(skill)]
+        # What nothing can be said against is said, whatever it is: an answer never stands without a way on.
+        return Grammar().text(" | ".join(literal(patterns.quoted(skill.name)) for skill in offered or skills))
 
-    def _movement(self) -> str:
-        """What may stand behind the name of a movement, up to the first skill beside it or to the next step."""
+    def _offers(self, skill: Skill) -> bool:
+        if coordinates(skill):
+            return bool(self.ground.following(self.before))
+        if self.role == "navigation" and self.ground.waypoints_alone:
+            return False
+        uses = [parameters for used, parameters in self.beside if used == skill]
+        return repeatable(skill, uses) and skill_body(Grammar(), skill, self._values_of(skill)) is not None
+
+    def _values_of(self, skill: Skill) -> Values:
+        """What the parameters of a skill may be here: not again what it said before."""
+        if skill.role == "navigation":
+            return UnlikeValues(self.values, skill, spent(skill, self.steps, self.text))
+        return UnlikeValues(self.values, skill, [parameters for used, parameters in self.beside if used == skill])
+
+    def _behind_name(self) -> str:
+        """What may stand behind the chosen name, up to the next one."""
         assert self.chosen is not None
         grammar = Grammar()
+        another, opens = literal("," + SKILL_OPENS), literal(SKILL_OPENS)
         tail = step_tail(grammar, self.values)
-        opens, skill = literal("," + FILTERS), literal(SKILL_OPENS)
+        if self.role != "navigation":
+            body = self._body(grammar, self._values_of(self.chosen))
+            ends = f"{literal(']')} {tail} {self._ends(self.ground.ending(self._after_movement))}"
+            rest = ends if self.role == "perception" else f"{literal('],' + PERCEPTIONS)} ({opens} | {ends})"
+            more = f"{another} | " if len(self.beside) + 1 < MOST_SKILLS else ""
+            return grammar.text(f"{body} ({more}{rest})")
         options = []
-        for body, ending in self._bodies(grammar):
-            bare = f"{literal(']')} {tail} {self._ends(ending)}"
-            options.append(f"{body} {opens} ({skill} | {literal('],' + PERCEPTIONS)} ({skill} | {bare}))")
+        for values, ending in self._movements():
+            ends = f"{literal(']')} {tail} {self._ends(ending)}"
+            options.append(f"{self._body(grammar, values)} {literal(',' + FILTERS)} ({opens} | {literal('],' + PERCEPTIONS)} ({opens} | {ends}))")
         return grammar.text(" | ".join(options))
 
-    def _bodies(self, grammar: Grammar) -> list[tuple[str | None, Ending]]:
-        """The parameters of a movement, and whether the answer ends behind them."""
+    def _body(self, grammar: Grammar, values: Values) -> str:
+        assert self.chosen is not None
+        body = skill_body(grammar, self.chosen, values) or skill_body(grammar, self.chosen, self.values)
+        return body or str(skill_body(grammar, self.chosen, SchemaValues()))
+
+    def _movements(self) -> list[tuple[Values, Ending]]:
+        """What the parameters of the chosen movement may be, and whether the answer ends behind it."""
         assert self.chosen is not None
         if not coordinates(self.chosen):
-            return [(skill_body(grammar, self.chosen, self.values), self.ground.ending(self.before))]
+            return [(self._values_of(self.chosen), self.ground.ending(self.before))]
         found: dict[Ending, list[Point]] = {}
         for point in self.ground.following(self.before):
             found.setdefault(self.ground.ending((*self.before, point)), []).append(point)
-        return [(skill_body(grammar, self.chosen, RouteValues(self.values, points)), ending) for ending, points in found.items()]
+        return [(RouteValues(self.values, points), ending) for ending, points in found.items()]
 
-    def _beside(self, role: str, *, ending: Ending) -> str:
-        """What may stand behind `{"name":"` of the first skill beside the movement."""
-        grammar = Grammar()
-        filters, perceptions = (self._several(grammar, one) for one in ("filter", "perception"))
-        rest = f"{literal(']')} {step_tail(grammar, self.values)} {self._ends(ending)}"
-        if role == "perception":
-            return grammar.text(f"{perceptions} {rest}")
-        more = f"({literal(SKILL_OPENS)} {perceptions})?" if perceptions else ""
-        return grammar.text(f"{filters} {literal('],' + PERCEPTIONS)} {more} {rest}")
-
-    def _several(self, grammar: Grammar, role: Any) -> str | None:
-        named = named_skills(grammar, self.vocabulary, role, self.values)
-        return f"{named} ({literal(',' + SKILL_OPENS)} {named}){{0,{MOST_SKILLS - 1}}}" if named else None
+    @functools.cached_property
+    def _after_movement(self) -> Path:
+        """The waypoints with that of the step which is being written."""
+        point = waypoint(self._first_of(self.written[len(STEP_OPENS) - len(SKILL_OPENS) :]))
+        return (*self.before, point) if point else self.before
 
     def _ends(self, ending: Ending) -> str:
         """What follows a step: another one, or the end."""
-        more = [literal("," + STEP_OPENS)] if self.steps + 1 < MOST_STEPS and ending != "must" else []
+        more = [literal("," + STEP_OPENS)] if len(self.steps) + 1 < MOST_STEPS and ending != "must" else []
         return f"({' | '.join(more + ([literal(CLOSES)] if ending != 'not yet' or not more else []))})"
+
+
+def waypoint(movement: Step) -> Point | None:
+    """Where a movement goes; None for one that goes nowhere."""
+    pair = coordinates(movement[0])
+    return (movement[1][pair[0].name], movement[1][pair[1].name]) if pair else None

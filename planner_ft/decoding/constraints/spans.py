@@ -81,7 +81,9 @@ class Spans:
         return len(self._pieces) > MOST_WORDS
 
     def terminal(self, grammar: Grammar, without: Sequence[str] = ()) -> str | None:
-        """The terminal of a span in quotation marks, none of `without`; None where there is no span."""
+        """The terminal of a span in quotation marks, none of `without`; None where there is no span, or no word beside these."""
+        if without and not self._has_word_beside(without):
+            return None
         starts = self._chain(grammar, 0) if len(self._pieces) <= BLOCK else self._chain(grammar, 0) | self._chain(grammar, BLOCK // 2)
         if not starts:
             return None
@@ -90,6 +92,11 @@ class Spans:
         joined = f'(" " {span})?' if self.loose else ""
         whole = grammar.terminal(f"{marks} {span} {joined} {marks}")
         return grammar.terminal(f"{whole}{none_of_texts(without)}") if without else whole
+
+    def _has_word_beside(self, without: Sequence[str]) -> bool:
+        """Whether a single word is a span and none of these texts: what they leave is not empty then."""
+        barred = {quoted(text).lower() for text in without}
+        return any(form.lower() not in barred for piece in self._pieces if piece.begins and piece.ends and piece.alone for form in piece.forms)
 
     def _chain(self, grammar: Grammar, offset: int) -> set[str]:
         """The terminals of the spans from each word on; rows are cut at every BLOCK words from `offset`."""

@@ -92,7 +92,9 @@ CLOCKWISE = re.compile(r"\b(?:(counter|anti)[- ]?)?clock-?wise\b", re.IGNORECASE
 # Sizes
 FAR = re.compile(r"kilom|km\b|mile", re.IGNORECASE)
 """Units in which a place is not read."""
-SIZE = re.compile(r"^\d+ and \d+$|\bby\b|;|\d\s?k?m\b|met(?:re|er)s?\b|\bmin|\bsec|\d\s?s\b|hour", re.IGNORECASE)
+SIZE = re.compile(
+    r"^\d+ and \d+$|^[a-z]+(?:[- ][a-z]+)? and [a-z]+(?:[- ][a-z]+)?$|\bby\b|;|\d\s?k?m\b|met(?:re|er)s?\b|\bmin|\bsec|\d\s?s\b|hour", re.IGNORECASE
+)
 MARGIN = _words(
     r"keep\w*|stay\w*|from (?:the (?!north|south|east|west|start)|it|any|every|all|obst)|clear\w*|margin|distance|"
     r"nearer|closer|least|within|obstacle\w*|threshold|accura\w*|avoid\w*|buffer|anything|geotag\w*|gps|allow\w*|"

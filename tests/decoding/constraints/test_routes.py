@@ -28,7 +28,7 @@ def tokenizer() -> Any:
 
 def start(tokenizer: Any, record: dict[str, Any]) -> Answer:
     tokens = tokens_of(tokenizer, (tokenizer.eos_token_id,), None)
-    return Answer(tokens, TaskScript(VOCABULARY, SchemaValues(), read_ground(record, VOCABULARY)), 2048, 300)
+    return Answer(tokens, TaskScript(VOCABULARY, SchemaValues(), read_ground(record, VOCABULARY), record["prompt"]), 2048, 300)
 
 
 def ids(tokenizer: Any, text: str) -> list[int]:
