@@ -17,6 +17,7 @@ from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, Grounde
 from planner_ft.decoding.constraints.routes import TaskScript
 from planner_ft.decoding.constraints.state import MissionScript, ResolvedValues, names_unresolved
 from planner_ft.decoding.constraints.tokens import Tokens, tokens_of
+from planner_ft.decoding.constraints.turns import read_turns
 from planner_ft.decoding.constraints.waypoints import read_ground
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
@@ -73,7 +74,9 @@ class Factory:
         if names_unresolved(record, self.vocabulary):
             return Answer(self.tokens, self._schema, limit, self._reserve)
         values, ground = GroundedTaskValues(record, self.vocabulary), read_ground(record, self.vocabulary)
-        script: Script = TaskScript(self.vocabulary, values, ground, str(record.get("prompt", "")))
+        turns = read_turns(record, self.vocabulary)
+        # Where the readings contradict each other, neither is certain.
+        script: Script = TaskScript(self.vocabulary, values, ground, str(record.get("prompt", "")), None if turns and ground.waypoints_alone else turns)
         if ground.free:
             script = Whole(plan_grammar("task", self.vocabulary, ResolvedValues(FreeWaypoints(values), self.vocabulary)))
         return Answer(self.tokens, script, limit, self._reserve, values.notes)

@@ -13,7 +13,8 @@ from typing import Any
 
 from planner_ft.data.quantities import COMPASS, SHORT, close, quantities
 from planner_ft.data.stated import radio_digits
-from planner_ft.decoding.constraints.grammar import Context, Grammar, Narrowed, Values
+from planner_ft.decoding.constraints.grammar import Context, Grammar, Narrowed, Values, written_number
+from planner_ft.decoding.constraints.patterns import literal
 from planner_ft.vocabulary import Parameter, Skill, Task
 
 Step = tuple[Skill, Mapping[str, Any]]
@@ -32,7 +33,8 @@ TIMES = re.compile(
 )
 """What stands behind a number that says how often."""
 UNBOUNDED = 64
-TURNING = ("turn_to", "turn_by", "arc")
+ROTATING = ("turn_to", "turn_by")
+TURNING = (*ROTATING, "arc")
 _POINT = re.compile(r"\b(?:north|south|east|west)(?:[ -]?(?:north|south|east|west)){0,2}(?:ern|wards?|erly)?\b|\b[NSEW]{1,3}\b", re.IGNORECASE)
 _POINTS = {name.lower().replace("-", ""): 22.5 * index for names in (COMPASS, SHORT) for index, name in enumerate(names)}
 
@@ -63,7 +65,7 @@ class UnlikeValues(Narrowed):
     def __init__(self, values: Values, skill: Skill, used: Sequence[Mapping[str, Any]]) -> None:
         super().__init__(values)
         self._skill = skill
-        self._told = next((item for item in skill.parameters if any(item.name in one for one in used)), None)
+        self._told = next((item for item in _telling(skill) if any(item.name in one for one in used)), None)
         self._barred = [one[self._told.name] for one in used if self._told and self._told.name in one]
 
     def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
@@ -118,5 +120,26 @@ def facing(steps: Sequence[Step]) -> float | None:
 
 
 def _value(skill: Skill, parameters: Mapping[str, Any]) -> Any:
-    """The value that tells a use of a skill from another: that of its first parameter which was written."""
-    return next((parameters[item.name] for item in skill.parameters if item.name in parameters), None)
+    """The value that tells a use of a skill from another."""
+    return next((parameters[item.name] for item in _telling(skill) if item.name in parameters), None)
+
+
+def _telling(skill: Skill) -> list[Parameter]:
+    """The parameters of a skill, those first whose values tell its uses apart: two arcs share a radius sooner than an angle."""
+    return sorted(skill.parameters, key=lambda item: item.unit != "deg")
+
+
+class TurnValues(Narrowed):
+    """The values of another strength, with this one value for a skill that turns the vehicle."""
+
+    def __init__(self, values: Values, skill: Skill, value: float) -> None:
+        super().__init__(values)
+        self._skill, self._value = skill, value
+
+    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
+        if owner == self._skill and parameter == self._skill.parameters[0]:
+            return [(literal(written_number(self._value)), context)]
+        return super().parameter(grammar, parameter, owner, context)
+
+    def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
+        return super().needs(parameter, owner) or (owner == self._skill and parameter == self._skill.parameters[0])

@@ -28,8 +28,9 @@ from planner_ft.decoding.constraints.grammar import (
     written_number,
 )
 from planner_ft.decoding.constraints.patterns import literal
-from planner_ft.decoding.constraints.repeats import Step, UnlikeValues, repeatable, spent
+from planner_ft.decoding.constraints.repeats import ROTATING, Step, TurnValues, UnlikeValues, repeatable, spent
 from planner_ft.decoding.constraints.state import coordinates
+from planner_ft.decoding.constraints.turns import Turn
 from planner_ft.decoding.constraints.waypoints import Ending, Ground, Path, Point
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.definition import Role
@@ -65,15 +66,16 @@ class TaskScript:
     """The parts of an answer: the names that may follow, then what stands behind the chosen name, up to the next one.
 
     A part ends where a name begins: tokenizers keep signs and letters apart. Parts that come again in another step are compiled once.
-    `before` are the waypoints so far, `steps` the movements of the steps that are written; `chosen` is the skill whose name was written
-    last, None where a name is to follow; `written` is the text of the step that is being written, as far as its parts are matched, and `beside` are the
-    skills of the list that is being written.
+    `before` are the waypoints so far, `steps` the movements of the steps that are written; `turns` are the rotations of the whole plan where
+    they are certain. `chosen` is the skill whose name was written last, None where a name is to follow; `written` is the text of the step that is
+    being written, as far as its parts are matched, and `beside` are the skills of the list that is being written.
     """
 
     vocabulary: Vocabulary
     values: Values
     ground: Ground
     text: str = ""
+    turns: tuple[Turn, ...] | None = None
     before: Path = ()
     steps: tuple[Step, ...] = ()
     chosen: Skill | None = None
@@ -98,7 +100,7 @@ class TaskScript:
         return ahead._names(), ahead
 
     def closing(self) -> Script:
-        return replace(self, ground=replace(self.ground, paths=(), itinerary=None, alone=False, shaped=False))
+        return replace(self, ground=replace(self.ground, paths=(), itinerary=None, alone=False, shaped=False), turns=None)
 
     def _behind_step(self, text: str) -> TaskScript:
         """The script behind a step, with its movement and its waypoint."""
@@ -130,14 +132,28 @@ class TaskScript:
             return bool(self.ground.following(self.before))
         if self.role == "navigation" and self.ground.waypoints_alone:
             return False
+        if skill.motion in ROTATING and self.turns is not None:
+            return self._turn is not None and self._turn[0] == skill.name
         uses = [parameters for used, parameters in self.beside if used == skill]
         return repeatable(skill, uses) and skill_body(Grammar(), skill, self._values_of(skill)) is not None
 
     def _values_of(self, skill: Skill) -> Values:
         """What the parameters of a skill may be here: not again what it said before."""
+        if skill.motion in ROTATING and self._turn and self._turn[0] == skill.name:
+            return TurnValues(self.values, skill, self._turn[1])
         if skill.role == "navigation":
             return UnlikeValues(self.values, skill, spent(skill, self.steps, self.text))
         return UnlikeValues(self.values, skill, [parameters for used, parameters in self.beside if used == skill])
+
+    @property
+    def _turned(self) -> int:
+        """Rotations of the steps that are written."""
+        return sum(skill.motion in ROTATING for skill, _parameters in self.steps)
+
+    @property
+    def _turn(self) -> Turn | None:
+        """The rotation that comes next; None where there is none, or where it is not known."""
+        return self.turns[self._turned] if self.turns is not None and self._turned < len(self.turns) else None
 
     def _behind_name(self) -> str:
         """What may stand behind the chosen name, up to the next one."""
@@ -147,7 +163,7 @@ class TaskScript:
         tail = step_tail(grammar, self.values)
         if self.role != "navigation":
             body = self._body(grammar, self._values_of(self.chosen))
-            ends = f"{literal(']')} {tail} {self._ends(self.ground.ending(self._after_movement))}"
+            ends = f"{literal(']')} {tail} {self._ends(self._ending(*self._movement))}"
             rest = ends if self.role == "perception" else f"{literal('],' + PERCEPTIONS)} ({opens} | {ends})"
             more = f"{another} | " if len(self.beside) + 1 < MOST_SKILLS else ""
             return grammar.text(f"{body} ({more}{rest})")
@@ -166,17 +182,23 @@ class TaskScript:
         """What the parameters of the chosen movement may be, and whether the answer ends behind it."""
         assert self.chosen is not None
         if not coordinates(self.chosen):
-            return [(self._values_of(self.chosen), self.ground.ending(self.before))]
+            return [(self._values_of(self.chosen), self._ending(self.chosen, self.before))]
         found: dict[Ending, list[Point]] = {}
         for point in self.ground.following(self.before):
-            found.setdefault(self.ground.ending((*self.before, point)), []).append(point)
+            found.setdefault(self._ending(self.chosen, (*self.before, point)), []).append(point)
         return [(RouteValues(self.values, points), ending) for ending, points in found.items()]
 
     @functools.cached_property
-    def _after_movement(self) -> Path:
-        """The waypoints with that of the step which is being written."""
-        point = waypoint(self._first_of(self.written[len(STEP_OPENS) - len(SKILL_OPENS) :]))
-        return (*self.before, point) if point else self.before
+    def _movement(self) -> tuple[Skill, Path]:
+        """The movement of the step that is being written, and the waypoints with its own."""
+        movement = self._first_of(self.written[len(STEP_OPENS) - len(SKILL_OPENS) :])
+        point = waypoint(movement)
+        return movement[0], (*self.before, point) if point else self.before
+
+    def _ending(self, movement: Skill, before: Path) -> Ending:
+        """Whether the answer may, must or may not yet end behind a step with this movement: no path and no row of turns is left half-way."""
+        turned = self._turned + (movement.motion in ROTATING)
+        return "not yet" if self.turns is not None and turned < len(self.turns) else self.ground.ending(before)
 
     def _ends(self, ending: Ending) -> str:
         """What follows a step: another one, or the end."""
