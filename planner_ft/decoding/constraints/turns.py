@@ -1,8 +1,7 @@
 """The rotations that a task input leaves no choice about, in order: headings to turn to and angles to turn by.
 
-The text is first written in one form (`_plain`): its numbers become `D40` (degrees), `N40` (bare), `C45` (compass directions), lengths `L`, times
-`T` and places `P`. What is measured, an arc or the course of a run is then taken out, and each angle that is left has to be told by the words on both
-sides of it. None where one cannot be, or where a word for a turn is left over.
+The text is first written in one form (`turn_forms`). What is measured, an arc or the course of a run is then taken out, and each angle that is
+left has to be told by the words on both sides of it. None where one cannot be, or where a word for a turn is left over.
 """
 
 from __future__ import annotations
@@ -12,264 +11,14 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from planner_ft.data.quantities import COMPASS, SHORT, quantities
-from planner_ft.data.stated import radio_digits
 from planner_ft.data.task import geometry as g
+from planner_ft.decoding.constraints import turn_forms as f
 from planner_ft.decoding.constraints import wordings as w
 from planner_ft.vocabulary import Vocabulary
 
 Turn = tuple[str, float]
 ROTATE, NUDGE = "RotateToHeading", "NudgeYaw"
 MOST = 24
-
-
-def _re(pattern: str) -> re.Pattern[str]:
-    return re.compile(pattern)
-
-
-# ---------------------------------------------------------------- how a text is written in one form
-
-_QUOTED = _re(r"\"[^\"]*\"|“[^”]*”|‘[^’]*’|(?<!\w)'[^']*'(?!\w)")
-_ID = _re(r"(?<![\w°])(?![xyXY][-−]?\d)[A-Za-z_]+[-_]?[A-Za-z_]*\d[\w-]*(?![\w.]*°)")
-_NUMBER = r"[-−–+]?\d+(?:\.\d+)?"
-_PAIR = rf"\(\s*{_NUMBER}\s*[,;/ ]\s*{_NUMBER}\s*\)|\[\s*{_NUMBER}\s*[,;/ ]\s*{_NUMBER}\s*\]"
-_AXES = rf"\bx\s*[=:]?\s*{_NUMBER}\s*(?:m\b)?[\s,;/]*(?:and )?y\s*[=:]?\s*{_NUMBER}"
-_GEO = (
-    rf"{_NUMBER}\s?(?:m|met(?:re|er)s)?\s?(?:[EWNS]|east|west|north|south)\b[\s,;/]*(?:and )?{_NUMBER}\s?(?:m|met(?:re|er)s)?\s?(?:[EWNS]|east|"
-    rf"west|north|south)\b(?! of)"
-)
-_PLACE = re.compile(rf"{_PAIR}|{_AXES}|{_GEO}|\b(?:minus|negative) \d[\d.]*, (?:minus |negative )?\d[\d.]*\b", re.IGNORECASE)
-_ONE = re.compile(r"\b(every|each|this|that|the|which|no|any|first|second|third|fourth|last|next|other|nth) one\b", re.IGNORECASE)
-_IN_ORDER = re.compile(r"\bone (?:after (?:the other|another)|by one)\b", re.IGNORECASE)
-_ORDINAL = re.compile(r"\b(\d+)(?:st|nd|rd|th)\b", re.IGNORECASE)
-_SUFFIX = r"(?:erly|wards?|[ -]?bound)?"
-_PLAIN_COMPASS = re.compile(
-    r"(?<![\w-])(?:(?:north|south|east|west)[\s-]?)?(?:(?:north|south)[\s-]?(?:east|west)|north|south|east|"
-    r"west)" + _SUFFIX + r"(?![\w])",
-    re.IGNORECASE,
-)
-_LETTERS = _re(r"(?<=[ ,/(-])(?:[NESW]|[NS][EW]|[NS][NS][EW]|[EW][NS][EW])(?=[ ,.;:/)-]|$)")
-_CELSIUS = _re(r"^\s*(?:celsius|centigrade|c\b|°\s?c)")
-_SIDED = (
-    r"(?:side|edge|face|wall|corner|end|bank|quay|pier|wind|swell|current|sea|half|part|point of|mole|breakwater|basin|berth|jetty|dock|slope|"
-    r"cardinal)"
-)
-
-
-def _plain(text: str, parameters: dict[str, Any]) -> str:
-    """The text in one form, in small letters but for the tokens."""
-    text = _MISSPELT_WORD.sub(lambda match: _MISSPELT.get(match[0], match[0]), text)
-    for short, word in _SHORT.items():
-        text = re.sub(rf"(?<![\w/])(?:{short})(?![\w/])", word, text, flags=re.IGNORECASE)
-    text = w.LIST_MARK.sub(lambda mark: ";" + " " * (len(mark[0]) - 1), radio_digits(text))
-    text = _PLACE.sub(" \x01 ", _ID.sub("ident", _ORDINAL.sub("nth", _IN_ORDER.sub("in order", _QUOTED.sub("quote", text)))))
-    text = _ONE.sub(lambda match: f"{match[1]} it", text)
-    text = re.sub(r"\b[Tt]wice\b", "2 times", re.sub(r"\b[Tt]hrice\b", "3 times", text))
-    text = _LETTERS.sub(lambda match: COMPASS[SHORT.index(match[0])] if _is_direction(text[: match.start()]) else match[0], text)
-    pieces, at = [], 0
-    for quantity in quantities(text):
-        pieces += [_words(text[at : quantity.start]), _token(quantity.unit, quantity.said, text[quantity.end :], text[quantity.start : quantity.end])]
-        at = quantity.end
-    text = "".join([*pieces, _words(text[at:])])
-    text = _BARE_PAIR.sub(r"\1 P", _SIGN.sub(_signed, re.sub(r"\s+", " ", text)))
-    return re.sub(r"\s+", " ", _own_values(text, parameters)) + " "
-
-
-def _misspellings(words: str) -> dict[str, str]:
-    """Slips of the keys in the words that decide: two letters swapped, one dropped or doubled, the first one kept."""
-    found: dict[str, str] = {}
-    for word in words.split():
-        for place in range(1, len(word)):
-            dropped = word[:place] + word[place + 1 :] if place + 1 < len(word) else word
-            swapped = word[:place] + word[place + 1 : place + 2] + word[place] + word[place + 2 :]
-            found |= dict.fromkeys((dropped, swapped, word[:place] + word[place] + word[place:]), word)
-    return {slip: word for slip, word in found.items() if slip not in words.split()}
-
-
-_MISSPELT = _misspellings(
-    "rotate rotating nudge degrees starboard clockwise anticlockwise heading headings bearing pivot swing towards sectors "
-    "nudging panning evenly steps twice radius nudges rotations"
-) | {
-    "timmes": "times",
-    "trun": "turn",
-    "tunr": "turn",
-    "prot": "port",
-    "adn": "and",
-    "tehn": "then",
-    "rigth": "right",
-    "lfet": "left",
-    "wiht": "with",
-    "whlie": "while",
-    "roud": "round",
-}
-_SHORT = {
-    r"ccw|acw|c/cw|a/cw": "anticlockwise",
-    r"cw": "clockwise",
-    r"stbd|stbrd|sbd|stb|s'board": "starboard",
-    r"hdgs?": "heading",
-    r"brgs?": "bearing",
-    r"pt": "port",
-}
-_MISSPELT_WORD = _re(r"\b[a-z]{3,}\b")
-_SIGN = _re(r"(?:(\+)|minus|negative|[-−–]) ?([DN])(-?)(?=\d)")
-_BARE_PAIR = _re(
-    r"\b((?:go|drive|head|run|sail|steer|leave|transit|proceed|move|shift|take|change position|return|approach|visit|cross|steam|set course|make)"
-    r"(?: (?!turn|rotat|bow|nose|heading|fac)[a-z]+){0,4}? (?:to|for|at|via|over|from|position|waypoint)) N-?[\d.]+ ?[,/]? ?N-?[\d.]+(?! ?(?:,|and|"
-    r"then) ?N)"
-)
-
-
-def _signed(match: re.Match[str]) -> str:
-    """A sign before an angle; a hyphen before one without a minus is a dash."""
-    if match[1]:
-        return f"{match[2]}+"
-    return f" {match[2]}-" if match[3] else match[0]
-
-
-def _is_direction(before: str) -> bool:
-    """Whether a capital letter behind this text may stand for a direction: not "stream E" or "phase N"."""
-    return (
-        re.search(
-            r"(?:\b(?i:to|face|facing|towards?|heading|bearing|headings|bearings|look|and|then|due)|,|[NESW]|/|"
-            r":)[\s,/-]*$",
-            before,
-        )
-        is not None
-    )
-
-
-def _words(text: str) -> str:
-    return _PLAIN_COMPASS.sub(_compass, text).lower().replace("\x00", "C").replace("\x01", "P")
-
-
-def _compass(match: re.Match[str]) -> str:
-    name = re.sub(r"[\s-]|erly$|wards?$|-?bound$", "", re.sub(_SUFFIX[:-1] + "$", "", match[0].lower()))
-    known = {direction.replace("-", ""): 22.5 * index for index, direction in enumerate(COMPASS)}
-    return f" \x00{known[name]:g} " if name in known else match[0]
-
-
-def _token(unit: str | None, said: float, behind: str, text: str) -> str:
-    if unit is None and re.search(r"half|third|quarter", text.lower()):
-        return " fraction "
-    if unit in ("deg", None) and said > 0 and re.match(r"[-−–]", text):
-        said = -said
-    if unit == "deg":
-        return " X " if _CELSIUS.match(behind.lower()) else f" D{said:g} "
-    return {"m": " L ", "s": " T ", None: f" N{said:g} "}.get(unit, " X ")
-
-
-_GIVEN = r"(?:(?:full|given|planned|set|whole|stated|task's|cable's|track's|cable|track|scan|own) )"
-_OWN_HEADING = _re(
-    rf"\b(?:the|its) {_GIVEN}+(?:heading|bearing|course)(?: of the (?:task|cable|track))?|\bthe (?:heading|bearing) of the (?:task|"
-    rf"cable|track)"
-)
-_OWN_WIDTH = _re(rf"\b(?:the|its) {_GIVEN}+width(?: of the (?:scan|task))?|\bthe width of the (?:scan|task)")
-_OWN_COUNT = _re(
-    rf"\b(?:the |its )?(?:{_GIVEN}+number of (?:sectors|headings)|{_GIVEN}+sectors|number of (?:sectors|headings) (?:of|in) the task|"
-    rf"sectors of the task)"
-)
-
-
-def _own_values(text: str, parameters: dict[str, Any]) -> str:
-    """The text with the task's own values in place of the words that refer to them."""
-    own = ((_OWN_HEADING, "heading", "C{:g}"), (_OWN_WIDTH, "scan_width_degrees", "D{:g}"), (_OWN_COUNT, "sectors", "N{:g} sectors"))
-    for pattern, name, token in own:
-        value = parameters.get(name)
-        text = pattern.sub(token.format(value) if isinstance(value, int | float) else "unknown heading", text)
-    return text
-
-
-# ---------------------------------------------------------------- what is no rotation
-
-_V = r"[DNC][+-]?\d+(?:\.\d+)?"
-_D = r"[DN][+-]?\d+(?:\.\d+)?"
-_LIST = rf"(?:due )?{_V}(?:(?:\s*(?:,|and|or|to|then))+\s*(?:(?:at|towards|to|over|bearing) )?(?:due )?{_V})*"
-_SIDE = r"(?:(?:to|towards) (?:the |her |its |your )?)?(?:port|starboard|left|right|larboard)(?: side)?\b|(?:(?:counter|anti)[- ]?)?clock-?wise\b"
-_RADIUS = r"(?:(?:at|with|in|on|of|,)? ?(?:a |the )?(?:radius (?:of |being )?)?L(?: radius| out)?)"
-_MEASURED = (
-    r"(?:sector|sectors|slice|slices|lidar|scan angle|profile|profiles|cone|fov|field of view|closest return|returns?|range|ranges|distances?|"
-    r"obstacles?|beam)"
-)
-_SENSED = _re(
-    rf"\b(?:steady|still|settled?|stable|ahead|opening)(?: to| at| of|,)*(?: within)? {_D}(?: of)?|"
-    rf"\b{_MEASURED}(?: (?!turn|nudge|pan|rotat|face|swing|come|go|hold)[a-z_]+)" + r"{0,4}?"
-    rf" ?(?:,? ?(?:at|towards?|over|within|of|on|to|in|for|from|bearing|is|angle|the|a|an|:|=))* ?{_LIST}(?! ?(?:{_SIDE}))|"
-    rf"\b{_D}[ -]*(?:wide |degree )?(?:cone|fov|field|sector|slice|opening|beam|arc of view)\b|"
-    rf"\b(?:over|above|below|under|within|less than|more than|exceed\w*|beyond|threshold(?: of| is)?|at most|at least|no more than|hotter than|"
-    rf"warmer than|"
-    rf"inside|drop(?:s|ped)? to|limit(?: of| is)?|pitch and roll(?: of| to)?|roll(?: of| to)?|from) (?:a |an |"
-    rf"about )?(?:threshold of )?{_D}(?: (?:of |in )?(?:pitch|roll|tilt|upwards?|or more|or hotter|up)\b)?"
-    rf"(?! ?(?:{_SIDE}|,? through))|\b{_D} (?:of |in )?(?:pitch|roll|tilt|or hotter|or more|upwards?)\b|\b(?:overlap)(?: of)? {_D}"
-)
-"""A value that something is measured at, or that something is compared with."""
-_SIDES_OF_THINGS = _re(
-    r"\b(?:current|wind|swell|tide|sun|sea|waves?|gusts?|stream)(?: [a-z]+)"
-    + r"{0,4} C[\d.]+|"
-    + rf"\b(?:[NL](?:-?\d+(?:\.\d+)?)? (?:to the |due )?)?C[\d.]+(?:ern)? (?:{_SIDED}|of)\b|\b(?:start\w*|begin\w*|first (?:waypoint|point|one)|"
-    rf"waypoint|corner)"
-    r" (?:in|from|on|at|to|is)? ?(?:the )?(?:middle of )?(?:the )?(?:due )?C[\d.]+ (?:side|corner|of)|\bfirst (?:waypoint|point|stop)(?: (?:is|in|"
-    r"at|to|the))*(?: due)? C[\d.]+|C[\d.]+ ?(?:-|to|and) ?C[\d.]+ (?:lanes|lines|legs)|"
-    r"\b(?:lanes|lines|legs) (?:running |run |going )?C[\d.]+ ?(?:-|to|and)? ?C[\d.]+"
-)
-_ON = r"(?:on|along|at|steering|following|follow)"
-_RUN = _re(
-    rf"\bL (?:long )?(?:straight )?(?:away )?(?:{_ON} |to the |in the direction )?(?:a |the )?(?:heading |bearing |course |"
-    rf"track )?(?:of )?(?:due )?{_V}|"
-    rf"\b(?:follow|run|track|sail|drive|steer|go|steam|proceed|transit|cable|line)\w*(?: (?!turn|face|pan|rotat|to\b|onto\b)[a-z]+)" + r"{0,3}?"
-    rf" (?:{_ON} )?(?:a |the |its )?(?:heading|bearing|course)(?: of)? {_V}|"
-    rf"\b{_ON} (?:a |the )?(?:(?:heading|bearing|course)(?: of)? )?(?:due )?{_V} (?:for|over) L|\b(?:heading|course) {_V},? (?:for )?L"
-)
-"""The course of a run."""
-_GOAL = r"(?:P|(?:position|goal|target|berth|destination|centre|point(?! the)|coordinates|home|start|dock|spot|landing))"
-_YAW = _re(
-    rf"{_GOAL}[ ,]*(?:(?:with|and|at|on|arriv\w+|there|in|end\w*|finish\w*) )*(?:a |the |your |its )?"
-    rf"(?:yaw|heading|bow|nose|facing|pointing|orientation|lined up on|looking)(?: (?:of|on|is|at|pointing|facing|set|turned|to the|being|"
-    rf"towards?))* ?(?:due )?{_V}"
-    rf"(?: (?:on|at) arrival)?|\bfinal (?:yaw|heading) {_V}|\b(?:yaw|heading|bow)(?: of| at)? {_V} (?:on|at|upon) arrival|"
-    rf"\barriv\w+ (?:there )?(?:on|at|with)?(?: a)?(?: (?:yaw|heading|bow)(?: of)?)? ?(?:due )?{_V}"
-)
-"""The yaw on arrival of a run to a place."""
-_IN_ARC = (
-    rf"(?:[ ,:-]|\b(?:of|at|with|to|the|by|through|for|a|an|in|on|and|round|around|once|full|half|circle|radius|arc|curve|bend|it|wide|out)\b"
-    rf"|\b[LP]\b|{_D}|{_SIDE})"
-)
-_ARC = _re(
-    rf"(?:\b(?:turn|swing|swing round|go|come|come round|move|make|drive|run|do|take|follow|describe|sail)(?: (?:in|on|along|through|by|{_SIDE}))*"
-    rf"(?: (?:a|an|the|wide|sweeping|one|single))* )?(?:{_D} ?(?:{_SIDE}|-| |degree|of|in|an|a|L|radius)*)?(?:L (?:radius )?)?\b(?:arc turns?|"
-    rf"arcs?|arcing|curves?|curving|sweeping turn|arc turn|wide turn|bends?|swing wide|swing round in|orbit\w*|"
-    rf"(?<!full )(?<!whole )circle)\b{_IN_ARC}*"
-    rf"|\b(?:L radius|radius of L)\b{_IN_ARC}*|\b(?:sweep\w*|turn|swing|come|go|round|bend|move|drive)(?: (?:round|around|about|"
-    rf"it))?,?(?: (?:{_SIDE}))?(?: (?:by|through))? {_D}[ ,]*(?:{_SIDE})?[ ,]*{_RADIUS}"
-    rf"|\b(?:sweep\w*|turn|swing|come|go|round|bend)(?: round)? {_RADIUS}[ ,]*(?:(?:through|by|of) )?{_D}[ ,]*(?:{_SIDE})?"
-    rf"|{_D} (?:{_SIDE}),? (?:at|with a radius of|on a radius of) L|\b(?:go|drive|once|lap|all the way) (?:once |twice |"
-    rf"N\d times )?(?:right )?(?:a?round|about) (?:the |it|P|them)[^,.;]*"
-)
-_WAYPOINTS = re.compile(
-    r"\b(?:N\d+|four|six|eight)[ -]?(?:points?|waypoints?|stops)\b[^.;]*|\b(?:square|grid|lawn-?mow\w*|ring|box|rectangle|polygon|fence|"
-    r"boundary)\b[^.;]*|~a[^.;]*"
-)
-_COUNTED = _re(
-    r"\b(?:steps?|parts?|stages?|legs?|phases?|tasks?|points?|panel|pile|turbine|berth|contact|boat|target|marker|tag|buoy|channel|plan [a-z]|"
-    r"no\.?|number) "
-    r"N-?\d+(?:(?:\s*(?:,|and|to|or|-))+\s*N\d+)*|\bN\d+ (?=[a-z]+s\b)(?!times|degrees|headings|directions|steps|equal|pans|nudges|turns|rotations|"
-    r"sectors|bearings|is\b|as\b|pass\b|views|parts|stops)"
-)
-
-
-def _without(text: str, patterns: Iterable[re.Pattern[str]]) -> str:
-    for pattern in patterns:
-        text = pattern.sub(_arc_mask if pattern is _ARC else _mask, text)
-    return text
-
-
-def _mask(match: re.Match[str], mark: str = "") -> str:
-    """As long as what it stands for: places in the text keep their order."""
-    inside = match[0].strip()
-    return match[0].replace(inside, mark.ljust(len(inside), "~")[: len(inside)])
-
-
-def _arc_mask(match: re.Match[str]) -> str:
-    return _mask(match, "~a")
 
 
 # ---------------------------------------------------------------- headings and angles
@@ -291,8 +40,8 @@ _TO = (
     r"through the)"
 )
 _NOUN = r"(?:(?:a|the|its|her|each of|all of) )*(?:(?:(?:compass|new) )?(?:headings?|bearings?|courses?|directions?)(?: of)?[:,]? )?(?:each of )?"
-_HEAD_LEAD = _re(
-    rf"(?:\b{_VERB}(?: (?:{_OBJECT}|{_SIDE}))*,? {_TO} {_NOUN}|\b(?:fac(?:e|ing)|look(?:ing)?|"
+_HEAD_LEAD = f.compiled(
+    rf"(?:\b{_VERB}(?: (?:{_OBJECT}|{f.SIDE}))*,? {_TO} {_NOUN}|\b(?:fac(?:e|ing)|look(?:ing)?|"
     rf"(?<!first )(?<!the )(?<!each )point(?:ing)?)(?: (?:the|her|bow|nose|round|up|it))*(?: (?:to|towards|along|due|on|at))? {_NOUN}"
     rf"|\b(?:bow|nose) (?:must|should|shall|is to|has to|to) (?:look|point|face|be on|go to|come to|be at)(?: (?:to|towards|due))* "
     rf"|\b(?:turn|rotate|swing|go|step|work)(?:ing)? (?:round )?through (?:the (?:headings|bearings) )?|\b(?:both|all|N\d+|these|the|"
@@ -301,63 +50,63 @@ _HEAD_LEAD = _re(
     rf"look along|assume|turn) {_NOUN}"
     rf"|(?:^|[.;:] ?)(?:then |next )?(?:headings?|bearings?):? )(?:due )?$"
 )
-_STRONG = _re(
+_STRONG = f.compiled(
     r"turn|rotat|pivot|sw[iu]ng|spin|swivel|slew|twist|fac|bow|nose|heading|bearing|course|com|point|aim|lin|squar|align|look|yaw|"
     r"direction|steady"
 )
 """What a movement to a heading is named by; "take her to 145, 30" may be a place."""
-_TURNS_THERE = _re(r"turn|rotat|pivot|swing|spin|swivel|slew|twist|^(?: |,|then|and)*come")
-_IN_PLACE = _re(r"nudg|\bpan|yaw|twist|rotat|bow|nose|heading|on the spot|in place|pivot|spin|swivel|trim|\beas(?:e|ing)\b")
-_SEPARATOR = _re(
+_TURNS_THERE = f.compiled(r"turn|rotat|pivot|swing|spin|swivel|slew|twist|^(?: |,|then|and)*come")
+_IN_PLACE = f.compiled(r"nudg|\bpan|yaw|twist|rotat|bow|nose|heading|on the spot|in place|pivot|spin|swivel|trim|\beas(?:e|ing)\b")
+_SEPARATOR = f.compiled(
     rf"^ ?(?:[,;/.]|->|→|-|and|then|finally|lastly|last|next|after that|afterwards|on|again|round|{_VERB}|fac(?:e|ing)|to|onto|towards|due|on to|"
     rf"the|bow|heading|bearing| )* ?$"
 )
 _TURN_WORD = rf"(?:{_VERB}(?: (?:{_OBJECT}))*(?: on the spot| in place)?|(?:pans?|nudges?|turns?|rotations?|twists?|swings?|yaws?)(?: of| by|,|:)?)"
-_BY = _re(
+_BY = f.compiled(
     rf"\b(?:(?:turn|rotat|pivot|swing|spin|swivel|slew|twist|yaw|pan|nudg|eas|trim|correct|adjust|offset|tweak|shift|chang|alter|com|bring|mov|"
     rf"scan|sweep)(?:e|ing|ning|ed)?"
     rf"(?: (?:{_OBJECT}))*(?: on the spot| in place)?|(?:pans?|nudges?|turns?|rotations?|twists?|swings?|yaws?)(?: of| by|,|:)?)"
     r",?(?: (?:by|through|of|across|another|a further|some|about|the view|slowly))*(?<! on) $"
 )
-_LOOSE_END = _re(
+_LOOSE_END = f.compiled(
     r"^ ?,? ?(?:N\d+ [a-z]+|(?:with|on|at|in)(?: a| the)? L (?!clear|margin|of clear|of margin|safety|between|minimum|in hand|of room|"
     r"spare))"
 )
 """Another count, or a radius, right behind an angle."""
-_IS_COUNT = _re(r" ?(?:times|pans|nudges|turns|rotations|steps|(?:equal|separate|single|successive|small|even) (?:steps|turns|pans))\b")
-_LISTED_BEHIND = _re(r" ?(?:,|and|then)[ ,a-z]{0,9} D")
-_WIDE = _re(
-    rf"\b(?:swing|sweep|com|bend|go|curv)(?:e|ing)? (?:wide|round|around)(?: (?:{_SIDE}))?(?: (?:by|through))? {_D}(?! ?(?:,|\.|and|"
-    rf"then) ?{_V})(?: degrees)? (?:{_SIDE})"
+_IS_COUNT = f.compiled(r" ?(?:times|pans|nudges|turns|rotations|steps|(?:equal|separate|single|successive|small|even) (?:steps|turns|pans))\b")
+_LISTED_BEHIND = f.compiled(r" ?(?:,|and|then)[ ,a-z]{0,9} D")
+_WIDE = f.compiled(
+    rf"\b(?:swing|sweep|com|bend|go|curv)(?:e|ing)? (?:wide|round|around)(?: (?:{f.SIDE}))?(?: (?:by|through))? {f.D}(?! ?(?:,|\.|and|"
+    rf"then) ?{f.V})(?: degrees)? (?:{f.SIDE})"
 )
 """A turn that may be an arc."""
-_THAT_IS = _re(r"[ ,(]*(?:to|onto|on|until|till|so|i\.?e|that is|which|namely|meaning|=)\b")
+_THAT_IS = f.compiled(r"[ ,(]*(?:to|onto|on|until|till|so|i\.?e|that is|which|namely|meaning|=)\b")
 """What leads from an angle to the heading that it ends at."""
-_EACH = _re(r"^[ ,]*(?:each|apiece|at a time|per step|every)\b")
-_OF_MANY = _re(r"\b(?:steps|times|pans|nudges|turns|rotations|twists|swings) (?:of|by) $")
-_SIDE_BEFORE = _re(
-    rf"(?:^|[ ,])(?P<side>{_SIDE})(?:,|:)?(?: (?:by|of|through|another|a further|once|for|some|about|turn|pan|nudge|rotation|"
+_EACH = f.compiled(r"^[ ,]*(?:each|apiece|at a time|per step|every)\b")
+_OF_MANY = f.compiled(r"\b(?:steps|times|pans|nudges|turns|rotations|twists|swings) (?:of|by) $")
+_SIDE_BEFORE = f.compiled(
+    rf"(?:^|[ ,])(?P<side>{f.SIDE})(?:,|:)?(?: (?:by|of|through|another|a further|once|for|some|about|turn|pan|nudge|rotation|"
     rf"on the spot))* $"
 )
-_SIDE_BEHIND = _re(
+_SIDE_BEHIND = f.compiled(
     rf"^ ?(?:turn |pan |nudge |rotation |yaw |swing |twist |of (?:yaw|rotation|turn) |more |on the spot |round |"
-    rf"back )?,? ?(?P<side>{_SIDE})"
+    rf"back )?,? ?(?P<side>{f.SIDE})"
 )
-_TIMES_BEHIND = _re(
+_TIMES_BEHIND = f.compiled(
     r"^[ ,]*(?:(?:each|at a time),? ?)?N(\d+) times?(?: over| in a row| running)?\b|^[ ,]*in N(\d+) (?:turns|pans|steps|"
     r"goes)\b(?! of)"
 )
-_TIMES_BEFORE = _re(
+_TIMES_BEFORE = f.compiled(
     r"\bN(\d+)(?: (?:equal|separate|single|successive|small|even))? (?:times|pans|nudges|turns|rotations|steps|twists|swings|yaws)(?: (?:on|over|"
     r"in a row|round))*"
-    rf"(?: (?:{_SIDE}))?,?(?: (?:by|of|at|through|,|:))* ?$"
+    rf"(?: (?:{f.SIDE}))?,?(?: (?:by|of|at|through|,|:))* ?$"
 )
-_ONCE_MORE = _re(r"^ (?:once more|again|more|once again)\b")
+_ONCE_MORE = f.compiled(r"^ (?:once more|again|more|once again)\b")
 """Behind an angle that is said a second time."""
-_SAME_TO = _re(
+_SAME_TO = f.compiled(
     rf"\b(?:(?:{_VERB}|back|by|as|and) )*(?:the same|as much|as far|that much|the same (?:angle|amount))(?: (?:angle|amount|again|"
-    rf"back))* (?P<side>{_SIDE})"
-    rf"|\bback (?P<back>{_SIDE}) (?:by )?(?:the same|as much|as far|that much)(?: (?:angle|amount|again))*|\bback(?: again)? by (?:the same|"
+    rf"back))* (?P<side>{f.SIDE})"
+    rf"|\bback (?P<back>{f.SIDE}) (?:by )?(?:the same|as much|as far|that much)(?: (?:angle|amount|again))*|\bback(?: again)? by (?:the same|"
     rf"as much)(?: (?:angle|amount|again))*"
 )
 
@@ -386,15 +135,15 @@ def _heading(value: float) -> Turn:
     return ROTATE, value
 
 
-_NEXT = _re(
+_NEXT = f.compiled(
     r"(?:(?:^|[.;,]|and) ?(?:and )?(?:then|next|finally|lastly|after that),?|\bsame again|\bthe same|\blikewise)(?: (?:to|onto|on to|round to|at|"
     r"on|facing|towards))? (?:due )?$"
 )
-_IN_PASSING = _re(
+_IN_PASSING = f.compiled(
     r"\b(?:while|when|whilst|as (?:you|she)|during|in|on|once|after|only|at|until|with|for|whenever|before)(?: (?:you|she|it|the|a|her|are|is))* $"
 )
-_NO_HEADING = _re(rf"^ ?(?:{_SIDE}|(?:apart|each|at a time|steps?|times|headings|sectors|directions|pans|turns|degrees? of)\b)")
-_ENDS = _re(
+_NO_HEADING = f.compiled(rf"^ ?(?:{f.SIDE}|(?:apart|each|at a time|steps?|times|headings|sectors|directions|pans|turns|degrees? of)\b)")
+_ENDS = f.compiled(
     r"^ ?(?:$|[.,;:!?)/~-]|(?:and|then|with|while|in|on|for|at|hold|before|after|to|as|or|when|true|degrees|where|without|both|only|"
     r"finally)\b)"
 )
@@ -414,13 +163,13 @@ def _turns_there(lead: str, before: str) -> bool:
         return False
     if re.match(r"\W*(?:bow|nose)[ :]*$", lead) and before.strip(" ~,:") and not _LEADING.search(before):
         return False
-    place = [*re.finditer(rf"\b(?:{_GOAL}|{_TRAVEL})\b|~a", before)]
+    place = [*re.finditer(rf"\b(?:{f.GOAL}|{_TRAVEL})\b|~a", before)]
     if not place or _TURNS_THERE.search(lead):
         return True
     return re.search(r"\bthen\b|[:]", before[place[-1].end() :] + lead) is not None
 
 
-_CURVED = _re(r"~a|radius|circle|orbit|curve|bend|\bwide\b|round (?:it|the)\b|\bsweep")
+_CURVED = f.compiled(r"~a|radius|circle|orbit|curve|bend|\bwide\b|round (?:it|the)\b|\bsweep")
 
 
 @dataclass(frozen=True)
@@ -534,7 +283,7 @@ def _read(text: str, *, orbits: bool) -> list[Found]:
     taken = 0
     if _WIDE.search(text):
         raise _Uncertain
-    for token in re.finditer(_V, text):
+    for token in re.finditer(f.V, text):
         if token.start() < taken or (token[0][0] == "N" and _IS_COUNT.match(text, token.end())):
             continue
         sentence = max(text.rfind(mark, 0, token.start()) for mark in (". ", "; ", "~")) + 1
@@ -577,43 +326,43 @@ def _turn_to(angle: Angle, sentence: str, since: str) -> Found:
 
 # ---------------------------------------------------------------- headings that the text counts
 
-_START = _re(
+_START = f.compiled(
     r"\b(?:from|start\w*(?: (?:at|with|from|in|on))?|beginn?\w*(?: (?:at|with|from|in|on))?|on from)(?: (?:the|due|heading|a heading of|bearing|"
     r"facing))* (?P<v>[DNC]\d+(?:\.\d+)?)"
     r"|(?P<w>[DNC]\d+(?:\.\d+)?) first\b"
 )
-_SECTORS = _re(
+_SECTORS = f.compiled(
     r"\bN(?P<count>\d+) (?:(?:even|equal|evenly spaced|equally spaced|regular|sector|different|compass|equidistant|evenly-spaced) )*(?:headings|"
     r"sectors|directions|bearings|views)\b(?! ?[,:-]? ?[DNC][\d.]+(?![\d.])(?! (?:apart|from|between)))"
     r"|\bround in N(?P<steps>\d+) (?:equal|even) steps\b"
     r"|\bdivide the (?:compass|horizon|circle) into N(?P<parts>\d+)\b"
 )
-_WAY_ROUND = _re(r"(?:(?:counter|anti)[- ]?)?clock-?wise|\bto the (?:left|right)\b")
-_APART = _re(r"\b(?:each )?D(?P<step>\d+(?:\.\d+)?) (?:apart|from (?:one to )?the next|between them)\b|\bin steps of D(?P<steps>\d+(?:\.\d+)?)")
-_ALL_ROUND = _re(
+_WAY_ROUND = f.compiled(r"(?:(?:counter|anti)[- ]?)?clock-?wise|\bto the (?:left|right)\b")
+_APART = f.compiled(r"\b(?:each )?D(?P<step>\d+(?:\.\d+)?) (?:apart|from (?:one to )?the next|between them)\b|\bin steps of D(?P<steps>\d+(?:\.\d+)?)")
+_ALL_ROUND = f.compiled(
     r"\b(?:all (?:the way )?round|full circle|whole circle|round the (?:compass|horizon|clock)|evenly|equal\w*|even|compass|horizon|sectors|sector|"
     r"right round|panorama|round in|clock-?wise)\b"
 )
-_RANGE = _re(
-    rf"\bfrom (?:due )?(?P<a>{_V})(?: (?:through|via) (?:due )?(?P<via>{_V}))? (?:to|round to|"
-    rf"up to) (?:due )?(?P<b>{_V})(?P<between>[^.;]*?)\b(?:in steps of|steps of|every) (?P<step>D\d+(?:\.\d+)?)(?: steps)?"
+_RANGE = f.compiled(
+    rf"\bfrom (?:due )?(?P<a>{f.V})(?: (?:through|via) (?:due )?(?P<via>{f.V}))? (?:to|round to|"
+    rf"up to) (?:due )?(?P<b>{f.V})(?P<between>[^.;]*?)\b(?:in steps of|steps of|every) (?P<step>D\d+(?:\.\d+)?)(?: steps)?"
 )
-_EVERY = _re(r"\bevery D(?P<step>\d+(?:\.\d+)?)")
-_FULL_TURN = _re(
+_EVERY = f.compiled(r"\bevery D(?P<step>\d+(?:\.\d+)?)")
+_FULL_TURN = f.compiled(
     r"(?:(?P<ahead>"
-    + _SIDE
+    + f.SIDE
     + r")[ ,]*)?\b(?:full turn|full circle|full rotation|(?:all the way|right|once|completely|once all the way) round|a?round once|D360|"
     r"one revolution|complete (?:turn|circle|rotation|revolution)|whole (?:turn|circle)|spin)\b"
     r"(?P<between>[^.;]*?)\bin N(?P<count>\d+) (?:(?:equal|even|equally sized) )*(?:steps|parts|pans|turns|nudges|rotations|"
-    r"goes)\b(?! of D)(?P<behind>[ ,]*(?:" + _SIDE + r"))?"
+    r"goes)\b(?! of D)(?P<behind>[ ,]*(?:" + f.SIDE + r"))?"
 )
-_LISTED_FIRST = _re(
-    rf"(?:^|[.;] )(?P<list> ?(?:due )?{_V}(?:(?: ?,| ?/| ?-| and| then)+ (?:due )?{_V})+)(?: in that order)?[ :,-]*(?:turn to|face|look at|"
+_LISTED_FIRST = f.compiled(
+    rf"(?:^|[.;] )(?P<list> ?(?:due )?{f.V}(?:(?: ?,| ?/| ?-| and| then)+ (?:due )?{f.V})+)(?: in that order)?[ :,-]*(?:turn to|face|look at|"
     rf"point to|(?:with )?the bow on|turn onto) "
     r"(?:each|them|all|these)\b(?: of (?:them|these))?(?: in (?:that|this) order)?"
 )
-_UNTIL_WIDTH = _re(
-    rf"(?P<before>{_SIDE})?[ ,]*(?:by |in steps of )?D(?P<step>\d+(?:\.\d+)?)(?: (?P<behind>{_SIDE}))? at a time,?(?: (?P<last>{_SIDE}))? "
+_UNTIL_WIDTH = f.compiled(
+    rf"(?P<before>{f.SIDE})?[ ,]*(?:by |in steps of )?D(?P<step>\d+(?:\.\d+)?)(?: (?P<behind>{f.SIDE}))? at a time,?(?: (?P<last>{f.SIDE}))? "
     r"until (?:you have covered )?D(?P<width>\d+(?:\.\d+)?)(?: (?:has been|have been|is|are) (?:covered|reached|scanned|done))?"
 )
 
@@ -627,7 +376,7 @@ def _counted(text: str) -> Iterator[Found]:
             raise _Uncertain
         yield Found(match.start(), match.end(), ((NUDGE, _sign(side) * step),) * int(width // step))
     for match in _FULL_TURN.finditer(text):
-        sides = [side for side in (match["ahead"], *re.findall(_SIDE, match["between"]), match["behind"]) if side]
+        sides = [side for side in (match["ahead"], *re.findall(f.SIDE, match["between"]), match["behind"]) if side]
         if _START.search(text[match.end() :].partition(". ")[0]):
             raise _Uncertain
         if len(sides) > 1 or int(match["count"]) < 2 or re.search("[DC][+-]?[0-9]", match["between"]):
@@ -637,9 +386,9 @@ def _counted(text: str) -> Iterator[Found]:
     for match in _RANGE.finditer(text):
         yield _range(match, text)
     for match in _LISTED_FIRST.finditer(text):
-        values = re.findall(_V, match["list"])
+        values = re.findall(f.V, match["list"])
         yield Found(match.start("list"), match.end(), tuple(_heading(float(value[1:])) for value in values))
-    text = _FULL_TURN.sub(_mask, _RANGE.sub(_mask, text))
+    text = _FULL_TURN.sub(f.mask, _RANGE.sub(f.mask, text))
     yield from _every(text)
     yield from _sectors(text)
 
@@ -694,7 +443,7 @@ def _sectors(text: str) -> Iterator[Found]:
     spans = [match.span(), *said]
     turns = tuple((ROTATE, g.tidy((first + sign * step * index) % 360)) for index in range(count))
     start, end = min(span[0] for span in spans), max(span[1] for span in spans)
-    if re.search(_V, _blank(text, spans)[start:end]):
+    if re.search(f.V, _blank(text, spans)[start:end]):
         raise _Uncertain
     yield Found(start, end, turns)
 
@@ -707,7 +456,7 @@ def _blank(text: str, spans: Iterable[tuple[int, int]]) -> str:
 
 # ---------------------------------------------------------------- what makes a reading uncertain
 
-_TAKEN_BACK = _re(
+_TAKEN_BACK = f.compiled(
     r"\b(?:sorry|i mean|i meant|correction|rather|instead|actually|make (?:that|it)|scratch|cancel|forget|strike|disregard|skip|leave out|drop the|"
     r"no longer|if|unless|either|"
     r"or rather|wrong|changed? my mind|undo|vice versa|other way|opposite|reverse\w*|backwards|any (?:heading|bearing|direction)|alternat\w+|"
@@ -715,7 +464,7 @@ _TAKEN_BACK = _re(
     r"\b(?:not|n't|never|no|without|nor|don't|neither) (?:(?!during|in|on|while|when|for|at|until|after|before|of)[a-z]+ ){0,2}?"
     r"(?:turn|rotat|pan\b|panning|nudg|yaw|swing|pivot|fac(?:e|ing)|spin)\w*|\b(?:not|n't) (?:to )?[DNC]-?\d"
 )
-_ONE_OR_MORE = _re(
+_ONE_OR_MORE = f.compiled(
     r"\breturn(?:ing)?\b(?! (?:home|to (?:base|home|where|P|the (?!heading|bearing|first))))|"
     r"(?<!all )\btimes\b|"
     r"(?<!long )(?<!look )(?<!hold )(?<!wait )(?<!check )(?<!stay )(?<!measure )(?<!centred )(?<!still )(?<!home )(?<!record )\bagain\b|"
@@ -725,7 +474,7 @@ _ONE_OR_MORE = _re(
     r"and back(?! (?:home|to|at|here|in))|swing back|turn back|rotate back|pan back|halves|cycle|(?<!along )(?<!on )(?<!at )that (?:heading|"
     r"bearing)|previous|original|initial)\b"
 )
-_BARE_VERB = _re(
+_BARE_VERB = f.compiled(
     r"(?<!the )(?<!each )(?<!every )(?<!this )(?<!that )(?<!first )(?<!second )(?<!third )(?<!fourth )(?<!fifth )(?<!last )"
     r"(?<!next )(?<!either )(?<!in )(?<!nth )"
     r"(?<!middle )(?<!final )(?<!other )(?<!later )(?<!earlier )(?<!per )(?<!while you )(?<!as you )(?<!when you )(?<!before you )"
@@ -736,22 +485,22 @@ _BARE_VERB = _re(
     r"headings? [a-z]+ly|"
     r"sectors|directions|unknown heading|cardinal|spins?|about-turn|u-turn|turnabout)\b|\b(?:turns|pans|nudges|rotations|swings|headings) of\b"
 )
-_LONE_SIDE = _re(
+_LONE_SIDE = f.compiled(
     r"(?<!pans )(?<!pan )(?<!turn )(?<!turns )(?<!nudge )(?<!nudges )(?<!rotation )(?<!swing )\bto (?:the )?(?:port|starboard|left|"
     r"right)\b(?= ?(?:$|[.,;:~)-]|and\b|then\b|by\b|with\b|while\b))|"
     r"\b(?:(?:counter|anti)[- ]?)?clock-?wise\b"
 )
-_BEFORE = _re(
+_BEFORE = f.compiled(
     r"\b(?:before(?! [^,.;:]*:)(?! (?:the next|each|every)\b)|prior to|ahead of|preceded by|"
     r"(?<!wait )(?<!hold )(?<!stay )(?<!waiting )(?<!remain )(?<!settle )until)\b"
 )
-_AFTER = _re(r"\b(?:after(?! (?:that|this|which)\b)|once(?! (?:round|more))|when|preceded|as soon as)\b")
-_BACKWARDS = _re(
+_AFTER = f.compiled(r"\b(?:after(?! (?:that|this|which)\b)|once(?! (?:round|more))|when|preceded|as soon as)\b")
+_BACKWARDS = f.compiled(
     r"\b(?:but first|first though|before (?:that|this|it|them)|beforehand|before all|to begin with|begin with|start with|ends? with|"
     r"finish(?:es)? (?:with|on)|comes? (?:first|last)|at the start|in the end|"
     r"preced\w+|in between|in that order reversed|last comes|order)\b(?<!in that order)(?<!in this order)(?<!in order)"
 )
-_FIRST_BEHIND = _re(r"\b(?:first|beforehand|first of all)(?=[.;]| ?$)")
+_FIRST_BEHIND = f.compiled(r"\b(?:first|beforehand|first of all)(?=[.;]| ?$)")
 
 
 def _orderly(text: str, found: list[Found]) -> bool:
@@ -790,21 +539,21 @@ def _same_again(text: str, found: list[Found]) -> list[Found]:
     return found
 
 
-_EMPTY = _re(
+_EMPTY = f.compiled(
     r"\b(?:turn\w*|rotat\w*|pan|pans|panning|panorama\w*|nudg\w*|yaw\w*|swing\w*|twist\w*|spin\w*|pivot\w*|swivel\w*|slew\w*|fac(?:e|es|ing)|"
     r"headings?|bearings?|bow|nose|"
     r"degrees?|compass|port|starboard|left|right|(?:counter|anti)?-?clockwise|round|around|look|looking|lin(?:e|ed|ing) up|square up|aim\w*|"
     r"scan\w*|sweep\w*|sector\w*|"
     r"direction\w*|angle\w*|point(?:ing)? |about|stern|again|times|same)\b|[DC]-?\d"
 )
-_BARE = _re(r"N-?\d+(?:\.\d+)?")
-_AROUND = _re(r"\b(?:panorama|look all round|look round)\b")
-_LEADING = _re(
+_BARE = f.compiled(r"N-?\d+(?:\.\d+)?")
+_AROUND = f.compiled(r"\b(?:panorama|look all round|look round)\b")
+_LEADING = f.compiled(
     rf"\b(?:{_TURN_WORD}|look(?:ing)?|fac(?:e|ing)|point(?:ing)?)[ ,]*(?:in |to |through |at |all )?$|\bsame again (?:to |at |on |"
     rf"facing |towards )?$"
 )
-_PAIR_OR_TWO = _re(r"\bcom(?:e|ing) (?:in |over |up |out |back )?to N-?[\d.]+ ?, ?N-?[\d.]+(?! ?(?:,|and|then)(?: then)? ?[DNC]\d)")
-_SAY_AGAIN = _re(rf"(?P<v>{_V})[ ,.]*(?:i )?(?:say again|repeat),? (?P=v)")
+_PAIR_OR_TWO = f.compiled(r"\bcom(?:e|ing) (?:in |over |up |out |back )?to N-?[\d.]+ ?, ?N-?[\d.]+(?! ?(?:,|and|then)(?: then)? ?[DNC]\d)")
+_SAY_AGAIN = f.compiled(rf"(?P<v>{f.V})[ ,.]*(?:i )?(?:say again|repeat),? (?P=v)")
 
 
 def read_turns(record: dict[str, Any], vocabulary: Vocabulary) -> tuple[Turn, ...] | None:
@@ -812,7 +561,7 @@ def read_turns(record: dict[str, Any], vocabulary: Vocabulary) -> tuple[Turn, ..
     if not {ROTATE, NUDGE} <= set(vocabulary.skill):
         return None
     given = record.get("parameters")
-    text = _plain(str(record.get("prompt", "")), given if isinstance(given, dict) else {})
+    text = f.plain(str(record.get("prompt", "")), given if isinstance(given, dict) else {})
     if not _EMPTY.search(text) and not any(not 0 < float(match[0][1:]) <= 12 for match in _BARE.finditer(text)):
         return ()
     orbits = str(record.get("task")) in ("PerformOrbit", "GlareFreeApproach") or ("radius" in text and "square" not in text)
@@ -821,12 +570,12 @@ def read_turns(record: dict[str, Any], vocabulary: Vocabulary) -> tuple[Turn, ..
         return None
     try:
         counted = sorted(_counted(text), key=lambda one: one.start)
-        text = _without(_blank(text, ((one.start, one.end) for one in counted)), (_COUNTED, _ARC, _SENSED, _SIDES_OF_THINGS, _YAW, _RUN))
+        text = f.without(_blank(text, ((one.start, one.end) for one in counted)), (f.COUNTED, f.ARC, f.SENSED, f.SIDES_OF_THINGS, f.YAW, f.RUN))
         found = _same_again(text, sorted([*counted, *_read(text, orbits=orbits)], key=lambda one: one.start))
     except _Uncertain:
         return None
     if any(one.turns[0][0] == ROTATE for one in counted):
-        text = _AROUND.sub(_mask, text)
+        text = _AROUND.sub(f.mask, text)
     rest = _blank(text, ((_from_verb(text, one.start), one.end) for one in found))
     if not found or _left_over(rest) or not _orderly(text, found):
         return None
@@ -843,4 +592,4 @@ def _from_verb(text: str, start: int) -> int:
 def _left_over(rest: str) -> bool:
     """Whether words that may speak of another rotation are not read."""
     rest = w.LOCKED.sub(" ", rest)
-    return any(pattern.search(rest) for pattern in (_BARE_VERB, _ONE_OR_MORE)) or _LONE_SIDE.search(_WAYPOINTS.sub(" ", rest)) is not None
+    return any(pattern.search(rest) for pattern in (_BARE_VERB, _ONE_OR_MORE)) or _LONE_SIDE.search(f.WAYPOINTS.sub(" ", rest)) is not None
