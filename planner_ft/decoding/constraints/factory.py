@@ -11,13 +11,14 @@ from planner_ft.decoding.configurations import Strength
 from planner_ft.decoding.constraints import Constraint, ConstraintFactory
 from planner_ft.decoding.constraints.answer import Answer, Script, Whole
 from planner_ft.decoding.constraints.budget import Budget
+from planner_ft.decoding.constraints.companions import read_companions
 from planner_ft.decoding.constraints.grammar import SchemaValues, plan_grammar
 from planner_ft.decoding.constraints.grounded import GroundedValues
 from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, GroundedTaskValues
+from planner_ft.decoding.constraints.reading.turns import read_turns
 from planner_ft.decoding.constraints.routes import TaskScript
 from planner_ft.decoding.constraints.state import MissionScript, ResolvedValues, names_unresolved
 from planner_ft.decoding.constraints.tokens import Tokens, tokens_of
-from planner_ft.decoding.constraints.turns import read_turns
 from planner_ft.decoding.constraints.waypoints import read_ground
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
@@ -76,7 +77,9 @@ class Factory:
         values, ground = GroundedTaskValues(record, self.vocabulary), read_ground(record, self.vocabulary)
         turns = read_turns(record, self.vocabulary)
         # Where the readings contradict each other, neither is certain.
-        script: Script = TaskScript(self.vocabulary, values, ground, str(record.get("prompt", "")), None if turns and ground.waypoints_alone else turns)
+        turns = None if turns and ground.waypoints_alone else turns
+        prompt, companions = str(record.get("prompt", "")), read_companions(record, self.vocabulary)
+        script: Script = TaskScript(self.vocabulary, values, ground, prompt, turns, companions)
         if ground.free:
             script = Whole(plan_grammar("task", self.vocabulary, ResolvedValues(FreeWaypoints(values), self.vocabulary)))
         return Answer(self.tokens, script, limit, self._reserve, values.notes)

@@ -9,10 +9,11 @@ from __future__ import annotations
 import functools
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from planner_ft.decoding.constraints import patterns
 from planner_ft.decoding.constraints.answer import Script
+from planner_ft.decoding.constraints.companions import Companions
 from planner_ft.decoding.constraints.grammar import (
     MOST_SKILLS,
     MOST_STEPS,
@@ -28,9 +29,9 @@ from planner_ft.decoding.constraints.grammar import (
     written_number,
 )
 from planner_ft.decoding.constraints.patterns import literal
+from planner_ft.decoding.constraints.reading.turns import Turn
 from planner_ft.decoding.constraints.repeats import ROTATING, Step, TurnValues, UnlikeValues, repeatable, spent
 from planner_ft.decoding.constraints.state import coordinates
-from planner_ft.decoding.constraints.turns import Turn
 from planner_ft.decoding.constraints.waypoints import Ending, Ground, Path, Point
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.definition import Role
@@ -76,6 +77,7 @@ class TaskScript:
     ground: Ground
     text: str = ""
     turns: tuple[Turn, ...] | None = None
+    companions: Companions = field(default_factory=Companions)
     before: Path = ()
     steps: tuple[Step, ...] = ()
     chosen: Skill | None = None
@@ -100,7 +102,7 @@ class TaskScript:
         return ahead._names(), ahead
 
     def closing(self) -> Script:
-        return replace(self, ground=replace(self.ground, paths=(), itinerary=None, alone=False, shaped=False), turns=None)
+        return replace(self, ground=replace(self.ground, paths=(), itinerary=None, alone=False, shaped=False), turns=None, companions=Companions())
 
     def _behind_step(self, text: str) -> TaskScript:
         """The script behind a step, with its movement and its waypoint."""
@@ -124,7 +126,7 @@ class TaskScript:
         """The names that may follow."""
         skills = self.vocabulary.skills_in_role(self.role)
         offered = [skill for skill in skills if self._offers(skill)]
-        # What nothing can be said against is said, whatever it is: an answer never stands without a way on.
+        # An answer never stands without a way on.
         return Grammar().text(" | ".join(literal(patterns.quoted(skill.name)) for skill in offered or skills))
 
     def _offers(self, skill: Skill) -> bool:
@@ -134,6 +136,8 @@ class TaskScript:
             return False
         if skill.motion in ROTATING and self.turns is not None:
             return self._turn is not None and self._turn[0] == skill.name
+        if self.role != "navigation" and self._runs(skill, self._movement[0]) is False:
+            return False
         uses = [parameters for used, parameters in self.beside if used == skill]
         return repeatable(skill, uses) and skill_body(Grammar(), skill, self._values_of(skill)) is not None
 
@@ -155,23 +159,40 @@ class TaskScript:
         """The rotation that comes next; None where there is none, or where it is not known."""
         return self.turns[self._turned] if self.turns is not None and self._turned < len(self.turns) else None
 
+    def _runs(self, skill: Skill, movement: Skill) -> bool | None:
+        """Whether a skill must or must not run beside a movement in the step that is being written."""
+        verdict = self.companions.runs(skill.name, movement.name, [earlier.name for earlier, _parameters in self.steps])
+        return verdict if verdict is not True or skill_body(Grammar(), skill, self.values) is not None else None
+
+    def _listed(self, role: Role, movement: Skill, said: Sequence[Skill] = ()) -> tuple[bool, bool]:
+        """Whether a list of skills beside a movement may go on, and whether it may end, behind those that were `said`."""
+        skills = [(skill, self._runs(skill, movement)) for skill in self.vocabulary.skills_in_role(role)]
+        missing = any(runs and skill not in said for skill, runs in skills)
+        more = len(said) < MOST_SKILLS and any(runs is not False and (skill not in said or skill.parameters) for skill, runs in skills)
+        return more or missing, not missing
+
     def _behind_name(self) -> str:
         """What may stand behind the chosen name, up to the next one."""
         assert self.chosen is not None
         grammar = Grammar()
-        another, opens = literal("," + SKILL_OPENS), literal(SKILL_OPENS)
-        tail = step_tail(grammar, self.values)
-        if self.role != "navigation":
-            body = self._body(grammar, self._values_of(self.chosen))
-            ends = f"{literal(']')} {tail} {self._ends(self._ending(*self._movement))}"
-            rest = ends if self.role == "perception" else f"{literal('],' + PERCEPTIONS)} ({opens} | {ends})"
-            more = f"{another} | " if len(self.beside) + 1 < MOST_SKILLS else ""
-            return grammar.text(f"{body} ({more}{rest})")
-        options = []
-        for values, ending in self._movements():
-            ends = f"{literal(']')} {tail} {self._ends(ending)}"
-            options.append(f"{self._body(grammar, values)} {literal(',' + FILTERS)} ({opens} | {literal('],' + PERCEPTIONS)} ({opens} | {ends}))")
-        return grammar.text(" | ".join(options))
+        if self.role == "navigation":
+            options = [
+                f"{self._body(grammar, values)} {literal(',' + FILTERS)} {self._list(grammar, 'filter', self.chosen, ending)}"
+                for values, ending in self._movements()
+            ]
+            return grammar.text(" | ".join(options))
+        movement, before = self._movement
+        ending, said = self._ending(movement, before), [*(skill for skill, _parameters in self.beside), self.chosen]
+        return grammar.text(f"{self._body(grammar, self._values_of(self.chosen))} {self._list(grammar, self.role, movement, ending, said)}")
+
+    def _list(self, grammar: Grammar, role: Role, movement: Skill, ending: Ending, said: Sequence[Skill] = ()) -> str:
+        """What may stand in the list of a role's skills behind those that were said: the next one, or what follows the list."""
+        more, ends = self._listed(role, movement, said)
+        options = [literal("," * bool(said) + SKILL_OPENS)] if more else []
+        if ends or not more:
+            behind = self._list(grammar, "perception", movement, ending) if role == "filter" else f"{step_tail(grammar, self.values)} {self._ends(ending)}"
+            options.append(f"{literal('],' + PERCEPTIONS if role == 'filter' else ']')} {behind}")
+        return f"({' | '.join(options)})"
 
     def _body(self, grammar: Grammar, values: Values) -> str:
         assert self.chosen is not None

@@ -10,8 +10,8 @@ import re
 from dataclasses import dataclass
 
 from planner_ft.data.task import geometry as g
-from planner_ft.decoding.constraints import wordings as w
-from planner_ft.decoding.constraints.shapes import named_corner
+from planner_ft.decoding.constraints.reading import wordings as w
+from planner_ft.decoding.constraints.reading.shapes import named_corner
 
 BEGINNING = re.compile(
     r"\b(?:(?<!you )start\w*|begin\w*|first|enter\w*|entr\w+|from the|opposite|other|far|near|upper|lower|top|bottom|left|right)\b", re.IGNORECASE

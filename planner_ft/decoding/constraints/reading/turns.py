@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from planner_ft.data.task import geometry as g
-from planner_ft.decoding.constraints import turn_forms as f
-from planner_ft.decoding.constraints import wordings as w
+from planner_ft.decoding.constraints.reading import turn_forms as f
+from planner_ft.decoding.constraints.reading import wordings as w
 from planner_ft.vocabulary import Vocabulary
 
 Turn = tuple[str, float]

@@ -9,7 +9,7 @@ import pytest
 
 from planner_ft.data.task import geometry as g
 from planner_ft.data.task.handed_down import handed_down_tasks
-from planner_ft.decoding.constraints.own_movement import own_movement
+from planner_ft.decoding.constraints.reading.own_movement import own_movement
 from planner_ft.decoding.constraints.waypoints import read_ground
 from planner_ft.vocabulary import load_vocabulary
 

@@ -9,7 +9,7 @@ import pytest
 
 from planner_ft.data.task import geometry as g
 from planner_ft.data.task.sampler import sample_tasks
-from planner_ft.decoding.constraints.itinerary import moves_otherwise, read_itinerary
+from planner_ft.decoding.constraints.reading.itinerary import moves_otherwise, read_itinerary
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()

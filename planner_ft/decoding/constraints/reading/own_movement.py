@@ -13,8 +13,8 @@ from typing import Any
 
 from planner_ft.data.quantities import positions, quantities
 from planner_ft.data.task import geometry as g
-from planner_ft.decoding.constraints import wordings as w
-from planner_ft.decoding.constraints.shapes import Point, stated_ways
+from planner_ft.decoding.constraints.reading import wordings as w
+from planner_ft.decoding.constraints.reading.shapes import Point, stated_ways
 from planner_ft.vocabulary import Task, Vocabulary
 
 Path = tuple[Point, ...]

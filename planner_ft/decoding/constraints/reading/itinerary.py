@@ -12,12 +12,15 @@ import re
 from typing import Any
 
 from planner_ft.data.quantities import positions
+from planner_ft.data.stated import radio_digits
 from planner_ft.data.task import geometry as g
-from planner_ft.decoding.constraints import wordings as w
-from planner_ft.decoding.constraints.shapes import Facts, Place, Point, Uncertain, grid_path, square_path, stated_sizes, stated_ways
+from planner_ft.decoding.constraints.reading import wordings as w
+from planner_ft.decoding.constraints.reading.shapes import Facts, Place, Point, Uncertain, grid_path, square_path, stated_sizes, stated_ways
 from planner_ft.vocabulary import Vocabulary
 
 Path = tuple[Point, ...]
+PLACED = re.compile(r"[\[(,;/=]|[xy]|east|west|north|south|minus|[-−]", re.IGNORECASE)
+"""What two numbers that are a place have between or around them: "200 and 230" are headings as well."""
 
 
 def read_itinerary(record: dict[str, Any], vocabulary: Vocabulary) -> Path | None:
@@ -44,6 +47,16 @@ def read_itinerary(record: dict[str, Any], vocabulary: Vocabulary) -> Path | Non
     if any(one == two for one, two in itertools.pairwise(walked)) or g.point(*vocabulary.unresolved) in walked:
         return None
     return tuple(walked) or None
+
+
+def stays(record: dict[str, Any]) -> bool:
+    """Whether a task input certainly sends the vehicle nowhere: it has no place outside of fences, no way off and no word of a run."""
+    given = record.get("parameters")
+    text = radio_digits(without_fences(_without_marks(str(record.get("prompt", "")))))
+    led = w.LEADS.search(w.NO_LEAD.sub(" ", text)) or w.GOES.search(text) or _shapes(text) or w.SHAPED.search(text)
+    placed = any(PLACED.search(text[start:end]) for _x, _y, start, end in positions(text))
+    own = _own_place(given if isinstance(given, dict) else {})
+    return own is None and not led and not placed and not any(stated_ways(text, []))
 
 
 def moves_otherwise(text: str) -> bool:

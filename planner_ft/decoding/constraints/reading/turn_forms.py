@@ -10,7 +10,7 @@ from typing import Any
 
 from planner_ft.data.quantities import COMPASS, SHORT, quantities
 from planner_ft.data.stated import radio_digits
-from planner_ft.decoding.constraints import wordings as w
+from planner_ft.decoding.constraints.reading import wordings as w
 
 
 def compiled(pattern: str) -> re.Pattern[str]:

@@ -14,10 +14,10 @@ from typing import Any
 from planner_ft.data.quantities import positions, quantities
 from planner_ft.data.stated import radio_digits
 from planner_ft.data.task import geometry as g
-from planner_ft.decoding.constraints import wordings as w
-from planner_ft.decoding.constraints.cues import read_cues
-from planner_ft.decoding.constraints.itinerary import without_fences
-from planner_ft.decoding.constraints.shapes import Place, named_sizes, stated_sizes, stated_ways
+from planner_ft.decoding.constraints.reading import wordings as w
+from planner_ft.decoding.constraints.reading.cues import read_cues
+from planner_ft.decoding.constraints.reading.itinerary import without_fences
+from planner_ft.decoding.constraints.reading.shapes import Place, named_sizes, stated_sizes, stated_ways
 from planner_ft.vocabulary import Task
 
 Point = g.Point

@@ -153,6 +153,13 @@ LEADS = _words(
     r"track|follow|position yourself|take (?:her|it|the)|carry on|continue|"
     r"pass|transect|leg|distance of the task|waypoints?|round|line up|out to|get to|bring|put|place|station \d+|leave for|work along|lap|loop"
 )
+GOES = _words(
+    r"place|point|position [a-z]|spot|waypoints?|leg|legs|lane|lanes|route|course|way|there|away|closer|nearer|across|along|past|towards?|into|between|"
+    r"[a-z]+ward|[a-z]+wards|metres? (?:ahead|astern|forward|back|further|on|off)|m (?:ahead|astern|forward|back|off)|inspect\w*|survey\w*|"
+    r"visit|set off|depart\w*|"
+    r"patrol\w*|circuit|perimeter|in turn|site|location|destination|target|goal|start|berth|slip|quay|here"
+)
+"""Words that a run may be meant with."""
 NO_LEAD = _words(
     r"(?:on|during|for|in) (?:the |each |every |both |all |either )?(?:[\w-]+ )?(?:legs?|runs?|pass|passes|"
     r"lanes?|way)\b|back[- ]and[- ]forth|go(?:ing|es)? (?:(?:counter|anti)[- ]?)?clock-?wise|go(?:ing|es)? round|"

@@ -14,7 +14,7 @@ from typing import Any
 
 from planner_ft.data.quantities import quantities
 from planner_ft.data.task import geometry as g
-from planner_ft.decoding.constraints import wordings as w
+from planner_ft.decoding.constraints.reading import wordings as w
 
 Point = g.Point
 
