@@ -68,7 +68,7 @@ def test_a_stated_way_off_a_stated_place_is_a_waypoint_and_no_other_place_is() -
 
 def test_a_step_goes_somewhere_else_unless_the_prompt_speaks_of_coming_back() -> None:
     assert (5, 5) not in ground("Transit", "Go to (5, 5).").following(((5, 5),))
-    assert (5, 5) in ground("Transit", "Go to (5, 5), then back to it.").following(((5, 5),))
+    assert (5, 5) in ground("Transit", "Go to (5, 5) twice.").following(((5, 5),))
 
 
 def test_shapes_that_are_not_derived_leave_room() -> None:

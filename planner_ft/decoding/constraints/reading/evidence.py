@@ -20,7 +20,9 @@ from planner_ft.vocabulary import Vocabulary
 
 MOST_UNKNOWN = 0.34
 """Share of the words that may be in no list; with more, a text is in another language or too far from English to be read."""
-MOST_VARIANTS = 4
+HALF = 0.5
+"""What an unknown word counts that can be put right."""
+MOST_VARIANTS = 6
 """Spellings that a word which is in no list is tried in."""
 MOST_BEHIND = 3
 """Words that may stand behind what is not wanted anywhere: more can say where it is."""
@@ -38,7 +40,8 @@ NEGATION = re.compile(
     r"disregard|ignore|except|unless|"
     r"instead|rather|less|minus|save for|bar|off|already|earlier|yesterday|previous\w*|later|tomorrow|next time|last (?:time|week|year|month|night)|"
     r"has been|have been|was|were|had|would|could|might|may|if|in case|un\w+ed|stop\w*|free|lifted|enough|spare|needless|pointless|useless|avoid "
-    r"\w+ing|wait|broken|faulty|down|dead|but|correction|sorry|mean|meant|actually|wrong)\b|n't\b|\bdont\b",
+    r"\w+ing|wait|broken|faulty|down|dead|but|upload\w*|send\w*|transmit\w*|transfer\w*|deliver\w*|ashore|correction|sorry|mean|meant|actually|"
+    r"wrong)\b|n't\b|\bdont\b",
     re.IGNORECASE,
 )
 """Words by which a sentence may not ask for what it names."""
@@ -165,7 +168,7 @@ def _replaced(text: str, places: Iterable[tuple[re.Match[str], str]]) -> str:
 
 @functools.lru_cache(maxsize=4096)
 def _meant(word: str) -> tuple[str, ...]:
-    """What a word that no list has, or that hardly ever stands there, may be a misspelling of: words of the evidence first."""
+    """What a word that no list has, or that hardly ever stands there, may be meant for: words of the evidence first."""
     if known_words().get(word, 0) > RARE:
         return ()
     if len(word) < 4:
@@ -173,7 +176,9 @@ def _meant(word: str) -> tuple[str, ...]:
     limit = 1 if len(word) < 7 else 2
     near = sorted((edit_distance(word, key, limit), key) for key in _keys() if abs(len(key) - len(word)) <= limit)
     likely = [key for distance, key in near if distance <= limit]
-    return tuple(dict.fromkeys(candidate for pair in itertools.zip_longest(likely[:2], corrections(word)) for candidate in pair if candidate))
+    near_words = [candidate for pair in itertools.zip_longest(likely[:2], corrections(word)) for candidate in pair if candidate]
+    # What may be right as it stands stays so while other words are put right.
+    return tuple(dict.fromkeys([word, *near_words] if is_known(word) else near_words))
 
 
 @functools.cache
@@ -194,8 +199,7 @@ def _readable(text: str) -> bool:
     if len(set(words) & _FOREIGN) > 1:
         return False
     unknown = [word for word in words if not is_known(word)]
-    # A word that can be put right is half known.
-    return sum(0.5 if _meant(word) else 1 for word in unknown) <= max(1, MOST_UNKNOWN * len(words))
+    return sum(HALF if _meant(word) else 1 for word in unknown) <= max(1, MOST_UNKNOWN * len(words))
 
 
 def _alternatives(patterns: Iterable[str]) -> re.Pattern[str]:
@@ -215,7 +219,7 @@ def _unmistakable(name: str) -> re.Pattern[str]:
 _NAME = re.compile(r"(?<=[a-z,] )[A-Z][a-z]+")
 _FOREIGN = frozenset(
     ("und", "der", "die", "das", "dem", "den", "mit", "zum", "zur", "nach", "auf", "ist", "nicht", "wenn", "het", "een", "van", "naar", "les")
-) | frozenset(("des", "une", "avec", "pour", "vers", "dans", "sur", "las", "los", "con", "por", "para", "del", "una", "che", "della", "och", "med", "til"))
+) | frozenset(("des", "une", "avec", "pour", "vers", "dans", "sur", "las", "los", "con", "por", "para", "del", "una", "che", "della", "och", "med"))
 """Small words of other languages, two of which no English text has."""
 _POSITION = re.compile(r"positions?|posn|pos|whereabouts|locations?|latitude|longitude|coordinates?|coords?")
 _PLACE_BEFORE, _PLACE_BEHIND, _OF_SHOT = (re.compile(pattern) for pattern in (c.PLACE_BEFORE, c.PLACE_BEHIND, c.OF_SHOT))

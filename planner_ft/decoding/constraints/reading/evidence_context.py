@@ -16,7 +16,8 @@ SEEKING = (
     r"find(?:s|ing)?\b(?! out)|"
     r"(?<!the )(?<!this )(?<!that )(?<!hot )(?<!hottest )(?<!warmest )(?<!same )spot(?:s|ted|ting)?\b(?! (?:where|while|for|\d))|scan(?:s|ned|"
     r"ning)? (?:[a-z]+ ){0,4}for|check(?:s|ed|ing)? for|"
-    r"see(?:s|ing)? (?:if|whether) (?:there|any)|identif\w+|pick(?:s|ed|ing)? (?:up|out)|flag\w* any|sight(?:s|ing)?\b|hunt\w*|scout\w*|recogni[sz]\w*|"
+    r"see(?:s|ing)? (?:if|whether) (?:there|any)|identif\w+|pick(?:s|ed|ing)? (?:up|out)|flag\w* any|sight(?:s|ing)?\b|hunt\w*|scout\w*|"
+    r"recogni[sz]\w*|"
     r"survey\w* for|inspect\w* for|turn and look|comb\b)"
 )
 """Verbs of seeking, which object detection is asked for by where nothing says that another sensor seeks."""
@@ -24,13 +25,15 @@ SOUGHT_OTHERWISE = (
     r"^(?:(?!(?:and|while|with|then|or|as|when|meanwhile|plus) )[a-z'-]+ ){0,5}?(?:sonar\w*|side-? ?scan|hot\w*|warm\w*|heat|droplets?|drops?|"
     r"spray|water drops|lens\w*|text|lettering|letters|writing|"
     r"writ\w*|"
-    r"cylinders?|curves?|clouds?|depths?|horizon|distances?|sectors?|offset|pixel|quality|pose|gps|geo-?tag\w*|position|observations?|flatness|"
+    r"cylinders?|curves?|clouds?|depths?|horizon|distances?|sectors?(?! light)|offset|pixel|quality|pose|gps|geo-?tag\w*|position|observations?|"
+    r"flatness|"
     r"planarity|flat|"
     r"temperatures?|soundings?|obstacles? dist\w*|how (?:close|far|level|deep)|(?:closest|nearest) (?:return|echo|thing|point)|round shape|return)\b"
 )
 """What is sought with a sensor or for a skill of its own, just behind the verb."""
 BY_SONAR_BEHIND = (
-    r"^(?:(?!\band (?:[a-z]+ )?(?:detect|look|search|find|spot|watch|run|us|check|scan|mak|pick|hunt)| - )[^.;,:]){0,70}\b(?:on|with|using|by|in|via|through|"
+    r"^(?:(?!\band (?:[a-z]+ )?(?:detect|look|search|find|spot|watch|run|us|check|scan|mak|pick|hunt)| - )[^.;,:]){0,70}\b(?:on|with|using|by|"
+    r"in|via|through|"
     r"from|off|"
     r"under) (?:the |a |our |your )?(?:[a-z-]+ )?(?:sonar|side-? ?scan|multi-?beam|sonar echo|sub-bottom)"
 )
@@ -43,7 +46,7 @@ RECORDED = (
 """What stands before a sonar that is recorded, or that the depth is taken with."""
 ANY_SEEKING = (
     r"\b(?:detect\w*|look(?:s|ed|ing)? (?:out )?(?:for|on|at)|search\w*|find\w*|spot(?:s|ting)\b|watch\w* (?:it |the )?(?:sonar|display|for)|"
-    r"scan\w* (?:it|the|for)|features?\b|pick\w* (?:out|up)|"
+    r"scan\w* (?:it|the|for)|features?\b|pick\w* (?:out|up)|mak\w* out|"
     r"sonar\w* (?:on )?for (?:any|the|a|an|[a-z]+s)\b|hunt\w*|seek\w*|comb\w*|blobs?)"
 )
 RECORDED_BEHIND = r"^ (?:\w{1,2} )?(?:is |are |be |being |to be |gets? |must be |should be )?(?:record\w*|film\w*|on record|rolling|data|files?)\b"
@@ -62,7 +65,8 @@ PLACE_BEFORE = (
 """What stands before a position that is a place, or that is held, and none that is logged."""
 PLACE_BEHIND = (
     r"^ ?(?:\(|\[|-?\d|held|kept|maintained|of (?:the|any|it|what)|x[ =\d]|error|accura|qual|as (?:a|the|given|\"|ordered|planned)|yourself|given|"
-    r"is reached|reached|has\b|lies|near|north|south|east|west|within|until|ready|named|called|relative|with respect|for (?:\d|\w+ (?:sec|min|hour))"
+    r"is reached|reached|has\b|lies|near|north|south|east|west|within|until|ready|named|called|relative|with respect|for (?:\d|(?:a|an|\w+) "
+    r"(?:seconds|minutes?|hours?|mins|secs)\b)"
     r"|stated|holding|or\b)"
 )
 """What stands behind one."""

@@ -97,7 +97,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         rf"{SIZE}|[\d.]+ ?(?:°|deg|s\b|sec|min|h\b)|(?:{COUNT} )+(?:deg|sec|min|hour)))",
         r"(?:inside|within) [^.;,]{0,40}(?:square|box|rectangle|area|strip|corridor|polygon|triangle|hexagon|block|field)\b|(?:stay|keep|remain|"
         r"hold)\w* (?:well )?(?:out of|in|to)\b (?:the (?!point|spot|pos|head|course|track|line|left|right|north|south|east|west)|this (?!spot|"
-        r"pos)|that|a\b|\[|\()|(?:not|n't|never)\b[^.;]{0,30}(?:outside|beyond|past|over the)\b|(?:not|"
+        r"pos)|that|an?\b|\[|\()|(?:not|n't|never)\b[^.;]{0,30}(?:outside|beyond|past|over the)\b|(?:not|"
         r"n't|never)\b[^.;]{0,12} out of (?:the|this|that|\[|\()",
         r"(?:area|region|sector|patch|field|block|basin|harbou?r|corridor|waters?)\b[^.;\[(]{0,25}(?:leav|stay in|keep to|permit|allow|bound|"
         r"limit|confine)|(?:area|region|square|block) (?:of |with |from |between |is )?(?:the )?(?:corners )?[\[(]",
@@ -124,8 +124,8 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"report\w* (?:[a-z,-]+ ){1,8}(?:in|on) (?:view|sight)",
     ),
     "TrackObjects": (
-        r"tracker\w*|(?<!\bcable )tracking\b|trk\b|identit\w+|persisten\w+|tabs on|re-?identif\w+",
-        r"(?<!\bcable )(?<!\bon )(?<!\boff )(?<!\bthe )(?<!\bgps )(?<!back)(?:track|tracks|tracked)\b(?! (?:the |of the |of your |of our |your |a |"
+        r"tracker\w*|tracked\b(?! (?:pixel|offset|pose))|(?<!\bcable )tracking\b|trk\b|identit\w+|persisten\w+|tabs on|re-?identif\w+",
+        r"(?<!\bcable )(?<!\bon )(?<!\boff )(?<!\bthe )(?<!\bgps )(?<!back)(?:track|tracks)\b(?! (?:the |of the |of your |of our |your |a |"
         r"of )?(?:[a-z]+ )?(?:pixel|visual|offset|pose|relative|cable|"
         r"pipeline|straight|line|course|start|heading|bearing|length|end|leg|run\b|is\b|begins|distance|out\b|time))",
         r"(?:on the|keep|hold|maintain|have|start|put|with|run|object|continuous|no|a) (?:a |the )?track\b(?! (?:heading|length|bearing|start|"
@@ -262,7 +262,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"(?:positions?|posn|pos|whereabouts|locations?|latitude|longitude|coordinates?|coords?)\b",
         r"(?:find out|know|tell\w*|log|report|say|note|record|see|check|show|work out)\w* [^.;,]{0,10}where (?:you|we|she|i|the boat)|(?:logged|"
         r"recorded) by (?:its |the )?position|(?:log|record|keep|save|store|note|gps|plot)(?:s|ging|ing|ed)? (?:of )?(?:the |a |your |"
-        r"our )?(?:[a-z]+ )?tracks?\b(?! of| on)|tracks? (?:is |are )?(?:logged|recorded)",
+        r"our )?(?:[a-z]+ )?tracks?\b(?! of)|tracks? (?:is |are )?(?:logged|recorded)",
         r"breadcrumb\w*|lat/?lon\w*|lat\b|lon\b|latitude|longitude|wgs\w*",
     ),
     "SelectActiveStream": (
@@ -271,7 +271,8 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"(?<!\bfield of )(?<!\bfields of )(?<!\bin )(?<!\binto )(?<!\bwithin )(?<!\bin the )(?<!\busable the )(?<!\bhow good the )(?<!\bkeep )"
         r"(?<!\bits )"
         r"views?\b(?! of\b)|"
-        r"view(?:ed|ing)? (?:through|on|from)|view of \w*cam|look\w* through|show(?:s|n|ing)? (?!up)|see through|focus (?:on|to|over)",
+        r"view(?:ed|ing)? (?:through|on|from)|view of \w*cam|look\w* through|show(?:s|n|ing)? (?!up)|see through|see (?:the |what )?(?:[\w-]+ "
+        r"){0,3}\w*cam\w*|focus (?:on|to|over)",
         r"(?:switch|chang|turn|cut|mov|flip|swap|toggl|hop|shift|go|over)(?:es|e|s|ed|ing|ped|ping|ting|ling)? (?:[\w-]+ ){0,3}?(?:over )?(?:to|"
         r"onto|into) (?:[\w-]+ ){0,4}?\w*(?:cam\w*|view|feed|stream|lens|channel|picture|thermal|infrared|ir)\b",
         r"(?:switch|chang|go|turn|cut|swap)(?:es|e|s|ed|ing)? (?:over )?to (?:the )?(?!x[ =]|y[ =])(?:[a-z]+[-_ ]?\d+\b|[a-z]+_\w+)",
@@ -297,9 +298,10 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"\b(?:run\w*|on\b(?= ?[.,;]|$| and| as| under| for| while)|going|rolling|record\w*)",
         r"(?:run|start|roll|let)(?:s|ning|ing)? (?:the |a |your )?(?:[a-z-]+ )?(?:\w*cam(?:era)?\b|\w*cam[\w-]+|sonar\b(?! (?:feature|detect|"
         r"search))|radar\w*|lidar\b(?! log)|sensor\b(?! (?:[a-z]+ )?check| health| test)|hydrophone\w*|sss\w*|mbes\w*|weather station)|"
-        r"(?:\w*cam\w*|video|camera)(?: [\w]+)? (?:on\b(?= ?[.,;]|$| and| as| under| for| while| during| in| all| the whole| through| from)|"
+        r"(?:\w*cam\w*|video|camera)(?: [\w]+)? (?:on\b(?= ?[.,;]|$| and| as| under| for| while| during| in| on| all| the whole| through| from)|"
         r"runs?\b|running|rolling|going)",
-        r"let (?!ocr|the (?:object |detect|track)|her\b|the boat)(?:[\w-]+ ){1,4}run\b|(?:[a-z]+[_-]?\d+|\w+_\w+|sonar|multibeam|lidar|radar|"
+        r"let(?:s|ting)? (?!ocr|the (?:object |detect|track)|her\b|the boat)(?:[\w-]+ ){1,4}run\b|(?:[a-z]+[_-]?\d+|\w+_\w+|sonar|multibeam|"
+        r"lidar|radar|"
         r"station|hydrophone|sounder|profiler|camera(?: \w+)?|sensor \w+|scan) runs\b",
         r"(?:sav|stor|log|captur|keep|archiv|writ|collect|preserv|document)(?:e|es|s|ed|ing|ging)? (?:what (?!the weather sens|is in the|"
         r"is written)|everything|the (?:data|output|stream|video|sonar|radar|feed)\b(?! buffer)|all\b|video\b|"
@@ -352,7 +354,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"\w*accura\w*|acc\b|precis\w*|[hp]?dop\b|exact(?!ly)\w*|trust\w*|reliab\w*|geo-? ?tags?\b(?! (?:still|snap|pic|pho|im))|"
         r"geo-? ?tag\w* (?:qual|check|verif|valid|are|is|good)\w*|horizontal(?:ly)?\b|cep\b",
         r"(?:gps|gnss|fix(?:es)?|satellite\w*)\b(?: (?!and\b|while\b)[\w,-]+){0,5} (?:quality|errors?|good|better|below|under|within|less|"
-        r"valid\w*|verif\w*|check\w*|test\w*|confirm\w*|threshold|limit|to \d|down to|ok\b|sound\b|strong)|position(?:al|s)? (?:quality|error|"
+        r"valid\w*|verif\w*|check\w*|test\w*|confirm\w*|threshold|limit|to \d|for \d|down to|ok\b|sound\b|strong)|position(?:al|s)? (?:quality|error|"
         r"is (?:good|acc|right|correct|within)|are (?:good|acc)|good)",
         r"(?:verif|check|confirm|validat|test|ensur|make sure|making sure|see that|see whether|see if|prov|how good|quality of|error of|error on|"
         r"assess|monitor|limit)\w*(?: (?!and\b|while\b|lens)[\w:-]+){0,5} (?:gps|gnss|geo-? ?tag\w*|fix\b|fixes|satellite)|(?:verif|validat|"

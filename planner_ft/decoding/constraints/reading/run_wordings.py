@@ -150,10 +150,10 @@ AT = re.compile(rf"\b(?:at|on|in|from|of|by|with|to)\s+{_NOUN}$", re.IGNORECASE)
 _OWN_ADJECTIVE = (
     r"(?:(?:task'?s?|given|planned|stated|goal|target(?:['’]s)?|start(?:ing)?|cable|ordered|named|set|designated|final|pass|track|last known|"
     r"last reported|known|"
-    r"reported|specified|intended|search|panned|docking) )*"
+    r"reported|specified|intended|search|panned|orbit|circle|survey|area|docking) )*"
 )
 OWN = re.compile(
-    rf"\b(?:the |its |her |our |my )?{_OWN_ADJECTIVE}(?P<noun>target|goal|cent(?:re|er)|start|position|point|berth|location|destination|beginning)"
+    rf"\b(?:the |its |her |our |my )?{_OWN_ADJECTIVE}(?P<noun>target|goal|cent(?:re|er)|start|position|point|berth|location|destination|beginning|coordinates)"
     r"(?: (?:of|in|for|from|on|to) (?:the |its |this )?(?:task|cable|track|run|order|survey|orbit|area|planned track|planned run|circle|"
     r"begin \w+))?(?! (?:feature|id\b|mark|list|of\b|in frame|centred))\b(?!['’]s)",
     re.IGNORECASE,
@@ -261,12 +261,12 @@ NO_MOVE = _words(
 QUOTED = re.compile(r"\"[^\"]*\"|(?<!\w)'[^']*'(?!\w)|[“‘][^”’]*[”’]")
 """Notes, labels and file tags."""
 NO_OWN = re.compile(
-    r"\b(?:keep|hold(?! (?:position )?(?:at|off|on)\b)|centre\w*|point\w*|look\w*|turn\w*|rotat\w+|fac\w+|bow|pose|offset|relative|distance|"
+    r"\b(?:keep|hold(?! (?:position )?(?:at|off|on)\b)|centre\w*|point\w*|look\w*|turn\w*|rotat\w+|fac\w+|bow|pose|pixel|error|offset|relative|distance|"
     r"lock\w*|listen\w*|watch\w*|steady on|stay(?! at))\b[^.;:,]{0,40}$",
     re.IGNORECASE,
 )
 """Words before a target that is watched, not gone to."""
-NO_OWN_BEHIND = re.compile(r"^ (?:feature|id|mark|description|centred|in (?:view|the (?:picture|frame)))\b", re.IGNORECASE)
+NO_OWN_BEHIND = re.compile(r"^ (?:to (?:follow|be|track|watch)|feature|id|mark|description|centred|in (?:view|the (?:picture|frame)))\b", re.IGNORECASE)
 """The target as a thing that is looked at."""
 HERE = _words(r"(?:your|this|our|present|current) \w+|^position|^point|^the (?:position|point)$|^start$")
 """A place of the vehicle's own, or of nothing in particular."""
@@ -290,7 +290,7 @@ STARTING = _words(r"(?:start|beginn)\w*|begin\w*|from|out of")
 """The place behind is where a run starts."""
 PARALLEL = _words(r"ending|to the end at")
 """A run whose end is stated as a place."""
-SHAPE_NAMES = ("square", "survey", "inspect", "lawnmower", "spiral", "triangle", "rectangle", "instead")
+SHAPE_NAMES = ("square", "survey", "inspect", "lawnmower", "spiral", "triangle", "rectangle", "instead", "before")
 """Names of shapes and corrections that a typing error may hide."""
 LISTED = re.compile(r"(?:^|[,;:]|\bthen\b|\s[-–—>]+)\s*(?:(?:and|then|next|to|at|on to)\s+)*(?:the )?$", re.IGNORECASE)
 """Before an item of a list."""
@@ -303,7 +303,7 @@ ANY_TRACK = re.compile(
     re.IGNORECASE,
 )
 """A track or a face that is not run from one stated place to another."""
-MEASURED = re.compile(r"^\s?(?:°|deg|s\b|sec|m\b|met|min|%|hours?|kn|times)", re.IGNORECASE)
+MEASURED = re.compile(r"^\s?(?:°|deg|s\b|secs?\b|seconds|m\b|met|min|%|hours?|kn|times)", re.IGNORECASE)
 """A unit that no coordinate has."""
 ANGLES = re.compile(
     r"\b(?:turn\w*|rotat\w+|headings?|bearings?|bow|sectors?|fac(?:e|ing)|look\w*|degrees?|nudg\w*|pan\w*|yaw\w*|point\w*|swing\w*|spin\w*|"
@@ -422,3 +422,9 @@ UNPLACED_NEXT = re.compile(
     re.IGNORECASE,
 )
 """A thing to go to that stands behind a place, without a place of its own."""
+SIXTEENTH = re.compile(r"\b(?:north|south|east|west)[ -](?:north|south)[ -]?(?:east|west)", re.IGNORECASE)
+"""A compass point between those that are read."""
+FROM_ANY = re.compile(r"\b(?:from|starting|beginning|start|begin)\b[^.;]{0,20}§", re.IGNORECASE)
+"""A run whose start is stated."""
+BOUNDS = re.compile(r"\b(?:corners?|bound\w*|\w*fence\w*|polygon|limits?|perimeter)\b", re.IGNORECASE)
+"""Words that make a row of places an area."""

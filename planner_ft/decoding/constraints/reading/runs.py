@@ -68,7 +68,13 @@ def read_runs(record: dict[str, Any], vocabulary: Vocabulary) -> Path | None:
         track = read_track(text, parameters)
         if track is not None:
             return track
-        if r.STOP.search(_unquoted(text)) or r.ORDER.search(text) or _misspelt(text) or _led_to(fenced, text):
+        if (
+            r.STOP.search(_unquoted(text))
+            or r.ORDER.search(text)
+            or _misspelt(text)
+            or _led_to(fenced, text)
+            or (w.ROW.search(text) and r.BOUNDS.search(_clipped(text)))
+        ):
             return None
         walked = _walked(_events(text, facts), text, facts.home)
     except Uncertain:
@@ -94,6 +100,11 @@ def _figures(spoken: re.Match[str]) -> str:
 def _unquoted(text: str) -> str:
     """A text with blanks for notes and names, which say nothing about the way."""
     return r.QUOTED.sub(lambda quoted: " " * len(quoted[0]), text)
+
+
+def _clipped(text: str) -> str:
+    """The sentences with a row of places."""
+    return " ".join(text[max(0, row.start() - 60) : row.end() + 60] for row in w.ROW.finditer(text))
 
 
 def _led_to(fenced: str, text: str) -> bool:
@@ -313,6 +324,8 @@ def _offsets(bare: str, mentioned: list[tuple[int, int, Point]]) -> Iterator[tup
         match = r.WAY_BEHIND.match(bare[end:])
         if match is None:
             continue
+        if r.SIXTEENTH.match(match[0].strip() + bare[end + match.end() :][:12]):
+            raise Uncertain
         bearing, behind = w.bearing_of(match[1]), end + match.end()
         if joined and not r.JOINS.fullmatch(bare[joined[-1][1] : start]):
             yield from _legs(joined, bare, mentioned)
@@ -361,6 +374,9 @@ def _lines(bare: str, events: list[_Event], facts: _Facts) -> list[_Event]:
     for start, end in itertools.pairwise(bounds):
         inside = [event for event in events if start <= event.start < end]
         line = _line(bare[start:end], start, inside, facts)
+        before = [event for event in [*events, *found] if event.grade != "mention" and event.start < end]
+        if line and _is_own_track(bare[start:end], facts) and (not before or max(before, key=lambda event: event.end).point != facts.own):
+            raise Uncertain
         found += [line] if line else _whole_track(bare[start:end], start, inside, facts)
     return found
 
@@ -370,6 +386,8 @@ def _line(part: str, at: int, inside: list[_Event], facts: _Facts) -> _Event | N
     if any(event.way for event in inside) or not r.LINE.search(part):
         return None
     lengths, headings = _run_sizes(part, facts)
+    if lengths and r.SIXTEENTH.search(part):
+        raise Uncertain
     if not lengths or not headings:
         _check_no_run(part, at, inside, lengths, headings)
         return None
@@ -390,6 +408,11 @@ def _line(part: str, at: int, inside: list[_Event], facts: _Facts) -> _Event | N
     return _Event(place, place, None, (heading, length), since=at + next((verb for verb in verbs if verb >= done), verbs[-1]))
 
 
+def _is_own_track(part: str, facts: _Facts) -> bool:
+    """Whether a run is the task's own track, which begins at its start whether or not the text says so."""
+    return "start" in facts.parameters and r.OWN_HEADING.search(part) is not None and not r.FROM_ANY.search(part)
+
+
 def _run_sizes(part: str, facts: _Facts) -> tuple[dict[float, int], dict[float, int]]:
     """Lengths and bearings that a run in a part of the text can have, the task's own included, with where each ends."""
     lengths = {value: end for value, _start, end in stated_sizes(part, [])}
@@ -397,8 +420,8 @@ def _run_sizes(part: str, facts: _Facts) -> tuple[dict[float, int], dict[float, 
     lengths = {value: end for value, end in lengths.items() if not r.OFF.match(part[end:])}
     headings = _headings(part)
     own_length, own_heading = r.OWN_LENGTH.search(part), r.OWN_HEADING.search(part)
-    if own_length and not lengths and (length := facts.number("max_dist", "length")) is not None:
-        lengths[length] = own_length.end()
+    if own_length and (length := facts.number("max_dist", "length")) is not None:
+        lengths.setdefault(length, own_length.end())
     if not lengths and headings and (travelled := _travelled(part)) is not None:
         lengths[travelled] = len(part)
     along = own_heading or (r.ALONG_IT.search(part) if lengths else None)
