@@ -139,6 +139,8 @@ class TaskScript:
         if self.role != "navigation" and self._runs(skill, self._movement[0]) is False:
             return False
         uses = [parameters for used, parameters in self.beside if used == skill]
+        if self.role == "navigation" and {} in spent(skill, self.steps, self.text):
+            return False
         return repeatable(skill, uses) and skill_body(Grammar(), skill, self._values_of(skill)) is not None
 
     def _values_of(self, skill: Skill) -> Values:
@@ -207,7 +209,7 @@ class TaskScript:
         found: dict[Ending, list[Point]] = {}
         for point in self.ground.following(self.before):
             found.setdefault(self._ending(self.chosen, (*self.before, point)), []).append(point)
-        return [(RouteValues(self.values, points), ending) for ending, points in found.items()]
+        return [(RouteValues(self.values, points), ending) for ending, points in found.items()] or [(self.values, "may")]
 
     @functools.cached_property
     def _movement(self) -> tuple[Skill, Path]:
