@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from planner_ft.decoding.constraints.reading.evidence import required, spoken_of
+from planner_ft.decoding.constraints.reading.movements import spoken_movements
 from planner_ft.decoding.constraints.reading.scopes import Scope, read_scopes
 from planner_ft.vocabulary import Vocabulary
 
@@ -15,11 +16,13 @@ from planner_ft.vocabulary import Vocabulary
 class Companions:
     """What an input says of the skills beside its movements.
 
-    `spoken` are those that it speaks of (None: that cannot be told), `asked` those that it asks for beyond doubt; `scopes` are the steps in which some run.
+    `spoken` are those that it speaks of, `movements` the navigation skills likewise (None: that cannot be told); `asked` are those that it asks for
+    beyond doubt, `scopes` the steps in which some run.
     """
 
     spoken: frozenset[str] | None = None
     asked: frozenset[str] = frozenset()
+    movements: frozenset[str] | None = None
     scopes: Mapping[str, Scope] = field(default_factory=dict)
 
     def runs(self, skill: str, movement: str, earlier: Sequence[str]) -> bool | None:
@@ -35,6 +38,7 @@ def read_companions(record: dict[str, Any], vocabulary: Vocabulary) -> Companion
     """What the prompt of a task input says of the skills beside its movements."""
     text = str(record.get("prompt", ""))
     spoken = spoken_of(text, vocabulary)
-    return Companions(
-        spoken, required(text, vocabulary), {name: scope for name, scope in read_scopes(text, vocabulary).items() if spoken is None or name in spoken}
-    )
+    if spoken is None:
+        return Companions()
+    scopes = {name: scope for name, scope in read_scopes(text, vocabulary).items() if name in spoken}
+    return Companions(spoken, required(text, vocabulary), spoken_movements(text, vocabulary), scopes)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -15,6 +16,13 @@ from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import STEP_KEYS
 
+DIVIDED = re.compile(
+    r"\b(?:sectors?|segments?|slices?|directions?|even\w*|equal\w*|each|every|apart|spread|round|around|full|whole|complete|circle|compass|points?|bearings|headings|"
+    r"times|steps?|stops?|looks?|views?|pano\w*|shots?|stills|frames|turns?|parts)\b",
+    re.IGNORECASE,
+)
+"""Words for a turn that is divided into parts."""
+
 
 class GroundedTaskValues(GroundedValues):
     """The values of a skill sequence that its input states. Waypoints are left to routes."""
@@ -25,6 +33,7 @@ class GroundedTaskValues(GroundedValues):
         self._own = list(own_numbers(record, vocabulary))
         self._texts = list(own_texts(record))
         self._spans = Spans([prompt, *self._texts], named=True)
+        self._divided = DIVIDED.search(prompt) is not None
         self._counts = sector_counts([*(quantity.said for quantity in quantities(prompt)), *(number for number, _unit in self._own)])
 
     def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str | None:
@@ -32,7 +41,7 @@ class GroundedTaskValues(GroundedValues):
         if said is None:
             return super().number(grammar, parameter, without)
         facts = [*said, *(number for number, unit in self._own if None in (unit, parameter.unit) or unit == parameter.unit)]
-        values = usable([*facts, *(turned(facts, self._counts) if parameter.unit == "deg" else ())], parameter)
+        values = usable([*facts, *(turned(facts, self._counts if self._divided else ()) if parameter.unit == "deg" else ())], parameter)
         return one_of(grammar, (written_number(value) for value in values if value not in without))
 
     def position(self, grammar: Grammar, without: Positions) -> str | None:

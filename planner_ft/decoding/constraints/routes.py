@@ -136,6 +136,8 @@ class TaskScript:
             return False
         if skill.motion in ROTATING and self.turns is not None:
             return self._turn is not None and self._turn[0] == skill.name
+        if self.role == "navigation" and self.companions.movements is not None and skill.name not in self.companions.movements:
+            return False
         if self.role != "navigation" and self._runs(skill, self._movement[0]) is False:
             return False
         uses = [parameters for used, parameters in self.beside if used == skill]

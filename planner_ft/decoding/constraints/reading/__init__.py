@@ -5,6 +5,7 @@ Precision comes before coverage: what is read is enforced, and where a reading i
     itinerary, own_movement, one_shape, runs, tracks   waypoints, with shapes, cues
     turns, turn_forms                                  rotations
     evidence, evidence_words, evidence_context         skills that the text speaks of at all
+    movements                                          movements that it speaks of
     scopes, scope_words                                steps in which a skill runs
     wordings, run_wordings                             patterns that several of them share
 """

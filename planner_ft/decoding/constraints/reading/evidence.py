@@ -68,17 +68,17 @@ SCOPED = re.compile(
 def spoken_of(text: str, vocabulary: Vocabulary) -> frozenset[str] | None:
     """Names of the filter and perception skills that some word of the text can mean; None where it cannot be told."""
     names = {skill.name for role in ("filter", "perception") for skill in vocabulary.skills_in_role(role)}
-    if not names <= w.SPOKEN.keys() or not _readable(text):
+    if not names <= w.SPOKEN.keys() or not readable(text):
         return None
-    variants = _variants(text)
-    found = frozenset(name for name in names if any(_speaks(variant, name) for variant in variants))
-    return found | _implied(variants, found - {skill.name for skill in vocabulary.skills_in_role("filter")}) & names
+    spelt = variants(text)
+    found = frozenset(name for name in names if any(_speaks(variant, name) for variant in spelt))
+    return found | _implied(spelt, found - {skill.name for skill in vocabulary.skills_in_role("filter")}) & names
 
 
 def required(text: str, vocabulary: Vocabulary) -> frozenset[str]:
     """Names of the filter and perception skills that the text asks for beyond doubt: a plan that never runs one lacks it."""
     names = {skill.name for role in ("filter", "perception") for skill in vocabulary.skills_in_role(role)}
-    if not names <= w.SPOKEN.keys() or not _readable(text):
+    if not names <= w.SPOKEN.keys() or not readable(text):
         return frozenset()
     plain = _plain(text)
     if TAKEN_BACK.search(plain):
@@ -149,7 +149,7 @@ def _plain(text: str) -> str:
     return re.sub(r"[ \t]+", " ", shown.translate(_SIGNS)).strip().lower()
 
 
-def _variants(text: str) -> list[str]:
+def variants(text: str) -> list[str]:
     """The text, and it with the words that are in no list put right in some other way each time."""
     plain = _plain(text)
     places = [(match, found) for match in _WORD.finditer(plain) if (found := _meant(match.group()))]
@@ -189,7 +189,7 @@ def _keys() -> tuple[str, ...]:
     return tuple(sorted(word for word in words if word in known_words()))
 
 
-def _readable(text: str) -> bool:
+def readable(text: str) -> bool:
     """Whether enough of the words are known ones for what is missing to mean something."""
     plain = _plain(text)
     if _NOT_ENGLISH.search(plain):
