@@ -79,9 +79,9 @@ class Factory:
         # Where the readings contradict each other, neither is certain.
         turns = None if turns and ground.waypoints_alone else turns
         prompt, companions = str(record.get("prompt", "")), read_companions(record, self.vocabulary)
-        script: Script = TaskScript(self.vocabulary, values, ground, prompt, turns, companions)
-        if ground.free:
-            script = Whole(plan_grammar("task", self.vocabulary, ResolvedValues(FreeWaypoints(values), self.vocabulary)))
+        # Where waypoints cannot be told, any may be meant.
+        held = ResolvedValues(FreeWaypoints(values), self.vocabulary) if ground.free else values
+        script = TaskScript(self.vocabulary, held, ground, prompt, turns, companions)
         return Answer(self.tokens, script, limit, self._reserve, values.notes)
 
     def check(self, limit: int) -> None:

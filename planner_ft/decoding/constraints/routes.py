@@ -131,7 +131,7 @@ class TaskScript:
 
     def _offers(self, skill: Skill) -> bool:
         if coordinates(skill):
-            return bool(self.ground.following(self.before))
+            return self.ground.free or bool(self.ground.following(self.before))
         if self.role == "navigation" and self.ground.waypoints_alone:
             return False
         if skill.motion in ROTATING and self.turns is not None:
@@ -206,7 +206,7 @@ class TaskScript:
     def _movements(self) -> list[tuple[Values, Ending]]:
         """What the parameters of the chosen movement may be, and whether the answer ends behind it."""
         assert self.chosen is not None
-        if not coordinates(self.chosen):
+        if not coordinates(self.chosen) or self.ground.free:
             return [(self._values_of(self.chosen), self._ending(self.chosen, self.before))]
         found: dict[Ending, list[Point]] = {}
         for point in self.ground.following(self.before):
