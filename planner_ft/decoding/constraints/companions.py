@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from planner_ft.decoding.constraints.reading import LONGEST
 from planner_ft.decoding.constraints.reading.evidence import required, spoken_of
 from planner_ft.decoding.constraints.reading.movements import spoken_movements
 from planner_ft.decoding.constraints.reading.scopes import Scope, read_scopes
@@ -37,7 +38,7 @@ class Companions:
 def read_companions(record: dict[str, Any], vocabulary: Vocabulary) -> Companions:
     """What the prompt of a task input says of the skills beside its movements."""
     text = str(record.get("prompt", ""))
-    spoken = spoken_of(text, vocabulary)
+    spoken = spoken_of(text, vocabulary) if len(text) <= LONGEST else None
     if spoken is None:
         return Companions()
     scopes = {name: scope for name, scope in read_scopes(text, vocabulary).items() if name in spoken}

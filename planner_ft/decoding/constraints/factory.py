@@ -15,6 +15,7 @@ from planner_ft.decoding.constraints.companions import read_companions
 from planner_ft.decoding.constraints.grammar import SchemaValues, plan_grammar
 from planner_ft.decoding.constraints.grounded import GroundedValues
 from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, GroundedTaskValues
+from planner_ft.decoding.constraints.reading import LONGEST
 from planner_ft.decoding.constraints.reading.turns import read_turns
 from planner_ft.decoding.constraints.routes import TaskScript
 from planner_ft.decoding.constraints.state import MissionScript, ResolvedValues, names_unresolved
@@ -75,10 +76,11 @@ class Factory:
         if names_unresolved(record, self.vocabulary):
             return Answer(self.tokens, self._schema, limit, self._reserve)
         values, ground = GroundedTaskValues(record, self.vocabulary), read_ground(record, self.vocabulary)
-        turns = read_turns(record, self.vocabulary)
+        prompt = str(record.get("prompt", ""))
+        turns = read_turns(record, self.vocabulary) if len(prompt) <= LONGEST else None
         # Where the readings contradict each other, neither is certain.
         turns = None if turns and ground.waypoints_alone else turns
-        prompt, companions = str(record.get("prompt", "")), read_companions(record, self.vocabulary)
+        companions = read_companions(record, self.vocabulary)
         # Where waypoints cannot be told, any may be meant.
         held = ResolvedValues(FreeWaypoints(values), self.vocabulary) if ground.free else values
         script = TaskScript(self.vocabulary, held, ground, prompt, turns, companions)

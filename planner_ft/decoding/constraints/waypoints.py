@@ -19,6 +19,7 @@ from planner_ft.data.stated import stated_numbers
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.grammar import MOST_STEPS
+from planner_ft.decoding.constraints.reading import LONGEST
 from planner_ft.decoding.constraints.reading.itinerary import moves_otherwise, read_itinerary, stays
 from planner_ft.decoding.constraints.reading.one_shape import one_shape
 from planner_ft.decoding.constraints.reading.own_movement import own_movement
@@ -154,7 +155,7 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     found = tuple(dict.fromkeys(itertools.islice(paths, MOST_PATHS)))
     begun = 2 if task and task.pattern in ("lawnmower", "square") else 3
     shape = None if unread or task is None or itinerary is not None else one_shape(reading.text, parameters, task, own[0] if len(own) == 1 else None)
-    if itinerary is None and shape is None and task is not None and not unread:
+    if itinerary is None and shape is None and task is not None and not unread and len(reading.text) <= LONGEST:
         itinerary = () if stays(record) else read_runs(record, vocabulary)
     apart: tuple[Point, ...] = ()
     if shape is not None:

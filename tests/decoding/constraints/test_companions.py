@@ -61,3 +61,8 @@ def test_an_input_that_cannot_be_read_leaves_every_choice() -> None:
     nothing = read_companions({"prompt": "Mantenga la posición y tome la temperatura del agua."}, VOCABULARY)
     assert nothing.spoken is None and nothing.runs("GetGPSLocation", "StationKeep", []) is None
     assert Companions().runs("LockHeading", "GoToXY", ["GoToXY"]) is None
+
+
+@pytest.mark.parametrize("text", ["7" * 2_000, "inspect the red buoy at [12, -40] from 15 metres " * 205, "x" * 10_000])
+def test_what_is_no_order_to_a_task_agent_is_not_read(text: str) -> None:
+    assert read_companions({"prompt": text}, VOCABULARY) == Companions()

@@ -9,3 +9,6 @@ Precision comes before coverage: what is read is enforced, and where a reading i
     scopes, scope_words                                steps in which a skill runs
     wordings, run_wordings                             patterns that several of them share
 """
+
+LONGEST = 1000
+"""Characters of an input that is read: wordings are searched for in every place, and what is longer is no order to a Task Agent."""

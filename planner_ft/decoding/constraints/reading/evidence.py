@@ -30,6 +30,8 @@ RARE = 2
 """A word that the lists have no oftener can be a misspelling that they have on purpose."""
 
 _SIGNS = str.maketrans({"’": "'", "‘": "'", "–": "-", "—": "-", "−": "-", "‐": "-", "‑": "-"})
+ENDLESS = re.compile(r"\S{60}")
+"""What is no word and no number, and would be searched in every place."""
 _WORD = re.compile(r"[^\W\d_]{3,}")
 _QUOTED = re.compile(r"""["“”«»]([^"“”«»\n]{1,60})["“”«»]|(?<!\w)['‘’`]([^'‘’\n]{1,60})['‘’](?!\w)""")
 """A name, note or label in quotation marks: no words of the order."""
@@ -191,6 +193,8 @@ def _keys() -> tuple[str, ...]:
 
 def readable(text: str) -> bool:
     """Whether enough of the words are known ones for what is missing to mean something."""
+    if ENDLESS.search(text):
+        return False
     plain = _plain(text)
     if _NOT_ENGLISH.search(plain):
         return False
