@@ -15,6 +15,9 @@ from planner_ft.decoding.drafting import LONGEST_DRAFT, Drafter
 from planner_ft.decoding.limits import Limits
 from planner_ft.decoding.sampling import Sampler
 
+LEAST_SUBSTITUTE = 0.02
+"""Below this share of the probability, what is allowed is no substitute for the model's own choice where the answer could have ended instead."""
+
 FinishReason = Literal["stop", "length", "error"]
 
 
@@ -104,13 +107,30 @@ class Row:
         before = len(self.ids)
         if self.sampler is not None:
             token = self.sampler.draw(before, logits, self.constraint.mask() if self.constraint else None)
+        elif self._allows(best):
+            token = best
+        elif whole := self._instead(best, logits):
+            return self._end_as(whole)
         else:
-            token = best if self._allows(best) else self._best_allowed(logits)
+            token = self._best_allowed(logits)
         if self.choices is not None:
             self._remember(token, logits)
         self._add(token)
         self._add_forced()
         return self.ids[before:]
+
+    def _instead(self, best: int, logits: Tensor) -> list[int] | None:
+        """The answer to end with, where the model all but rules out what it would have to take for its own choice `best`."""
+        whole = self.constraint.instead(best) if self.constraint is not None else None
+        if whole and float(torch.softmax(logits.float(), 0)[self._allowed(logits)].sum()) < LEAST_SUBSTITUTE:
+            return whole
+        return None
+
+    def _end_as(self, ids: list[int]) -> list[int]:
+        """End with this answer, for which the end of the one in the making was dropped; nothing is left to feed."""
+        self.ids, self.finished = ids, "stop"
+        self.forced_tokens = min(self.forced_tokens, len(ids))
+        return []
 
     def _allows(self, token: int) -> bool:
         return self.constraint is None or self.constraint.admits([token]) == 1

@@ -66,6 +66,9 @@ class Toy:
             ahead.accept(token)
         return len(tokens)
 
+    def instead(self, token: int) -> list[int] | None:
+        return None
+
 
 class ToyFactory:
     """Starts sentences with as many rounds as the record says."""
@@ -164,3 +167,22 @@ def test_what_forced_the_end_is_the_token_that_is_trained(decoder: Decoder, ends
 
     (answer,) = generate(decoder, QUERIES[:1], Limits(ends, 0, 60), Method(Factory()))
     assert answer.ids[-1] == ends[0]
+
+
+class Willing(Toy):
+    """The toy language, whose answer may be the end alone where the model would go on with 40."""
+
+    def instead(self, token: int) -> list[int] | None:
+        return [END] if token == 40 else None
+
+
+@pytest.mark.parametrize(("wanted", "share", "expected"), [(40, 0.001, [END]), (40, 0.1, [10, 11, 20, 21, 22]), (41, 0.001, [10, 11, 20, 21, 22])])
+def test_an_answer_ends_where_nothing_allowed_is_a_substitute_for_what_the_model_means(wanted: int, share: float, expected: list[int]) -> None:
+    row = Row([7, 8], LIMITS, 60, Willing(2))
+    _fed, count = row.feed(wide=True)
+    logits = torch.full((count, VOCABULARY), -30.0)
+    logits[-1, wanted], logits[-1, 11] = 0.0, float(np.log(share))
+    wrong = row.choose(logits.argmax(-1).tolist(), logits)
+    assert row.ids[: len(expected)] == expected and wrong == 0
+    assert (row.finished == "stop") == (expected == [END])
+    assert row.forced_tokens <= len(row.ids)

@@ -44,6 +44,9 @@ class Constraint(Protocol):
     def admits(self, tokens: Sequence[int]) -> int:
         """How many of these tokens in a row are allowed from here. The state is unchanged."""
 
+    def instead(self, token: int) -> list[int] | None:
+        """The whole answer to give, end token included, where the model would go on with `token`, which is not allowed; None to choose another token."""
+
 
 class ConstraintFactory(Protocol):
     """What one answer after the other is constrained with."""

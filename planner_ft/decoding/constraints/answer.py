@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol
 
@@ -30,6 +31,9 @@ class Script(Protocol):
     def closing(self) -> Script:
         """The script for an answer that must come to its end: nothing that was begun has to be gone on with."""
 
+    def taken_back(self, text: str) -> tuple[str, str] | None:
+        """Where `text`, which begins here, may not follow, but the answer could have ended: what it drops of its end, and what it writes for that."""
+
 
 class Whole:
     """A script of one grammar."""
@@ -45,6 +49,9 @@ class Whole:
 
     def closing(self) -> Script:
         return self
+
+    def taken_back(self, text: str) -> tuple[str, str] | None:
+        return None
 
 
 class Answer:
@@ -76,6 +83,9 @@ class Answer:
 
     def forced(self) -> list[int]:
         if self._matcher is None or self._hurried:
+            return []
+        if not self._text and self._script.taken_back("") is not None:
+            # The model is asked for what it means, even where a single text may follow.
             return []
         forced = self._tokens.spelt(self._ids, self._matcher)
         return forced[: self._left - self._reserve - 1]
@@ -111,6 +121,18 @@ class Answer:
             if ahead.ended:
                 return count + 1 + ahead.admits(tokens[count + 1 :][:1])
         return len(tokens)
+
+    def instead(self, token: int) -> list[int] | None:
+        meant = self._text + self._tokens.bytes_of(token)
+        change = None if self._matcher is None or self._hurried else self._script.taken_back(meant.decode(errors="replace"))
+        if change is None:
+            return None
+        dropped, written = (part.encode() for part in change)
+        pieces = [self._tokens.bytes_of(one) for one in self._ids]
+        length = sum(map(len, pieces)) - len(self._text) - len(dropped)
+        kept = sum(end <= length for end in itertools.accumulate(map(len, pieces)))
+        rest = b"".join(pieces[kept:])[: length - sum(map(len, pieces[:kept]))] + written
+        return [*self._ids[:kept], *self._tokens.shortest(rest), self._tokens.end_ids[0]]
 
     @property
     def _hurried(self) -> bool:

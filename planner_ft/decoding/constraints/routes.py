@@ -70,6 +70,7 @@ class TaskScript:
     `before` are the waypoints so far, `steps` the movements of the steps that are written; `turns` are the rotations of the whole plan where
     they are certain. `chosen` is the skill whose name was written last, None where a name is to follow; `written` is the text of the step that is
     being written, as far as its parts are matched, and `beside` are the skills of the list that is being written.
+    `could_end` says whether the answer could have ended behind the steps that are written.
     """
 
     vocabulary: Vocabulary
@@ -84,6 +85,7 @@ class TaskScript:
     role: Role = "navigation"
     written: str = ""
     beside: tuple[Step, ...] = ()
+    could_end: bool = False
 
     def opening(self) -> str:
         return Grammar().text(f"{literal('{' + key('skill_sequence') + '[')} ({literal(STEP_OPENS)} | {literal(CLOSES)})")
@@ -104,11 +106,19 @@ class TaskScript:
     def closing(self) -> Script:
         return replace(self, ground=replace(self.ground, paths=(), itinerary=None, alone=False, shaped=False), turns=None, companions=Companions())
 
+    def taken_back(self, text: str) -> tuple[str, str] | None:
+        """A step that the model would begin with a movement which may not follow is not begun: the answer ends where it could."""
+        if self.chosen is not None or self.role != "navigation" or not self.could_end:
+            return None
+        meant = any(patterns.quoted(skill.name).startswith(text) for skill in self.vocabulary.skills_in_role("navigation"))
+        return ("," + STEP_OPENS, CLOSES) if meant else None
+
     def _behind_step(self, text: str) -> TaskScript:
         """The script behind a step, with its movement and its waypoint."""
         movement = self._first_of((self.written + text)[len(STEP_OPENS) - len(SKILL_OPENS) :])
         point = waypoint(movement)
-        return replace(self, steps=(*self.steps, movement), before=(*self.before, point) if point else self.before)
+        before = (*self.before, point) if point else self.before
+        return replace(self, steps=(*self.steps, movement), before=before, could_end=self._ending(movement[0], before) == "may")
 
     def _behind_skill(self, text: str) -> TaskScript:
         """The script at the name of a filter or perception skill."""

@@ -64,3 +64,23 @@ def test_no_step_repeats_the_place_before_it_and_no_grid_is_left_half_way(tokeni
     assert answer.admits(ids(tokenizer, rest)) == len(ids(tokenizer, rest))
     again = ids(tokenizer, "," + step % (-10, 20))
     assert answer.admits(again) < len(again)
+
+
+def test_a_step_that_may_not_follow_gives_way_to_the_end(tokenizer: Any) -> None:
+    record = {"task": "BathymetryGridSurvey", "parameters": {"center": [0, 0], "width": 20, "length": 40, "spacing": 20}}
+    record["prompt"] = "Run the grid, then hold for 20 s."
+    step = '{"navigation_skill":{"name":"GoToXY","parameters":{"x":%d,"y":%d}},"filter_skills":[],"perception_skills":[],"stop_conditions":[],'
+    step += '"failure_modes":[],"expected_outputs":[]}'
+    places = [step % place for place in ((-10, -20), (-10, 20), (10, 20), (10, -20))]
+    other = ids(tokenizer, "GoToXY")[0]
+    for count in (3, 4):
+        answer = start(tokenizer, record)
+        for token in ids(tokenizer, '{"skill_sequence":[' + ",".join(places[:count]) + ',{"navigation_skill":{"name":"'):
+            answer.accept(token)
+        assert (answer.instead(other) is None) == (count == 3)
+    # The model is asked, even if a single name may follow.
+    assert answer.forced() == [] and not allows(answer.mask(), other)
+    ended = answer.instead(other)
+    assert ended is not None and ended[-1] == tokenizer.eos_token_id
+    assert tokenizer.decode(ended[:-1]) == '{"skill_sequence":[' + ",".join(places) + "]}"
+    assert answer.instead(ids(tokenizer, "sail")[0]) is None
