@@ -134,7 +134,7 @@ def _begin(decoder: Decoder, query: Query, limits: Limits, method: Method, begun
 def _look_again(decoder: Decoder, query: Query, limits: Limits, method: Method, row: Row, answer: Generation) -> Generation:
     """The answer, or an alternative to it that a second look prefers; with the cost of all that were tried."""
     look = method.second_look
-    if look is None or not row.choices or not look.lacks(query.record, answer.ids):
+    if look is None or not row.choices or not look.asked(query.record, row):
         return answer
     began, passes = time.perf_counter(), answer.forward_passes
     rows, chosen = [(row, 0.0)], 0
@@ -146,7 +146,7 @@ def _look_again(decoder: Decoder, query: Query, limits: Limits, method: Method, 
         passes += max((other.forward_passes for other in others), default=0)
         rows += [(other, beginning.logprob) for other, beginning in zip(others, beginnings, strict=True)]
         before, chosen = chosen, look.best(query.record, rows)
-        if chosen == before or not look.lacks(query.record, rows[chosen][0].ids):
+        if chosen == before or not look.asked(query.record, rows[chosen][0]):
             break
     seconds = answer.seconds + time.perf_counter() - began
     answer = _generation(rows[chosen][0], seconds, answer.first_token_s or 0.0) if chosen else answer

@@ -23,12 +23,16 @@ FinishReason = Literal["stop", "length", "error"]
 
 @dataclass(frozen=True)
 class Choice:
-    """A choice of the model at a place of its answer: the token's log probability among those allowed, and what came second, with its own."""
+    """A choice of the model at a place of its answer: the token's log probability, and what came second of those allowed, with its own.
+
+    `strayed` is how little of the probability, in nats, the model left to all that was allowed: 0 where it would choose so itself.
+    """
 
     place: int
     logprob: float
     second: int
     second_logprob: float
+    strayed: float
 
 
 class Row:
@@ -155,10 +159,11 @@ class Row:
         assert self.choices is not None
         allowed = self._allowed(logits)
         if len(allowed) > 1:
-            logprobs = torch.log_softmax(logits[allowed].float(), 0)
+            logprobs = torch.log_softmax(logits.float(), 0)[allowed]
+            strayed = -float(logprobs.logsumexp(0))
             logprob = float(logprobs[allowed == token])
             best = logprobs.masked_fill_(allowed == token, -torch.inf).argmax()
-            self.choices.append(Choice(len(self.ids), logprob, int(allowed[best]), float(logprobs[best])))
+            self.choices.append(Choice(len(self.ids), logprob, int(allowed[best]), float(logprobs[best]), strayed))
 
     def _add(self, token: int) -> None:
         """A token joins the answer."""

@@ -1,9 +1,10 @@
-"""A second look at an answer that lacks something of what was asked for.
+"""A second look at an answer that lacks something of what was asked for, or that is not what the model would have written.
 
-Greedy decoding never goes back: where a choice was nearly even, the other token may have led to the better answer. So when an
-answer lacks something that its input asks for, its least certain choices are taken the other way, one at a time, and each is
-gone on with to its end. Of all answers that are not much less probable than the first, the one that lacks least is taken, and
-looked at in the same way, once.
+Greedy decoding never goes back: where a choice was nearly even, the other token may have led to the better answer, and where all that
+a constraint allowed was improbable (a name that the input does not hold), a choice before it may have been wrong. So when an answer
+lacks something that its input asks for, or strayed from what the model would have chosen, its least certain choices are taken the other
+way, one at a time, and each is gone on with to its end. Of all answers that are not much less probable than the first, the one that
+lacks least is taken, and looked at in the same way, once. Probabilities are those of the model before anything is forbidden.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from planner_ft.decoding.row import Row
 
 @dataclass(frozen=True)
 class Beginning:
-    """The first tokens of an alternative, and their log probability among the tokens that were allowed."""
+    """The first tokens of an alternative, and the log probability of its choices so far."""
 
     ids: tuple[int, ...]
     logprob: float
@@ -27,14 +28,20 @@ class Beginning:
 class SecondLook:
     """`lacks(record, ids)` counts what an answer lacks; None where that cannot be told, and the answer stays as it is.
 
-    In each of `rounds` at most `alternatives` are tried, and one that is less probable than the first answer by more than `margin`
-    (in nats) is not taken.
+    An answer whose choices `strayed` by more nats than this in all is looked at as well. In each of `rounds` at most `alternatives` are
+    tried, and one that is less probable than the first answer by more than `margin` (in nats) is not taken.
     """
 
     lacks: Callable[[dict[str, Any], Sequence[int]], int | None]
     alternatives: int = 5
     margin: float = 4.5
     rounds: int = 2
+    strayed: float = 3.0
+
+    def asked(self, record: dict[str, Any], row: Row) -> bool:
+        """Whether an answer is to be looked at."""
+        lacks = self.lacks(record, row.ids)
+        return lacks is not None and (lacks > 0 or sum(choice.strayed for choice in row.choices or ()) > self.strayed)
 
     def beginnings(self, row: Row, began: float) -> list[Beginning]:
         """Where the alternatives to an answer begin: its least certain choices, decided the other way. What it began with itself stays."""

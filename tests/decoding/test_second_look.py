@@ -27,8 +27,8 @@ def elevens(record: dict[str, Any], ids: Sequence[int]) -> int:
     return list(ids).count(11)
 
 
-def gone_on(model: Any, prompt: Sequence[int], begun: Sequence[int], rounds: int) -> tuple[list[int], list[tuple[int, float, int, float]]]:
-    """The answer behind some first tokens, all computed anew each time, and its choices: place, log probability, the other token, its own."""
+def gone_on(model: Any, prompt: Sequence[int], begun: Sequence[int], rounds: int) -> tuple[list[int], list[tuple[int, float, int, float, float]]]:
+    """The answer behind some first tokens, all computed anew each time, and its choices: place, log probability, the other, its own, how far strayed."""
     ids, toy, choices = list(begun), Toy(rounds), []
     for token in begun:
         toy.accept(token)
@@ -38,9 +38,9 @@ def gone_on(model: Any, prompt: Sequence[int], begun: Sequence[int], rounds: int
         allowed = toy.allowed()
         ranked = sorted(allowed, key=lambda token: -float(logits[token]))
         if len(allowed) > 1:
-            logprobs = torch.log_softmax(logits[allowed].float(), 0)
-            first, second = (float(logprobs[allowed.index(token)]) for token in ranked[:2])
-            choices.append((len(ids), first, ranked[1], second))
+            logprobs = torch.log_softmax(logits.float(), 0)
+            first, second = (float(logprobs[token]) for token in ranked[:2])
+            choices.append((len(ids), first, ranked[1], second, -float(logprobs[allowed].logsumexp(0))))
         ids.append(ranked[0])
         toy.accept(ids[-1])
     return ids, choices
@@ -50,20 +50,20 @@ def expected(model: Any, query: Any, look: SecondLook) -> list[int]:
     """The answer that is to be given, found by going through all alternatives."""
     rounds = query.record["rounds"]
     answer, choices = gone_on(model, query.prompt, [], rounds)
-    whole = sum(logprob for _place, logprob, _other, _its in choices)
-    rated = [(elevens({}, answer), -whole, answer, choices, 0.0)]
+    whole = sum(item[1] for item in choices)
+    rated = [(look.lacks({}, answer) or 0, -whole, answer, choices, 0.0)]
     chosen = 0
     for _round in range(look.rounds):
         lacking, _logprob, answer, choices, began = rated[chosen]
-        if not lacking:
+        if not lacking and sum(item[4] for item in choices) <= look.strayed:
             break
         for index in sorted(range(len(choices)), key=lambda index: choices[index][1] - choices[index][3])[: look.alternatives]:
-            place, logprob, other, its = choices[index]
+            place, logprob, other, its, _strayed = choices[index]
             if logprob - its > look.margin:
                 continue
             ids, behind = gone_on(model, query.prompt, [*answer[:place], other], rounds)
             start = began + sum(item[1] for item in choices[:index]) + its
-            rated.append((elevens({}, ids), -start - sum(item[1] for item in behind), ids, behind, start))
+            rated.append((look.lacks({}, ids) or 0, -start - sum(item[1] for item in behind), ids, behind, start))
         fitting = [index for index, item in enumerate(rated) if -item[1] >= whole - look.margin]
         before, chosen = chosen, min(fitting, key=lambda index: (*rated[index][:2], index))
         if chosen == before:
@@ -71,7 +71,16 @@ def expected(model: Any, query: Any, look: SecondLook) -> list[int]:
     return rated[chosen][2]
 
 
-@pytest.mark.parametrize("look", [SecondLook(elevens), SecondLook(elevens, 2, 1.0, 1), SecondLook(elevens, 60, math.inf, 1), SecondLook(elevens, 1, 9.0, 4)])
+LOOKS = [
+    SecondLook(elevens, strayed=math.inf),
+    SecondLook(elevens, 2, 1.0, 1, math.inf),
+    SecondLook(elevens, 60, math.inf, 1, math.inf),
+    SecondLook(elevens, 1, 9.0, 4, 4.0),
+    SecondLook(lambda record, ids: 0, strayed=6.0),
+]
+
+
+@pytest.mark.parametrize("look", LOOKS)
 @pytest.mark.parametrize("batch_size", [1, 8])
 def test_the_answer_that_lacks_least_is_given(decoder: Decoder, toy_model: Any, batch_size: int, look: SecondLook) -> None:
     plain = [list(answer.ids) for answer in generate(decoder, QUERIES, LIMITS, Method(ToyFactory()))]
@@ -83,7 +92,7 @@ def test_the_answer_that_lacks_least_is_given(decoder: Decoder, toy_model: Any, 
 
 def test_what_it_costs_is_counted(decoder: Decoder) -> None:
     plain = generate(decoder, QUERIES, LIMITS, Method(ToyFactory()), batch_size=1)
-    looked = generate(decoder, QUERIES, LIMITS, Method(ToyFactory(), second_look=SecondLook(elevens)), batch_size=1)
+    looked = generate(decoder, QUERIES, LIMITS, Method(ToyFactory(), second_look=SecondLook(elevens, strayed=math.inf)), batch_size=1)
     for before, after in zip(plain, looked, strict=True):
         doubted = 11 in before.ids
         assert (after.alternatives > 0) == doubted
@@ -93,7 +102,9 @@ def test_what_it_costs_is_counted(decoder: Decoder) -> None:
     assert sum(answer.forward_passes for answer in looked) > sum(answer.forward_passes for answer in plain)
 
 
-@pytest.mark.parametrize("look", [SecondLook(lambda record, ids: None), SecondLook(lambda record, ids: 0), SecondLook(elevens, 5, 0.0), SecondLook(elevens, 0)])
+@pytest.mark.parametrize(
+    "look", [SecondLook(lambda record, ids: None), SecondLook(lambda record, ids: 0, strayed=math.inf), SecondLook(elevens, 5, 0.0), SecondLook(elevens, 0)]
+)
 def test_nothing_changes_without_doubt_or_room(decoder: Decoder, look: SecondLook) -> None:
     plain = generate(decoder, QUERIES, LIMITS, Method(ToyFactory()))
     assert [answer.ids for answer in generate(decoder, QUERIES, LIMITS, Method(ToyFactory(), second_look=look))] == [answer.ids for answer in plain]
