@@ -45,7 +45,10 @@ class Constraint(Protocol):
         """How many of these tokens in a row are allowed from here. The state is unchanged."""
 
     def instead(self, token: int) -> list[int] | None:
-        """The whole answer to give, end token included, where the model would go on with `token`, which is not allowed; None to choose another token."""
+        """The whole answer to give, end token included, where the model would go on with `token`, which is not allowed; None to choose another token.
+
+        The state may change: what the model means can decide what else is allowed.
+        """
 
 
 class ConstraintFactory(Protocol):

@@ -34,6 +34,12 @@ class Script(Protocol):
     def taken_back(self, text: str) -> tuple[str, str] | None:
         """Where `text`, which begins here, may not follow, but the answer could have ended: what it drops of its end, and what it writes for that."""
 
+    def pressed(self, text: str) -> Script | None:
+        """Where `text`, which begins here, would end the answer too early: the script that goes on with what is still asked for."""
+
+    def asks(self, text: str) -> int | None:
+        """The place in a text that must follow before which the model is asked for what it means all the same."""
+
 
 class Whole:
     """A script of one grammar."""
@@ -51,6 +57,12 @@ class Whole:
         return self
 
     def taken_back(self, text: str) -> tuple[str, str] | None:
+        return None
+
+    def pressed(self, text: str) -> Script | None:
+        return None
+
+    def asks(self, text: str) -> int | None:
         return None
 
 
@@ -84,11 +96,13 @@ class Answer:
     def forced(self) -> list[int]:
         if self._matcher is None or self._hurried:
             return []
-        if not self._text and self._script.taken_back("") is not None:
-            # The model is asked for what it means, even where a single text may follow.
-            return []
-        forced = self._tokens.spelt(self._ids, self._matcher)
-        return forced[: self._left - self._reserve - 1]
+        forced = self._tokens.spelt(self._ids, self._matcher)[: self._left - self._reserve - 1]
+        text = (self._text + bytes(self._matcher.compute_ff_bytes())).decode(errors="ignore")
+        place = self._script.asks(text)
+        if place is None or place < len(self._text.decode(errors="ignore")):
+            return forced
+        ends = itertools.accumulate((len(self._tokens.bytes_of(token)) for token in forced), initial=len(self._text))
+        return forced[: sum(end <= len(text[:place].encode()) for end in itertools.islice(ends, 1, None))]
 
     def accept(self, token: int) -> None:
         if self._matcher is None:
@@ -123,8 +137,11 @@ class Answer:
         return len(tokens)
 
     def instead(self, token: int) -> list[int] | None:
-        meant = self._text + self._tokens.bytes_of(token)
-        change = None if self._matcher is None or self._hurried else self._script.taken_back(meant.decode(errors="replace"))
+        if self._matcher is None or self._hurried:
+            return None
+        meant = (self._text + self._tokens.bytes_of(token)).decode(errors="replace")
+        self._script = self._script.pressed(meant) or self._script
+        change = self._script.taken_back(meant)
         if change is None:
             return None
         dropped, written = (part.encode() for part in change)

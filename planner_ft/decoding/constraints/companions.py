@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from planner_ft.decoding.constraints.reading import LONGEST
+from planner_ft.decoding.constraints.reading.asked import asked_movements
 from planner_ft.decoding.constraints.reading.evidence import required, spoken_of
 from planner_ft.decoding.constraints.reading.movements import spoken_movements
 from planner_ft.decoding.constraints.reading.scopes import Scope, read_scopes
@@ -18,7 +19,7 @@ class Companions:
     """What an input says of the skills beside its movements.
 
     `spoken` are those that it speaks of, `movements` the navigation skills likewise (None: that cannot be told); `asked` are those that it asks for
-    beyond doubt, `scopes` the steps in which some run.
+    beyond doubt, movements among them, `scopes` the steps in which some run.
     """
 
     spoken: frozenset[str] | None = None
@@ -42,4 +43,4 @@ def read_companions(record: dict[str, Any], vocabulary: Vocabulary) -> Companion
     if spoken is None:
         return Companions()
     scopes = {name: scope for name, scope in read_scopes(text, vocabulary).items() if name in spoken}
-    return Companions(spoken, required(text, vocabulary), spoken_movements(text, vocabulary), scopes)
+    return Companions(spoken, required(text, vocabulary) | asked_movements(text, vocabulary), spoken_movements(text, vocabulary), scopes)

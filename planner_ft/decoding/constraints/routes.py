@@ -70,7 +70,8 @@ class TaskScript:
     `before` are the waypoints so far, `steps` the movements of the steps that are written; `turns` are the rotations of the whole plan where
     they are certain. `chosen` is the skill whose name was written last, None where a name is to follow; `written` is the text of the step that is
     being written, as far as its parts are matched, and `beside` are the skills of the list that is being written.
-    `could_end` says whether the answer could have ended behind the steps that are written.
+    `could_end` says whether the answer could have ended behind the steps that are written; with `owes`, the model would have ended it there, although
+    movements that are asked for are missing.
     """
 
     vocabulary: Vocabulary
@@ -86,13 +87,14 @@ class TaskScript:
     written: str = ""
     beside: tuple[Step, ...] = ()
     could_end: bool = False
+    owes: bool = False
 
     def opening(self) -> str:
         return Grammar().text(f"{literal('{' + key('skill_sequence') + '[')} ({literal(STEP_OPENS)} | {literal(CLOSES)})")
 
     def following(self, text: str) -> tuple[str, Script] | None:
         if self.chosen is None and text in self.vocabulary.skill:
-            chosen = replace(self, chosen=self.vocabulary.skill[text], written=self.written + text)
+            chosen = replace(self, chosen=self.vocabulary.skill[text], written=self.written + text, owes=False)
             return chosen._behind_name(), chosen
         if not text.endswith(SKILL_OPENS):
             return None
@@ -113,12 +115,44 @@ class TaskScript:
         meant = any(patterns.quoted(skill.name).startswith(text) for skill in self.vocabulary.skills_in_role("navigation"))
         return ("," + STEP_OPENS, CLOSES) if meant else None
 
+    def pressed(self, text: str) -> Script | None:
+        """Where the model would end behind a step while a movement is owed, that one is to follow."""
+        end = self._step_end(text)
+        return replace(self, owes=True) if end is not None and text[end:].startswith(CLOSES[0]) else None
+
+    def asks(self, text: str) -> int | None:
+        """Before a name that may be a substitute, and behind a step where a movement is owed."""
+        return 0 if self.taken_back(text) else self._step_end(text)
+
+    def _step_end(self, text: str) -> int | None:
+        """Where the step ends in a text that goes on with it, if a movement is owed behind it."""
+        if self.chosen is None or not self.companions.asked:
+            return None
+        try:
+            step, end = json.JSONDecoder().raw_decode(self.written + text)
+        except ValueError:
+            return None
+        entry = step[STEP_KEYS[0]]
+        movement = self.vocabulary.skill[entry["name"]], entry["parameters"]
+        owed = self._owed(movement[0]) and self._read_ending(movement[0], self._path(movement)) == "may"
+        return max(0, end - len(self.written)) if owed else None
+
+    def _owed(self, movement: Skill) -> list[Skill]:
+        """The movements that are asked for and not written, this one counted as written."""
+        written = [movement, *(skill for skill, _parameters in self.steps)]
+        asked = [skill for skill in self.vocabulary.skills_in_role("navigation") if skill.name in self.companions.asked and skill not in written]
+        return [] if self.ground.waypoints_alone else [skill for skill in asked if self._spoken(skill)]
+
     def _behind_step(self, text: str) -> TaskScript:
         """The script behind a step, with its movement and its waypoint."""
         movement = self._first_of((self.written + text)[len(STEP_OPENS) - len(SKILL_OPENS) :])
-        point = waypoint(movement)
-        before = (*self.before, point) if point else self.before
+        before = self._path(movement)
         return replace(self, steps=(*self.steps, movement), before=before, could_end=self._ending(movement[0], before) == "may")
+
+    def _path(self, movement: Step) -> Path:
+        """The waypoints with that of a movement."""
+        point = waypoint(movement)
+        return (*self.before, point) if point else self.before
 
     def _behind_skill(self, text: str) -> TaskScript:
         """The script at the name of a filter or perception skill."""
@@ -134,7 +168,7 @@ class TaskScript:
 
     def _names(self) -> str:
         """The names that may follow."""
-        skills = self.vocabulary.skills_in_role(self.role)
+        skills = self._owed(self.steps[-1][0]) if self.owes and self.role == "navigation" else self.vocabulary.skills_in_role(self.role)
         offered = [skill for skill in skills if self._offers(skill)]
         # An answer never stands without a way on.
         return Grammar().text(" | ".join(literal(patterns.quoted(skill.name)) for skill in offered or skills))
@@ -146,7 +180,7 @@ class TaskScript:
             return False
         if skill.motion in ROTATING and self.turns is not None:
             return self._turn is not None and self._turn[0] == skill.name
-        if self.role == "navigation" and self.companions.movements is not None and skill.name not in self.companions.movements:
+        if self.role == "navigation" and not self._spoken(skill):
             return False
         if self.role != "navigation" and self._runs(skill, self._movement[0]) is False:
             return False
@@ -154,6 +188,10 @@ class TaskScript:
         if self.role == "navigation" and {} in spent(skill, self.steps, self.text):
             return False
         return repeatable(skill, uses) and skill_body(Grammar(), skill, self._values_of(skill)) is not None
+
+    def _spoken(self, movement: Skill) -> bool:
+        """Whether the input may speak of a movement."""
+        return self.companions.movements is None or movement.name in self.companions.movements
 
     def _values_of(self, skill: Skill) -> Values:
         """What the parameters of a skill may be here: not again what it said before."""
@@ -227,11 +265,15 @@ class TaskScript:
     def _movement(self) -> tuple[Skill, Path]:
         """The movement of the step that is being written, and the waypoints with its own."""
         movement = self._first_of(self.written[len(STEP_OPENS) - len(SKILL_OPENS) :])
-        point = waypoint(movement)
-        return movement[0], (*self.before, point) if point else self.before
+        return movement[0], self._path(movement)
 
     def _ending(self, movement: Skill, before: Path) -> Ending:
-        """Whether the answer may, must or may not yet end behind a step with this movement: no path and no row of turns is left half-way."""
+        """Whether the answer may, must or may not yet end behind a step with this movement: no movement is left out that is asked for."""
+        ending = self._read_ending(movement, before)
+        return "not yet" if ending == "may" and self._owed(movement) else ending
+
+    def _read_ending(self, movement: Skill, before: Path) -> Ending:
+        """The same as far as paths and rotations tell: none is left half-way."""
         turned = self._turned + (movement.motion in ROTATING)
         return "not yet" if self.turns is not None and turned < len(self.turns) else self.ground.ending(before)
 

@@ -156,6 +156,12 @@ class MissionScript:
     def taken_back(self, text: str) -> tuple[str, str] | None:
         return None
 
+    def pressed(self, text: str) -> Script | None:
+        return None
+
+    def asks(self, text: str) -> int | None:
+        return None
+
     def _titles(self) -> str:
         """The titles that may follow; with their tasks where a title can be the beginning of another."""
         offered = [task for task in self.vocabulary.tasks if self.progress.offers(task) and self._possible(task)]

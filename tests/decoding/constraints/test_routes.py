@@ -11,6 +11,7 @@ from planner_ft.candidates import resolve_candidate
 from planner_ft.candidates.loading import load_tokenizer
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.decoding.constraints.answer import Answer
+from planner_ft.decoding.constraints.companions import Companions
 from planner_ft.decoding.constraints.grammar import SchemaValues
 from planner_ft.decoding.constraints.routes import TaskScript
 from planner_ft.decoding.constraints.tokens import allows, tokens_of
@@ -84,3 +85,39 @@ def test_a_step_that_may_not_follow_gives_way_to_the_end(tokenizer: Any) -> None
     assert ended is not None and ended[-1] == tokenizer.eos_token_id
     assert tokenizer.decode(ended[:-1]) == '{"skill_sequence":[' + ",".join(places) + "]}"
     assert answer.instead(ids(tokenizer, "sail")[0]) is None
+
+
+STEP = '{"navigation_skill":{"name":"%s","parameters":%s},"filter_skills":[],"perception_skills":[],"stop_conditions":[],'
+STEP += '"failure_modes":[],"expected_outputs":[]}'
+
+
+def test_a_movement_that_is_asked_for_is_not_left_out(tokenizer: Any) -> None:
+    record = {"task": "Transit", "parameters": {"target_position": [30, 40]}, "prompt": "Go to [30, 40] and hold there for 20 s, then face 90."}
+    companions = Companions(asked=frozenset(("StationKeep",)))
+    script = TaskScript(VOCABULARY, SchemaValues(), read_ground(record, VOCABULARY), str(record["prompt"]), companions=companions)
+    answer = Answer(tokens_of(tokenizer, (tokenizer.eos_token_id,), None), script, 2048, 300)
+    whole = '{"skill_sequence":[' + STEP % ("GoToXY", '{"x":30,"y":40}')
+    tokens = ids(tokenizer, whole + "]}")
+    kept = answer.admits(tokens)
+    assert kept < len(tokens)
+    for token in tokens[:kept]:
+        answer.accept(token)
+    # The next step must come, but the model is asked whether it would end here.
+    assert answer.forced() == [] and answer.instead(tokens[kept]) is None
+    written = tokenizer.decode(tokens[:kept])
+    while not written.endswith('"name":"'):
+        further = ids(tokenizer, (whole + "," + STEP)[len(written) : len(whole) + 30])[0]
+        answer.accept(further)
+        written += tokenizer.decode([further])
+    assert tokenizer.decode(answer.forced()).startswith("StationKeep")
+
+
+def test_a_movement_that_is_asked_for_may_come_where_the_model_wants_it(tokenizer: Any) -> None:
+    record = {"task": "Transit", "parameters": {"target_position": [30, 40]}, "prompt": "Face 90, hold for 20 s, face 180."}
+    companions = Companions(asked=frozenset(("StationKeep",)))
+    steps = [STEP % ("RotateToHeading", '{"heading":90}'), STEP % ("StationKeep", '{"time":20}'), STEP % ("RotateToHeading", '{"heading":180}')]
+    for kept, admitted in ((steps, True), (steps[::2], False), (steps[1:], True)):
+        script = TaskScript(VOCABULARY, SchemaValues(), read_ground(record, VOCABULARY), str(record["prompt"]), companions=companions)
+        answer = Answer(tokens_of(tokenizer, (tokenizer.eos_token_id,), None), script, 2048, 300)
+        tokens = ids(tokenizer, '{"skill_sequence":[' + ",".join(kept) + "]}")
+        assert (answer.admits(tokens) == len(tokens)) == admitted
