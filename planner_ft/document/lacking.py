@@ -1,11 +1,12 @@
-"""What a mission plan lacks of its command, counted: for a second look at it (planner_ft.decoding.second_look)."""
+"""What a mission plan lacks of its command and what it has too much, counted: for a second look at it (planner_ft.decoding.second_look)."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
+from planner_ft.document.language import language
 from planner_ft.document.lost import lost_values
 from planner_ft.document.said import read_command
 from planner_ft.document.warnings.command import unanswered
@@ -13,7 +14,7 @@ from planner_ft.vocabulary import Vocabulary
 
 
 def count_lacking(command: str, answer: str, vocabulary: Vocabulary) -> int | None:
-    """How many stated values and instructions no task of a plan in JSON answers, and how many tasks stand in it for another.
+    """How many stated values and instructions no task of a plan in JSON answers, how many tasks stand in it for another, and how many no word asks for.
 
     Task prompts and constraints do not count: what only they say is not carried out. None where there is no task, or where the
     command cannot be read with certainty.
@@ -26,8 +27,19 @@ def count_lacking(command: str, answer: str, vocabulary: Vocabulary) -> int | No
     if said.unread or not tasks:
         return None
     titles = {task["title"] for task in tasks}
-    found = (lost_values(said, tasks, (), vocabulary), unanswered(command, titles, vocabulary), _repeated(tasks, vocabulary))
+    found = (
+        lost_values(said, tasks, (), vocabulary),
+        unanswered(command, titles, vocabulary),
+        _repeated(tasks, vocabulary),
+        _groundless(command, titles, vocabulary),
+    )
     return sum(1 for items in found for _item in items)
+
+
+def _groundless(command: str, titles: Iterable[str], vocabulary: Vocabulary) -> Iterator[str]:
+    """The titles of tasks that no word of the command can mean."""
+    hints = language(vocabulary).hints
+    yield from (title for title in titles if title in hints and not hints[title].search(command))
 
 
 def _repeated(tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Iterator[str]:

@@ -32,10 +32,14 @@ class Ask:
 
 @dataclass(frozen=True)
 class Language:
-    """Patterns by their name in english.toml, what the vehicle can be asked for, its sensors, and the questions per missing element."""
+    """Patterns by their name in english.toml, what the vehicle can be asked for, its sensors, and the questions per missing element.
+
+    `hints` are words per task title of which a command that asks for the task holds one; titles without any are not told by words.
+    """
 
     words: dict[str, re.Pattern[str]]
     asks: tuple[Ask, ...]
+    hints: dict[str, re.Pattern[str]]
     sensors: re.Pattern[str]
     questions: dict[str, str]
 
@@ -50,7 +54,8 @@ def language(vocabulary: Vocabulary) -> Language:
         raise PlannerError(f"{vocabulary.name}{ONTOLOGY}: " + "; ".join(problems))
     words = {name: pattern(entry["words"]) for name, entry in english.items() if name != "questions"}
     asks = tuple(Ask(pattern(entry["words"]), frozenset(entry["tasks"]), entry.get("sends", False)) for entry in own.get("ask", ()))
-    return Language(words, asks, pattern(own.get("sensor", {}).get("words", ())), english["questions"])
+    hints = {title: pattern(phrases) for title, phrases in own.get("hint", {}).items()}
+    return Language(words, asks, hints, pattern(own.get("sensor", {}).get("words", ())), english["questions"])
 
 
 def pattern(phrases: Sequence[str]) -> re.Pattern[str]:
@@ -76,7 +81,7 @@ def _phrase(phrase: str) -> str:
 
 
 def _problems(own: dict[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
-    yield from (f"unknown key {key!r}" for key in own if key not in ("ask", "sensor"))
+    yield from (f"unknown key {key!r}" for key in own if key not in ("ask", "sensor", "hint"))
     asks = own.get("ask", [])
     if not isinstance(asks, list) or not all(isinstance(entry, dict) and _are_words(entry.get("words")) and _are_words(entry.get("tasks")) for entry in asks):
         yield "every [[ask]] needs the lists words and tasks"
@@ -84,6 +89,11 @@ def _problems(own: dict[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
     yield from (f"[[ask]] names {title!r}, which is no task" for entry in asks for title in entry["tasks"] if title not in vocabulary.task)
     if "sensor" in own and not (isinstance(own["sensor"], dict) and _are_words(own["sensor"].get("words"))):
         yield "[sensor] needs the list words"
+    hints = own.get("hint", {})
+    if not isinstance(hints, dict) or not all(_are_words(words) for words in hints.values()):
+        yield "[hint] needs a list of words per task title"
+        return
+    yield from (f"[hint] names {title!r}, which is no task" for title in hints if title not in vocabulary.task)
 
 
 def _are_words(value: Any) -> bool:

@@ -33,6 +33,8 @@ GO, HOLD = task("Transit", target_position=[20, 60]), task("KeepStation", durati
         ("No sensor check. Hold at [20, 60] for ten minutes.", [GO, HOLD], 0),
         ("Hold at [20, 60] for ten minutes.", [GO, HOLD, HOLD], 1),
         ("Hold at [20, 60] for ten minutes.", [GO, HOLD, task("Transit", target_position=[0, 0]), HOLD], 0),
+        ("Hold at [20, 60] for ten minutes.", [task("Diagnostics"), GO, HOLD], 1),
+        ("Hold at [20, 60] for ten minutes with a check of the hull sensors.", [task("Diagnostics"), GO, HOLD], 0),
         ("Hold at [20, 60] for ten minutes.", [], None),
         ("Hold at [20, 60] for 1.2.3 minutes.", [GO], None),
     ],
