@@ -19,6 +19,8 @@ from planner_ft.data.words import edit_distance
 from planner_ft.vocabulary.definition import BUNDLED, UNHASHED
 
 _WORD = re.compile(r"[^\W\d_]{2,}")
+MISSPELT = "# misspelt"
+"""The first line of a template file whose words can be misspelt on purpose, so that none of them is known by it."""
 _ENDINGS = ("'s", "s", "es", "ed", "d", "ing", "ly", "er")
 
 
@@ -70,7 +72,8 @@ def known_words() -> dict[str, int]:
     """Every known word in lower case, with how often the lists have it."""
     counts: Counter[str] = Counter()
     # What stands once in the templates can be misspelt there on purpose.
-    counts.update(word for path in sorted(Path(__file__).parent.rglob("*.txt")) for word in _words(path.read_text(encoding="utf-8")))
+    templates = (path.read_text(encoding="utf-8") for path in sorted(Path(__file__).parent.rglob("*.txt")))
+    counts.update(word for text in templates if not text.startswith(MISSPELT) for word in _words(text))
     known = Counter({word: count for word, count in counts.items() if count > 1})
     known.update(_words((Path(__file__).parent / "things.txt").read_text(encoding="utf-8")))
     for path in sorted(path for path in BUNDLED.glob("*.toml") if not path.name.endswith(UNHASHED)):
