@@ -38,6 +38,15 @@ GRID = re.compile(
 ROUND = re.compile(r"\b(?:square|round|around|about|circle|ring|circuit|perimeter|survey\w*|inspect\w*|points?|waypoints?|stops?|stand-?off|corners?)\b", re.I)
 UNKNOWN = re.compile(r"\b(?:zig-?zag|spiral|triang\w+|hexagon\w*|pentagon\w*|octagon\w*|figure|ellip\w+|oval|diamond|half ?way|midpoint|mirror\w*)\b", re.I)
 """Shapes whose waypoints are not derived here."""
+LOOSE = re.compile(
+    r"\bway-?points? (?:every|each)\b|\bevery \d+(?:\.\d+)? ?(?:°|deg\w*)|\beach \d+ ?(?:°|deg\w*)|\bpart of (?:a|the) (?:ring|circle|square|round)\b|"
+    r"\bo['’]clock of\b|\bhops?\b|\bstairs?\b|"
+    r"\bdog[- ]?leg|\bmiddle of the line\b|half of the \d|\breciprocal\b|\b(?:stop\w*|stations?|halt\w*) every\b|\b(?:round|along) the edge\b|"
+    r"\bstar (?:on|round|from)\b|\bthe way you came\b|"
+    r"\bcorner,? which is\b",
+    re.IGNORECASE,
+)
+"""Ways that are not derived here where they are not read as a whole."""
 FOUR = re.compile(r"\b(?:(?:four|4)\W(?:corner|point|waypoint|mid|side)\w*|corners? (?:only|alone)|only (?:the )?(?:four )?corners)\b", re.I)
 HALF = re.compile(r"\bhalf (?:of )?(?:the |its |this )?(?:\w+ )?(?:square|round|ring|way round|side|circuit)\b|\bhalf only\b", re.I)
 CLOSED = re.compile(r"\b(?:clos(?:e|es|ed|ing)|(?:back|return\w*) (?:at|to|on) (?:the |its |your )?(?:start|first|same))\b", re.I)
@@ -142,7 +151,8 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     counts = sorted({int(quantity.said) for quantity in quantities(reading.bare) if quantity.unit is None and quantity.said in range(2, 25)})
     angles = {value % 360 for value in (*bearings(reading.text), *stated_numbers(reading.bare, "deg"), *_angles(parameters))}
     unread = reading.numbers_free or bool(reading.loose) or UNKNOWN.search(reading.text) is not None
-    free = unread or len(places) > MOST_PLACES or len(lengths) > MOST_LENGTHS
+    loose = LOOSE.search(reading.text) is not None
+    free = unread or loose or len(places) > MOST_PLACES or len(lengths) > MOST_LENGTHS
     paths: Iterator[Path] = iter(())
     task = vocabulary.task.get(str(record.get("task")))
     if not free:
@@ -154,7 +164,7 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     itinerary = itinerary if itinerary is None or len(itinerary) <= MOST_STEPS else None
     found = tuple(dict.fromkeys(itertools.islice(paths, MOST_PATHS)))
     begun = 2 if task and task.pattern in ("lawnmower", "square") else 3
-    shape = None if unread or task is None or itinerary is not None else one_shape(reading.text, parameters, task, own[0] if len(own) == 1 else None)
+    shape = None if unread or loose or task is None or itinerary is not None else one_shape(reading.text, parameters, task, own[0] if len(own) == 1 else None)
     if itinerary is None and shape is None and task is not None and not unread and len(reading.text) <= LONGEST:
         itinerary = () if stays(record) else read_runs(record, vocabulary)
     apart: tuple[Point, ...] = ()

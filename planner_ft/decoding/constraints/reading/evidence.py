@@ -41,7 +41,8 @@ NEGATION = re.compile(
     r"\b(?:no|not|never|none|nor|neither|without|nothing|cannot|skip\w*|omit\w*|forget|forgo|cancel\w*|drop(?:ped)? the|leave out|scratch|"
     r"disregard|ignore|except|unless|"
     r"instead|rather|less|minus|save for|bar|off|already|earlier|yesterday|previous\w*|later|tomorrow|next time|last (?:time|week|year|month|night)|"
-    r"has been|have been|was|were|had|would|could|might|may|if|in case|un\w+ed|stop\w*|free|lifted|enough|spare|needless|pointless|useless|avoid "
+    r"they|their|theirs|has been|"
+    r"have been|was|were|had|would|could|might|may|if|in case|un\w+ed|stop\w*|free|lifted|enough|spare|needless|pointless|useless|avoid "
     r"\w+ing|wait|broken|faulty|down|dead|but|upload\w*|send\w*|transmit\w*|transfer\w*|deliver\w*|ashore|correction|sorry|mean|meant|actually|"
     r"wrong)\b|n't\b|\bdont\b",
     re.IGNORECASE,
@@ -50,7 +51,7 @@ NEGATION = re.compile(
 TAKEN_BACK = re.compile(
     r"\b(?:scrap|scratch|cancel\w*|belay|disregard|strike (?:that|it)|as you were|second thoughts?|change of plan|change your plans?|no longer|"
     r"correction|ignore|forget|never mind|(?:that|this|it|those|these|they|all) (?:was|were|is|are|has been|have been) (?:already |all )?done|"
-    r"done already|already done|leave (?:that|it|them) out|skip (?:that|it|them|this)|none of (?:that|this|it|these))\b"
+    r"done already|already done|drop (?:that|it|this)\b|leave (?:that|it|them) out|skip (?:that|it|them|this)|none of (?:that|this|it|these))\b"
 )
 """Words that take back something which another sentence asks for."""
 RULED_OUT = re.compile(
@@ -85,7 +86,7 @@ def required(text: str, vocabulary: Vocabulary) -> frozenset[str]:
     plain = _plain(text)
     if TAKEN_BACK.search(plain):
         return frozenset()
-    sentences = [match.group() for match in _SENTENCE.finditer(plain)]
+    sentences = [_HARMLESS.sub(" ", match.group()) for match in _SENTENCE.finditer(plain)]
     doubtful = [sentence for sentence in sentences if NEGATION.search(sentence)]
     sure = [sentence for sentence in sentences if sentence not in doubtful]
     asked = {name for name in names if any(_unmistakable(name).search(sentence) for sentence in sure)}
@@ -94,6 +95,8 @@ def required(text: str, vocabulary: Vocabulary) -> frozenset[str]:
 
 def _speaks(text: str, name: str) -> bool:
     """Whether a spelling of the text can mean a skill."""
+    if name == "BoundaryEnforcement" and not _FENCED.search(text):
+        return any(not (_ruled_out(text, match) or _ROW.match(match.group())) for match in _spoken(name).finditer(text))
     if name == "DetectSonarFeature":
         return any(not _only_recorded(text, match) and not _ruled_out(text, match) for match in _spoken(name).finditer(text))
     if any(not (_ruled_out(text, match) or _measured_otherwise(text, match) or _a_place(text, match)) for match in _spoken(name).finditer(text)):
@@ -188,6 +191,7 @@ def _keys() -> tuple[str, ...]:
     """The words in full of all patterns that a misspelt word is compared with."""
     patterns = itertools.chain(*w.SPOKEN.values(), *c.UNMISTAKABLE.values())
     words = {word for pattern in patterns for word in re.findall(r"[a-z]{5,}", pattern)}
+    words |= {f"{word}s" for word in words}
     return tuple(sorted(word for word in words if word in known_words()))
 
 
@@ -231,9 +235,17 @@ _MEASUREMENT = re.compile(r"measur\w*|readings?")
 _NEGATED_TWICE = re.compile(r"\b(?:no|not|never|neither|none|nor|don't|nothing)\b.*\bwithout\b")
 _MEASURED_OTHERWISE = re.compile(c.MEASURED_OTHERWISE)
 _CLAUSE_END = re.compile(r"[.;,:!?\n]|\b(?:and|while|then)\b")
+_ROW = re.compile(r"[\[(x\d]|corners")
+"""Points in a row, which are no fence unless one is spoken of."""
+_FENCED = re.compile(
+    r"fenc|\bbound(?!\b)|\binside\b|\bwithin\b|\bstay|\bkeep|\bremain|\bleav|\bleft\b|limit|confin|outside|\bout of\b|\bcross|respect|enforc|"
+    r"allow|permit|\bbox\b(?! search| survey)|"
+    r"beyond|polygon|stray|perimeter|border|operat"
+)
 _SEEKING = re.compile(rf"\b{c.SEEKING}")
 _SOUGHT_OTHERWISE = re.compile(c.SOUGHT_OTHERWISE)
 _BY_SONAR_BEHIND, _BY_SONAR_BEFORE = re.compile(c.BY_SONAR_BEHIND), re.compile(c.BY_SONAR_BEFORE)
 _RECORDED, _RECORDED_BEHIND, _ANY_SEEKING = (re.compile(pattern) for pattern in (c.RECORDED, c.RECORDED_BEHIND, c.ANY_SEEKING))
+_HARMLESS = re.compile(c.HARMLESS)
 _HEALTH = frozenset(c.HEALTH)
 _IMPLIED = tuple((re.compile(rf"\b(?:{pattern})"), frozenset(names)) for pattern, names in c.IMPLIED)

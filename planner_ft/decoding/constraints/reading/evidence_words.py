@@ -49,7 +49,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"rigid|stay|remain|"
         rf"guard|sav|current|lash|nail|immobil|stead|unwaver|glue)\w*[ ,]+{_GAP}{BOW}\b(?! (?:to|of|towards)\b)",
         rf"(?:hold|keep|fix|freez|pin)\w* {_GAP}(?:bow|nose|heading|head) (?:to|on) (?:its|the|her|your) ",
-        rf"{BOW}\b[ :-]+(?:[a-z']+ ){{0,4}}(?:lock|hold|held|keep|kept|fix|freez|froz|pin|stead|constant|same|unchang|stay|remain|must not|"
+        rf"{BOW}\b[ :-]+(?:[a-z']+ ){{0,4}}(?:lock|hold|held|keep|kept|fix|freez|froz|pin|stead|constant|same|unchang|stay|remain|must not|not mov|"
         r"may not|not to|as it is|"
         rf"as is|where it|rigid|unmov|still\b|maintain|tied|nailed|stabil|free\b|control|clamp|preserv|retain|immobil|wander|motionless)",
         rf"(?:not|n't|never|without|no|stop|prevent)\b[^.;]{{0,25}}(?:swing|turn|chang|yaw|wander|veer|slew|twist|fall off|"
@@ -57,6 +57,8 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         rf"(?:not|n't|never|without|no|stop|prevent)\b[^.;]{{0,25}}{BOW}\b[^.;]{{0,25}}(?:swing|turn|chang|yaw|wander|veer|slew|twist|fall|rotat|"
         r"move)",
         r"(?:point|fac|look)\w*[^.;,]{0,20} (?:the same (?:way|direction)|where (?:it|she|you|we))|nose direction|heading-?hold",
+        r"(?:must not|mustn't|may not|don't let (?:her|the boat|it|yourself)|never|without) (?:[a-z]+ )?(?:yaw|slew|veer)\w*|no (?:yawing|"
+        r"slewing|veering)",
     ),
     "ObstacleAvoidance": (
         r"\w*margins?\b|marg\b|clr\b|oa\b|\w*avoid\w*|collision|collid\w+|anti-?coll\w+|evad\w+|evasi\w+|dodg\w+|proximity|skirt\w*|bump\w*|hit\b|"
@@ -88,15 +90,25 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"in (?:the|your) path",
     ),
     "BoundaryEnforcement": (
-        r"\w*fenc\w*|\w*bound(?!\b)\w*|bounds?\b|bounded by|box(?:es|ed)?\b(?! \d)|polygon\w*|poly\b|perimeter\w*|rectang\w+|quadrilateral|"
-        r"trapez\w+|triang\w+|enclos\w+|corral|cordon\w*|pen\b|cage\b",
+        r"\w*fenc\w*|\w*bound(?!\b)\w*|(?:in|out of|within|of|the) bounds\b|bound (?:by|to|the|your|us|you)\b|polygon\w*|poly\b|perimeter\w*|enclos\w+|corral|"
+        r"cordon\w*",
+        r"(?:the|a|this|that|in|inside|within|leave|geo-?|virtual|allowed|safety|permitted|given|corner) box\b(?! (?:search|survey|\d))|"
+        r"^box\b(?! search)|[.,;:] box\b"
+        r"(?! search)|boxed in|(?:in|inside|within|leav\w*|out of) (?:the |a |its |this )(?:pen|cage)\b|"
+        r"(?:in|inside|within|to|leav\w*|out of|respect\w*|enforc\w*|apply\w*|with|under|and|by) (?:the |a |an |this |that |its )?(?:rectang\w+|"
+        r"quadrilateral|trapez\w+|triang\w+)|"
+        r"(?:rectang\w+|quadrilateral|trapez\w+|triang\w+)[^.;]{0,60}(?:leav|left|cross|outside|appl|enforc|observ|respect|hold|count|in force)",
         r"confin\w+|restrict\w+|hem(?:med)?\b|limit\w*(?! (?:of )?[\d.])|zones?\b|borders?\b|territor\w+|envelope|keep-?in\b|safe area|sandbox|"
-        r"domain|quadrant|permitted|allowed (?:area|region|water)|hard limit",
-        r"(?:inside|within|outside)\b(?! (?:the |an? |your |its |about |some )?(?:watch |tight |small )?(?:circle |"
+        r"domain|permitted|allowed (?:area|region|water)|hard limit",
+        r"(?:inside|within|outside)\b(?! (?:the |an? |your |its )?(?:given |set |stated |whole |same )?(?:threshold|tolerance|accuracy|frame|"
+        r"picture|view|image|"
+        r"sight|reach|range|radius|circle|watch|field|sector|hold|turn|time|angle|margin|minutes|seconds)\b)(?! (?:the |an? |your |its |about |"
+        r"some )?(?:watch |tight |small )?(?:circle |"
         rf"radius )?(?:of )?(?:[\d.]+ ?-?{LENGTH}\b|"
         rf"{SIZE}|[\d.]+ ?(?:°|deg|s\b|sec|min|h\b)|(?:{COUNT} )+(?:deg|sec|min|hour)))",
         r"(?:inside|within) [^.;,]{0,40}(?:square|box|rectangle|area|strip|corridor|polygon|triangle|hexagon|block|field)\b|(?:stay|keep|remain|"
-        r"hold)\w* (?:well )?(?:out of|in|to)\b (?:the (?!point|spot|pos|head|course|track|line|left|right|north|south|east|west)|this (?!spot|"
+        r"hold)\w* (?:well )?(?:out of|in|to)\b (?:the (?!picture|frame|image|middle|view|cent|water|same|turn|hold|point|spot|pos|head|course|"
+        r"track|line|left|right|north|south|east|west)|this (?!spot|"
         r"pos)|that|an?\b|\[|\()|(?:not|n't|never)\b[^.;]{0,30}(?:outside|beyond|past|over the)\b|(?:not|"
         r"n't|never)\b[^.;]{0,12} out of (?:the|this|that|\[|\()",
         r"(?:area|region|sector|patch|field|block|basin|harbou?r|corridor|waters?)\b[^.;\[(]{0,25}(?:leav|stay in|keep to|permit|allow|bound|"
@@ -105,7 +117,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"measur|log|search|look)[a-z]+ ){0,3}(?:area|region|square|patch|field|block|basin|harbou?r|corridor|waters)\b",
         r"(?:do not|don't|not to|never|must not|mustn't|may not|without) (?:[a-z]+ ){0,2}(?:leav(?:e|ing)(?! (?:the )?(?:station|frame|picture|"
         r"centre))|cross\w*|exit\w*|stray\w*|depart\w*)",
-        r"corners?\b(?:\W+(?:at|are|is|the|being|points?|coordinates|of|its|with))*\W+[\[(x=-]*-?\d",
+        r"corners\b(?:\W+(?:at|are|is|the|being|points?|coordinates|of|its|with))*\W+[\[(x=-]*-?\d",
         r"[\[(] ?-?\d[^\])a-z]*[\])](?:[ ,;]+(?:and )?[\[(] ?-?\d[^\])a-z]*[\])]){3}",
         r"(?:x|east\w*) (?:from|between) -?\d[^.;]*(?:y|north\w*) (?:from|between) -?\d|lines?\b[^.;]{0,20}(?:cross|limit)|(?:must not|may not|"
         r"never|not) (?:be |to be )?(?:left|crossed)|(?:in|:) [\[(] ?-?\d[^\])a-z]*[\])](?:[ ,;]+(?:and )?[\[(] ?-?\d[^\])a-z]*[\])]){2}",
@@ -122,11 +134,17 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"(?:search|scan|look|find|spot|watch|comb)(?:s|es|ing|ed)? (?:(?:the|through|in|around|at|over|all) ){0,2}(?:[a-z]+ )?(?:picture|image|"
         r"frame|surroundings|water|surface|video|sea)\b(?! quality)",
         r"report\w* (?:[a-z,-]+ ){1,8}(?:in|on) (?:view|sight)",
+        r"(?:whether|if|should|see|are|is|for) (?:there|any|what|something|one)\b[^.;]{0,80}\b(?:about|around|in view|nearby|out there|"
+        r"turns? up|show\w* up)\b",
+        r"(?:anywhere|is|are|be|come\w*|comes?) in(?:to)? view|turn(?:s|ing)? up\b|mind(?:ing)? out\b|beware|(?:if|when|whether|whenever|should|"
+        r"once) (?:you|we|she|it|(?:the )?(?:\w+ )?cam\w*) (?:sees?|spots?|meets?|comes? across)|what (?:else )?(?:is|swims|floats) (?:about|"
+        r"around|out there|in the water)|(?:on the|keep\w*|a|your|sharp|open) (?:watch|eye|eyes|alert|look) (?:out )?(?:on|for|kept)|"
+        r"a watch (?:is )?kept|alert (?:for|to)|(?:shout|call out|warn) ",
     ),
     "TrackObjects": (
         r"tracker\w*|tracked\b(?! (?:pixel|offset|pose))|(?<!\bcable )tracking\b|trk\b|identit\w+|persisten\w+|tabs on|re-?identif\w+",
         r"(?<!\bcable )(?<!\bon )(?<!\boff )(?<!\bthe )(?<!\bgps )(?<!back)(?:track|tracks)\b(?! (?:the |of the |of your |of our |your |a |"
-        r"of )?(?:[a-z]+ )?(?:pixel|visual|offset|pose|relative|cable|"
+        r"of )?(?:[a-z]+ )?(?:pixel|visual|offset|pose|relative|cable\b(?! (?:clamp|entry|drum|buoy|ferry|layer|winch))|"
         r"pipeline|straight|line|course|start|heading|bearing|length|end|leg|run\b|is\b|begins|distance|out\b|time))",
         r"(?:on the|keep|hold|maintain|have|start|put|with|run|object|continuous|no|a) (?:a |the )?track\b(?! (?:heading|length|bearing|start|"
         r"line|course|begin|end|distance|as|at|in|is|from|to|and))|(?:los\w+|hold\w*|maint\w*|keep\w*) the track",
@@ -135,6 +153,10 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"ing) (?:sight|it|them|her|him|contact|target)|(?:eye|watch) on (?!the (?:image|pic|qual|depth|horizon|temp))",
         r"(?:ids?|mmsi) (?:of|on|constant|stays?|kept|the same)\b|(?:same|keep\w*|maintain\w*|hold\w*|persist\w*) (?:the |its |an? |same )*ids?\b|"
         r"monitor\w* (?:contact|target|object|vessel|boat|track)s?\b",
+        r"over time\b|frame (?:to|by|after) frame|(?:in|across|through|over|between) (?:every|all|each|consecutive|successive|the) frames?\b|"
+        r"(?:keep|know|knows|known|knowing|recogni[sz]\w*|tell|find|pick) [^.;,]{0,40}(?:again\b|apart|from the (?:others?|rest))|mix(?:ed|"
+        r"ing)?\b[^.;,]{0,30} up\b|confus\w*|mistak\w*|(?:which|who) is (?:which|who)|the same (?:one|object|target|vessel|boat|swimmer)\b|"
+        r"swap\w*|tack(?:s|ing)? (?:the|it|them|every|each|all|any)\b",
     ),
     "OCRScanning": (
         r"\w*ocr\w*|text\w*|letter\w*|script\w*|inscri\w+|deciph\w+|transcri\w+|character\w*|spell\w*|words?\b|caption\w*|legib\w+|alphanum\w*|"
@@ -145,6 +167,8 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"(?:what|whatever) (?!the (?:weather|logger|sensor|log|gps|sounder))[^.;,]{0,40} (?:says?|reads|said)\b|make out|made out|making out",
         r"(?:scan|captur|extract|pick up|recogni|tell me|get|what|note)\w*[^.;,]{0,40} (?:numbers?|registration|name|serial|markings?|sign|plate|"
         r"board)\b(?! pin)",
+        r"what (?:is|was|has been|they have) (?:painted|stencil\w*|printed|engraved|chalked)|which (?:name|number|letters|sign)|what (?:name|"
+        r"number|sign)",
     ),
     "GetThermalStats": (
         r"therm[a-z]*\b(?! (?:cam\w*|stream|feed|view|clips?|images?|videos?|picture|files?|search)\b)|thermo\w*",
@@ -156,6 +180,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"what |to obst|whatever )|the (?:lettering|text))",
         r"(?:mean|average|median|statistic\w*|stats?|max(?:imum)? and min\w*|min\w* and max\w*)\b",
         r"measur\w*\b|(?:hot\w*|therm\w*|celsius|\d ?c\b)[^.]{0,200}; (?:the )?(?:[a-z0-9-]+ ){1,5}(?:in|during|on) (?:the|each|every|all) \w+",
+        r"infra-?red\b(?! (?:cam\w*|stream|feed|view|clips?|images?|videos?|picture|files?|search)\b)|\bir (?:figures|values|readings?|data|numbers)",
     ),
     "LocateHotspot": (
         r"\w*hot-? ?spots?\w*|hott\w+|(?<!\bhow )hot\b|warmer\b|warmest|(?<!\bhow )warm\b|heat\b(?! of)|heated|overheat\w*|burn(?:s|ing|er)?\b|"
@@ -172,6 +197,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"(?:for|of|any|water|rain|no|from|by|with|are|salt) drops?\b(?! (?:the|a|pin|marker|map|another|one))|raindrops?|water on (?:it|"
         r"the (?:lens|glass|cam|optic))",
         r"cam\w*[^.;,]{0,25}\b(?:clear|dry|clean|dirty)\b|(?:clear|dry|clean|dirty) cam\w*|front element|clearness",
+        r"wip(?:e|es|ed|ing|er|ers)\b|streak\w*|sprayed|rub(?:bed|bing)? (?:dry|clean)|blind(?:ed)? by",
     ),
     "GetImageQualityMetrics": (
         r"(?<!\bgeotag )(?<!\bgps )(?<!\bgeotagging )(?<!\bposition )(?<!\bfix )qualit\w*|\w*metrics?\b|usab\w*|useful\w*|sharp\w*|blur\w*|"
@@ -182,6 +208,9 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"ing|y|ies|ify|ifies|uat\w+)? (?:(?!and\b|while\b|with\b|then\b|for\b)[\w-]+ ){0,5}(?:picture|image|video|frame|view|footage|imagery)",
         r"(?:picture|image|video|frame|view|footage|imagery)s?\b[^.;,]{0,40}\b(?:good|usable|rat(?:ed|ing)|scor(?:ed|ing)|grad(?:ed|ing)|judg\w+|"
         r"assess\w*|evaluat\w*|analys\w*|checked|fit\b|ok\b|okay|worth|bright|dark)\b",
+        r"mush\w*|enough to (?:work|use|go|be used|see)|to work with|can be used|(?:any|some|much) (?:good|use)\b|worth (?:looking|using|"
+        r"keeping|having)|fuzz\w*|hazy|pin-?sharp|washed[ -]out|useable|(?:clear|decent|proper|fair) (?:picture|image|view|video)|"
+        r"good for anything",
     ),
     "CalculateVisualOffset": (
         r"\w*offset\w*|off-?set\w*|pixel\w*|px\b|displac\w*|deviat\w*|misalign\w*|(?<!\bgps )(?<!\bposition )(?<!\bhorizontal )errors?\b|"
@@ -190,6 +219,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"middle) of (?:the )?(?:image|picture|frame|view|video|screen)",
         r"(?:image|picture|frame|optical|screen)[ -](?:cent(?:re|er)|middle)|relative to the (?:cent|image|picture|frame)|how (?:far|"
         r"much) [^.;]{0,40}(?:cent|middle|off\b|mid-)|how (?:far|much) (?:off|out)\b|visual(?:ly)? (?:error|off|dist\w*)",
+        r"(?:out of|beside|left of|right of|away from) (?:the )?(?:[a-z]+ )?(?:cent(?:re|er)|middle)\b|mid-?(?:frame|picture|image)",
     ),
     "GetSectorDistance": (
         r"sectors?\b(?= (?:at|on|to|towards|bearing|ahead|dist|rang|measur|between|read|\d))|sectors?\b[^.;]{0,50}(?:dist|rang|lidar|clos|near|"
@@ -207,6 +237,10 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"from|of) (?:the )?(?:nearest |next )?(?:obst|whatever|what|wall|structure|thing))(?! (?:ahead|in front|over|in a))",
         r"(?:port|starboard|left|right|forward|aft|ahead|astern|north|south|east|west)\w* (?:side )?(?:distance|range)\b|(?:watch|rang|quer|"
         r"monitor|guard)\w* (?:the )?(?:[a-z]+ ){0,2}(?:bearing|brg|sector)",
+        r"what(?:ever)? (?:is|lies|stands|comes) (?:the )?(?:nearest|closest)|(?:nearest|closest) (?:thing |return |echo |point )?"
+        r"(?:towards?|(?:at|on|in|to) (?:bearing|\d|north|south|east|west))",
+        r"slices? (?:that (?:lies|points) )?(?:towards?|at|to|on|in the direction|bearing)\b|(?:laser|lidar) on (?:the |that )?(?:slice|sector|"
+        r"bearing)",
     ),
     "DistanceToObstacle": (
         r"obstacle[ -](?:distance|dist|rang)\w*|(?:distance|dist|rang\w+|far|close|near|measur\w+|gap|lidar|detect\w*|watch\w*|monitor\w*|"
@@ -225,14 +259,20 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"slice|\d)))",
         r"(?<!\bsector )(?<!\bsafe )(?<!\bsafety )distances? (?:to|readings?|measure\w*|logg\w*|running|wanted|needed|off\b|between|over|ahead|"
         r"with a)\b(?! (?:the )?(?:start|task|target|end))",
+        r"(?:room|space|water|way|free|clear|open|far|near|thing|next|metres|lies|is|romo)\b[^.;,]{0,25}(?:in front|ahead|before (?:us|you|her|"
+        r"the bow))\b|(?:in front|ahead) (?:within|over|in) |(?:gap|room|space|far) [^.;,]{0,20}(?:to|from|until|before) (?:the |any )?(?:next|"
+        r"nearest) (?:thing|object|wall|obst)",
     ),
     "FitCylinderModel": (
         r"\w*cylind\w*|cyl\b|\w*cloud\w*|pcl\w*|fit(?:s|ted|ting)?\b(?! for (?:use|purpose))|round shape|tubular|diameter|(?:large|big|the|"
         r"any) curve\b|curve (?:in|from|fit)|circle fit\w*|models?\b|modell?(?:ed|ing)|round (?:pile|column|pillar|thing)",
+        r"circular|tubes?\b|(?:something|anything|whatever is) round\b|(?:round|curved) (?:object|post|thing|leg|pile|column)s?\b|curve of",
     ),
     "CheckPlanarity": (
         r"flat\w*|\w*planar\w*|planes?\b|bulg\w*|curved|curvature|warp\w*|buckl\w*|bent\b|even(?:ness)?\b(?! (?:spaced|if|when|one|though))|"
         r"uneven\w*|smooth\w*|bow(?:ed)\b|straightness|deform\w*|distort\w*|convex|concave|level (?:surface|deck|plate|wall|face)",
+        r"bow(?:s|ing)? (?:out|in|inwards?|outwards?)\b|dent(?:s|ed)?\b|bump(?:s|y)?\b|wav(?:y|iness)\b|sag(?:s|ged|ging)?\b|hollow\w*|"
+        r"straight or|(?:is|are|runs?|stands?|lies?|still) straight\b|(?:out of|in) true\b",
     ),
     "DetectSonarFeature": (
         r"\w*sonar\w*|side-? ?scan\w*|\w*sss\b|blobs?\b|acoustic\w*|(?<!\blaser )echo(?:es)?\b(?! ?-?sound)|multi-?beam\w*|mbes\w*|asdic|"
@@ -242,7 +282,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"(?:sea-?bed|sea-? ?floor|bottom|under ?water|down there)\b(?! (?:left|right|half|of))",
     ),
     "GetSeabedDepth": (
-        r"\w*depth\w*|sound(?:s|ed|ing|ings|er|ers)?\b|\w*sounder\w*|\w*bathy\w*|deep\w*|shallow\w*|keel\b|\w*sea-? ?bed\b|sea-? ?floor|fathom\w*|"
+        r"\w*depth\w*|depht\w*|sound(?:s|ed|ing|ings|er|ers)?\b|\w*sounder\w*|\w*bathy\w*|deep\w*|shallow\w*|keel\b|\w*sea-? ?bed\b|sea-? ?floor|fathom\w*|"
         r"altimeter\w*|ukc|dvl\w*|mbes\w*|sbes\w*|lead-? ?line|hydrograph\w*|echo[ -]?sound\w*|echo_\w*",
         r"bottom\b(?! (?:left|right|half|third|of (?:the )?(?:frame|picture|image)|edge|corner))|water (?:below|under|beneath|depth)|(?:below|"
         r"under|beneath|underneath) (?:us|you|her|the (?:boat|vessel|hull|vehicle|usv|craft))|how much water",
@@ -250,8 +290,12 @@ SPOKEN: dict[str, tuple[str, ...]] = {
     "GetHorizonAngle": (
         r"\w*horizon(?!tal)\w*|tilt\w*|inclin\w*|(?:how|is|are|be|lies?|lying|stays?|sits?) level\b|levelness|heel(?:s|ing|ed)?\b|list(?:s|"
         r"ing)? to (?:port|starboard)|(?:any|her|much|angle of) list\b|skew\w*|slant\w*|imu\w*|gyro\w*|ahrs\w*|mru\w*|inertial\w*",
+        r"sky-?line\w*|lean(?:s|ed|ing)?\b|upright|(?:even|level) keel|lopsided|crooked|(?:sit|lie|rid|stand|float|lying)\w* (?:straight|level|"
+        r"even|true)\b|(?:a|any|her|the|what) list\b(?! of)|out of level|off (?:the )?(?:level|horizontal)|(?:from|how far from) level",
     ),
     "GetGPSLocation": (
+        r"positions? (?:is |are )?(?:known|wanted|asked)|where (?:exactly|precisely|on (?:the )?(?:chart|map|earth)|in the world|about) (?:you|"
+        r"we|she|i|it|the (?:boat|vessel))\b",
         r"(?<!\baccuracy of the )(?<!\baccurate the )(?<!\bgood the )(?<!\bquality of the )(?<!\bthat the )(?<!\bwhether the )(?<!\bhow "
         r"accurate )(?:gps|gnss|"
         r"satnav|sat-?nav|(?<!\bexact the )(?<!\bgood the )satellites?)\b(?![- ](?:accura|qualit|error|precis|(?:is|can be|to be|are) (?:good|acc|"
@@ -264,6 +308,9 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"recorded) by (?:its |the )?position|(?:log|record|keep|save|store|note|gps|plot)(?:s|ging|ing|ed)? (?:of )?(?:the |a |your |"
         r"our )?(?:[a-z]+ )?tracks?\b(?! of)|tracks? (?:is |are )?(?:logged|recorded)",
         r"breadcrumb\w*|lat/?lon\w*|lat\b|lon\b|latitude|longitude|wgs\w*",
+        r"(?:track|trace|log|record|note|history|list|plot\w*|trac\w*|learn\w*|sav\w*|ask\w*|keep\w*|writ\w*) (?:of |down |out |"
+        r"up )?(?:exactly |precisely )?where (?:you|we|she|i|the boat)|lat(?:itude)? and lon\w*|(?:what|which) (?:spot|place|point) (?:you|we|"
+        r"she) ",
     ),
     "SelectActiveStream": (
         r"\w*stream\w*|\w*feeds?\b|active\b|actively|activat\w*|select\w*|channels?\b|choos\w*|chosen|chose|live\b|screens?\b|display\w*|"
@@ -349,6 +396,9 @@ SPOKEN: dict[str, tuple[str, ...]] = {
     "GetRelativePose": (
         r"\w*poses?\b|relativ\w*|attitude|orientat\w*|in the frame of|(?:with|in) (?:respect|relation|reference) to|(?:dock|local|body|marker|tag|"
         r"berth|quay|landing) frame|6-?dof|6 ?d\b|how (?:you|we|she|it) (?:lie|sit|stand)s?|rel\b",
+        r"how (?:do |does |are |is )?(?:you|we|she|it|the (?:boat|vessel|hull|bow)) (?:are |is )?(?:lie|lying|sit|stand|placed|plac|point|com|"
+        r"bear|align|turned)\w*|(?:what|which) angle\b|angles? (?:to|relative|against|between|with)\b|placed (?:against|relative|to|with|"
+        r"towards)|(?:position|place|placing|pos)\b[^.;,]{0,12} (?:against|as against)|in relation to|seen from (?:the|its)",
     ),
     "VerifyGeotagQuality": (
         r"\w*accura\w*|acc\b|precis\w*|[hp]?dop\b|exact(?!ly)\w*|trust\w*|reliab\w*|geo-? ?tags?\b(?! (?:still|snap|pic|pho|im))|"
@@ -360,6 +410,8 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"assess|monitor|limit)\w*(?: (?!and\b|while\b|lens)[\w:-]+){0,5} (?:gps|gnss|geo-? ?tag\w*|fix\b|fixes|satellite)|(?:verif|validat|"
         r"confirm)\w* (?:the |your |our )?positions?",
         r"(?:good|true|right|correct|valid) to (?:within )?|(?:check|test)\w*:[^.;]{0,60}(?:gps|gnss)",
+        r"(?:gps|gnss|fix(?:es)?|satellite\w*|receiver|position\w*)\b[^.;,]{0,30}\b(?:wrong|off|out by|err\w*|believ\w*|stand\w* up|hold\w* up|"
+        r"count\w* on|rel(?:y|ied)|to the test)\b|(?:rely|relying|count|bank|depend)\w* on (?:the |our )?(?:gps|gnss|fix|sat|position)",
     ),
     "CreateMapMarker": (
         r"(?:pin|pins|pinned|pinning)\b(?! (?:the|its|your|her) (?:bow|heading|nose))|map\b|maps\b|markers?\b(?! \d)|chart(?:s|ed)?\b|flag(?:s|"

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import itertools
 import re
+from collections.abc import Sequence
 from typing import Any
 
-from planner_ft.data.quantities import positions
+from planner_ft.data.quantities import COMPASS, SHORT, positions
 from planner_ft.data.stated import radio_digits
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.reading import wordings as w
@@ -27,8 +28,8 @@ def read_itinerary(record: dict[str, Any], vocabulary: Vocabulary) -> Path | Non
     """Every waypoint of the answer in order, where the input leaves no choice; None where it does."""
     given = record.get("parameters")
     parameters = given if isinstance(given, dict) else {}
-    text = without_fences(_without_marks(str(record.get("prompt", ""))))
-    if w.UNORDERED.search(text):
+    text = reworded(without_fences(_without_marks(str(record.get("prompt", "")))))
+    if text is None or w.UNORDERED.search(text):
         return None
     parts = [part for part in w.PART.split(text) if part and part.strip()]
     facts = Facts(parameters, _own_place(parameters), g.point(*vocabulary.home), len(parts) == 1, _turned(text))
@@ -46,7 +47,38 @@ def read_itinerary(record: dict[str, Any], vocabulary: Vocabulary) -> Path | Non
         return None
     if any(one == two for one, two in itertools.pairwise(walked)) or g.point(*vocabulary.unresolved) in walked:
         return None
-    return tuple(walked) or None
+    return tuple(walked) if walked and not unsettled(walked, text, facts.home) else None
+
+
+def reworded(text: str) -> str | None:
+    """A text without notes and without a way home that is ruled out, with places for names of places; None where the names cannot be told."""
+    text = w.NOT_HOME.sub(_blanks, w.QUOTED.sub(_blanks, text))
+    text = w.THEN_IN.sub(r"\1 go in", w.TO_BASE.sub("return to base", w.IN_LETTERS.sub(_direction, text)))
+    places = {match["name"]: match["place"] for match in w.NAMED_PLACE.finditer(text)}
+    rest = w.NAMED_PLACE.sub(_blanks, text)
+    said = re.findall(rf"\b[{''.join(places)}]\b", rest) if len(places) > 1 else []
+    if not said:
+        return text
+    lists = [match for match in w.NAME_LIST.finditer(rest) if set(re.findall(r"\b[A-Z]\b", match[0])) == set(places)]
+    if len(lists) != 1 or len(re.findall(r"\b[A-Z]\b", lists[0][0])) != len(said):
+        return None
+    return rest[: lists[0].start()].strip(" ,;.") + " " + re.sub(r"\b[A-Z]\b", lambda name: places[name[0]], lists[0][0]) + rest[lists[0].end() :]
+
+
+def _blanks(match: re.Match[str]) -> str:
+    return " " * len(match[0])
+
+
+def _direction(match: re.Match[str]) -> str:
+    """A length with its direction in words."""
+    return f"{match[1]} {COMPASS[SHORT.index(match[2])]}" if match[2] in SHORT else match[0]
+
+
+def unsettled(walked: Sequence[Point], text: str, home: Point) -> bool:
+    """Whether a place may be visited twice only because the text says where something is done, or the way home is spoken of and not gone."""
+    if home not in walked and w.WAY_HOME.search(text):
+        return True
+    return len(set(walked)) < len(walked) and w.SCOPE_CUE.search(text) is not None and not w.COMING_BACK.search(text)
 
 
 def stays(record: dict[str, Any]) -> bool:
@@ -69,9 +101,15 @@ def _with_details(parts: list[str]) -> list[str]:
     shaped = [index for index, part in enumerate(parts) if _shapes(part)]
     if len(shaped) != 1:
         return parts
-    idle = {index for index, part in enumerate(parts) if index not in shaped and not positions(part) and not w.LEADS.search(w.NO_LEAD.sub(" ", part))}
+    idle = {index for index, part in enumerate(parts) if index not in shaped and not _leads(part)}
     whole = ". ".join(part for index, part in enumerate(parts) if index in idle or index in shaped)
     return [whole if index in shaped else part for index, part in enumerate(parts) if index not in idle]
+
+
+def _leads(part: str) -> bool:
+    """Whether a part of the text may lead somewhere: it has a place that is no centre, or a word for a way."""
+    stated = [part[:start] for _x, _y, start, _end in positions(part)]
+    return any(not w.CENTRE.search(before) for before in stated) or w.LEADS.search(w.NO_LEAD.sub(" ", part)) is not None
 
 
 def _shapes(text: str) -> list[re.Pattern[str]]:
@@ -98,7 +136,7 @@ def _turned(text: str) -> float | None:
 def without_fences(text: str) -> str:
     """A text with blanks for the corners of boundaries: pairs in a row behind a word for one."""
     for row in itertools.chain(w.ROW.finditer(text), w.BOX.finditer(text)):
-        if w.FENCE.search(text[: row.start()]):
+        if w.FENCE.search(text[: row.start()]) or (not w.BOX.fullmatch(row[0]) and w.FENCE_BEHIND.match(text[row.end() :])):
             text = text[: row.start()] + " " * len(row[0]) + text[row.end() :]
     return text
 
@@ -111,7 +149,11 @@ def _own_place(parameters: dict[str, Any]) -> Point | None:
 
 def _part(text: str, facts: Facts, walked: list[Point]) -> list[Point]:
     """The waypoints of one part of the text."""
-    places = [Place(g.point(x, y), start, end) for x, y, start, end in positions(text) if _is_place(text[start:end]) and not w.COUNTS.search(text[:start])]
+    places = [
+        Place(g.point(x, y), start, end)
+        for x, y, start, end in positions(text)
+        if not _angles(text, start, end) and _is_place(text[start:end]) and not w.COUNTS.search(text[:start])
+    ]
     shapes = _shapes(text)
     if any(one.end > two.start for one, two in itertools.pairwise(places)):
         raise Uncertain
@@ -121,6 +163,12 @@ def _part(text: str, facts: Facts, walked: list[Point]) -> list[Point]:
         read = grid_path if shapes == [w.GRID] else square_path
         return read(text, places, facts)
     return _legs(text, places, facts, walked)
+
+
+def _angles(text: str, start: int, end: int) -> bool:
+    """Whether two numbers are headings."""
+    bare = w.BARE_PAIR.fullmatch(text[start:end]) and not w.TO_BEFORE.search(text[:start]) and text[max(0, start - 1) : start] not in ("[", "(", "-", "−", "–")
+    return w.ANGLED.search(text[start : end + 8]) is not None or bool(bare and w.TURNING.search(text))
 
 
 def _is_place(text: str) -> bool:
@@ -135,24 +183,39 @@ def _legs(text: str, places: list[Place], facts: Facts, walked: list[Point]) -> 
     events: list[tuple[int, Point | None, tuple[float, float] | None]] = []
     used: set[int] = set()
     ways = list(stated_ways(text, places))
+    if places and not ways and all(place.point in walked for place in places) and not w.LEADS.search(w.NO_LEAD.sub(" ", w.SCOPE.sub(" ", text))):
+        rest = _blank(text, places)
+        if w.SCOPE_CUE.search(rest):
+            return []
+        if re.search(r"[a-z]{5}", rest):
+            raise Uncertain
     for length, bearing, start, end, of in ways:
         base, at = _base(text, end, places, facts) if of else (None, None)
         used |= {at} if at is not None else set()
         events.append((start, base, (bearing, length)))
     for place in places:
         if place.start not in used:
-            if w.NO_DESTINATION.search(text[: place.start]):
+            before = text[: place.start].rstrip("-−–")
+            if w.NO_DESTINATION.search(before) or w.CENTRE.search(before):
                 raise Uncertain
             events.append((place.start, place.point, None))
     named = [match for match in w.TO_OWN.finditer(text) if not any(start <= match.start() < end for _l, _b, start, end, _o in ways)]
     if any("start" in match[0].lower() and "start" not in facts.parameters for match in named):
+        raise Uncertain
+    if w.OWN_OPENS.match(text) and not named:
         raise Uncertain
     if (walked or places) and not ways and any(match[0].lower() == "go in" for match in named):
         raise Uncertain
     owns = [match.start() for match in named]
     homes = [match.start() for match in w.HOME.finditer(text)]
     events += [(at, facts.own, None) for at in owns] + [(at, facts.home, None) for at in homes]
-    events += _line(text, places, facts, ways)
+    line = _line(text, places, facts, ways)
+    events += line
+    left = [start for _value, start, _end in stated_sizes(text, places) if not line and start not in {way[2] for way in ways}]
+    if left and (events or w.FURTHER.search(text)) and not w.OTHER_LENGTH.search(text):
+        raise Uncertain
+    if w.BACK_ALONE.search(_blank(text, [], w.HOME)):
+        raise Uncertain
     if (not events and w.LEADS.search(w.NO_LEAD.sub(" ", text))) or w.UNREAD.search(_blank(text, places, w.HOME)) or (owns and facts.own is None):
         raise Uncertain
     return _follow(sorted(events, key=lambda event: event[0]), walked)

@@ -20,7 +20,7 @@ EXPLICIT = re.compile(
     rf"|\bx\s*[=:]?\s*(?P<c>{_NUMBER})\s*(?:,|and|/|;)?\s*y\s*[=:]?\s*(?P<d>{_NUMBER})"
     rf"|(?<![\w.])(?P<e>{_NUMBER})\s?(?:m|met(?:re|er)s?)?\s?(?P<f>east|west|north|south)\s*(?:,|and)?\s*(?P<h>{_NUMBER})\s?(?:m|met(?:re|"
     rf"er)s?)?\s?"
-    rf"(?P<i>east|west|north|south)\b(?P<j> (?:of|from) (?:the )?\w+)?",
+    rf"(?P<i>east|west|north|south)\b(?! (?:of|from|off) (?:[\[(]|x\b))(?P<j> (?:of|from) (?:the )?\w+)?",
     re.IGNORECASE,
 )
 """A place that can be taken for nothing else: in brackets, with its axes, or with the directions of both numbers."""
@@ -39,6 +39,9 @@ STOP = _words(
     r"on (?:the|a) circle|evenly)|"
     r"(?:\d+|three|four|five|six|eight|ten|twelve) (?:even\w* |equally |spaced )*(?:way)?points(?!\W*(?:minus |x |\(|\[|-?\d+(?:\.\d+)?,))|"
     r"inspect(?:s|ing)?|(?:evenly|equally) spaced|"
+    r"hops?|stairs?|circle of|way-?points? (?:every|each) (?:\d+ ?(?:deg\w*|°)|quarter)|the way you came|points? in a row|reciprocal|dog[- ]?leg|"
+    r"star (?:on|round|from)|o['’]clock of|"
+    r"turn(?:ing|s)? back|middle of the line|in the middle|negative, (?!\d)|"
     r"(?:two|three|four|\d) (?:\w+ )?(?:passes|rounds)|correction|rather|instead|actually|sorry|i mean|scrap|scratch that|no, |hang on|"
     r"make (?:it|that)|backwards|vice versa|"
     r"between the (?:two|buoys|piles)|if|unless|skip(?:s|ping)?|leave out|leaving out|in the order \w+"
@@ -49,7 +52,10 @@ ORDER = _words(
     r"before)|"
     r"(?<=\w )(?<!the )(?<!in )first(?=[.;]|$|, (?!then|and then))|but (?:call|go|visit|via|not (?:before|until|to)|only after)|twice|"
     r"(?<!home )(?<!steady )(?<!settled )(?<!settle )(?<!centred )(?<!hold )(?<!free )again|repeat\w*|laps?|there and back|out and back(?! not)|"
-    r"and back(?=[.,;]|$)|in both directions|back and forth|either way|(?<!logged )(?<!them )(?<!recording )both ways|last of all|preceded|"
+    r"and back(?=[.,;]|$)|(?<!come )(?<!go )(?<!head )(?<!sail )(?<!run )(?<!brought )back(?=[.,;]|$)|on the way (?:there )?(?:call|stop|visit|take|go)\w*|"
+    r"one first|one last|"
+    r"begins with|clos(?:e|es|ing) (?:the|it|with)|"
+    r"in both directions|back and forth|either way|(?<!logged )(?<!them )(?<!recording )both ways|last of all|preceded|"
     r"in reverse|reversed?|the other way|ends? with|prior|(?:three|four|five|\d+) times|once more|come[s]? before|afterwards? (?:only|you)|"
     r"first of all|preced\w+"
 )
@@ -128,7 +134,7 @@ ARTICLE_WAY = re.compile(
 )
 """What stands before a way as a thing."""
 SUBORDINATE = re.compile(
-    r"\b(?:while|when|whilst|whenever|as|once|after|before|until|till|during|as soon as|where|having|by the time)\b[^.;:,§]{0,60}$", re.IGNORECASE
+    r"\b(?:while|when|whilst|whenever|as|once|after|before|until|till|during|as soon as|where|having|by the time|the moment)\b[^.;:,§]{0,60}$", re.IGNORECASE
 )
 """A place in a clause beside another: "while you go to"."""
 NEGATED = re.compile(
@@ -159,6 +165,8 @@ OWN = re.compile(
     re.IGNORECASE,
 )
 """The task's own place, by its noun."""
+OWN_LEADS = re.compile(r"\b(?:to|from|at|reach) (?:the|its) (?:waypoint|start)\b(?=\s*(?:[.,;:-]|$|(?:and|then|on|along)\b))", re.IGNORECASE)
+"""Words that lead to the task's own place, or on from it."""
 LAST_SEEN = re.compile(
     r"\bwhere (?:it|he|she|they|the target|\w+ \w+) (?:was|were|had been|has been) (?:last )?(?:seen|reported|located|found|"
     r"spotted)(?: last)?",
@@ -169,7 +177,7 @@ HOME = _words(
     r"(?<!\bway )(?<!\bof )(?<!\brelative to )(?<!\bpose to )(?<!\bat )(?<!\bis )(?<!\bfrom )(?<!\bleg )(?<!\bthe one )"
     r"(?<!\bthe run )(?<!\btrip )(?<!\bpart )(?<!\bstretch )(?<!\bpassage )(?<!\bthe drive )(?<!\bleft )(?<!\bways )(?<!\bout and )(?<!\btransit )"
     r"home(?!:)(?! (?:leg|run|stretch|trip|way|is|berth|port))|"
-    r"(?:go|head|sail|come|run|return|get|drive) (?:back )?to (?:the )?base|return(?= (?:[.;,]|in the end|at the end|then))|(?:come|go|head|turn|"
+    r"(?:go|head|sail|come|run|return|get|drive) (?:back )?to (?:the )?base|return(?= (?:[.;,]|in the end|at the end|then))|(?:come|go|head|"
     r"sail|run) back(?=\s*(?:[.,;:]|$|with|while|at \d))|"
     r"return(?=\s*(?:[.,;]|$))"
 )
@@ -262,7 +270,7 @@ QUOTED = re.compile(r"\"[^\"]*\"|(?<!\w)'[^']*'(?!\w)|[“‘][^”’]*[”’]
 """Notes, labels and file tags."""
 NO_OWN = re.compile(
     r"\b(?:keep|hold(?! (?:position )?(?:at|off|on)\b)|centre\w*|point\w*|look\w*|turn\w*|rotat\w+|fac\w+|bow|pose|pixel|error|offset|relative|distance|"
-    r"lock\w*|listen\w*|watch\w*|steady on|stay(?! at))\b[^.;:,]{0,40}$",
+    r"respect|lock\w*|listen\w*|watch\w*|steady on|stay(?! at))\b[^.;:,]{0,40}$",
     re.IGNORECASE,
 )
 """Words before a target that is watched, not gone to."""
@@ -297,7 +305,8 @@ LISTED = re.compile(r"(?:^|[,;:]|\bthen\b|\s[-–—>]+)\s*(?:(?:and|then|next|t
 LISTED_BEHIND = re.compile(r"^\s*(?:[,;.:)–—>-]|and\b|then\b|first\b|last\b|$)", re.IGNORECASE)
 """Behind an item of a list."""
 ANY_TRACK = re.compile(
-    r"\b(?:(?:follow|track|run|trac|do)(?:s|ing|e|king|ning)? (?:along |down )?(?:the|its|your|this|that) (?:[\w'-]+ ){0,2}(?:cable|line|track|"
+    r"\b(?:(?:run|follow|track|do) it (?:as|from|to|once|whole|in|at|along)|(?:follow|track|run|trac|do)(?:s|ing|e|king|ning)? (?:along |"
+    r"down )?(?:the|its|your|this|that) (?:[\w'-]+ ){0,2}(?:cable|line|track|"
     r"pipe\w*)|(?:way|point)s? every|"
     r"(?:face|wall|edge|quay|jetty|pier|breakwater)\b[^.;:§]{0,30} (?:runs|is|lies|goes|stretches|extends)\b[^.;:§]{0,30} from)\b(?! to §)",
     re.IGNORECASE,
@@ -315,6 +324,8 @@ FROM_OPENING = re.compile(r"^\W*(?:and\s+|then\s+)*(?:from|starting (?:at|from)|
 """A clause that opens with "from" or "to"."""
 ROUND = re.compile(r"\b(?:round|around|circling|orbiting|circle|orbit)\s+(?:the \w+ at )?$", re.IGNORECASE)
 """A place that is circled."""
+OFF_PLACE = re.compile(r"\d\s?(?:m|met(?:re|er)s?) off\s+(?:the \w+ at )?$", re.IGNORECASE)
+"""A place that some way is kept off."""
 STOP_SHORT = re.compile(
     rf"§? from the ({_WAY})(?:ern)?(?: side)?,? and (?:then )?(?:stop|hold|halt|stay|stopping)\w*( [^.,;§]{{1,40}}? (?:off|short|away|from it|"
     rf"clear))\b"

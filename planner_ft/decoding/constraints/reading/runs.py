@@ -19,7 +19,7 @@ from planner_ft.data.words import edit_distance, words
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.reading import run_wordings as r
 from planner_ft.decoding.constraints.reading import wordings as w
-from planner_ft.decoding.constraints.reading.itinerary import without_fences
+from planner_ft.decoding.constraints.reading.itinerary import reworded, unsettled, without_fences
 from planner_ft.decoding.constraints.reading.shapes import Place, Point, Uncertain, stated_lengths, stated_sizes
 from planner_ft.decoding.constraints.reading.tracks import read_track
 from planner_ft.vocabulary import Vocabulary
@@ -63,7 +63,10 @@ def read_runs(record: dict[str, Any], vocabulary: Vocabulary) -> Path | None:
         return None
     facts = _Facts(parameters, _own_place(parameters), g.point(*vocabulary.home))
     fenced = w.LIST_MARK.sub(lambda mark: ";" + " " * (len(mark[0]) - 1), radio_digits(r.SPOKEN.sub(_figures, str(record.get("prompt", "")))))
-    text = without_fences(fenced)
+    plain = without_fences(fenced)
+    text = reworded(plain)
+    if text is None:
+        return None
     try:
         track = read_track(text, parameters)
         if track is not None:
@@ -72,7 +75,7 @@ def read_runs(record: dict[str, Any], vocabulary: Vocabulary) -> Path | None:
             r.STOP.search(_unquoted(text))
             or r.ORDER.search(text)
             or _misspelt(text)
-            or _led_to(fenced, text)
+            or _led_to(fenced, plain)
             or (w.ROW.search(text) and r.BOUNDS.search(_clipped(text)))
         ):
             return None
@@ -80,7 +83,9 @@ def read_runs(record: dict[str, Any], vocabulary: Vocabulary) -> Path | None:
     except Uncertain:
         return None
     unresolved = g.point(*vocabulary.unresolved)
-    if any(one == two for one, two in itertools.pairwise(walked)) or (unresolved in walked and facts.own != unresolved):
+    if any(one == two for one, two in itertools.pairwise(walked)) or (unresolved in walked and facts.own != unresolved) or unsettled(walked, text, facts.home):
+        return None
+    if facts.own is not None and facts.own not in walked and r.OWN_LEADS.search(text):
         return None
     return tuple(walked) or None
 
@@ -278,7 +283,7 @@ def _grade(text: str, last: _Event | None, *, explicit: bool, home: bool) -> Gra
     """How certain a place is to be gone to, by the text before it."""
     before = text[last.end :] if last else text
     clause = _clause(text)
-    if r.NEGATED.search(clause):
+    if r.NEGATED.search(clause) or r.OFF_PLACE.search(clause):
         return "mention"
     if last is not None and r.LINK.match(before) and "." not in before and ";" not in before:
         return last.grade
@@ -539,3 +544,8 @@ def _check_rest(events: list[_Event], text: str) -> None:
     rest = r.NO_MOVE.sub(" ", _unquoted(rest))
     if r.MOVE.search(rest):
         raise Uncertain
+    walked = {event.way[1] for event in events if event.way}
+    for value, start, _end in stated_sizes(text, list(_places(text))):
+        said = value in walked or any(event.start <= start < event.end for event in events)
+        if not said and not w.OTHER_LENGTH.search(re.split(r"[.;]\s", text[:start])[-1] + re.split(r"[.;](?:\s|$)", text[start:])[0]):
+            raise Uncertain

@@ -51,7 +51,8 @@ SKILL_WORDS = {
     ),
     "CheckLensClearness": re.compile(rf"\b(?:{_LENS}|lens-?\w*|water drops|spray|dirt|glass)\b"),
     "GetImageQualityMetrics": re.compile(
-        rf"\b(?:{_PICTURE} quality|quality|usab\w+|rat(?:e|ing) the|scor(?:e|ing) the|how good|sharp\w*|video frame|good enough|{_PICTURE} is)\b"
+        rf"\b(?:{_PICTURE} quality|quality|usab\w+|rat(?:e|ing) the|scor(?:e|ing) the|how good|sharp\w*|video frame|good enough|"
+        rf"{_PICTURE}(?: from (?:the )?(?:\w+ )?cam)? (?:is|are))\b"
     ),
     "CalculateVisualOffset": _words(
         r"offsets?|pixel\w*|off[- ]cent(?:re|er)|from the (?:image |picture |frame )?cent(?:re|er)|image cent(?:re|er)|visual error"
@@ -78,15 +79,15 @@ SKILL_WORDS = {
     ),
     "SelectActiveStream": _words(
         r"active|(?<!store the )(?<!record the )stream\w*|feed\w*|switch\w*(?! (?:the )?(?:recording|engine|heading|object|off))|"
-        r"select\w*|activat\w+|view (?:on|over|through)|in use|on screen|on (?:the )?display|channel \w+|the \w+ view|"
-        r"(?:go|change|chang\w+|going) (?:over )?to (?:the )?(?:cam\w*|\w+[_ ]cam\w*)|use cam\w*|view"
+        r"select\w*|activat\w+|(?<!field of )view (?:on|over|through)|in use|on screen|on (?:the )?display|channel \w+|the \w+ view|"
+        r"(?:go|change|chang\w+|going) (?:over )?to (?:the )?(?:cam\w*|\w+[_ ]cam\w*)|use cam\w*|(?<!field of )view"
     ),
     "SetStreamRecording": _words(
         r"(?<!environment )(?<!environmental )record(?:s|ed|ing|ings|er)?\b(?! (?:an? |the |your |any |all )?(?:observation|gps|"
         r"position|depth|water|seabed|environment\w*|horizon|tilt|temperature\w*|thermal|lidar (?:sl|pr|sw)|2d|sector|obstacle|distance|"
         r"wind|weather|conditions|state|current pos|geotagged|q\b|pose|fix))|run cam|cam running|film\w*|footage|video(?! buffer|"
         r" quality| frame)|to disk|shoot\w*|store the (?:stream|data)|run the camera|(?:let|have) (?:the )?[\w-]+(?: [\w-]+)? (?:run|"
-        r"record)|tape\w*|tagged|file tag|runs"
+        r"record)|tape\w*|tagged|file tag|(?<!detector )(?<!tracker )(?<!ocr )(?<!detection )runs"
     ),
     "BufferLoopCapture": _words(
         r"buffer\w*|(?:last|past|recent|latest) (?:[\w.]+ ){1,5}?(?:saved|kept|captured|of video|seconds|minutes|sec|min|s|of footage)|"
@@ -102,7 +103,7 @@ SKILL_WORDS = {
     "LogEnvironmentState": _words(r"environment\w*|env|wind and|weather|conditions|surroundings|sea state"),
     "GetRelativePose": _words(r"poses?|relative (?:to|position)|attitude (?:to|relative)"),
     "VerifyGeotagQuality": _words(
-        r"gps accurac\w+|accurac\w+|accurate|geotag quality|geotag\w*(?: \w+)? (?:quality|accurac\w+)|gps (?:is|quality)|"
+        r"gps (?:accurac\w+|error)|accurac\w+|accurate|geotag quality|geotag\w*(?: \w+)? (?:quality|accurac\w+)|gps (?:is|quality)|"
         r"quality of the (?:gps|geotag)|geotags?"
     ),
     "CreateMapMarker": _words(r"pins?|pinn\w+|markers?|mark(?:ing|ed|s)? (?:the|this|it|on|a|q)|place ?marks?|map\b|mark\b"),
@@ -119,6 +120,11 @@ NEGATED = re.compile(
     r"record|confirm|verify))* ?)$"
 )
 FREE = re.compile(r"\bfree\b|unlocked")
+CHANGED = re.compile(
+    r"\b(?:i|we) (?:said|asked|told|wanted|wrote)\b|\bmake (?:that|it) (?:the|both|all|one|two)\b|\bcorrection\b|\bno, (?:while|on|in|at|during|the|only)\b|"
+    r"\bas (?:at|on|in) (?:the )?(?:@|\d|first|second)|\bnothing of the sort|\b(?:arriving|waiting|leaving),|\bi mean\b|\brather not\b"
+)
+"""Words of texts that take a scope back, give it by what was said of another step, or by single words."""
 LAPSED = re.compile(
     r"^\W{0,2}(?:is |are |\w+ )?(?:not |no longer|needn't|need not|may (?:be )?\w* ?(?:swing|free)|free|off\b|lifted|unlocked|does not|"
     r"do not|isn't|aren't|quiet|no more|stays off|has been|"
@@ -162,12 +168,14 @@ MOVEMENTS: tuple[tuple[str, re.Pattern[str]], ...] = (
         rf"sec|seconds|min|minutes|hours?))\b)|\b(?:cut|kill|stop|shut|switch|power|turn|take)\w* (?:down |off )?(?:the )?(?:engines?|"
         rf"motors?|propulsion|"
         rf"thrusters?|thrust|power)\b(?: and (?:then )?(?:drift\w*|float\w*))?(?: with the current)?|\bengines? (?:off|stopped)|"
-        rf"\b(?:with|ride|rid\w+) the current\b|\bpropulsion off|\bwithout propulsion|\bno propulsion|\bcurrent takes? "
+        rf"\b(?:with|ride|rid\w+) the current\b|\bpropulsion off|\bwithout propulsion|\bno propulsion|\bcurrent takes? |\blet the (?:tide|"
+        rf"current) (?:have|take|carry) (?:her|it|us|you|the boat)\b|\blet (?:her|it|the boat) float\b"
     )),
     (ARC, re.compile(
         rf"\b(?:sweeping|arc|wide) (?:turn|arc|curve)s?(?: (?:to|of) (?:port|starboard|the left|the right))?|{_NO_NOUN}\b(?:(?:sail|make|"
         rf"do|run|follow|drive|describe|turn|take|come round) )?(?:in |through )?(?:an |a )?"
-        r"(?:arc|sweep|curv|bend)(?:s|e|es|ing)?\b(?!s?:| (?:the (?:bottom|view)|to|at \d|as|saved|logged))|\b(?:quarter|half|full|"
+        r"(?:arc|sweep|curv|bend)(?:s|e|es|ing)?\b(?!s?:| (?:the (?:bottom|view)|to|at \d|as|saved|logged))|\b(?:swing|turn|come round)(?:s|"
+        r"ing)? [^.;@,]{0,40}?\b(?:on|with|at) (?:a )?(?:radius|\d[\d.]* ?(?:m|metres?|meters?)\b)|\b(?:quarter|half|full|"
         r"one) (?:a )?circle\b|\bswing wide\b"
     )),
     (FACE, re.compile(
@@ -194,7 +202,8 @@ MOVEMENTS: tuple[tuple[str, re.Pattern[str]], ...] = (
         rf"it there|tight|the spot|"
         rf"the position|this position|for {_TIME}|{_TIME}|off the)|\b(?:do|make) a [\w .-]{{0,30}}(?:hold|stop|station keep)|\bloiter|"
         rf"\bstand by\b|\bstation[- ]keep\b|^\W*hold\W*$|"
-        rf"(?:^\W*|, |(?<!ing )\band )hold(?=\W*$|[,;.])|\b(?:a|an|one) (?:(?!and )[\w.-]+ ){{0,3}}(?:hold|stop)\b|\bstay put\b|\bon the spot for\b"
+        rf"(?:^\W*|, |(?<!ing )\band )hold(?=\W*$|[,;.])|\b(?:a|an|one) (?:(?!and )[\w.-]+ ){{0,3}}(?:hold|stop)\b|\bstay put\b|\bon the spot for\b|"
+        rf"{_TIME} (?:on (?:the spot|station)|holding)\b(?: again)?|\b(?:sit|sitting) tight\b(?: for)?|\b(?:lie|stay) there\b"
     )),
     (GOTO, re.compile(
         r"(?:\b(?:go|going|driv\w+|head\w*|run\w*|steer\w*|proceed\w*|transit\w*|sail\w*|steam\w*|motor\w*|cruis\w+|mov\w+|travel\w*|"
@@ -211,7 +220,8 @@ MOVEMENTS: tuple[tuple[str, re.Pattern[str]], ...] = (
         r"(?:on |over |to |back |in |out |straight |directly |for )*(?:the |its )(?:\w+ )?(?:target|goal|start\w*|centre|center|berth|"
         r"dock|position|point|middle|cable|\w+ point|\w+ position)\b|"
         r"(?:^\W*|, |\band |\bthere )to the (?:\w+ )?(?:target|goal|start\w*|centre|center|berth|dock|\w+ point|\w+ position)\b|"
-        r"\b(?:run|move|go|drive|sail|follow)\b[^.;,]{0,25}?\b\d+ ?(?:m|metres?|meters?)\b|"
+        r"\b(?:run|move|go|drive|sail|follow)\b(?! (?:an? |the )?(?:gps|ocr|lens|image|detector|tracker|object|position|geotag|quality|sonar))[^.;,]{0,25}?"
+        r"\b\d+ ?(?:m|metres?|meters?|km|kilomet\w+)\b|"
         r"\b(?:run|cover|mow|drive|survey|sweep|follow|track(?= the cable)|inspect|work|make)(?:s|e|ing)?\b[^.;,]{0,40}?\b(?:grid|"
         r"lawn-?mower|squares?|lanes?|area|transect|cable|track|line|target|pass|waypoints|points|sides)\b|"
         r"\bwhere (?:it|the target) was\b|^\W*(?:the )?(?:start|goal|target|(?:start|goal|target) (?:point|position))\W*$"
@@ -260,7 +270,7 @@ RUN_ON = re.compile(
     r"\bfollow(?:ing)? (?:a |the )?(?:cable|course|heading|\d)|\d ?(?:m|metres?|meters?) (?:on|along|due)\b|"
     r"\bfollow\w*\b[^.;]{0,40}?\d+ ?(?:m|metres?)\b|@,? (?:and |then |and then )?@|\bvia @|\b(?:run|go|drive|sail|"
     r"move)\w*\b[^.;,@]{0,20}?\d+ ?(?:m|metres?|meters?|km)\b|(?:from|between) @[^.;]{0,20}?\b(?:to|and)\b @|@ (?:to|and) @|"
-    r"degrees?[^.;]{0,25}?(?:,|and|then)(?: then| and)? (?:by )?[\w-]+ degrees?|°[^.;]{0,20}?(?:,|and|then)[^.;]{0,12}?\d+ ?°"
+    r"\band back (?=by |\d)|degrees?[^.;]{0,25}?(?:,|and|then)(?: then| and)? (?:by )?[\w-]+ degrees?|°[^.;]{0,20}?(?:,|and|then)[^.;]{0,12}?\d+ ?°"
 )
 
 # ---------------------------------------------------------------- scopes
@@ -310,6 +320,7 @@ NOUNS: dict[str, tuple[frozenset[str], frozenset[str]]] = {
 MOVEMENT_KINDS = tuple(re.compile(pattern) for pattern in NOUNS)
 _NOUN = "(?:" + "|".join(NOUNS) + ")"
 _GENERIC = "(?:" + next(iter(NOUNS)) + ")"
+_KIND_NOUN = "(?:" + "|".join(pattern for pattern, (sure, maybe) in NOUNS.items() if sure or maybe) + ")"
 ORD = "(?:" + "|".join(ORDINAL) + ")"
 _ORDS = rf"{ORD}(?:(?:, (?:the )?{ORD})*,? (?:and|or) (?:(?:in|on|for|during) )?(?:the )?{ORD}(?! (?:is|goes|runs|has)\b))?"
 _CARDS = r"(?:one|two|three|four|five|six|seven|eight|[1-9])"
@@ -323,9 +334,35 @@ _END = (
 )
 SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
     ("except", re.compile(
-        rf"\b(?:{_PREP} )?(?:all|every(?:thing|where)?|each|any|whichever)(?: of)?(?: the| them| these)?(?: \w+)?(?: {_NOUN})? ?(?:but|"
+        rf"\b(?:{_PREP} )?(?:all|every(?:thing|where)?|each|any|whichever)(?: of)?(?: the| them| these)?(?: \w+)??(?: (?P<before>{_NOUN}))? ?(?:but|"
         rf"except|bar|save|apart from|is not)(?: for)?(?: {_PREP})? "
         rf"(?:the |this )?(?P<ords>{_ORDS})(?: (?P<noun>{_NOUN}))?\b"
+    )),
+    ("but", re.compile(
+        rf"\b(?:only |just )?(?:{_PREP} )?(?:every(?:where|thing|time)?|all(?: the (?:time|while|way))?|throughout|always|anywhere) ?(?:but|except|bar|"
+        rf"save|apart from)(?: for)?(?: {_PREP})?(?: the| its)? (?:(?P<noun>{_KIND_NOUN})\b(?! (?:of|to|that|between|back|from|it|out|home|up|in|on)\b)|"
+        rf"(?:while |when )?(?:(?P<drift>adrift|drifting|floating|afloat)|(?P<face>turning|rotating|swinging)|(?P<hold>holding|on station|stopped)|"
+        rf"(?P<goto>under way|driving|moving|sailing|running))\b)"
+    )),
+    ("to", re.compile(
+        r"\b(?:all|every\w*|each|any|whichever)\b(?: (?!and\b|then\b)[\w-]+){0,4}? (?:but|exc\w{2,4}t|bar|save|apart from)\b[^.;,]{0,40}|"
+        r"\bthe \w+ that is not the \w+"
+    )),
+    ("range", re.compile(
+        rf"\b(?:only |just )?(?:(?P<since>from|starting (?:with|at|on)|(?:begin|start)s? (?:with|on|at)) the (?P<ord1>{ORD} )?(?P<noun1>{_NOUN})\b"
+        rf"(?: (?:on(?:wards?)?(?! the)|to the (?:very )?end)\b)?|"
+        rf"(?P<through>(?:until|till|up to|to|before) (?:the end of|the close of)|up to and including|ends? with|stops? with|"
+        rf"through to) the (?P<ord2>{ORD} )?"
+        rf"(?P<noun2>{_NOUN})\b|(?:until|till|before) the (?P<ord3>{ORD} )?(?P<noun3>{_NOUN}) is (?:over|done|finished)\b|"
+        rf"(?P<behind>after|from the end of|once|as soon as|when) the (?P<ord4>{ORD} )?(?P<noun4>{_NOUN})(?: is (?:over|done|finished|through|"
+        rf"behind (?:you|us)))?\b"
+        rf"(?! (?:is|are|to|of|from|back|home|begins|starts)\b))"
+    )),
+    ("middle", re.compile(rf"\b(?:only |just )?{_PREP} the middle (?P<noun>{_NOUN})\b")),
+    ("return", re.compile(
+        r"\b(?:only |just )?(?:(?:on|during|for|in) (?:the|its|your) (?:way (?:back|home)|(?:leg|run|trip|drive|way) home|"
+        r"(?:return|homeward) (?:leg|run|trip)|"
+        r"homeward (?:leg|run|trip))|homeward bound|inbound)(?= only\b| alone\b|\W*$|[,.;:]| and (?:that|nothing|no)\b)"
     )),
     ("numbered", re.compile(
         rf"\b(?:{_PREP} )?(?P<noun>steps?|parts?|stages?|legs?|lines?) (?P<cards>{_CARDLIST})\b(?! ?(?:m|metres?|meters?|degrees?|°|s|min\w*|"
@@ -351,7 +388,7 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
         rf"\b(?:{_PREP} )?(?:throughout )?(?:both|all|every|each|either|each and every)(?: (?:single|of))?(?: the| them| these| those|"
         rf" its)?(?: (?:two|three|four|five|six|seven|eight|nine|ten|\d+))?(?: of)?"
         rf"(?: (?:them|these))?(?: (?!case|time|way|other|second|third|stay|with|on|at|in|to|for|of|"
-        rf"by)[\w-]+)?? (?P<noun>{_NOUN})\b(?! (?:in which|where|when|that|which))"
+        rf"by)[\w-]+)?? (?P<noun>{_NOUN})\b(?! (?:in which|where|when|that|which|but|bar|save|not the))"
     )),
     ("everywhere", re.compile(
         r"\b(?:throughout(?! the)|throughout the (?:whole|task|mission|plan|run)|(?:for |during |at )?(?:the (?:whole|entire|"
@@ -368,7 +405,7 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
         r"(?P<visual>(?:keeping )?(?:it |the \w+ )?(?:is )?(?:centred|in (?:the )?(?:picture|frame)))|(?P<drift>drift\w*|adrift|"
         r"float\w*|afloat|(?:the )?engines? (?:are )?off)|"
         r"(?P<face>turn\w*|rotat\w+|com(?:e|es|ing) round|swing\w*)|(?P<nudge>pann?(?:ing|s)?|nudg\w+)|(?P<arc>arc\w*|sweeping|curving|"
-        r"round(?:ing)? the bend)|(?P<wait>wait\w*(?: for stability)?|settl\w+))\b"
+        r"round(?:ing)? the bend)|(?P<still>l(?:ie|ies|ying) (?:still|there)|sit(?:s|ting)? (?:still|tight))|(?P<wait>wait\w*(?: for stability)?|settl\w+))\b"
         r"(?! (?:within|inside|clear|away|no|\d[\w.]*|to|for|the|on|out|at|in|by|through|an?|round|into|in a|back|up|off|and \w+ing|"
         r"recording|over|straight|directly|past|along|down|between)\b)(?! ?@)|\b(?P<goto2>under way|on the move|on the way(?! (?:in|out|back|"
         r"to|home|there|from|between|up)\b))\b|\b(?P<drift2>adrift)\b(?! for)"
@@ -383,7 +420,7 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
     ("way", re.compile(
         r"\b(?:only |just )?(?:on|during|for|in) (?:the|its|your) (?:way|run|leg|transit|approach|drive|trip|crossing|stretch|return|"
         r"homeward \w+|outward \w+|\w+ward leg)"
-        r" (?:to|of|from|back|home|out|in|there)\b(?: (?:the [\w-]+|[\w-]+))?(?: @)?"
+        r" (?:to|of|from|back|home|out|in|there)\b(?: (?:the [\w-]+|(?!and\b|or\b)[\w-]+))?(?: @)?"
     )),
     ("place", re.compile(rf"\b(?:in|on|during|for) the (?!same|whole)[\w-]+ {_NOUN}\b")),
     ("to", re.compile(
@@ -393,9 +430,10 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
     ("to", re.compile(
         r"\b(?:on|during|for|in) the (?:hold|turn|nudge|pan|stretch|leg|part|rest|remainder) (?:to|of|from|back|home|out|between|in|"
         r"after|before)\b(?: @| the [\w-]+| \w+)?|"
-        r"\b(?:until|till|up to|as far as|(?:from|until|up to|to) (?:there|then|that|here|the (?:first|second|third|moment|turn|wait|"
+        r"\b(?:as soon as|begins?\b|ends\b|until|till|up to|as far as|(?:from|until|up to|to) (?:there|then|that|here|the (?:first|second|"
+        r"third|moment|turn|wait|"
         r"hold|settling|change|\w+ on))|after|before|between|past|beyond|once|homewards?|"
-        r"outwards?|onwards?|there|thereafter|later|earlier|where|wherever|whenever|at (?:the |its )?(?:very |far )?(?:start|end|finish|"
+        r"outwards?|onwards?|there|thereafter|later|earlier|where|wherever|whenever|on it\b|at (?:the |its )?(?:very |far )?(?:start|end|finish|"
         r"corners?|mid-?sides?|stops?|beginning)|at @|"
         r"(?:while|when) \w+ing and \w+ing|every (?:other|second|third)|alternate|(?:while|when|as) (?:it|she|you|the [\w-]+|we) (?:is |"
         r"are )?\w+|in [1-9]\b|(?:goes|go) with|belongs? to|(?:first|second|third|last|1st|2nd|3rd|each|both) times?|corners|"
@@ -409,6 +447,7 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
 GERUNDS = {
     "goto": (GOTO, (ARC,)),
     "hold": (HOLD, (VISUAL,)),
+    "still": (HOLD, (VISUAL,)),
     "visual": (VISUAL, ()),
     "drift": (DRIFT, ()),
     "face": (FACE, (NUDGE, ARC)),
@@ -419,7 +458,7 @@ GERUNDS = {
     "drift2": (DRIFT, ()),
 }
 NOT_BEFORE = re.compile(
-    r"\b(?:except|save|bar|apart from|other than)(?: for)?\W{0,2}$|"
+    r"\b(?:except|save|bar|apart from|other than|e\w{3,}e but)(?: for)?\W{0,2}$|"
     r"\b(?:not|never|nor|none|neither|no|nothing|without)(?: (?:[\w-]+|on the \w+)){0,2}\W{0,2}$"
 )
 JOINT = re.compile(

@@ -7,8 +7,8 @@ stand next to it; a skill in the clause of a movement runs in that movement. Wha
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from planner_ft.data.quantities import positions
 from planner_ft.decoding.constraints.reading import scope_words as w
@@ -28,6 +28,8 @@ class Part:
     """Whether steps can be counted: False where one movement of the text may be several of them."""
     script: tuple[str, ...] = ()
     """The navigation skills of the text's movements, where `which` counts these: it holds while the plan goes by them."""
+    others: bool = False
+    """What holds for movements of other kinds: "in all but the last hold" is in these as well."""
     by_movement: bool = False
     """Whether `which` counts the movements of the text, that may be of several steps each."""
 
@@ -44,7 +46,7 @@ class Part:
         if skill in self.maybe:
             return None
         if skill not in self.sure:
-            return False
+            return self.others
         if self.which is None:
             return True
         kinds = self.sure | self.maybe
@@ -91,6 +93,9 @@ class Scope:
 
 
 EVERYWHERE = Part()
+_RETURN = dict(w.SCOPES)["return"]
+_TOLD = ("range", "but", "middle", "return")
+"""Scopes that only the movements of the text tell."""
 
 
 @dataclass(frozen=True)
@@ -103,6 +108,8 @@ class Mark:
     value: str
     part: Part | None = None
     negated: bool = False
+    said: Mapping[str, str | None] = field(default_factory=dict)
+    """The words of a scope that is told by the movements of the text."""
 
 
 @dataclass(frozen=True)
@@ -147,6 +154,8 @@ class Reading:
 def read_scopes(text: str, vocabulary: Vocabulary) -> dict[str, Scope]:
     """The skills of a task input of which it is plain where they run; empty where nothing is."""
     plain = _plain(text)
+    if w.CHANGED.search(plain):
+        return {}
     names = [skill.name for role in ("filter", "perception") for skill in vocabulary.skills_in_role(role) if skill.name in w.SKILL_WORDS]
     counted = _counted(plain)
     clauses = _clauses(plain, names, counted)
@@ -173,7 +182,7 @@ def _reading(plain: str, clauses: Sequence[Clause], counted: bool) -> Reading:
         moves=moves,
         counted=counted,
         ordered=not w.UNORDERED.search(plain),
-        whole=len(w.HOME.findall(plain)) < 2
+        whole=len(w.HOME.findall(_RETURN.sub(" ", plain))) < 2
         and all(clause.marks or clause.head or w.IDLE.match(clause.text) for clause in clauses)
         and all(clause.text.count("@") <= len(clause.marks) for clause in clauses),
         scoped=bool(scopes or w.SCOPED.search(plain)) or any(clause.head for clause in clauses),
@@ -246,7 +255,7 @@ def _marks(text: str, names: Sequence[str], counted: bool) -> list[Mark]:
     scopes = list(
         _free(
             (
-                Mark(match.start(), match.end(), "scope", kind, _part(kind, match, counted), _negated(text, match))
+                Mark(match.start(), match.end(), "scope", kind, _part(kind, match, counted), _negated(text, match), match.groupdict() | {"whole": match[0]})
                 for kind, pattern in w.SCOPES
                 for match in pattern.finditer(text)
             ),
@@ -285,7 +294,7 @@ def _negated(text: str, match: re.Match[str]) -> bool:
 
 def _part(kind: str, match: re.Match[str], counted: bool) -> Part | None:
     """The steps that a scope means; None where it is not read."""
-    if kind in ("to", "place"):
+    if kind in ("to", "place", *_TOLD):
         return None
     if kind == "bare":
         return EVERYWHERE
@@ -304,6 +313,11 @@ def _part(kind: str, match: re.Match[str], counted: bool) -> Part | None:
     part = Part(sure, maybe, counted=counted)
     if kind == "kind" and not part.sure and not part.maybe:
         return None
+    if kind == "except" and groups.get("before"):
+        sure, maybe = _kind(groups["before"] or "")
+        part = replace(part, sure=sure, maybe=maybe)
+    elif kind == "except" and part.sure | part.maybe:
+        part = replace(part, others=True)
     if kind == "several":
         return replace(part, which=frozenset(range(w.COUNTS[groups["count"]]))) if groups["side"] == "first" else None
     if groups.get("cards"):
@@ -357,6 +371,8 @@ def _movement(index: int, reading: Reading) -> Part | None:
 def _settled(mark: Mark, before: int, clause: Clause, reading: Reading) -> Part | None:
     """The steps of a scope, with what the movements of the text say of it; `before`: how many of them stand before the clause."""
     part, word = mark.part, clause.text[mark.start : mark.end].strip()
+    if mark.value in _TOLD or (mark.value == "several" and part is None):
+        return None if w.GOES_ON.match(clause.text[mark.end :]) else _told(mark, reading, clause)
     if w.GOES_ON.match(clause.text[mark.end :]):
         return None
     if mark.value == "that" and len(clause.of("move")) > 1:
@@ -375,6 +391,69 @@ def _settled(mark: Mark, before: int, clause: Clause, reading: Reading) -> Part 
     if w.BARE.search(word) and reading.kinds:
         return None
     return replace(part, counted=part.counted and bool(reading.script), script=reading.script, by_movement=True)
+
+
+def _told(mark: Mark, reading: Reading, clause: Clause) -> Part | None:
+    """The steps of a scope that only the movements of the text tell: "from the second leg on", "everywhere but on the bend"."""
+    script, said = reading.script, mark.said
+    if not script or clause.of("move"):
+        return None
+    count = len(script)
+    found: Iterable[int] = ()
+    if mark.value == "range":
+        number = next(number for number in "1234" if said.get(f"noun{number}"))
+        place = _place(script, said.get(f"ord{number}"), said[f"noun{number}"] or "")
+        if place is None:
+            return None
+        found = range(place, count) if number == "1" else range(place + 1, count) if number == "4" else range(place + 1)
+    elif mark.value == "but":
+        barred = _barred(script, said)
+        found = [index for index in range(count) if index not in barred] if barred else ()
+    elif mark.value == "return":
+        found = [count - 1] if script[-1] == w.GOTO and reading.homewards and (w.HOME.search(mark.said["whole"] or "") or script.count(w.GOTO) == 2) else ()
+    else:
+        found = _row(script, mark, said)
+    which = frozenset(found)
+    return Part(which=which, script=script) if which else None
+
+
+def _place(script: Sequence[str], order: str | None, noun: str) -> int | None:
+    """Which movement is "the turn" or "the second hold"."""
+    kinds = frozenset[str]().union(*_kind(noun))
+    places = [index for index, name in enumerate(script) if not kinds or name in kinds]
+    if any(script[index] not in _kind(noun)[0] for index in places) and len({script[index] for index in places}) > 1 and kinds:
+        return None
+    if order is None:
+        return places[0] if len(places) == 1 else None
+    number = w.ORDINAL[order.strip()]
+    return places[number] if -len(places) <= number < len(places) else None
+
+
+def _barred(script: Sequence[str], said: Mapping[str, str | None]) -> list[int]:
+    """The movements that a scope leaves out."""
+    noun = said.get("noun")
+    gerund = next((name for name in ("drift", "face", "hold", "goto") if said.get(name)), "")
+    sure, maybe = _kind(noun) if noun else (frozenset({w.GERUNDS[gerund][0]}), frozenset(w.GERUNDS[gerund][1]))
+    barred = [index for index, name in enumerate(script) if name in sure | maybe]
+    if len({script[index] for index in barred}) > 1 or (noun and len(barred) > 1 and not noun.endswith("s")):
+        return []
+    return barred
+
+
+def _row(script: Sequence[str], mark: Mark, said: Mapping[str, str | None]) -> Iterable[int]:
+    """The outer, inner, middle or last ones of movements of one kind."""
+    kinds = frozenset[str]().union(*_kind(said.get("noun") or "step"))
+    places = [index for index, name in enumerate(script) if not kinds or name in kinds]
+    if len({script[index] for index in places}) > 1:
+        return ()
+    if mark.value == "middle":
+        return places[len(places) // 2 :][:1] if len(places) % 2 and len(places) > 1 else ()
+    many = w.COUNTS[said["count"] or ""]
+    if said["side"] == "outer":
+        return (places[0], places[-1]) if many == 2 and len(places) > 2 else ()
+    if said["side"] == "inner":
+        return places[1:-1] if len(places) == many + 2 else ()
+    return places[-many:] if said["side"] in ("last", "final") and len(places) > many else ()
 
 
 def _pointed_at(part: Part | None, index: int, reading: Reading) -> Part | None:

@@ -40,6 +40,7 @@ _PLAIN_COMPASS = re.compile(
     re.IGNORECASE,
 )
 _LETTERS = compiled(r"(?<=[ ,/(-])(?:[NESW]|[NS][EW]|[NS][NS][EW]|[EW][NS][EW])(?=[ ,.;:/)-]|$)")
+_TIMES_SIGN = compiled(r"(?<=\d)\s?[x×]\s?(?=\d+(?:\.\d+)?\s?(?:°|deg))")
 _CELSIUS = compiled(r"^\s*(?:celsius|centigrade|c\b|°\s?c)")
 _SIDED = (
     r"(?:side|edge|face|wall|corner|end|bank|quay|pier|wind|swell|current|sea|half|part|point of|mole|breakwater|basin|berth|jetty|dock|slope|"
@@ -55,6 +56,7 @@ def plain(text: str, parameters: dict[str, Any]) -> str:
     text = w.LIST_MARK.sub(lambda mark: ";" + " " * (len(mark[0]) - 1), radio_digits(text))
     text = _PLACE.sub(" \x01 ", _ID.sub("ident", _ORDINAL.sub("nth", _IN_ORDER.sub("in order", _QUOTED.sub("quote", text)))))
     text = _ONE.sub(lambda match: f"{match[1]} it", text)
+    text = _TIMES_SIGN.sub(" times ", text)
     text = re.sub(r"\b[Tt]wice\b", "2 times", re.sub(r"\b[Tt]hrice\b", "3 times", text))
     text = _LETTERS.sub(lambda match: COMPASS[SHORT.index(match[0])] if _is_direction(text[: match.start()]) else match[0], text)
     pieces, at = [], 0

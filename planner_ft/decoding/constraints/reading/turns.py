@@ -299,7 +299,7 @@ def _read(text: str, *, orbits: bool) -> list[Found]:
                 raise _Uncertain
             start = max(text.rfind(mark, 0, token.start()) for mark in (". ", "; ")) + 1
             found = [*_listed(found, angle), _turn_to(angle, text[start : token.start()], text[taken : token.start()])]
-        elif angle.bare and 0 < abs(angle.value) <= 12 and not (found and _SEPARATOR.match(angle.since)):
+        elif angle.bare and 0 < abs(angle.value) <= 12 and not _SIDE_BEHIND.match(angle.behind) and not (found and _SEPARATOR.match(angle.since)):
             continue
         else:
             raise _Uncertain
@@ -460,7 +460,7 @@ _TAKEN_BACK = f.compiled(
     r"\b(?:sorry|i mean|i meant|correction|rather|instead|actually|make (?:that|it)|scratch|cancel|forget|strike|disregard|skip|leave out|drop the|"
     r"no longer|if|unless|either|"
     r"or rather|wrong|changed? my mind|undo|vice versa|other way|opposite|reverse\w*|backwards|any (?:heading|bearing|direction)|alternat\w+|"
-    r"mirror\w*)\b|\bno, |\?|"
+    r"reciprocal|back (?:to )?where|way-?points? (?:every|each)|mirror\w*)\b|\bno, |\?|"
     r"\b(?:not|n't|never|no|without|nor|don't|neither) (?:(?!during|in|on|while|when|for|at|until|after|before|of)[a-z]+ ){0,2}?"
     r"(?:turn|rotat|pan\b|panning|nudg|yaw|swing|pivot|fac(?:e|ing)|spin)\w*|\b(?:not|n't) (?:to )?[DNC]-?\d"
 )
@@ -500,6 +500,8 @@ _BACKWARDS = f.compiled(
     r"finish(?:es)? (?:with|on)|comes? (?:first|last)|at the start|in the end|"
     r"preced\w+|in between|in that order reversed|last comes|order)\b(?<!in that order)(?<!in this order)(?<!in order)"
 )
+_BEFORE_OPENS = f.compiled(r"[.;] ?(?:but )?(?:before|until|prior to)\b")
+"""A sentence that begins with what comes later."""
 _FIRST_BEHIND = f.compiled(r"\b(?:first|beforehand|first of all)(?=[.;]| ?$)")
 
 
@@ -508,6 +510,8 @@ def _orderly(text: str, found: list[Found]) -> bool:
     if len(found) < 2:
         return True
     if _BACKWARDS.search(text):
+        return False
+    if any(any(one.start < match.start() for one in found) for match in _BEFORE_OPENS.finditer(text)):
         return False
     for sentence in re.finditer(r"[^.;]+", text):
         inside = [one for one in found if sentence.start() <= one.start < sentence.end()]

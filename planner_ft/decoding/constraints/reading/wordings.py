@@ -5,8 +5,12 @@ from __future__ import annotations
 import re
 
 MOST_LANES = 32
-_BEARINGS = {"north": 0, "northeast": 45, "east": 90, "southeast": 135, "south": 180, "southwest": 225, "west": 270, "northwest": 315}
-_WAY = r"(?:north[ -]?(?:east|west)|south[ -]?(?:east|west)|north|south|east|west)(?:ern|wards?)?"
+_BEARINGS: dict[str, float] = {"north": 0, "northeast": 45, "east": 90, "southeast": 135, "south": 180, "southwest": 225, "west": 270, "northwest": 315}
+_BEARINGS |= {"northnortheast": 22.5, "eastnortheast": 67.5, "eastsoutheast": 112.5, "southsoutheast": 157.5}
+_BEARINGS |= {"southsouthwest": 202.5, "westsouthwest": 247.5, "westnorthwest": 292.5, "northnorthwest": 337.5}
+_WAY = (
+    r"(?:(?:north|south|east|west)[ -](?:north|south)[ -]?(?:east|west)|north[ -]?(?:east|west)|south[ -]?(?:east|west)|north|south|east|west)(?:ern|wards?)?"
+)
 _NUMBER = r"[-−–]?\d+(?:\.\d+)?"
 _PAIR = rf"[\[(]\s*{_NUMBER}\s*,\s*{_NUMBER}\s*[\])]"
 
@@ -28,8 +32,12 @@ PART = re.compile(
     re.IGNORECASE,
 )
 UNORDERED = _words(
-    r"before|but|first(?=[.,;]?$)|twice|times|again|repeat\w*|laps?|half ?way|after (?!that|this|which)|between (?!(?:the )?(?:lanes?|"
+    r"before|but|first(?=[.,;]?$)|twice|times|again|repeat\w*|laps?|half ?way|after(?! (?:that|this|which))|between(?! (?:the )?(?:lanes?|"
     r"lines?|tracks?))|(?:start|finish) (?:and|to)|vice|"
+    r"(?:begins|starts) with|ends? with|one last|on the way (?:there )?(?:call|stop|visit|take|go)\w*|(?:last|final) one first|(?:first|last) half of the \d+|"
+    r"middle of the line|the way you came|"
+    r"reciprocal|hops?|dog[- ]?leg|stairs?|circle of|way-?points? (?:every|each) (?!\d+(?:\.\d+)? ?m)|points? in a row|clos(?:e|es|ing) (?:the|it|"
+    r"with)|reverse|o['’]clock of|"
     r"correction|rather|instead|actually|sorry|no, |i mean|not (?:go|at|to)|two (?:grids|squares)|both (?:\d|"
     r"the)|go there|start point|from the (?:given |planned )?start|set course|start position"
 )
@@ -47,8 +55,56 @@ CLAUSE = re.compile(r"[.;,:]")
 ROW = re.compile(rf"[\[(]?{_PAIR}(?:\s*(?:,|;|and|,\s*and|to)?\s*{_PAIR}){{2,}}[\])]?")
 BOX = re.compile(rf"{_PAIR}\s*to\s*{_PAIR}")
 FENCE = re.compile(
-    r"\b(?:\w*fence\w*|fecne|bound\w*|box|polygon|rectangle|limit\w*|inside|outside|within|zone|corners|perimeter|region|leav\w+)\b[^.;]{0,60}$", re.IGNORECASE
+    r"\b(?:\w*fence\w*|fecne|bound\w*|box|polygon|rectangle|limit\w*|inside|outside|within|zone|corners|perimeter|region|leav\w+|"
+    r"stray\w*)\b[^.;]{0,60}$",
+    re.IGNORECASE,
 )
+FENCE_BEHIND = re.compile(
+    r"^[\])]?\s*(?:[-–—,:]|is|are|as|mark\w*)?\s*(?:(?:these|the|those|as|is|are|which|that|of|corners?|points?) ){0,6}(?:\w*fence\w*|bound\w*|"
+    r"limits?|edges?)\b",
+    re.IGNORECASE,
+)
+"""A boundary that is named behind its corners."""
+IN_LETTERS = re.compile(r"(?<=\d)(\s?(?:m|met(?:re|er)s?)) ([NSEW]{1,3})\b(?=\s*(?:of\b|[.,;]|and\b|then\b|from\b|$))")
+"""A direction in letters behind a length: "70 m SW of"."""
+NOT_HOME = re.compile(
+    r"\b(?:no|not|never|don['’]t|do not|without|no need (?:to|for)|rather than|instead of) (?:go(?:ing)?|com(?:e|ing)|return(?:ing)?|head(?:ing)?|run|"
+    r"sail(?:ing)?)"
+    r" (?:back )?(?:home|to base)\b",
+    re.IGNORECASE,
+)
+"""The way home, ruled out."""
+SCOPE = re.compile(r"\b(?:until|till|once|when|as soon as|from the moment|by the time|while)(?: [\w'’]+){1,5}|\bonly on [^.;]{1,80}", re.IGNORECASE)
+"""A clause about when something is done."""
+SCOPE_CUE = _words(r"between|until|till|as far as|up to|beyond|only|from the moment|no further|legs?|ways?|runs?|stretch|homewards?|throughout|to the end|on")
+"""Words about where something is done."""
+COMING_BACK = _words(r"back|return\w*|again|same|clos\w*|home|start\w*|patrol\w*|there and|to and fro|circuit|round trip|once more|revisit\w*")
+OTHER_LENGTH = _words(
+    r"radius|arcs?|bends?|curv\w+|turn\w*|orbit\w*|circl\w*|sweep\w*|swing\w*|round|drift\w*|deep|depth|tall|high|error|visib\w+|rang\w+|bridge|"
+    r"fov|sector|precision|good to|better than|worse than|below|under|over|above|exceed\w*|limit\w*|threshold|safety|gap|every|each|apart|between|"
+    r"vessel|wave|waves|swell|current|tide|room|spare|everything|"
+    r"anything|nothing|tolerance|no closer|watch circle|(?:off|from|of) (?:all|any|other|the other)"
+)
+"""What a length is said of that is no way."""
+_NAMED_PLACE = rf"\b(?P<name>[A-Z])\s?(?:=|:|is(?: at)?)\s*(?P<place>{_PAIR})"
+NAMED_PLACE = re.compile(_NAMED_PLACE)
+NAME_LIST = re.compile(r"\b[A-Z]\b(?:(?:\s*(?:,|;|->|→|–|-)|\s+(?:then|and|to)\b)*\s*\b[A-Z]\b)+")
+CENTRE = re.compile(r"\b(?:cent(?:re|er)|middle|mid-?point)(?: of (?:the|its) \w+)?\s*(?:is|at|of|on|in)?\s*[:=]?\s*[\[(]?$", re.IGNORECASE)
+"""Before the centre of a shape."""
+BACK_ALONE = re.compile(r"(?<!brought )(?<!read )(?<!report )\bback(?=\s*(?:[,.;:]|$|and\b|then\b|along\b|the way\b))", re.IGNORECASE)
+"""Back to where one came from, wherever that is."""
+WAY_HOME = re.compile(r"\b(?:(?:way|leg|run|passage|trip|stretch|transit) (?:back )?home|homewards?|home leg|way back)\b", re.IGNORECASE)
+"""The way home as a thing."""
+TO_BASE = re.compile(r"\bRTB\b")
+FURTHER = _words(r"further|farther|another|more|east|west|north|south|hops?|first half")
+"""Words that a length is a way with."""
+TURNING = _words(r"headings?|bearings?|degrees?|turn\w*|look\w*|fac(?:e|ing)|bow|rotat\w+|swing\w*")
+BARE_PAIR = re.compile(r"\d+(?:\.\d+)?\s*(?:,|and|,\s*and)?\s*\d+(?:\.\d+)?")
+TO_BEFORE = re.compile(r"(?<!bow )(?<!turn )(?<!look )(?<!face )\b(?:to|at|for|via|from|of|reach|point|position|waypoint|via)\s*$", re.IGNORECASE)
+THEN_IN = re.compile(r"\b(then|and) (?:straight )?in(?=\s*(?:[.,;]|$))", re.IGNORECASE)
+"""Into the berth, without a verb."""
+QUOTED = re.compile(r"\"[^\"]*\"|(?<!\w)'[^']*'(?!\w)|[“‘][^”’]*[”’]")
+"""Notes, labels and file tags."""
 
 # Shapes
 GRID = _words(r"grid|lawn-?mow\w*|mow(?:ing)? the (?:lawn|planned area|given area|area)|boustrophedon|back-and-forth|lanes|(?:east-west|north-south) lines")
@@ -90,10 +146,14 @@ SIDE = re.compile(
 CLOCKWISE = re.compile(r"\b(?:(counter|anti)[- ]?)?clock-?wise\b", re.IGNORECASE)
 
 # Sizes
+ANGLED = re.compile(r"^[^\[(]*(?:\d\s?°|(?:\b|\d)deg)", re.IGNORECASE)
+"""Two numbers that are angles."""
 FAR = re.compile(r"kilom|km\b|mile", re.IGNORECASE)
 """Units in which a place is not read."""
 SIZE = re.compile(
-    r"^\d+ and \d+$|^[a-z]+(?:[- ][a-z]+)? and [a-z]+(?:[- ][a-z]+)?$|\bby\b|;|\d\s?k?m\b|met(?:re|er)s?\b|\bmin|\bsec|\d\s?s\b|hour", re.IGNORECASE
+    r"\d\s?(?:ft|feet|yd|yards?)\b|^\d+ and \d+$|^[a-z]+(?:[- ][a-z]+)? and [a-z]+(?:[- ][a-z]+)?$|\bby\b|;|\d\s?k?m\b|met(?:re|er)s?\b|\bmin|\bsec|"
+    r"\d\s?s\b|hour",
+    re.IGNORECASE,
 )
 MARGIN = _words(
     r"keep\w*|stay\w*|from (?:the (?!north|south|east|west|start)|it|any|every|all|obst)|clear\w*|margin|distance|"
@@ -115,10 +175,10 @@ IS_SPACING_BEFORE = re.compile(
 OWN_SIZE = _words(r"given|planned|task'?s?|stated|its|standard|usual|the (?:survey|inspection) square")
 
 # Ways and destinations
-WAY_BEHIND = re.compile(rf"^\s?(?:(?:straight|directly|due|to|the)\s+)*({_WAY})\b(\s+of\b\s*)?", re.IGNORECASE)
+WAY_BEHIND = re.compile(rf"^\s?(?:(?:straight|directly|due|to|the|further|farther)\s+)*({_WAY})\b(\s+of\b\s*)?", re.IGNORECASE)
 NO_DESTINATION = re.compile(
     r"\b(?:(?:stay|remain|keep|hold)\w* \w+|(?:lies|is|are|stands|sits) (?:at|on)|way to|after|before|until|past|when at|round|around|about|"
-    r"of|circle|orbit|centred on|centered on|from)\s*(?:the point |the position |\w+ at )?[\[(]?$",
+    r"of|circle|orbit|centred on|centered on|from|\d\s?(?:m|met(?:re|er)s?) off)\s*(?:the point |the position |\w+ at )?[\[(]?$",
     re.IGNORECASE,
 )
 _OWN = r"(?:the |its )?(?:(?:task'?s?|given|planned|stated|target|goal|start(?:ing)?|last known) )*"
@@ -126,9 +186,11 @@ _OWN_NOUN = r"(?:target|goal|cent(?:re|er)|start|position|point|berth|location|d
 OWN = re.compile(rf"^{_OWN}{_OWN_NOUN}\b", re.IGNORECASE)
 TO_OWN = re.compile(
     rf"\bgo in\b|(?<!way )\b(?:to|at|for|reach|via) {_OWN}{_OWN_NOUN}\b(?! of the (?:task|side|edge|frame|picture)|"
-    rf" (?:\d|[a-z-]+ (?:m|metres?|meters?|feet)\b))(?!s)",
+    rf" (?:\d|[a-z-]+ (?:m|metres?|meters?|feet)\b)| to (?:follow|be|track|watch))(?!s)",
     re.IGNORECASE,
 )
+OWN_OPENS = re.compile(rf"^\W*{_OWN}{_OWN_NOUN}\b\s*(?:[,;.]|$)", re.IGNORECASE)
+"""The task's own place as an item of a list."""
 HOME = _words(r"(?:go|head|return|come|back|sail|drive|steam|run|transit|proceed)\w* (?:back )?(?:home|to base|to home)|back home")
 LINE = _words(r"on (?:a )?(?:heading|course)|run\w*|sail\w*|follow\w*|go|going|drive|track\w*|line|course|distance of|set distance|straight|pass|steam")
 NO_LINE = _words(r"arc|orbit|circle|pan|sweep|nudge|rotat\w+|drift\w*|hold|turn(?:ing)?|round")
@@ -163,7 +225,8 @@ GOES = _words(
 NO_LEAD = _words(
     r"(?:on|during|for|in) (?:the |each |every |both |all |either )?(?:[\w-]+ )?(?:legs?|runs?|pass|passes|"
     r"lanes?|way)\b|back[- ]and[- ]forth|go(?:ing|es)? (?:(?:counter|anti)[- ]?)?clock-?wise|go(?:ing|es)? round|"
-    r"round|run(?:ning)? (?:the|a|over|along|your|this|that|image|ocr|gps|quality|\w+ion|object|lanes?|north|"
+    r"(?:nearest|closest|strongest|first|laser|lidar) returns?|round|run(?:ning)? (?:the|a|over|along|your|this|that|image|ocr|gps|quality|\w+ion|"
+    r"object|lanes?|north|"
     r"east|x|y)\b|"
     r"lanes running|on every leg|at (?:each|every) waypoint|at all waypoints|waypoint|carry on|drive (?:the|a)|do the|the detector running|work(?:ing)? along|"
     r"(?:eight|8)[- ]waypoint|(?:all )?eight waypoints|the way|under way|while moving|when moving|moving|put(?:ting)? |bring the lens|in place|take the"

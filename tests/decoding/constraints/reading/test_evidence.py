@@ -118,3 +118,80 @@ def test_sampled_inputs_lose_no_skill() -> None:
         assert required(record["prompt"], VOCABULARY) <= expected, record["prompt"]
         sizes, wanted = sizes + len(spoken or expected), wanted + len(expected)
     assert sizes < 1.5 * wanted
+
+
+@pytest.mark.parametrize(
+    ("text", "skill"),
+    [
+        ("Hold a minute and find out at what angle we lie to the pontoon.", "GetRelativePose"),
+        ("How are we placed against the slipway?", "GetRelativePose"),
+        ("I want to know skiff-4 again from frame to frame.", "TrackObjects"),
+        ("Do not mix the two swimmers up.", "TrackObjects"),
+        ("Track the cable drum all along.", "TrackObjects"),
+        ("Say if kayaks are anywhere in view.", "DetectObjects"),
+        ("Turn north and see whether there are seals about.", "DetectObjects"),
+        ("Dump the last 10 s of the buffer.", "BufferLoopCapture"),
+        ("Does the hull lean against the skyline?", "GetHorizonAngle"),
+        ("Is the boat sitting straight?", "GetHorizonAngle"),
+        ("Tell me where on the map we are.", "GetGPSLocation"),
+        ("By how much can the fix be wrong?", "VerifyGeotagQuality"),
+        ("The room in front within 40 degrees, please.", "DistanceToObstacle"),
+        ("What is nearest towards 200?", "GetSectorDistance"),
+        ("Does the plate bow out?", "CheckPlanarity"),
+        ("Does the mast camera need wiping?", "CheckLensClearness"),
+        ("Is the video any use to us, or mush?", "GetImageQualityMetrics"),
+        ("Infrared values of the winch.", "GetThermalStats"),
+        ("Hold for 40 s, head not moving.", "LockHeading"),
+        ("Dephts on all legs.", "GetSeabedDepth"),
+    ],
+)
+def test_indirect_ways_of_asking(text: str, skill: str) -> None:
+    assert skill in (spoken_of(text, VOCABULARY) or ())
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Check that the fix is within one metre.",
+        "Turn until the error is within the threshold.",
+        "Temperatures of the black box for a minute.",
+        "Cover a rectangle 60 m wide about (5, 5) in lanes.",
+        "Box search by its corners: (0, 0), (0, 9), (9, 9), (9, 0).",
+        "Visit [1, 2], [3, 4], [5, 6] and [7, 8] and come home.",
+        "Go to the far corner at [20, 30].",
+        "The text in the lower left quadrant, homeward bound.",
+    ],
+)
+def test_no_fence_without_a_word_of_one(text: str) -> None:
+    assert "BoundaryEnforcement" not in (spoken_of(text, VOCABULARY) or ())
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Stay inside the rectangle (0, 0), (0, 9), (9, 9), (9, 0).",
+        "The corners [0, 0], [0, 9], [9, 9] must not be crossed.",
+        "Keep in the box.",
+        "These points bound the water that you may use: [1, 2], [3, 4], [5, 6].",
+    ],
+)
+def test_fences(text: str) -> None:
+    assert "BoundaryEnforcement" in (spoken_of(text, VOCABULARY) or ())
+
+
+@pytest.mark.parametrize(
+    ("text", "skill"),
+    [
+        ("Go to (4, 4). Tell me if there is any wreck on the sonar, nothing else.", "DetectSonarFeature"),
+        ("How deep it is on all but the first leg, please.", "GetSeabedDepth"),
+        ("Hold 40 s with persistent tracking of ferry-2.", "TrackObjects"),
+        ("Turn to 90 with the text in the upper half read, not in the hold.", "OCRScanning"),
+        ("Let nothing come closer than 6 m.", "ObstacleAvoidance"),
+    ],
+)
+def test_plain_requests_are_required(text: str, skill: str) -> None:
+    assert skill in required(text, VOCABULARY)
+
+
+def test_what_others_do_is_not_required() -> None:
+    assert not required("They are taking soundings close by. Hold for a minute.", VOCABULARY)

@@ -10,6 +10,7 @@ import pytest
 from planner_ft.data.task import geometry as g
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.decoding.constraints.reading.itinerary import moves_otherwise, read_itinerary
+from planner_ft.decoding.constraints.waypoints import read_ground
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()
@@ -98,3 +99,45 @@ def waypoints(sample: dict[str, Any]) -> tuple[g.Point, ...]:
 def test_a_locked_heading_is_no_movement_and_a_hold_is_one() -> None:
     assert not moves_otherwise("Run the grid with the heading locked throughout.")
     assert moves_otherwise("Run the grid and hold for ten seconds at its end.")
+
+
+@pytest.mark.parametrize(
+    ("prompt", "path"),
+    [
+        ("Sail to (40, 50) and on to (60, 70). Film from the moment you arrive at (40, 50) to the end.", [(40, 50), (60, 70)]),
+        ("[3, 4], [50, 60] and [7, 80], one after the other. Listen only on the leg to [50, 60].", [(3, 4), (50, 60), (7, 80)]),
+        ("R = (10, 20), S = (30, 40), T = (50, 60). T, R, S.", [(50, 60), (10, 20), (30, 40)]),
+        ("Go to [20, 30]. No going home afterwards.", [(20, 30)]),
+        ("Stop 30 m north of the goal position, then in.", [(90, 130), (90, 100)]),
+        ("Go to (10, 20); next 40 m further east; then another 30 m to the north.", [(10, 20), (50, 20), (50, 50)]),
+        ("Go to 20 m SW of (100, 100), then RTB.", [g.offset((100, 100), 225, 20), (0, 0)]),
+        ("Start at (0, 50) and go 100 m due north-north-east.", [(0, 50), g.offset((0, 50), 22.5, 100)]),
+    ],
+)
+def test_scopes_names_and_relative_legs_are_told_from_places_to_visit(prompt: str, path: list[g.Point]) -> None:
+    record = {"task": "DockingApproach", "prompt": prompt, "parameters": {"goal_position": [90, 100]}}
+    assert read_ground(record, VOCABULARY).itinerary == tuple(path)
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "End at [70, 4]; on the way call at (25, 50) and [8, 30].",
+        "From (20, 5) walk east in three hops of 12 m.",
+        "A waypoint every 60 degrees round (-30, 40), 15 m away from it, clockwise from north.",
+        "Out 60 m north from (4, 6), back, then out 60 m east, back.",
+        "Of the points (3, 4), (50, 60) and (9, 9) the last one first and the first one last.",
+        "R = (10, 20), S = (30, 40), T = (50, 60). Film at S.",
+        "Take pictures at (3, 4) and (50, 60), none on the way home.",
+        "Four headings: 20 degrees, 40, 200, 310 degrees.",
+        "Turn 40 degrees to port, wait a minute, turn back.",
+        "Start at (50, 60), course 120, 40 m; then the reciprocal course for as long.",
+    ],
+)
+def test_ways_that_are_not_derived_are_not_read(prompt: str) -> None:
+    assert read_ground({"task": "Transit", "prompt": prompt, "parameters": {"target_position": [500, 600]}}, VOCABULARY).itinerary is None
+
+
+def test_corners_named_before_their_boundary_are_no_places_to_visit() -> None:
+    prompt = "[[70, -80], [70, -10], [120, -10]] - these are the corners of the fence. Go to [90, -40]. Don't stray out of [1, 2], [3, 4], [5, 60]."
+    assert itinerary("Transit", prompt, target_position=[90, -40]) == ((90, -40),)

@@ -112,3 +112,8 @@ def test_what_is_read_of_sampled_inputs_is_expected() -> None:
             right += found is not None and found == tuple(_expected(record))
     assert read >= 25
     assert right >= 0.97 * read
+
+
+def test_two_ways_off_one_place_are_one_and_a_measured_point_is_no_place() -> None:
+    assert runs("Transit", "Go to the point 60 m south and 30 m west of (100, 50).", target_position=[1, 2]) == ((70, -10),)
+    assert runs("FollowTarget", "Keep the picture on it and work out how we lie with respect to target 4.", target_position=[1, 2]) is None

@@ -97,3 +97,33 @@ def test_sampled_prompts_are_read_as_they_are_labelled() -> None:
             wrong += sum(verdict != runs for verdict, runs in said)
     assert right > 500
     assert right / (right + wrong) > 0.985
+
+
+@pytest.mark.parametrize(
+    ("prompt", "skill", "navigation", "steps"),
+    [
+        ("Hold 20 s, then turn to 90, then hold 40 s. Depth everywhere but while turning.", "GetSeabedDepth", [HOLD, FACE, HOLD], {0, 2}),
+        ("Hold 20 s, then turn to 90, then hold 40 s. Depth everywhere but in the turn.", "GetSeabedDepth", [HOLD, FACE, HOLD], {0, 2}),
+        ("Hold 20 s, then turn to 90, then hold 40 s. Bow locked in all but the last hold.", "LockHeading", [HOLD, FACE, HOLD], {0, 1}),
+        ("Hold 20 s, then turn to 90, then hold 40 s. Bow locked in every hold but the last.", "LockHeading", [HOLD, FACE, HOLD], {0}),
+        ("Go to (9, 6), then to (9, -6), then to (3, 3). Depth from the second leg on.", "GetSeabedDepth", [GO, GO, GO], {1, 2}),
+        ("Go to (9, 6), then to (9, -6), then to (3, 3). Depth until the end of the second leg.", "GetSeabedDepth", [GO, GO, GO], {0, 1}),
+        ("Turn to 0. Turn to 90. Turn to 180. Stills with position at the outer two.", "CaptureGeoSnapshot", [FACE, FACE, FACE], {0, 2}),
+        ("Turn to 0. Turn to 90. Turn to 180. Stills with position at the middle heading.", "CaptureGeoSnapshot", [FACE, FACE, FACE], {1}),
+        ("Go to (9, 6), then go home. Depth on the way home only.", "GetSeabedDepth", [GO, GO], {1}),
+    ],
+)
+def test_scopes_told_by_the_movements(prompt: str, skill: str, navigation: list[str], steps: set[int]) -> None:
+    assert verdicts(read_scopes(prompt, VOCABULARY)[skill], navigation) == [index in steps for index in range(len(navigation))]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "skill"),
+    [
+        ("Go to (9, 6), then to (9, -6). I said depth on the first leg; make that the second.", "GetSeabedDepth"),
+        ("Go to (9, 6), then to (9, -6). Depth on every leg except the one home.", "GetSeabedDepth"),
+    ],
+)
+def test_scopes_taken_back_or_pointed_at_are_not_read(prompt: str, skill: str) -> None:
+    scope = read_scopes(prompt, VOCABULARY).get(skill)
+    assert scope is None or not any(verdict is not None for verdict in verdicts(scope, [GO, GO]))

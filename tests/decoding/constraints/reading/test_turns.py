@@ -121,3 +121,21 @@ def test_sampled_labels_are_met() -> None:
             right += len(found) == len(wanted) and all(one[0] == two[0] and abs(one[1] - two[1]) < 0.01 for one, two in zip(found, wanted, strict=True))
     assert read > 120
     assert right >= read - 1
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "Bow to the west, a minute, then the reciprocal.",
+        "After you reach [4, 50]: nudge 10 degrees to port. Before you set out: face 200 degrees.",
+        "Eight left, a pause, then 30 degrees to starboard.",
+        "Pan 40 degrees to port, then back to where the bow was.",
+        "A waypoint every 90 degrees round [5, 6], 20 m off, clockwise from north.",
+    ],
+)
+def test_turns_told_backwards_or_by_another_are_not_read(prompt: str) -> None:
+    assert turns(prompt) is None
+
+
+def test_a_count_can_be_written_with_a_times_sign() -> None:
+    assert turns("4 x 30 deg to port, a still after each.") == nudges(-30, -30, -30, -30)
