@@ -14,7 +14,7 @@ from planner_ft.candidates.loading import load_model, load_tokenizer, resolve_de
 from planner_ft.candidates.registry import Quantization
 from planner_ft.decoding.configurations import Configuration, Strength
 from planner_ft.decoding.constraints import ConstraintFactory
-from planner_ft.decoding.constraints.factory import constraint_factory
+from planner_ft.decoding.constraints.factory import Factory, constraint_factory
 from planner_ft.decoding.direct import read_directly
 from planner_ft.decoding.drafting import Likeness, PhraseBook
 from planner_ft.decoding.generate import Generation, Method, Query, generate_unordered
@@ -50,7 +50,7 @@ class Engine:
     `lean` holds the lean forms of a small model (see `lean`) by adapter, None for the base; where it is empty, `model`
     decodes, a model of transformers. `width` is the size of the logits. `adapters` are the levels that have one,
     `threads` the CPU threads that it decodes with; None leaves torch's number. At strength grounded a mission plan that lacks
-    something of its command gets a `second_look`.
+    something of its command gets a `second_look`, and a skill sequence that leaves out a skill which is asked for is written again.
     """
 
     model: Any
@@ -63,7 +63,7 @@ class Engine:
     threads: int | None = None
     speed: Speed = field(default_factory=Speed)
     second_look: bool = True
-    factories: dict[tuple[Level, Strength], ConstraintFactory | None] = field(default_factory=dict)
+    factories: dict[tuple[Level, Strength], Factory | None] = field(default_factory=dict)
     books: dict[Level, PhraseBook] = field(default_factory=dict)
 
     @classmethod
@@ -131,7 +131,12 @@ class Engine:
         """How the answers of a configuration are generated."""
         constraint, drafting = self._factory(level, configuration.strength), self.speed.drafting
         look = self._second_look if self.second_look and level == "mission" and configuration.strength == "grounded" else None
-        return Method(constraint, self.speed.fast_forward, drafting, self._likeness, self._book(level) if drafting else None, sampling, look)
+        mend = functools.partial(self._mending, constraint) if self.second_look and constraint is not None else None
+        return Method(constraint, self.speed.fast_forward, drafting, self._likeness, self._book(level) if drafting else None, sampling, look, mend)
+
+    def _mending(self, factory: Factory, record: dict[str, Any], ids: Sequence[int]) -> ConstraintFactory | None:
+        """What an answer is to be written again with, if it is."""
+        return factory.mending(record, self._decoded(ids[:-1]))
 
     def text(self, answer: Generation) -> str:
         """The raw text of an answer, without the token that ended it; other special tokens stay visible."""
@@ -166,7 +171,7 @@ class Engine:
             with contextlib.nullcontext() if adapter or not self.adapters else self.model.disable_adapter():
                 yield ModelDecoder(self.model, self.limits[level].pad_id)
 
-    def _factory(self, level: Level, strength: Strength) -> ConstraintFactory | None:
+    def _factory(self, level: Level, strength: Strength) -> Factory | None:
         if (level, strength) not in self.factories:
             limits = self.limits[level]
             self.factories[level, strength] = constraint_factory(

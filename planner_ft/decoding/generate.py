@@ -8,7 +8,7 @@ every answer is handed over the moment that it is complete.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -68,7 +68,8 @@ class Method:
 
     Without `sampling` the most probable token is taken, and `second_look` decides which answers are weighed against others.
     `constraint` is enforced, and with `fast_forward` the tokens that it forces are fed together. With `drafting` likely tokens are
-    verified in one pass, from the prompt, the answer so far and `book` (see `drafting`).
+    verified in one pass, from the prompt, the answer so far and `book` (see `drafting`). `mend(record, ids)` gives what an answer that leaves
+    out something is written again with, or None.
     """
 
     constraint: ConstraintFactory | None = None
@@ -78,6 +79,7 @@ class Method:
     book: PhraseBook | None = None
     sampling: Sampling | None = None
     second_look: SecondLook | None = None
+    mend: Callable[[dict[str, Any], Sequence[int]], ConstraintFactory | None] | None = None
 
     def row(self, query: Query, limits: Limits, longest: int, begun: Sequence[int] = ()) -> Row:
         """The beginning of an answer, its first tokens `begun`. Raises PlannerError when the constraint needs more room than `longest` tokens."""
@@ -117,7 +119,8 @@ def generate_unordered(
                 yield index, Generation((), "error", 0.0, str(error))
         try:
             for index, answer in _generate_batch(decoder, dict(rows), began):
-                yield index, _look_again(decoder, queries[index], limits, method, rows[index], answer)
+                looked = _look_again(decoder, queries[index], limits, method, rows[index], answer)
+                yield index, _mended(decoder, queries[index], limits, method, looked)
         except torch.OutOfMemoryError as error:
             raise PlannerError(
                 f"the device has too little memory for --batch-size {batch_size}; give a smaller one (what is done is kept for --resume)"
@@ -151,6 +154,21 @@ def _look_again(decoder: Decoder, query: Query, limits: Limits, method: Method, 
     seconds = answer.seconds + time.perf_counter() - began
     answer = _generation(rows[chosen][0], seconds, answer.first_token_s or 0.0) if chosen else answer
     return replace(answer, seconds=seconds, forward_passes=passes, alternatives=len(rows) - 1)
+
+
+def _mended(decoder: Decoder, query: Query, limits: Limits, method: Method, answer: Generation) -> Generation:
+    """The answer, or one that was written again because it left something out; with the cost of both."""
+    if method.mend is None or method.sampling is not None or answer.finish_reason != "stop":
+        return answer
+    constraint = method.mend(query.record, answer.ids)
+    if constraint is None:
+        return answer
+    row = _begin(decoder, query, limits, replace(method, constraint=constraint))
+    ((_index, again),) = _generate_batch(decoder, {0: row}, time.perf_counter())
+    if again.finish_reason != "stop":
+        return answer
+    passes, seconds = answer.forward_passes + again.forward_passes, answer.seconds + again.seconds
+    return replace(again, seconds=seconds, forward_passes=passes, first_token_s=answer.first_token_s, alternatives=1)
 
 
 @torch.inference_mode()

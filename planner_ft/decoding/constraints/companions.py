@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -12,6 +13,7 @@ from planner_ft.decoding.constraints.reading.evidence import required, spoken_of
 from planner_ft.decoding.constraints.reading.movements import spoken_movements
 from planner_ft.decoding.constraints.reading.scopes import Scope, read_scopes
 from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import STEP_KEYS
 
 
 @dataclass(frozen=True)
@@ -19,13 +21,14 @@ class Companions:
     """What an input says of the skills beside its movements.
 
     `spoken` are those that it speaks of, `movements` the navigation skills likewise (None: that cannot be told); `asked` are those that it asks for
-    beyond doubt, movements among them, `scopes` the steps in which some run.
+    beyond doubt, movements among them, `scopes` the steps in which some run. Those `insisted` on run in every step that does not rule them out.
     """
 
     spoken: frozenset[str] | None = None
     asked: frozenset[str] = frozenset()
     movements: frozenset[str] | None = None
     scopes: Mapping[str, Scope] = field(default_factory=dict)
+    insisted: frozenset[str] = frozenset()
 
     def runs(self, skill: str, movement: str, earlier: Sequence[str]) -> bool | None:
         """Whether a skill must run (True) or must not (False) beside a movement, behind those `earlier`; None where the model decides."""
@@ -33,6 +36,8 @@ class Companions:
             return False
         scope = self.scopes.get(skill)
         verdict = scope.allows(len(earlier), movement, None, earlier) if scope else None
+        if skill in self.insisted and verdict is None:
+            return True
         return None if verdict and skill not in self.asked else verdict
 
 
@@ -44,3 +49,14 @@ def read_companions(record: dict[str, Any], vocabulary: Vocabulary) -> Companion
         return Companions()
     scopes = {name: scope for name, scope in read_scopes(text, vocabulary).items() if name in spoken}
     return Companions(spoken, required(text, vocabulary) | asked_movements(text, vocabulary), spoken_movements(text, vocabulary), scopes)
+
+
+def to_insist_on(record: dict[str, Any], answer: str, vocabulary: Vocabulary) -> frozenset[str]:
+    """Filter and perception skills that the prompt of a task input asks for beyond doubt, if an answer in JSON has one of them in no step."""
+    try:
+        steps = json.loads(answer)["skill_sequence"]
+    except ValueError:
+        return frozenset()
+    written = {skill["name"] for step in steps for key in STEP_KEYS[1:3] for skill in step[key]}
+    asked = frozenset(name for name in read_companions(record, vocabulary).asked if vocabulary.skill[name].role != "navigation")
+    return asked if steps and asked - written else frozenset()

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from planner_ft.data.lexicon import known_words
 from planner_ft.decoding.configurations import Strength
-from planner_ft.decoding.constraints import Constraint, ConstraintFactory
+from planner_ft.decoding.constraints import Constraint
 from planner_ft.decoding.constraints.answer import Answer, Script, Whole
 from planner_ft.decoding.constraints.budget import Budget
-from planner_ft.decoding.constraints.companions import read_companions
+from planner_ft.decoding.constraints.companions import read_companions, to_insist_on
 from planner_ft.decoding.constraints.grammar import SchemaValues, plan_grammar
 from planner_ft.decoding.constraints.grounded import GroundedValues
 from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, GroundedTaskValues
@@ -28,7 +28,7 @@ from planner_ft.vocabulary.plans import Level
 
 def constraint_factory(
     tokenizer: Any, level: Level, vocabulary: Vocabulary, strength: Strength, *, end_ids: tuple[int, ...], limit: int, n_vocab: int | None = None
-) -> ConstraintFactory | None:
+) -> Factory | None:
     """What answers are constrained with; None at strength free.
 
     `end_ids` are the tokens that may end an answer, `limit` the tokens that it may have, `n_vocab` the width of the
@@ -44,13 +44,17 @@ def constraint_factory(
 
 @dataclass(frozen=True, eq=False)
 class Factory:
-    """Starts constraints of one strength, over one tokenizer, for one level and vocabulary."""
+    """Starts constraints of one strength, over one tokenizer, for one level and vocabulary.
+
+    At strength grounded and the task level, the filter and perception skills `insisted` on run in every step that does not rule them out.
+    """
 
     tokens: Tokens
     level: Level
     vocabulary: Vocabulary
     strength: Strength
     limit: int
+    insisted: frozenset[str] = frozenset()
 
     def __post_init__(self) -> None:
         """Compile what does not depend on the record."""
@@ -80,11 +84,18 @@ class Factory:
         turns = read_turns(record, self.vocabulary) if len(prompt) <= LONGEST else None
         # Where the readings contradict each other, neither is certain.
         turns = None if turns and ground.waypoints_alone else turns
-        companions = read_companions(record, self.vocabulary)
+        companions = replace(read_companions(record, self.vocabulary), insisted=self.insisted)
         # Where waypoints cannot be told, any may be meant.
         held = ResolvedValues(FreeWaypoints(values), self.vocabulary) if ground.free else values
         script = TaskScript(self.vocabulary, held, ground, prompt, turns, companions)
         return Answer(self.tokens, script, limit, self._reserve, values.notes)
+
+    def mending(self, record: dict[str, Any], answer: str) -> Factory | None:
+        """What an answer is to be written again with, because it leaves out what its input asks for beyond doubt; None where it need not be."""
+        if self.strength != "grounded" or self.level != "task" or self.insisted or names_unresolved(record, self.vocabulary):
+            return None
+        insisted = to_insist_on(record, answer, self.vocabulary)
+        return replace(self, insisted=insisted) if insisted else None
 
     def check(self, limit: int) -> None:
         """Raise PlannerError for a limit within which an answer cannot be guaranteed to end."""

@@ -33,6 +33,8 @@ TIMES = re.compile(
 )
 """What stands behind a number that says how often."""
 UNBOUNDED = 64
+MOST_ALIKE = 4
+"""Uses of a skill in one step: models that have lost the thread name one part of the text after the other."""
 ROTATING = ("turn_to", "turn_by")
 TURNING = (*ROTATING, "arc")
 _POINT = re.compile(r"\b(?:north|south|east|west)(?:[ -]?(?:north|south|east|west)){0,2}(?:ern|wards?|erly)?\b|\b[NSEW]{1,3}\b", re.IGNORECASE)
@@ -90,7 +92,7 @@ class UnlikeValues(Narrowed):
 def repeatable(skill: Skill, used: Iterable[Mapping[str, Any]]) -> bool:
     """Whether a skill that was used in a step can stand in it again: each use had a parameter that another use can have otherwise."""
     uses = list(used)
-    return not uses or (bool(skill.parameters) and all(uses))
+    return not uses or (bool(skill.parameters) and all(uses) and len(uses) < MOST_ALIKE)
 
 
 def spent(skill: Skill, steps: Sequence[Step], text: str) -> list[Mapping[str, Any]]:

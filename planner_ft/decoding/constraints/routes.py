@@ -170,6 +170,9 @@ class TaskScript:
         """The names that may follow."""
         skills = self._owed(self.steps[-1][0]) if self.owes and self.role == "navigation" else self.vocabulary.skills_in_role(self.role)
         offered = [skill for skill in skills if self._offers(skill)]
+        said = {skill for skill, _parameters in self.beside}
+        # What is insisted on comes first: a model that left it out would put it off.
+        offered = [skill for skill in offered if skill.name in self.companions.insisted and skill not in said] or offered
         # An answer never stands without a way on.
         return Grammar().text(" | ".join(literal(patterns.quoted(skill.name)) for skill in offered or skills))
 

@@ -9,7 +9,7 @@ import pytest
 from planner_ft.candidates import resolve_candidate
 from planner_ft.candidates.loading import load_tokenizer
 from planner_ft.data.task.steps import plan_step
-from planner_ft.decoding.constraints.companions import Companions, read_companions
+from planner_ft.decoding.constraints.companions import Companions, read_companions, to_insist_on
 from planner_ft.prompts.text import completion_text
 from planner_ft.vocabulary import load_vocabulary
 
@@ -55,6 +55,26 @@ def test_rotations_that_leave_no_choice_are_run_in_their_order_and_no_others(tok
     assert admitted(tokenizer, record, *turns)
     assert not admitted(tokenizer, record, turns[0], turns[2], turns[1]) and not admitted(tokenizer, record, *turns[:2])
     assert not admitted(tokenizer, record, *turns, ("RotateToHeading", {"heading": 270}, [], []))
+
+
+FIXES: dict[str, Any] = {"task": "Transit", "parameters": {"target_position": [20, 50]}, "prompt": "Go to (20, 0), then to (20, 50). Take a GPS fix."}
+
+
+def test_an_answer_that_leaves_out_what_is_asked_for_is_written_again_with_it(tokenizer: Any) -> None:
+    factory = make_factory(tokenizer, "task", VOCABULARY, "grounded")
+    movements = [("GoToXY", {"x": 20, "y": 0}), ("GoToXY", {"x": 20, "y": 50})]
+    answers = {}
+    for count in range(3):
+        skills = [[{"name": "GetGPSLocation", "parameters": {}}]] * count + [[]] * (2 - count)
+        steps = [plan_step(name, values, [], beside, VOCABULARY) for (name, values), beside in zip(movements, skills, strict=True)]
+        answers[count] = completion_text("task", {"skill_sequence": steps}, VOCABULARY)
+    assert [factory.mending(FIXES, answers[count]) is not None for count in range(3)] == [True, False, False]
+    again = factory.mending(FIXES, answers[0])
+    assert again is not None and again.mending(FIXES, answers[0]) is None
+    ids = {count: tokenizer.encode(answer, add_special_tokens=False) for count, answer in answers.items()}
+    assert [again.start(FIXES, 2000).admits(ids[count]) == len(ids[count]) for count in range(3)] == [False, False, True]
+    assert all(make_factory(tokenizer, "task", VOCABULARY, strength).mending(FIXES, answers[0]) is None for strength in ("schema", "state"))
+    assert to_insist_on(FIXES, '{"skill_sequence":[', VOCABULARY) == frozenset()
 
 
 def test_an_input_that_cannot_be_read_leaves_every_choice() -> None:
