@@ -116,18 +116,22 @@ def earlier_stages(init: Path | None) -> list[dict[str, Any]]:
     return [*record.pop("earlier_stages", []), record]
 
 
-def export(work: Path, folder: Path, tokenizer: Any, model: Any, settings: PretrainSettings, stages: list[dict[str, Any]]) -> None:
-    """Write the newest checkpoint as a bf16 model folder."""
+def export(model: Any, tokenizer: Any, settings: PretrainSettings, arguments: argparse.Namespace) -> None:
+    """Write the newest checkpoint as a bf16 model folder, averaged with the weights of `--init` where `--init-share` asks for it."""
     import torch
 
-    saved = torch.load(work / "checkpoint.pt", weights_only=True)
-    model.load_state_dict(saved["model"])
-    model.to(torch.bfloat16).save_pretrained(folder)
-    tokenizer.save_pretrained(folder)
-    write_json(
-        folder / "pretraining.json",
-        {"state": saved["state"], "settings": dataclasses.asdict(settings), "corpus": corpus_summary(work), "earlier_stages": stages},
-    )
+    saved = torch.load(arguments.work / "checkpoint.pt", weights_only=True)
+    weights, share = saved["model"], arguments.init_share
+    if share:
+        if not arguments.init:
+            raise SystemExit("--init-share needs --init: the model folder whose weights are averaged with the checkpoint's.")
+        initialise(model, arguments.init)
+        weights = {name: torch.lerp(weights[name].float(), value.float(), share) for name, value in model.state_dict().items()}
+    model.load_state_dict(weights)
+    model.to(torch.bfloat16).save_pretrained(arguments.export)
+    tokenizer.save_pretrained(arguments.export)
+    record = {"state": saved["state"], "settings": dataclasses.asdict(settings), "init_share": share, "corpus": corpus_summary(arguments.work)}
+    write_json(arguments.export / "pretraining.json", {**record, "earlier_stages": earlier_stages(arguments.init)})
 
 
 def corpus_summary(work: Path) -> dict[str, Any]:
@@ -143,6 +147,7 @@ def main() -> None:
     parser.add_argument("--work", type=Path, required=True, help="folder for tokenizer, corpus, checkpoint and log")
     parser.add_argument("--export", type=Path, help="write the newest checkpoint as a model folder here and stop")
     parser.add_argument("--init", type=Path, help="model folder whose weights and tokenizer a further stage starts from")
+    parser.add_argument("--init-share", type=float, default=0.0, help="share of the weights of --init in those that --export writes, 0 to 1")
     parser.add_argument("--shards", type=int, default=20)
     parser.add_argument("--shard-samples", type=int, default=12_000)
     parser.add_argument("--mission-share", type=float, default=0.6)
@@ -163,7 +168,7 @@ def main() -> None:
     special = {"bos": tokenizer.bos_token_id, "eos": tokenizer.eos_token_id, "pad": tokenizer.pad_token_id}
     model: Any = new_model(settings, len(tokenizer), special)
     if arguments.export:
-        export(arguments.work, arguments.export, tokenizer, model, settings, earlier_stages(arguments.init))
+        export(model, tokenizer, settings, arguments)
         return
     if arguments.init:
         initialise(model, arguments.init)

@@ -130,12 +130,13 @@ class TaskScript:
             return None
         try:
             step, end = json.JSONDecoder().raw_decode(self.written + text)
-        except ValueError:
+            entry = step[STEP_KEYS[0]]
+            movement = self.vocabulary.skill[entry["name"]], entry["parameters"]
+            path = self._path(movement)
+        except (ValueError, KeyError):
+            # No whole step: what the model means need not be allowed.
             return None
-        entry = step[STEP_KEYS[0]]
-        movement = self.vocabulary.skill[entry["name"]], entry["parameters"]
-        owed = self._owed(movement[0]) and self._read_ending(movement[0], self._path(movement)) == "may"
-        return max(0, end - len(self.written)) if owed else None
+        return max(0, end - len(self.written)) if self._owed(movement[0]) and self._read_ending(movement[0], path) == "may" else None
 
     def _owed(self, movement: Skill) -> list[Skill]:
         """The movements that are asked for and not written, this one counted as written."""

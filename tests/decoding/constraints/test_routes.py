@@ -121,3 +121,17 @@ def test_a_movement_that_is_asked_for_may_come_where_the_model_wants_it(tokenize
         answer = Answer(tokens_of(tokenizer, (tokenizer.eos_token_id,), None), script, 2048, 300)
         tokens = ids(tokenizer, '{"skill_sequence":[' + ",".join(kept) + "]}")
         assert (answer.admits(tokens) == len(tokens)) == admitted
+
+
+def test_what_the_model_means_need_not_be_a_step(tokenizer: Any) -> None:
+    record = {"task": "Transit", "parameters": {"target_position": [30, 40]}, "prompt": "Go to [30, 40] and hold there for 20 s."}
+    script = TaskScript(
+        VOCABULARY, SchemaValues(), read_ground(record, VOCABULARY), str(record["prompt"]), companions=Companions(asked=frozenset(("StationKeep",)))
+    )
+    opened = script.following('{"skill_sequence":[{"navigation_skill":{"name":"')
+    assert opened is not None
+    named = opened[1].following("GoToXY")
+    assert named is not None
+    for text in ('"}}', '","parameters":{}', '","parameters":{"x":30}}}]}', "}]"):
+        assert named[1].pressed(text) is None or "parameters" in text
+        assert named[1].asks(text) is None or "parameters" in text
