@@ -41,7 +41,20 @@ class Script(Protocol):
         """The place in a text that must follow before which the model is asked for what it means all the same."""
 
 
-class Whole:
+class Plain:
+    """A script that does not depend on what the model means where it may not write it."""
+
+    def taken_back(self, text: str) -> tuple[str, str] | None:
+        return None
+
+    def pressed(self, text: str) -> Script | None:
+        return None
+
+    def asks(self, text: str) -> int | None:
+        return None
+
+
+class Whole(Plain):
     """A script of one grammar."""
 
     def __init__(self, grammar: str) -> None:
@@ -55,15 +68,6 @@ class Whole:
 
     def closing(self) -> Script:
         return self
-
-    def taken_back(self, text: str) -> tuple[str, str] | None:
-        return None
-
-    def pressed(self, text: str) -> Script | None:
-        return None
-
-    def asks(self, text: str) -> int | None:
-        return None
 
 
 class Answer:

@@ -17,7 +17,7 @@ from typing import Any
 
 from planner_ft.data.rules import DOCKING
 from planner_ft.decoding.constraints import patterns
-from planner_ft.decoding.constraints.answer import Script
+from planner_ft.decoding.constraints.answer import Plain, Script
 from planner_ft.decoding.constraints.grammar import (
     IDENTIFIED,
     MOST_TASKS,
@@ -120,7 +120,7 @@ def coordinates(skill: Skill) -> tuple[Parameter, ...]:
 
 
 @dataclass(frozen=True)
-class MissionScript:
+class MissionScript(Plain):
     """Grammars of a mission plan, made as it grows: the titles that may follow, then what stands behind the chosen title.
 
     They meet on both sides of a title, where letters follow signs and signs letters: tokenizers keep the two apart.
@@ -152,15 +152,6 @@ class MissionScript:
 
     def closing(self) -> Script:
         return self
-
-    def taken_back(self, text: str) -> tuple[str, str] | None:
-        return None
-
-    def pressed(self, text: str) -> Script | None:
-        return None
-
-    def asks(self, text: str) -> int | None:
-        return None
 
     def _titles(self) -> str:
         """The titles that may follow; with their tasks where a title can be the beginning of another."""
