@@ -43,7 +43,7 @@ LOOSE = re.compile(
     r"\bo['’]clock of\b|\bhops?\b|\bstairs?\b|"
     r"\bdog[- ]?leg|\bmiddle of the line\b|half of the \d|\breciprocal\b|\b(?:stop\w*|stations?|halt\w*) every\b|\b(?:round|along) the edge\b|"
     r"\bstar (?:on|round|from)\b|\bthe way you came\b|"
-    r"\bcorner,? which is\b",
+    r"\bcorner,? which is\b|\b(?:skip|forget|drop|leave out|no|not|without|never mind) (?:the |a |any |this )?(?:\w+ )?(?:square|grid|lawnmower|ring|lanes)\b",
     re.IGNORECASE,
 )
 """Ways that are not derived here where they are not read as a whole."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
+
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.waypoints import Ground, read_ground
 from planner_ft.vocabulary import load_vocabulary
@@ -75,3 +77,9 @@ def test_shapes_that_are_not_derived_leave_room() -> None:
     assert ground("Transit", "Run a zigzag of 20 m from (5, 5).").free
     assert ground("Transit", "Go to (5, 5) and on for 3 furlongs.").free
     assert not ground("Transit", "Go to (5, 5).").free
+
+
+@pytest.mark.parametrize("said", ["No square today, just close up on the target.", "Forget the survey square: go to the target position and hold there."])
+def test_a_shape_that_is_ruled_out_binds_nothing(said: str) -> None:
+    record = {"task": "SurveyTarget", "parameters": {"target_position": [60, 20], "radius": 6}, "prompt": said}
+    assert read_ground(record, load_vocabulary()).free
