@@ -7,6 +7,8 @@ import math
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
+from planner_ft.vocabulary.plans import WORKING
+
 LONGEST_INTEGER = 300
 """Digits of an integer that a float can still hold, with room."""
 
@@ -24,7 +26,7 @@ def parse_output(output: str | dict[str, Any] | None) -> Parsed:
 
     The published definition is "parses as one JSON object". A Markdown fence, a sentence before the object, a second
     object or a cut end therefore do not parse, whatever they contain. An answer that is an object already is taken
-    as it is. NaN and Infinity are not JSON; numbers that a float cannot hold and strings that UTF-8
+    as it is, and the working before a skill sequence is no part of the plan. NaN and Infinity are not JSON; numbers that a float cannot hold and strings that UTF-8
     cannot hold are refused with them.
     """
     if output is None or (isinstance(output, str) and not output.strip()):
@@ -44,6 +46,8 @@ def parse_output(output: str | dict[str, Any] | None) -> Parsed:
         return Parsed(None, f"not JSON ({error})")
     if not isinstance(value, dict):
         return Parsed(None, "JSON, but no object")
+    if "skill_sequence" in value and isinstance(value.get(WORKING), str):
+        value.pop(WORKING)
     return Parsed(value)
 
 

@@ -28,7 +28,7 @@ from planner_ft.decoding.second_look import SecondLook
 from planner_ft.prompts import end_of_turn_ids, render_prompt
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import Level
+from planner_ft.vocabulary.plans import Level, without_working
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,14 @@ class Engine:
         return factory.mending(record, self._decoded(ids[:-1]))
 
     def text(self, answer: Generation) -> str:
-        """The raw text of an answer, without the token that ended it; other special tokens stay visible."""
+        """The raw text of an answer, without the token that ended it and without its working; other special tokens stay visible."""
+        return without_working(self._whole_text(answer))[0]
+
+    def working(self, answer: Generation) -> str:
+        """The sums that a model wrote before a skill sequence (see `planner_ft.data.task.working`)."""
+        return without_working(self._whole_text(answer))[1]
+
+    def _whole_text(self, answer: Generation) -> str:
         return self._decoded(answer.ids[:-1] if answer.finish_reason == "stop" else answer.ids)
 
     def _decoded(self, ids: Sequence[int]) -> str:

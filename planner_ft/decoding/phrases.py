@@ -8,7 +8,7 @@ from typing import Any
 
 from planner_ft.data.mission.source import find_source
 from planner_ft.decoding.drafting import PhraseBook
-from planner_ft.prompts.text import completion_text
+from planner_ft.prompts.text import answer_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import iterate_jsonl
 from planner_ft.vocabulary import Vocabulary
@@ -22,7 +22,7 @@ SEED = 1
 
 def phrase_book(level: Level, tokenizer: Any, vocabulary: Vocabulary, end_id: int) -> PhraseBook:
     """The phrase book of a level in a tokenizer's tokens; answers end with `end_id`. No mission plans are known of other vocabularies than the default one."""
-    texts = (completion_text(level, record["expected"], vocabulary) for record in _records(level, vocabulary))
+    texts = (answer_text(level, record, vocabulary) for record in _records(level, vocabulary))
     return PhraseBook([*tokenizer.encode(text, add_special_tokens=False), end_id] for text in texts)
 
 

@@ -19,10 +19,10 @@ from planner_ft.data.task.handed_down import handed_down_tasks
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.pretraining.emphasis import Emphasis, Encoded
 from planner_ft.prompts.render import render_sample
-from planner_ft.prompts.text import completion_text, user_text
+from planner_ft.prompts.text import answer_text, user_text
 from planner_ft.support.files import atomic_writer
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import Level
+from planner_ft.vocabulary.plans import Level, without_working
 
 if TYPE_CHECKING:
     from transformers import PreTrainedTokenizerBase
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 IGNORE = -100
 HANDED_DOWN, HANDED_DOWN_SEED = 0.1, 50_000_000
 """Share of the task inputs that come from missions, and what keeps those missions apart from the mission samples."""
+CUT = 0.6
+"""Share of the samples with a working that end behind it: the plan takes most of the tokens and has little left to learn."""
 WIDTH_STEP = 8
 """Batches are this many positions wide, or a multiple."""
 Sample = tuple[NDArray[np.int64], int]
@@ -66,15 +68,25 @@ def tokenizer_texts(vocabulary: Vocabulary, seed: int, count: int, mission_share
     for _ in range(count):
         level, record = next(samples)
         yield user_text(level, record, vocabulary)
-        yield completion_text(level, record["expected"], vocabulary)
+        yield answer_text(level, record, vocabulary)
 
 
 def encoded(tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, seed: int, mission_share: float, longest: int) -> Iterator[Encoded | None]:
     """Endless rendered samples; None stands for one of more than `longest` tokens."""
     for level, record in stream(vocabulary, seed, mission_share):
         rendered = render_sample(level, record, tokenizer, vocabulary)
-        ids = np.array(rendered.input_ids, dtype=np.int64)
-        yield Encoded(level, user_text(level, record, vocabulary), ids, rendered.prompt_length) if len(ids) <= longest else None
+        ids, prompt = np.array(rendered.input_ids, dtype=np.int64), rendered.prompt_length
+        worked = _worked(tokenizer, answer_text(level, record, vocabulary), ids[prompt:])
+        yield Encoded(level, user_text(level, record, vocabulary), ids, prompt, worked and prompt + worked) if len(ids) <= longest else None
+
+
+def _worked(tokenizer: PreTrainedTokenizerBase, answer: str, ids: NDArray[np.int64]) -> int | None:
+    """How many tokens of an answer are its working; None without one, or where a token spans its end."""
+    plan, working = without_working(answer)
+    if not working:
+        return None
+    begun = tokenizer.encode(answer[: len(answer) - len(plan) + 2], add_special_tokens=False)
+    return len(begun) if begun == ids[: len(begun)].tolist() else None
 
 
 def encode_shard(
@@ -90,7 +102,8 @@ def encode_shard(
 ) -> dict[str, int]:
     """Write `count` tokenised samples as one .npz file; return counts.
 
-    Samples over `longest` tokens are left out and counted, those that `emphasis` passes over are drawn again and counted.
+    Samples over `longest` tokens are left out and counted, those that `emphasis` passes over are drawn again and counted. Of those with a working,
+    some end behind it (`CUT`).
     """
     draw = np.random.default_rng(seed)
     ids: list[NDArray[np.uint16]] = []
@@ -102,7 +115,8 @@ def encode_shard(
         elif emphasis is not None and draw.random() >= emphasis.probability(sample):
             passed_over += 1
         else:
-            ids.append(sample.ids.astype(np.uint16))
+            kept = sample.worked if draw.random() < CUT else None
+            ids.append(sample.ids[:kept].astype(np.uint16))
             prompts.append(sample.prompt)
         if len(ids) + left_out == count:
             break

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner_ft.support.files import atomic_writer
-from planner_ft.vocabulary.plans import Level
+from planner_ft.vocabulary.plans import Level, without_working
 
 if TYPE_CHECKING:
     from transformers import PreTrainedTokenizerBase
@@ -31,7 +31,7 @@ FLOOR = 0.15
 SCORING_TOKENS = 4096
 """Tokens in a batch whose losses are measured."""
 
-# Text that the metrics do not compare, or not alone, and waypoints that strength grounded computes.
+# Text that the metrics do not compare, or not alone, and waypoints of slanted lines, which strength grounded computes.
 _MISSION_TEXT = re.compile(r'"task_prompt":"((?:[^"\\]|\\.)*)"|"assumptions":\[(.*?)\](?=,"constraints":)|"constraints":\[(.*)\]\}')
 _MISSION_WEIGHTS = (0.3, 0.2, 0.4)
 _WAYPOINT = re.compile(r'"name":"GoToXY","parameters":\{"x":([-\d.]+),"y":([-\d.]+)')
@@ -40,12 +40,16 @@ _WAYPOINT_WEIGHT = 0.3
 
 @dataclass(frozen=True)
 class Encoded:
-    """A rendered sample: its level, its input as text, token ids (int64, 1-D) and how many of them are the prompt."""
+    """A rendered sample: its level, its input as text, token ids (int64, 1-D) and how many of them are the prompt, or lead up to the plan.
+
+    `worked` is None where no working stands before the plan.
+    """
 
     level: Level
     text: str
     ids: NDArray[np.int64]
     prompt: int
+    worked: int | None = None
 
 
 @dataclass(frozen=True)
@@ -139,9 +143,10 @@ def token_weights(sample: Encoded, tokenizer: PreTrainedTokenizerBase) -> NDArra
             group = match.lastindex or 1
             weights[slice(*match.span(group))] = _MISSION_WEIGHTS[group - 1]
     else:
+        known = sample.text + without_working(text)[1]
         for match in _WAYPOINT.finditer(text):
             for group in (1, 2):
-                if match[group].lstrip("-") not in sample.text:
+                if match[group].lstrip("-") not in known:
                     weights[match.start(group) : match.end(group) + 1] = _WAYPOINT_WEIGHT
     ends = np.cumsum([len(piece) for piece in pieces])
     return np.asarray(weights[np.maximum(ends - 1, 0)])

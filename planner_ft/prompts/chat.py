@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from planner_ft.prompts.text import completion_text, system_text, user_text
+from planner_ft.prompts.text import answer_text, system_text, user_text
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -12,7 +12,7 @@ from planner_ft.vocabulary.plans import Level
 def chat_messages(level: Level, record: dict[str, Any], vocabulary: Vocabulary) -> list[dict[str, str]]:
     """System instruction, user message and the expected plan as the assistant's answer."""
     prompt = prompt_messages(level, record, vocabulary, with_vocabulary=False)
-    return [*prompt, {"role": "assistant", "content": completion_text(level, record["expected"], vocabulary)}]
+    return [*prompt, {"role": "assistant", "content": answer_text(level, record, vocabulary)}]
 
 
 def prompt_messages(level: Level, record: dict[str, Any], vocabulary: Vocabulary, *, with_vocabulary: bool) -> list[dict[str, str]]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.prompts.text import PLAIN_FORM, completion_text, system_text, user_text
+from planner_ft.prompts.text import PLAIN_FORM, answer_text, system_text, user_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -18,7 +18,7 @@ from planner_ft.vocabulary.plans import Level
 if TYPE_CHECKING:
     from transformers import PreTrainedTokenizerBase
 
-PROMPT_VERSION = 1
+PROMPT_VERSION = 2
 """Counts up with every change of the rendered text, so that cached predictions are not reused across it."""
 
 PROBE = "\x02probe\x03"
@@ -64,7 +64,7 @@ def render_sample(
 ) -> Rendered:
     """Ids and completion mask of a record with its `expected` plan."""
     prompt = render_prompt(level, record, tokenizer, vocabulary, with_vocabulary=with_vocabulary)
-    answer = tokenizer.encode(completion_text(level, record["expected"], vocabulary), add_special_tokens=False)
+    answer = tokenizer.encode(answer_text(level, record, vocabulary), add_special_tokens=False)
     completion = [*answer, end_of_turn_ids(tokenizer)[0]]
     return Rendered(prompt + completion, [0] * len(prompt) + [1] * len(completion), len(prompt))
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from planner_ft.data.task.working import working_of
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import Level, canonical_parameters, canonical_plan
+from planner_ft.vocabulary.plans import WORKING, Level, canonical_parameters, canonical_plan
 from planner_ft.vocabulary.text import prompt_text
 
 INSTRUCTIONS: dict[Level, str] = {
@@ -57,5 +58,12 @@ def user_text(level: Level, record: dict[str, Any], vocabulary: Vocabulary) -> s
 
 
 def completion_text(level: Level, plan: dict[str, Any], vocabulary: Vocabulary) -> str:
-    """The answer that is trained: the canonical plan as compact JSON."""
+    """The canonical plan as compact JSON."""
     return compact_json(canonical_plan(level, plan, vocabulary))
+
+
+def answer_text(level: Level, record: dict[str, Any], vocabulary: Vocabulary) -> str:
+    """The answer that is trained: the record's `expected` plan, behind the sums that its waypoints need (see `planner_ft.data.task.working`)."""
+    text = completion_text(level, record["expected"], vocabulary)
+    working = working_of(record, vocabulary) if level == "task" else ""
+    return f"{{{compact_json(WORKING)}:{compact_json(working)},{text[1:]}" if working else text

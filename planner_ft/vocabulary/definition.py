@@ -80,6 +80,11 @@ class Skill:
     def by_name(self) -> dict[str, Parameter]:
         return {parameter.name: parameter for parameter in self.parameters}
 
+    @functools.cached_property
+    def coordinates(self) -> tuple[Parameter, ...]:
+        """The parameters that say where the skill goes: x and y, in this order; none of one that goes nowhere."""
+        return tuple(item for item in self.parameters if item.required and item.type == "number")[:2] if self.motion == "goto" else ()
+
 
 @dataclass(frozen=True, eq=False)
 class Vocabulary:

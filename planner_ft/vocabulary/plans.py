@@ -8,6 +8,7 @@ the sampler writes; schema.py states the same rules as JSON Schema, and a test h
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Iterator
 from typing import Any, Literal, get_args
@@ -22,6 +23,9 @@ MISSION_KEYS = ("tasks", "assumptions", "constraints")
 TASK_KEYS = ("title", "parameters", "task_prompt")
 STEP_KEYS = ("navigation_skill", "filter_skills", "perception_skills", "stop_conditions", "failure_modes", "expected_outputs")
 SKILL_KEYS = ("name", "parameters")
+WORKING = "working"
+"""Stands before a skill sequence where a model writes sums down before it needs their results. No part of the plan."""
+_WORKED = re.compile(rf'\s*\{{"{WORKING}":"[^"\\]*",(?="skill_sequence")')
 
 
 def check_level(level: str) -> Level:
@@ -82,6 +86,12 @@ def canonical_plan(level: Level, plan: dict[str, Any], vocabulary: Vocabulary) -
             "constraints": list(plan.get("constraints", [])),
         }
     return {"skill_sequence": [_canonical_step(step, vocabulary) for step in plan["skill_sequence"]]}
+
+
+def without_working(text: str) -> tuple[str, str]:
+    """The text of an answer without the working before its skill sequence, and that working; no other text is changed."""
+    match = _WORKED.match(text)
+    return ("{" + text[match.end() :], match[0].split('"')[3]) if match else (text, "")
 
 
 def canonical_parameters(parameters: dict[str, Any], owner: Task | Skill | None) -> dict[str, Any]:

@@ -14,7 +14,6 @@ from typing import Any
 from planner_ft.benchmark.metrics.entries import Entry
 from planner_ft.benchmark.metrics.source import WAYPOINT, Source
 from planner_ft.benchmark.metrics.values import is_number, known_parameters
-from planner_ft.decoding.constraints.state import coordinates
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -46,7 +45,7 @@ def given_values(level: Level, entries: Sequence[Entry], vocabulary: Vocabulary)
     """Every value of a plan. The coordinates of a destination are one; a parameter that the vocabulary does not have is judged by its form."""
     for index, entry in enumerate(entries):
         skill = vocabulary.skill.get(entry.name) if level == "task" else None
-        pair = [item.name for item in coordinates(skill)] if skill else []
+        pair = [item.name for item in skill.coordinates] if skill else []
         together = len(pair) == 2 and all(is_number(entry.parameters.get(name)) for name in pair)
         if together:
             yield Given(index, WAYPOINT, [entry.parameters[name] for name in pair])

@@ -56,7 +56,8 @@ class EngineSource:
             yield index, self._answered(answer, len(queries[index].prompt), size)
 
     def _answered(self, answer: Generation, prompt_tokens: int, size: int) -> Answered:
-        more = {"batch": size, **({"alternatives": answer.alternatives} if answer.alternatives else {})}
+        extra = {"alternatives": answer.alternatives, "working": self.engine.working(answer)}
+        more = {"batch": size, **{name: value for name, value in extra.items() if value}}
         return Answered(
             output=self.engine.text(answer), seconds=answer.seconds, finish_reason=answer.finish_reason, tokens=len(answer.ids),
             prompt_tokens=prompt_tokens, forward_passes=answer.forward_passes, error=answer.error, more=more,

@@ -31,7 +31,6 @@ from planner_ft.decoding.constraints.grammar import (
 from planner_ft.decoding.constraints.patterns import literal
 from planner_ft.decoding.constraints.reading.turns import Turn
 from planner_ft.decoding.constraints.repeats import ROTATING, Step, TurnValues, UnlikeValues, repeatable, spent
-from planner_ft.decoding.constraints.state import coordinates
 from planner_ft.decoding.constraints.waypoints import Ending, Ground, Path, Point
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.definition import Role
@@ -52,7 +51,7 @@ class RouteValues(Narrowed):
             self._columns.setdefault(written_number(x), []).append(written_number(y))
 
     def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
-        pair = coordinates(owner) if isinstance(owner, Skill) else ()
+        pair = owner.coordinates if isinstance(owner, Skill) else ()
         if parameter not in pair:
             return super().parameter(grammar, parameter, owner, context)
         if pair.index(parameter) == 0:
@@ -178,7 +177,7 @@ class TaskScript:
         return Grammar().text(" | ".join(literal(patterns.quoted(skill.name)) for skill in offered or skills))
 
     def _offers(self, skill: Skill) -> bool:
-        if coordinates(skill):
+        if skill.coordinates:
             return self.ground.free or bool(self.ground.following(self.before))
         if self.role == "navigation" and self.ground.waypoints_alone:
             return False
@@ -258,7 +257,7 @@ class TaskScript:
     def _movements(self) -> list[tuple[Values, Ending]]:
         """What the parameters of the chosen movement may be, and whether the answer ends behind it."""
         assert self.chosen is not None
-        if not coordinates(self.chosen) or self.ground.free:
+        if not self.chosen.coordinates or self.ground.free:
             return [(self._values_of(self.chosen), self._ending(self.chosen, self.before))]
         found: dict[Ending, list[Point]] = {}
         for point in self.ground.following(self.before):
@@ -289,5 +288,5 @@ class TaskScript:
 
 def waypoint(movement: Step) -> Point | None:
     """Where a movement goes; None for one that goes nowhere."""
-    pair = coordinates(movement[0])
+    pair = movement[0].coordinates
     return (movement[1][pair[0].name], movement[1][pair[1].name]) if pair else None

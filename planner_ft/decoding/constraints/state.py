@@ -89,8 +89,8 @@ class ResolvedValues(Narrowed):
         self._unresolved = vocabulary.unresolved
 
     def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
-        if isinstance(owner, Skill) and parameter in coordinates(owner):
-            return self._coordinate(grammar, parameter, coordinates(owner).index(parameter), context)
+        if isinstance(owner, Skill) and parameter in owner.coordinates:
+            return self._coordinate(grammar, parameter, owner.coordinates.index(parameter), context)
         if parameter.type == "polygon":
             position = self.position(grammar, (self._unresolved,))
             return [(corners(grammar, position), context)] if position else []
@@ -112,11 +112,6 @@ def names_unresolved(record: dict[str, Any], vocabulary: Vocabulary) -> bool:
     """Whether a task itself still has the unresolved place among its parameters."""
     parameters = record.get("parameters")
     return isinstance(parameters, dict) and list(vocabulary.unresolved) in parameters.values()
-
-
-def coordinates(skill: Skill) -> tuple[Parameter, ...]:
-    """The parameters that say where a skill goes: x and y, in this order."""
-    return tuple(item for item in skill.parameters if item.required and item.type == "number")[:2] if skill.motion == "goto" else ()
 
 
 @dataclass(frozen=True)
