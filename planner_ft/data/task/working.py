@@ -29,6 +29,9 @@ PARTS = range(3, 13)
 WORKING = re.compile(r"(?:(?:[xy]-?\d+(?:\.\d+)?[-+]|\d+(?:\.\d+)?/)\d+(?:\.\d+)?=-?\d+(?:\.\d+)?;?)*")
 """What a working looks like."""
 
+_Length = tuple[float, float | None]
+"""A length, and the one that it is a part of."""
+
 
 @dataclass
 class _Sums:
@@ -46,6 +49,8 @@ class _Sums:
 
     def go(self, point: Sequence[float], *, lanes: bool) -> None:
         """Walk to a waypoint."""
+        if lanes and not self.lanes:
+            self.pace = [None, None]
         self.lanes = lanes
         for axis, value in enumerate(point):
             if value not in self.known[axis]:
@@ -69,19 +74,18 @@ class _Sums:
         self.written.append(f"{'xy'[axis]}{_text(base)}{'+' if value > base else '-'}{_text(away)}={_text(value)}")
         self.pace[axis] = away
 
-    def _sums(self, axis: int) -> Iterator[tuple[float, float, float | None]]:
+    def _sums(self, axis: int) -> Iterator[tuple[float, *_Length]]:
         """What a coordinate can be reached from, how far away, and the length that this is a part of; the likeliest first."""
         last, pace = self.last[axis], self.pace[axis]
-        whole: list[tuple[float, float | None]] = [(length, None) for length in self.lengths]
-        halves: list[tuple[float, float | None]] = [(_tidy(length / 2), length) for length in self.lengths]
+        whole: list[_Length] = [(length, None) for length in self.lengths]
+        halves: list[_Length] = [(_tidy(length / 2), length) for length in self.lengths]
         # The first lane begins half an area away from its middle; where their number is said, they lie a part of it apart.
-        away = [*halves, *whole] if self.lanes and pace is None else [*whole, *halves]
-        apart: list[tuple[float, float | None]] = (
-            [(_tidy(length / count), length) for count in PARTS for length in self.lengths] if self.lanes and pace is None else []
-        )
+        begins = self.lanes and pace is None
+        away = [*halves, *whole] if begins else [*whole, *halves]
+        apart: list[_Length] = [(_tidy(length / count), length) for count in PARTS for length in self.lengths if begins]
         first, *others = self.stated[axis]
         begun = [] if last is None else [last]
-        again: list[tuple[float, float | None]] = [(pace, None), *whole] if pace else whole
+        again: list[_Length] = [(pace, None), *whole] if pace else whole
         for bases, offered in ((begun, again), ([first], away), (begun, [*apart, *halves]), *(([other], away) for other in others)):
             for base in bases:
                 for length, of in offered:
