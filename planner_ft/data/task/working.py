@@ -80,9 +80,8 @@ class _Sums:
         whole: list[_Length] = [(length, None) for length in self.lengths]
         halves: list[_Length] = [(_tidy(length / 2), length) for length in self.lengths]
         # The first lane begins half an area away from its middle; where their number is said, they lie a part of it apart.
-        begins = self.lanes and pace is None
-        away = [*halves, *whole] if begins else [*whole, *halves]
-        apart: list[_Length] = [(_tidy(length / count), length) for count in PARTS for length in self.lengths if begins]
+        away = [*halves, *whole] if self.lanes and pace is None else [*whole, *halves]
+        apart: list[_Length] = [(_tidy(length / count), length) for count in PARTS for length in self.lengths if self.lanes]
         first, *others = self.stated[axis]
         begun = [] if last is None else [last]
         again: list[_Length] = [(pace, None), *whole] if pace else whole

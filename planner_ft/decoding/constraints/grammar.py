@@ -1,7 +1,7 @@
 """Lark grammars of the two plan forms, put together from a vocabulary and from what its values may be.
 
 `Values` decides what a value may be; the strengths differ in nothing else. Key order, separators and the order of
-parameters are those of `completion_text`.
+parameters are those of `answer_text`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from planner_ft.decoding.constraints.patterns import literal, regex
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.definition import Role
-from planner_ft.vocabulary.plans import MISSION_KEYS, STEP_KEYS, Level, canonical_value, value_problem
+from planner_ft.vocabulary.plans import MISSION_KEYS, STEP_KEYS, WORKING, Level, canonical_value, value_problem
 
 MOST_TASKS, MOST_STEPS = 32, 128
 MOST_SKILLS = 16
@@ -23,6 +23,8 @@ MOST_SKILLS = 16
 MOST_TEXTS = 16
 """Items of a list of texts: assumptions, target_list, stop_conditions."""
 MOST_CORNERS = 32
+MOST_SUMS = 64
+"""Sums of a working."""
 LONGEST_TEXT = 200
 LONGEST_PROSE = 400
 """Characters of a parameter, and of a task prompt, an assumption or a constraint. The longest labels have 55 and 181."""
@@ -190,7 +192,16 @@ def plan_grammar(level: Level, vocabulary: Vocabulary, values: Values) -> str:
         task = grammar.rule(f"{literal(TASK_OPENS)} ({' | '.join(tasks)})")
         return grammar.text(f"{literal(mission_opens())} {_some(task, MOST_TASKS)} {mission_closes(grammar, values)}")
     step = _step(grammar, vocabulary, values)
-    return grammar.text(f"{literal('{' + key('skill_sequence') + '[')} {_some(step, MOST_STEPS)} {literal(']}')}")
+    return grammar.text(f"{sequence_opens(grammar)} {_some(step, MOST_STEPS)} {literal(']}')}")
+
+
+def sequence_opens(grammar: Grammar, *, working: bool = True) -> str:
+    """The expression before the first step of a skill sequence, with a working before it or without one."""
+    opens = literal(key("skill_sequence") + "[")
+    if not working:
+        return f'"{{" {opens}'
+    sums = grammar.terminal(regex(f'"{patterns.SUM}(;{patterns.SUM}){{0,{MOST_SUMS - 1}}}"'))
+    return f'"{{" ({literal(key(WORKING))} {sums} ",")? {opens}'
 
 
 def mission_opens() -> str:

@@ -24,6 +24,7 @@ from planner_ft.decoding.constraints.grammar import (
     SchemaValues,
     Values,
     key,
+    sequence_opens,
     skill_body,
     step_tail,
     written_number,
@@ -89,7 +90,8 @@ class TaskScript:
     owes: bool = False
 
     def opening(self) -> str:
-        return Grammar().text(f"{literal('{' + key('skill_sequence') + '[')} ({literal(STEP_OPENS)} | {literal(CLOSES)})")
+        grammar = Grammar()
+        return grammar.text(f"{sequence_opens(grammar, working=not self.ground.told)} ({literal(STEP_OPENS)} | {literal(CLOSES)})")
 
     def following(self, text: str) -> tuple[str, Script] | None:
         if self.chosen is None and text in self.vocabulary.skill:

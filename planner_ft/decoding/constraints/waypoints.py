@@ -104,6 +104,11 @@ class Ground:
         return "may" if ends else "not yet"
 
     @property
+    def told(self) -> bool:
+        """Whether the waypoints are known: nothing is left to work out."""
+        return self.itinerary is not None
+
+    @property
     def waypoints_alone(self) -> bool:
         """Whether every step goes to a waypoint."""
         return self.alone and (self.itinerary is not None or self.shaped)

@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from planner_ft.data.task.working import WORKING
 from planner_ft.decoding.configurations import Strength
 from planner_ft.decoding.constraints import Constraint, ConstraintFactory, Mask
 from planner_ft.decoding.constraints.factory import constraint_factory
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import Level
+from planner_ft.vocabulary.plans import Level, without_working
 
 LIMITS: dict[Level, int] = {"mission": 1024, "task": 2048}
 ADVERSARIAL = {
@@ -90,7 +91,10 @@ def random_answer(constraint: Constraint, limit: int, seed: int, busy: Any = Non
 
 
 def decoded(tokenizer: Any, ids: list[int]) -> Any:
-    return json.loads(tokenizer.decode(ids, skip_special_tokens=False, clean_up_tokenization_spaces=False))
+    """The plan of an answer, without its working."""
+    text, working = without_working(tokenizer.decode(ids, skip_special_tokens=False, clean_up_tokenization_spaces=False))
+    assert WORKING.fullmatch(working)
+    return json.loads(text)
 
 
 def answer_ids(tokenizer: Any, text: str) -> list[int]:

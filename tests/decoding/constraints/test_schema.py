@@ -12,7 +12,7 @@ import pytest
 from planner_ft.data.mission.synthetic import sample_missions
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.decoding.constraints.factory import constraint_factory
-from planner_ft.prompts.text import completion_text
+from planner_ft.prompts.text import answer_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import load_vocabulary
@@ -50,7 +50,7 @@ def test_every_right_plan_can_be_written(tokenizer: Any, level: Level) -> None:
     factory = make_factory(tokenizer, level, vocabulary, "schema")
     end = allowed_end(tokenizer)
     for record in plans(level, 60):
-        ids = answer_ids(tokenizer, completion_text(level, record["expected"], vocabulary))
+        ids = answer_ids(tokenizer, answer_text(level, record, vocabulary))
         assert factory.start(record, 4096).admits([*ids, end]) == len(ids) + 1, record["prompt"]
 
 
@@ -60,7 +60,7 @@ def test_forced_tokens_are_those_of_training(tokenizer: Any, level: Level) -> No
     factory = make_factory(tokenizer, level, vocabulary, "schema")
     count = 0
     for record in plans(level, 15):
-        ids = answer_ids(tokenizer, completion_text(level, record["expected"], vocabulary))
+        ids = answer_ids(tokenizer, answer_text(level, record, vocabulary))
         constraint = factory.start(record, 4096)
         for place, token in enumerate(ids):
             forced = constraint.forced()

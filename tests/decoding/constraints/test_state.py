@@ -10,7 +10,7 @@ import pytest
 from planner_ft.data.mission.synthetic import sample_missions
 from planner_ft.data.rules import rule_problems
 from planner_ft.data.task.sampler import sample_tasks
-from planner_ft.prompts.text import completion_text
+from planner_ft.prompts.text import answer_text
 from planner_ft.support.files import compact_json, read_jsonl
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import build_vocabulary
@@ -96,7 +96,7 @@ def test_every_right_plan_can_be_written(tokenizer: Any, level: Level) -> None:
     for record in records if level == "mission" else sample_tasks(vocabulary, 6, 60, "train"):
         if level == "mission" and rule_problems(record["expected"], vocabulary):
             continue
-        ids = answer_ids(tokenizer, completion_text(level, record["expected"], vocabulary))
+        ids = answer_ids(tokenizer, answer_text(level, record, vocabulary))
         assert factory.start(record, 4096).admits(ids) == len(ids), record["prompt"]
 
 
