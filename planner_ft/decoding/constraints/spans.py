@@ -27,14 +27,19 @@ UNBEGINNING = ARTICLES | frozenset(
     ("and", "or", "of", "to", "at", "in", "on", "for", "from", "by", "with", "then", "now", "is", "are", "be", "it", "as", "so", "if", "but", "than")
 )
 """Words that no value begins with."""
+NO_NAME_BEGINS = UNBEGINNING | frozenset(
+    ("both", "between", "each", "every", "any", "there", "here", "this", "that", "while", "during", "until", "when", "once", "only", "also", "not", "its")
+)
+"""Words that no name begins with."""
 UNENDING = frozenset({"the", "an", "and", "or", "of", "with", "then", "to", "from", "for", "now", "is", "are", "be", "if", "but", "than"})
 """Words that no value ends with."""
 QUOTES = ('"', "'", "“", "‘", "«")
 """Signs behind which a value begins with any word: a note "as found"."""
 KINDS = frozenset(
-    {"region", "regions", "stream", "streams", "camera", "cameras", "sensor", "sensors", "cloud", "label", "labels", "note", "notes", "tag", "tags"}
+    ("region", "regions", "stream", "streams", "camera", "cameras", "sensor", "sensors", "cloud", "label", "labels", "note", "notes", "tag", "tags")
+    + ("snapshot", "snapshots", "picture", "pictures", "still", "stills", "image", "images", "leg", "legs", "step", "steps", "hold", "course", "data")
 )
-"""Words for what has a name, and are none."""
+"""Words for what has a name or is done, and are none."""
 MOST_UNENDING = 4
 """As many of them in a row are no English; a value may end there, since an answer must be able to."""
 
@@ -132,7 +137,7 @@ class Spans:
             named = word == "A" or text[match.start() - 1 : match.start()] in ("_", "-", ".")
             run = 0 if named or word.lower() not in UNENDING else run + 1
             quoted_here = text[match.start() - 1 : match.start()] in QUOTES
-            begins = (quoted_here or word.lower() not in UNBEGINNING) and text[match.start() - 1 : match.start()] != "_"
+            begins = (quoted_here or word.lower() not in (NO_NAME_BEGINS if self._named else UNBEGINNING)) and text[match.start() - 1 : match.start()] != "_"
             ends = run % MOST_UNENDING == 0 and text[match.end() : match.end() + 1] != "_"
             self._pieces.append(Piece(forms, begins, ends, alone=quoted_here or not (self._named and word.lower() in KINDS)))
         gaps = [text[one.end() : two.start()] for one, two in itertools.pairwise(matches)]
