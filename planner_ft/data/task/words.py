@@ -1,8 +1,8 @@
 """Text values: words of the trade from the phrase file, and made-up names that can only be copied.
 
 A word list holds entries such as "the {colour} ladder", "camera {n}" or "weld {code}". An entry that begins with "the "
-is said with its article and stored without it. Made-up slots: {n} a number, {code} "KX-07", {low} a small letter, {name} a pseudo-word,
-{tag} a file tag; any other slot is an entry of the list of that name.
+is said with its article and stored without it, and what stands before a bar is said and not stored ("sensor |{code}"), nor are quotation marks
+behind it. Made-up slots: {n} a number, {code} "KX-07", {low} a small letter, {name} a pseudo-word, {tag} a file tag; any other slot is an entry of the list of that name.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ _ONSETS = "b br c d dr f fl g gr h j k kl l m n p pr r s sk st t tr v w z th sch
 _VOWELS = "a e i o u a e i o ei au y oa ie".split()  # noqa: SIM905
 _CODAS = "n r l s t m d ck nd rk st x lm ff  ng rn".split(" ")  # noqa: SIM905
 _ENDINGS = ("", "", "a", "o", "en", "berg", "vik", "sund", "ton", "i", "ey", "holm")
+_QUOTED = re.compile(r"(['\"])(.+?)\1")
 LETTERS = "ABCDEFGHJKLMNPRSTVWXZ"
 
 FALLBACK: Mapping[str, Sequence[str]] = {
@@ -93,7 +94,11 @@ class Lexicon:
 
     @staticmethod
     def as_value(entry: str) -> Value:
-        """An entry with its article as a value without."""
+        """An entry with its article as a value without; what stands before a bar is said alone."""
+        kind, bar, name = entry.partition("|")
+        if bar:
+            quoted_name = _QUOTED.match(name)
+            return Value(quoted_name[2] if quoted_name else name, kind + name)
         bare = _ARTICLE.sub("", entry)
         return Value(bare, entry, bare)
 

@@ -30,6 +30,11 @@ class Companions:
     scopes: Mapping[str, Scope] = field(default_factory=dict)
     insisted: frozenset[str] = frozenset()
 
+    @property
+    def mentioned(self) -> frozenset[str]:
+        """The skills that the input speaks of, movements among them, as far as that can be told."""
+        return (self.spoken or frozenset()) | (self.movements or frozenset())
+
     def runs(self, skill: str, movement: str, earlier: Sequence[str]) -> bool | None:
         """Whether a skill must run (True) or must not (False) beside a movement, behind those `earlier`; None where the model decides."""
         if self.spoken is not None and skill not in self.spoken:

@@ -16,6 +16,7 @@ from planner_ft.decoding.constraints.grammar import SchemaValues, plan_grammar
 from planner_ft.decoding.constraints.grounded import GroundedValues
 from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, GroundedTaskValues
 from planner_ft.decoding.constraints.reading import LONGEST
+from planner_ft.decoding.constraints.reading.named_values import read_named_values
 from planner_ft.decoding.constraints.reading.turns import read_turns
 from planner_ft.decoding.constraints.routes import TaskScript
 from planner_ft.decoding.constraints.state import MissionScript, ResolvedValues, names_unresolved
@@ -79,12 +80,13 @@ class Factory:
     def _grounded_task(self, record: dict[str, Any], limit: int) -> Constraint:
         if names_unresolved(record, self.vocabulary):
             return Answer(self.tokens, self._schema, limit, self._reserve)
-        values, ground = GroundedTaskValues(record, self.vocabulary), read_ground(record, self.vocabulary)
         prompt = str(record.get("prompt", ""))
+        companions = replace(read_companions(record, self.vocabulary), insisted=self.insisted)
+        named = read_named_values(prompt, companions.mentioned, self.vocabulary)
+        values, ground = GroundedTaskValues(record, self.vocabulary, named), read_ground(record, self.vocabulary)
         turns = read_turns(record, self.vocabulary) if len(prompt) <= LONGEST else None
         # Where the readings contradict each other, neither is certain.
         turns = None if turns and ground.waypoints_alone else turns
-        companions = replace(read_companions(record, self.vocabulary), insisted=self.insisted)
         # Where waypoints cannot be told, any may be meant.
         held = ResolvedValues(FreeWaypoints(values), self.vocabulary) if ground.free else values
         script = TaskScript(self.vocabulary, held, ground, prompt, turns, companions)

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from planner_ft.data.quantities import quantities
 from planner_ft.decoding.constraints.facts import MOST_CROSSED, own_numbers, own_texts, sector_counts, turned, usable
-from planner_ft.decoding.constraints.grammar import MOST_TEXTS, Grammar, Narrowed, Positions, SchemaValues, items, written, written_number
+from planner_ft.decoding.constraints.grammar import IDENTIFIED, MOST_TEXTS, Context, Grammar, Narrowed, Positions, SchemaValues, items, written, written_number
 from planner_ft.decoding.constraints.grounded import GroundedValues, one_of
 from planner_ft.decoding.constraints.spans import Spans
 from planner_ft.support.files import compact_json
-from planner_ft.vocabulary import Parameter, Vocabulary
+from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.plans import STEP_KEYS
 
 DIVIDED = re.compile(
@@ -25,16 +25,22 @@ DIVIDED = re.compile(
 
 
 class GroundedTaskValues(GroundedValues):
-    """The values of a skill sequence that its input states. Waypoints are left to routes."""
+    """The values of a skill sequence that its input states; `named` are those by skill and parameter (see `read_named_values`). Waypoints are left to routes."""
 
-    def __init__(self, record: dict[str, Any], vocabulary: Vocabulary) -> None:
+    def __init__(self, record: dict[str, Any], vocabulary: Vocabulary, named: Mapping[tuple[str, str], frozenset[str]] | None = None) -> None:
         prompt = str(record.get("prompt", ""))
         super().__init__(prompt, vocabulary)
+        self._named = named or {}
         self._own = list(own_numbers(record, vocabulary))
         self._texts = list(own_texts(record))
         self._spans = Spans([prompt, *self._texts], named=True)
         self._divided = DIVIDED.search(prompt) is not None
         self._counts = sector_counts([*(quantity.said for quantity in quantities(prompt)), *(number for number, _unit in self._own)])
+
+    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
+        named = self._named.get((owner.name, parameter.name)) if isinstance(owner, Skill) else None
+        symbol = one_of(grammar, map(compact_json, sorted(named))) if named else None
+        return [(symbol, context | IDENTIFIED)] if symbol else super().parameter(grammar, parameter, owner, context)
 
     def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str | None:
         said = self._reading.numbers(parameter)

@@ -16,6 +16,7 @@ from planner_ft.data.lexicon import corrections
 from planner_ft.decoding.constraints.budget import LONGEST_WORD
 from planner_ft.decoding.constraints.grammar import Grammar, none_of_texts
 from planner_ft.decoding.constraints.patterns import literal, quoted
+from planner_ft.decoding.constraints.reading.named_values import IDENTIFIER
 
 MOST_WORDS = 2000
 """Words of a command that spans are made of; compiling more takes longer than an answer."""
@@ -36,10 +37,14 @@ UNENDING = frozenset({"the", "an", "and", "or", "of", "with", "then", "to", "fro
 QUOTES = ('"', "'", "“", "‘", "«")
 """Signs behind which a value begins with any word: a note "as found"."""
 KINDS = frozenset(
-    ("region", "regions", "stream", "streams", "camera", "cameras", "sensor", "sensors", "cloud", "label", "labels", "note", "notes", "tag", "tags")
-    + ("snapshot", "snapshots", "picture", "pictures", "still", "stills", "image", "images", "leg", "legs", "step", "steps", "hold", "course", "data")
+    (
+        *("region", "regions", "stream", "streams", "camera", "cameras", "sensor", "sensors", "cloud", "label", "labels", "note", "notes", "tag", "tags"),
+        *("snapshot", "snapshots", "picture", "pictures", "still", "stills", "image", "images", "leg", "legs", "step", "steps", "hold", "course", "data"),
+    )
 )
 """Words for what has a name or is done, and are none."""
+_NAMED_KIND = re.compile(rf"(?:{'|'.join(sorted(KINDS))}|objects?|sounder|sonde|roi|target|marker|file)\s+{IDENTIFIER}", re.IGNORECASE)
+"""Such a word before an identifier: the value is "quad_2" in "camera quad_2"; "camera 2" stays whole."""
 MOST_UNENDING = 4
 """As many of them in a row are no English; a value may end there, since an answer must be able to."""
 
@@ -137,7 +142,10 @@ class Spans:
             named = word == "A" or text[match.start() - 1 : match.start()] in ("_", "-", ".")
             run = 0 if named or word.lower() not in UNENDING else run + 1
             quoted_here = text[match.start() - 1 : match.start()] in QUOTES
-            begins = (quoted_here or word.lower() not in (NO_NAME_BEGINS if self._named else UNBEGINNING)) and text[match.start() - 1 : match.start()] != "_"
+            barred = (
+                word.lower() in NO_NAME_BEGINS or (match.start() and _NAMED_KIND.match(text, match.start())) if self._named else word.lower() in UNBEGINNING
+            )
+            begins = (quoted_here or not barred) and text[match.start() - 1 : match.start()] != "_"
             ends = run % MOST_UNENDING == 0 and text[match.end() : match.end() + 1] != "_"
             self._pieces.append(Piece(forms, begins, ends, alone=quoted_here or not (self._named and word.lower() in KINDS)))
         gaps = [text[one.end() : two.start()] for one, two in itertools.pairwise(matches)]

@@ -78,6 +78,11 @@ def spoken_of(text: str, vocabulary: Vocabulary) -> frozenset[str] | None:
     return found | _implied(spelt, found - {skill.name for skill in vocabulary.skills_in_role("filter")}) & names
 
 
+def mentions(text: str, name: str) -> int:
+    """In how many sentences a word can mean a skill; 0 for one that no words are known of."""
+    return sum(1 for sentence in _SENTENCE.finditer(_plain(text)) if _spoken(name).search(sentence.group())) if name in w.SPOKEN else 0
+
+
 def required(text: str, vocabulary: Vocabulary) -> frozenset[str]:
     """Names of the filter and perception skills that the text asks for beyond doubt: a plan that never runs one lacks it."""
     names = {skill.name for role in ("filter", "perception") for skill in vocabulary.skills_in_role(role)}
