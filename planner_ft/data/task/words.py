@@ -1,8 +1,9 @@
 """Text values: words of the trade from the phrase file, and made-up names that can only be copied.
 
 A word list holds entries such as "the {colour} ladder", "camera {n}" or "weld {code}". An entry that begins with "the "
-is said with its article and stored without it, and what stands before a bar is said and not stored ("sensor |{code}"), nor are quotation marks
-behind it. Made-up slots: {n} a number, {code} "KX-07", {low} a small letter, {name} a pseudo-word, {tag} a file tag; any other slot is an entry of the list of that name.
+is said with its article and stored without it, and what stands before a bar is said and not stored ("sensor |{code}"), nor are
+quotation marks behind it. Made-up slots: {n} a number, {code} "KX-07", {low} a small letter, {name} a pseudo-word, {tag} a file
+tag; any other slot is an entry of the list of that name.
 """
 
 from __future__ import annotations

@@ -25,7 +25,7 @@ DIVIDED = re.compile(
 
 
 class GroundedTaskValues(GroundedValues):
-    """The values of a skill sequence that its input states; `named` are those by skill and parameter (see `read_named_values`). Waypoints are left to routes."""
+    """The values of a skill sequence that its input states; `named` are those by skill and parameter (see `read_named_values`). Routes have the waypoints."""
 
     def __init__(self, record: dict[str, Any], vocabulary: Vocabulary, named: Mapping[tuple[str, str], frozenset[str]] | None = None) -> None:
         prompt = str(record.get("prompt", ""))

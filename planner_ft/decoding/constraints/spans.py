@@ -142,9 +142,7 @@ class Spans:
             named = word == "A" or text[match.start() - 1 : match.start()] in ("_", "-", ".")
             run = 0 if named or word.lower() not in UNENDING else run + 1
             quoted_here = text[match.start() - 1 : match.start()] in QUOTES
-            barred = (
-                word.lower() in NO_NAME_BEGINS or (match.start() and _NAMED_KIND.match(text, match.start())) if self._named else word.lower() in UNBEGINNING
-            )
+            barred = word.lower() in (NO_NAME_BEGINS if self._named else UNBEGINNING) or self._named_kind(text, match)
             begins = (quoted_here or not barred) and text[match.start() - 1 : match.start()] != "_"
             ends = run % MOST_UNENDING == 0 and text[match.end() : match.end() + 1] != "_"
             self._pieces.append(Piece(forms, begins, ends, alone=quoted_here or not (self._named and word.lower() in KINDS)))
@@ -159,6 +157,10 @@ class Spans:
             self._link(place, _written_gaps(gap, matches[number].group()), place + 1)
             if gap in ("'", "’") and matches[number + 1].group().lower() == "s" and number + 1 < len(gaps):
                 self._link(place, _written_gaps(gaps[number + 1], "s"), place + 2)
+
+    def _named_kind(self, text: str, match: re.Match[str]) -> bool:
+        """Whether a word says of what kind the identifier behind it is. A task's own values are taken as they are."""
+        return self._named and match.start() > 0 and _NAMED_KIND.match(text, match.start()) is not None
 
     def _link(self, place: int, gaps: list[str], following: int) -> None:
         self._pieces[place].following += [(quoted(gap), following) for gap in gaps]

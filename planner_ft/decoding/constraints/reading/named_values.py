@@ -34,7 +34,7 @@ _DOUBT = re.compile(
 
 
 def read_named_values(text: str, spoken: Collection[str], vocabulary: Vocabulary) -> dict[tuple[str, str], frozenset[str]]:
-    """By skill and parameter what its value is one of; nothing where several skills that the input speaks of have such a parameter, or one is spoken of twice."""
+    """By skill and parameter what its value is one of; nothing where several skills that are spoken of have such a parameter, or one is twice."""
     if len(text) > LONGEST or _DOUBT.search(text):
         return {}
     owners: dict[str, list[tuple[Skill, Parameter]]] = {}
@@ -45,11 +45,11 @@ def read_named_values(text: str, spoken: Collection[str], vocabulary: Vocabulary
                     owners.setdefault(parameter.name, []).append((skill, parameter))
     found = {}
     for name, having in owners.items():
-        kind, skill = _ENDING.sub("", name), having[0][0].name
+        kind, owner = _ENDING.sub("", name), having[0][0].name
         untold = kind in UNTOLD_KINDS or (kind == "object" and "target_id" in owners)
-        values = None if untold or len(having) > 1 or mentions(text, skill) > 1 else _values(text, kind)
+        values = None if untold or len(having) > 1 or mentions(text, owner) > 1 else _values(text, kind)
         if values:
-            found[skill, name] = values
+            found[owner, name] = values
     return found
 
 
