@@ -40,14 +40,14 @@ def tokenizer_of(work: Path, arguments: argparse.Namespace) -> Any:
     return PreTrainedTokenizerFast.from_pretrained(folder)
 
 
-def make_shard(job: tuple[Path, Path, Path | None, int, int, float, int]) -> dict[str, int]:
+def make_shard(job: tuple[Path, Path, Path | None, int, int, float, int, float]) -> dict[str, int]:
     """Write one shard of the corpus (worker process)."""
     from transformers import PreTrainedTokenizerFast
 
     from planner_ft.pretraining.corpus import encode_shard
     from planner_ft.pretraining.emphasis import Emphasis
 
-    path, tokenizer, emphasis, seed, count, share, longest = job
+    path, tokenizer, emphasis, seed, count, share, longest, drill_share = job
     return encode_shard(
         path,
         PreTrainedTokenizerFast.from_pretrained(tokenizer),
@@ -57,6 +57,7 @@ def make_shard(job: tuple[Path, Path, Path | None, int, int, float, int]) -> dic
         mission_share=share,
         longest=longest,
         emphasis=Emphasis.load(emphasis) if emphasis else None,
+        drill_share=drill_share,
     )
 
 
@@ -89,7 +90,16 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
     paths = [work / "corpus" / f"shard-{index:03d}.npz" for index in range(arguments.shards)]
     emphasis = emphasis_of(work, arguments, settings)
     jobs = [
-        (path, work / "tokenizer", emphasis, arguments.corpus_seed + index, arguments.shard_samples, arguments.mission_share, settings.longest)
+        (
+            path,
+            work / "tokenizer",
+            emphasis,
+            arguments.corpus_seed + index,
+            arguments.shard_samples,
+            arguments.mission_share,
+            settings.longest,
+            arguments.drill_share,
+        )
         for index, path in enumerate(paths)
         if not path.is_file()
     ]
@@ -137,7 +147,7 @@ def export(model: Any, tokenizer: Any, settings: PretrainSettings, arguments: ar
 def corpus_summary(work: Path) -> dict[str, Any]:
     """Samples and tokens of the corpus in all, and the commits of the generators that wrote it: shards may be replaced while a run goes on."""
     parts = [json.loads(path.read_text()) for path in sorted((work / "corpus").glob("*.json"))]
-    sums = {key: sum(part.get(key, 0) for part in parts) for key in ("samples", "tokens", "left_out", "passed_over")}
+    sums = {key: sum(part.get(key, 0) for part in parts) for key in ("samples", "tokens", "left_out", "passed_over", "drills")}
     return {**sums, "generators": sorted({part["commit"] for part in parts if part.get("commit")})}
 
 
@@ -151,6 +161,7 @@ def main() -> None:
     parser.add_argument("--shards", type=int, default=20)
     parser.add_argument("--shard-samples", type=int, default=12_000)
     parser.add_argument("--mission-share", type=float, default=0.6)
+    parser.add_argument("--drill-share", type=float, default=0.0, help="samples of sums alone, the beginnings of task answers, per sample of the corpus")
     parser.add_argument("--hard-share", type=float, default=1.0, help="share of the drawn tokens that is kept, those hard for --init first")
     parser.add_argument("--scored-samples", type=int, default=8000, help="samples whose losses tell hard from easy")
     parser.add_argument("--corpus-seed", type=int, default=1000)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from planner_ft.data.mission.synthetic import sample_missions
 from planner_ft.data.task.handed_down import handed_down_tasks
 from planner_ft.data.task.sampler import sample_tasks
+from planner_ft.data.task.working import working_of
 from planner_ft.pretraining.emphasis import Emphasis, Encoded
 from planner_ft.prompts.render import render_sample
 from planner_ft.prompts.text import answer_text, user_text
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 IGNORE = -100
 HANDED_DOWN, HANDED_DOWN_SEED = 0.1, 50_000_000
 """Share of the task inputs that come from missions, and what keeps those missions apart from the mission samples."""
+DRILL_SEED = 70_000_000
 CUT = 0.6
 """Share of the samples with a working that end behind it: the plan takes most of the tokens and has little left to learn."""
 WIDTH_STEP = 8
@@ -74,10 +76,22 @@ def tokenizer_texts(vocabulary: Vocabulary, seed: int, count: int, mission_share
 def encoded(tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, seed: int, mission_share: float, longest: int) -> Iterator[Encoded | None]:
     """Endless rendered samples; None stands for one of more than `longest` tokens."""
     for level, record in stream(vocabulary, seed, mission_share):
-        rendered = render_sample(level, record, tokenizer, vocabulary)
-        ids, prompt = np.array(rendered.input_ids, dtype=np.int64), rendered.prompt_length
-        worked = _worked(tokenizer, answer_text(level, record, vocabulary), ids[prompt:])
-        yield Encoded(level, user_text(level, record, vocabulary), ids, prompt, worked and prompt + worked) if len(ids) <= longest else None
+        yield _encoded(tokenizer, vocabulary, level, record, longest)
+
+
+def drills(tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, seed: int, longest: int) -> Iterator[Encoded]:
+    """Endless samples of the task level that have a working; up to its end they are practice in sums for few tokens."""
+    for record in sample_tasks(vocabulary, seed + DRILL_SEED, None, "train"):
+        sample = _encoded(tokenizer, vocabulary, "task", record, longest) if working_of(record, vocabulary) else None
+        if sample is not None and sample.worked is not None:
+            yield sample
+
+
+def _encoded(tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, level: Level, record: dict[str, Any], longest: int) -> Encoded | None:
+    rendered = render_sample(level, record, tokenizer, vocabulary)
+    ids, prompt = np.array(rendered.input_ids, dtype=np.int64), rendered.prompt_length
+    worked = _worked(tokenizer, answer_text(level, record, vocabulary), ids[prompt:])
+    return Encoded(level, user_text(level, record, vocabulary), ids, prompt, worked and prompt + worked) if len(ids) <= longest else None
 
 
 def _worked(tokenizer: PreTrainedTokenizerBase, answer: str, ids: NDArray[np.int64]) -> int | None:
@@ -99,16 +113,18 @@ def encode_shard(
     mission_share: float,
     longest: int,
     emphasis: Emphasis | None = None,
+    drill_share: float = 0.0,
 ) -> dict[str, int]:
     """Write `count` tokenised samples as one .npz file; return counts.
 
     Samples over `longest` tokens are left out and counted, those that `emphasis` passes over are drawn again and counted. Of those with a working,
-    some end behind it (`CUT`).
+    some end behind it (`CUT`); behind each sample comes a drill, with a probability of `drill_share`, which is counted apart.
     """
     draw = np.random.default_rng(seed)
     ids: list[NDArray[np.uint16]] = []
     prompts: list[int] = []
-    left_out = passed_over = 0
+    left_out = passed_over = drilled = 0
+    practice = drills(tokenizer, vocabulary, seed=seed, longest=longest)
     for sample in encoded(tokenizer, vocabulary, seed=seed, mission_share=mission_share, longest=longest):
         if sample is None:
             left_out += 1
@@ -118,12 +134,17 @@ def encode_shard(
             kept = sample.worked if draw.random() < CUT else None
             ids.append(sample.ids[:kept].astype(np.uint16))
             prompts.append(sample.prompt)
-        if len(ids) + left_out == count:
+            if draw.random() < drill_share:
+                drill = next(practice)
+                ids.append(drill.ids[: drill.worked].astype(np.uint16))
+                prompts.append(drill.prompt)
+                drilled += 1
+        if len(ids) - drilled + left_out == count:
             break
     lengths = np.array([len(item) for item in ids], dtype=np.int32)
     with atomic_writer(path, "wb") as stream_:
         np.savez(stream_, ids=np.concatenate(ids), lengths=lengths, prompts=np.array(prompts, dtype=np.int32))
-    return {"samples": len(ids), "tokens": int(lengths.sum()), "left_out": left_out, "passed_over": passed_over}
+    return {"samples": len(ids) - drilled, "tokens": int(lengths.sum()), "left_out": left_out, "passed_over": passed_over, "drills": drilled}
 
 
 def load_shard(path: Path) -> list[Sample]:
