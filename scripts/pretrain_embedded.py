@@ -89,20 +89,8 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
     """The corpus as shard files, those that are missing written first."""
     paths = [work / "corpus" / f"shard-{index:03d}.npz" for index in range(arguments.shards)]
     emphasis = emphasis_of(work, arguments, settings)
-    jobs = [
-        (
-            path,
-            work / "tokenizer",
-            emphasis,
-            arguments.corpus_seed + index,
-            arguments.shard_samples,
-            arguments.mission_share,
-            settings.longest,
-            arguments.drill_share,
-        )
-        for index, path in enumerate(paths)
-        if not path.is_file()
-    ]
+    drawn = arguments.shard_samples, arguments.mission_share, settings.longest, arguments.drill_share
+    jobs = [(path, work / "tokenizer", emphasis, arguments.corpus_seed + index, *drawn) for index, path in enumerate(paths) if not path.is_file()]
     commit = source_commit()["commit"]
     with ProcessPoolExecutor(2) as pool:
         for job, counts in zip(jobs, pool.map(make_shard, jobs), strict=True):
