@@ -44,6 +44,12 @@ SMALL = {
 SCALES = {"dozen": 12.0, "score": 20.0, "hundred": 100.0, "thousand": 1000.0}
 FRACTIONS = {"half": 0.5, "quarter": 0.25, "third": 1 / 3}
 PARTS = {**FRACTIONS, "quarters": 0.25, "thirds": 1 / 3}
+ORDINALS = {
+    name: 1 / value
+    for value, names in enumerate(("fifth", "sixth", "seventh", "eighth", "ninth", "tenth", "eleventh", "twelfth", "thirteenth", "fourteenth", "fifteenth"), 5)
+    for name in (names, f"{names}s")
+} | {"twentieth": 0.05, "twentieths": 0.05, "third": 1 / 3, "thirds": 1 / 3}  # fmt: skip
+"""Parts of a unit: "a tenth of an hour". Elsewhere these words count steps."""
 AND = ("and", "n", "&")
 BESIDE_UNIT = ("-", "of", "a", "an", "full", "whole", "good", "solid", "nautical")
 """Words that may stand between a number and its unit: "ten-minute", "half an hour", "a full hour"."""
@@ -78,6 +84,8 @@ def number_at(tokens: list[Token], index: int) -> tuple[float, int]:
         dozen = index + 1 + (following in ("a", "of"))
         return (12 * FRACTIONS[word], dozen + 1 - index) if word_at(tokens, dozen) == "dozen" else (FRACTIONS[word], 1)
     if word in ("a", "an", "per", "each", "every"):
+        if _is_part(tokens, index + 1):
+            return ORDINALS[following], 2
         if following in (*SCALES, "couple"):
             value, used = _in_words(tokens, index + 1, 0.0)
             return value, used + 1
@@ -86,9 +94,16 @@ def number_at(tokens: list[Token], index: int) -> tuple[float, int]:
     if word not in SMALL and word not in SCALES:
         return 0.0, 0
     value, used = _spelled_out(tokens, index) or _in_words(tokens, index, 0.0)
+    if _is_part(tokens, index + used):
+        return value * ORDINALS[word_at(tokens, index + used)], used + 1
     if word_at(tokens, index + used) in PARTS:
         return value * PARTS[word_at(tokens, index + used)], used + 1
     return _and_a_half(tokens, index, value, used)
+
+
+def _is_part(tokens: list[Token], index: int) -> bool:
+    """Whether an ordinal stands for a part of a unit: "tenth of an hour", "eighth of a turn"."""
+    return word_at(tokens, index) in ORDINALS and word_at(tokens, index + 1) == "of" and word_at(tokens, index + 2) in ("a", "an", "the")
 
 
 def _spelled_out(tokens: list[Token], index: int) -> tuple[float, int] | None:

@@ -28,6 +28,7 @@ TURNS = {
 ROUNDING = 0.0051
 """Converted values are written with two decimals."""
 
+_PART = re.compile(r" of (?:a|an|the) (?:full |complete |whole )?(?:turn|circle|rotation|revolution|circuit|round)\b")
 _REPEATED = re.compile(r"[\s-]*(?:full |complete )?(?:times?|turns?|laps?|rounds?|circles?|circuits?|orbits?)")
 _DIRECTION = r"(?:east|west|north|south)(?:ings?|wards?|erly)?|[ewns](?![a-z])"
 _FROM_HOME = r"(?:of|from) (?:home|base|here|(?:the )?origin)"
@@ -132,7 +133,7 @@ def turns(text: str) -> frozenset[float]:
         found.add(360.0)
     for quantity in quantities(text):
         behind = text[quantity.end : quantity.end + 24].lower()
-        if quantity.unit is None and (quantity.value in (0.75, 1.5, 2 / 3) or _REPEATED.match(behind)):
+        if quantity.unit is None and (quantity.value in (0.75, 1.5, 2 / 3) or _REPEATED.match(behind) or _PART.match(behind)):
             found.add(360 * quantity.value)
     return frozenset(found)
 

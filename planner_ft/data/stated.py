@@ -36,6 +36,13 @@ _HALF = re.compile(r"\band (?:a )?half[ -](hour|minute|kilometre|kilometer|mile|
 _NUMBER_ARTICLE = re.compile(r"(\d) (an? (?:hour|minute|kilometre|kilometer|mile|metre|meter|day)\b)", re.IGNORECASE)
 _DIGITS = {word: str(int(value)) for word, value in SMALL.items() if value < 10 and word != "couple"}
 _RADIO = re.compile(rf"\b({'|'.join(_DIGITS)}) ({'|'.join(_DIGITS)})(?= ({'|'.join(unit for unit in UNITS if len(unit) > 2)})\b)", re.IGNORECASE)
+_PRONOUNCED = {"wun": "one", "tree": "three", "fower": "four", "fife": "five", "ait": "eight", "niner": "nine"}
+_SAID_SO = re.compile(
+    rf"\b({'|'.join(_PRONOUNCED)})(?= (?:{'|'.join([*_DIGITS, *_PRONOUNCED])}|[a-z]*(?:metres?|meters?|minutes?|seconds?|degrees?|hours?))\b)", re.IGNORECASE
+)
+"""Digits as radio procedure has them pronounced, before another one or a unit: a tree is a tree elsewhere."""
+_CABLES = re.compile(r"[ -](?:of )?(?:an? )?cables?(?:[ -]lengths?)?\b", re.IGNORECASE)
+CABLE = 185.2
 _EXPONENT = re.compile(r"(?<![\w.])\d+(?:\.\d+)?e\+?\d{1,2}(?!\w)", re.IGNORECASE)
 
 
@@ -43,6 +50,7 @@ _EXPONENT = re.compile(r"(?<![\w.])\d+(?:\.\d+)?e\+?\d{1,2}(?!\w)", re.IGNORECAS
 def rewritings(text: str) -> tuple[str, ...]:
     """The text, and the ways in which it can be written out otherwise; at most MOST_REWRITINGS in all."""
     text = _VULGAR.sub(lambda match: f" {float(match[1] or 0) + VULGAR[match[2]]:g}", text)
+    text = _SAID_SO.sub(lambda match: _PRONOUNCED[match[1].lower()], text)
     found = dict.fromkeys([text])
     makers = (_with_numerals, _with_units, _with_articles, _thousands, _clock, _south, _apart, _speak, _radio, _cuts)
     for maker in makers:
@@ -79,7 +87,8 @@ def states_position(text: str, position: list[float]) -> bool:
 
 def radio_digits(text: str) -> str:
     """A text with "lanes one five metres apart", as it is said over the radio, in figures; three digits and more are read so anyway."""
-    return _RADIO.sub(lambda match: _DIGITS[match[1].lower()] + _DIGITS[match[2].lower()], text)
+    plain = _SAID_SO.sub(lambda match: _PRONOUNCED[match[1].lower()], text)
+    return _RADIO.sub(lambda match: _DIGITS[match[1].lower()] + _DIGITS[match[2].lower()], plain)
 
 
 def _numbers(text: str, unit: str | None) -> Iterator[float]:
@@ -89,6 +98,8 @@ def _numbers(text: str, unit: str | None) -> Iterator[float]:
     if unit == "s":
         yield from _durations(numbers)
         yield from _repeated(text, numbers)
+    elif unit == "m":
+        yield from (quantity.value * CABLE for quantity in numbers if quantity.unit is None and _CABLES.match(text, quantity.end))
     elif unit == "%":
         yield from (100 * quantity.value for quantity in numbers if quantity.unit is None and quantity.value < 1)
     elif unit == "m/s":

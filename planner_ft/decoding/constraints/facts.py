@@ -10,10 +10,11 @@ from typing import Any
 
 from planner_ft.data.lexicon import is_known
 from planner_ft.data.numerals import AND, FRACTIONS, SCALES, SMALL, UNITS
-from planner_ft.data.quantities import Quantity, positions, quantities
+from planner_ft.data.quantities import Quantity, close, positions, quantities
 from planner_ft.data.stated import rewritings, stated_numbers, stated_positions
 from planner_ft.data.words import edit_distance
 from planner_ft.decoding.constraints.patterns import WHOLE_DIGITS
+from planner_ft.decoding.constraints.reading.corrected import Corrections, read_corrections
 from planner_ft.vocabulary import Parameter, Vocabulary
 
 Position = tuple[float, float]
@@ -41,6 +42,10 @@ _UNREAD_UNITS = re.compile(
     r"((?:(?:boat|ship|hull|vessel|cable|car|rope)['’s]*[- ]?lengths?|furlongs?|leagues?|chain lengths?|fortnights?|weeks?|months?))\b",
     re.IGNORECASE,
 )
+_COORDINATE_UNIT = re.compile(
+    r"(?:,|\(|^|\ball|\bgiven|\bcorners|\bcoordinates|\bpositions|\bis|\bare) ?in (kilometres|kilometers|km|feet|ft|yards)\b(?! \w+ing\b)", re.IGNORECASE
+)
+"""The unit of the coordinates in a sentence, which are metres elsewhere."""
 _AXIS = r"(?:eastings?|northings?|east|north|west|south|latitude|longitude|coordinates?|[xy])"
 _AXIS_CUE = re.compile(rf"(?<![a-z]){_AXIS}\W{{0,3}}(?:minus |negative |of |is )?[-−–]?$", re.IGNORECASE)
 _NO_AXIS = r"(?![a-z-]| (?:side|face|wall|end|edge|corner|of (?!home|base|here)))"
@@ -63,6 +68,7 @@ class Reading:
     loose: tuple[float, ...]
     numbers_free: bool
     notes: tuple[str, ...]
+    corrections: Corrections
 
     def numbers(self, parameter: Parameter) -> list[float] | None:
         """Values of a parameter that the text states; None where any can be meant."""
@@ -71,19 +77,35 @@ class Reading:
 
     def said(self, unit: str | None) -> frozenset[float] | None:
         """Numbers in a unit that the text states, whatever their range; None where any can be meant."""
-        return None if self.numbers_free else stated_numbers(self.measures if unit in MEASURES else self.bare, unit)
+        if self.numbers_free:
+            return None
+        found = stated_numbers(self.measures if unit in MEASURES else self.bare, unit)
+        return frozenset(value for value in found if not any(close(value, other) for other in self.corrections.taken_back)) | self.corrections.instead
 
 
 def read(text: str, vocabulary: Vocabulary) -> Reading:
     """Read a command or a task prompt."""
     notes = list(_notes(text))
-    places = [(round(x, 2), round(y, 2)) for x, y in stated_positions(text) if max(abs(x), abs(y)) < LARGEST]
+    converted = _converted(text)
+    places = [converted.get(place, place) for x, y in stated_positions(text) if max(abs(x), abs(y)) < LARGEST for place in [(round(x, 2), round(y, 2))]]
     loose = () if notes else tuple(_loose(text))
     if loose:
         notes.append("The coordinates in the command could not be read with certainty.")
     known = dict.fromkeys([vocabulary.home, vocabulary.unresolved, *places])
     bare = without_pairs(text)
-    return Reading(text, bare, without_counts(bare), tuple(known), loose, any("number" in note for note in notes), tuple(notes))
+    return Reading(text, bare, without_counts(bare), tuple(known), loose, any("number" in note for note in notes), tuple(notes), read_corrections(bare))
+
+
+def _converted(text: str) -> dict[Position, Position]:
+    """Coordinates in a sentence that says their unit ("fence corners, in kilometres: ..."), with what they are in metres."""
+    found = {}
+    for match in _COORDINATE_UNIT.finditer(text):
+        _unit, factor = UNITS[match[1].lower()]
+        begins, ends = text.rfind(". ", 0, match.start()) + 1, text.find(". ", match.end())
+        for x, y, start, end in positions(text):
+            if begins <= start and end <= (ends if ends >= 0 else len(text)):
+                found[round(x, 2), round(y, 2)] = round(x * factor, 2), round(y * factor, 2)
+    return found
 
 
 def without_pairs(text: str) -> str:
