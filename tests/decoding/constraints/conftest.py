@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from planner_ft.data.task.working import WORKING
 from planner_ft.decoding.configurations import Strength
 from planner_ft.decoding.constraints import Constraint, ConstraintFactory, Mask
 from planner_ft.decoding.constraints.factory import constraint_factory
@@ -93,7 +92,7 @@ def random_answer(constraint: Constraint, limit: int, seed: int, busy: Any = Non
 def decoded(tokenizer: Any, ids: list[int]) -> Any:
     """The plan of an answer, without its working."""
     text, working = without_working(tokenizer.decode(ids, skip_special_tokens=False, clean_up_tokenization_spaces=False))
-    assert WORKING.fullmatch(working)
+    assert set(working) <= set("xy0123456789.+-/=;")
     return json.loads(text)
 
 
