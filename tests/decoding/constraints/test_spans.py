@@ -11,11 +11,11 @@ from planner_ft.decoding.constraints.spans import BLOCK, MOST_WORDS, Spans
 from planner_ft.support.files import compact_json
 
 
-def admitted(tokenizer: Any, texts: list[str], value: str, without: tuple[str, ...] = ()) -> bool:
+def admitted(tokenizer: Any, texts: list[str], value: str, without: tuple[str, ...] = (), *, named: bool = False) -> bool:
     from planner_ft.decoding.constraints.tokens import tokens_of
 
     grammar = Grammar()
-    terminal = Spans(texts).terminal(grammar, without)
+    terminal = Spans(texts, named=named).terminal(grammar, without)
     if terminal is None:
         return False
     tokens = tokens_of(tokenizer, (tokenizer.eos_token_id,))
@@ -102,3 +102,19 @@ def test_long_commands_keep_their_spans(embedded: Any) -> None:
         assert admitted(embedded, [" ".join(words)], " ".join(words[place : place + 5]))
     assert Spans([" ".join(words)]).too_long is False
     assert Spans(["word " * (MOST_WORDS + 1)]).too_long is True
+
+
+@pytest.mark.parametrize(
+    ("text", "value", "admits"),
+    [
+        ("Record with camera quad_2.", "quad_2", True),
+        ("Record with camera quad_2.", "camera quad_2", False),
+        ("Record with camera 2.", "camera 2", True),
+        ("Sonar for freespans on both legs.", "freespans", True),
+        ("Sonar for freespans on both legs.", "both legs", False),
+        ("A snapshot from pano_cam.", "snapshot", False),
+        ("A snapshot from pano_cam.", "pano_cam", True),
+    ],
+)
+def test_a_name_is_told_from_its_kind(embedded: Any, text: str, value: str, admits: bool) -> None:
+    assert admitted(embedded, [text], value, named=True) == admits
