@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from planner_ft.data.quantities import Quantity, quantities
 
 _CORRECTION = re.compile(
-    r"(?: [a-z]+){0,2}[\s,.;:()…–—-]+(?:no,? (?:wait|make (?:that|it)|sorry|hang on|rather|i mean)|scratch that|scrap that|strike that|correction|or rather|i meant?|"
-    r"make that|belay that|my mistake|i misread|sorry,? (?:make it|that's|i mean))\b[\s,.:;…–—-]*(?:it'?s |it is |that'?s |make (?:it|that) |to )?",
+    r"(?: [a-z]+){0,2}[\s,.;:()…–—-]+(?:no,? (?:wait|make (?:that|it)|sorry|hang on|rather|i mean)|scratch that|scrap that|strike that|correction|or rather|"
+    r"i meant?|make that|belay that|my mistake|i misread|sorry,? (?:make it|that's|i mean))\b[\s,.:;…–—-]*(?:it'?s |it is |that'?s |make (?:it|that) |to )?",
     re.IGNORECASE,
 )
 _NO = re.compile(r"[\s,.;:()…–—-]*[,.;…–—-] ?no,? (?:it'?s |it is |that'?s )?", re.IGNORECASE)
