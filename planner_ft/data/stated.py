@@ -36,6 +36,9 @@ _HALF = re.compile(r"\band (?:a )?half[ -](hour|minute|kilometre|kilometer|mile|
 _NUMBER_ARTICLE = re.compile(r"(\d) (an? (?:hour|minute|kilometre|kilometer|mile|metre|meter|day)\b)", re.IGNORECASE)
 _DIGITS = {word: str(int(value)) for word, value in SMALL.items() if value < 10 and word != "couple"}
 _RADIO = re.compile(rf"\b({'|'.join(_DIGITS)}) ({'|'.join(_DIGITS)})(?= ({'|'.join(unit for unit in UNITS if len(unit) > 2)})\b)", re.IGNORECASE)
+_TENS = {word: int(value) for word, value in SMALL.items() if value >= 10}
+_NONZERO = "|".join(word for word in _DIGITS if word not in ("zero", "oh"))
+_HUNDREDS = re.compile(rf"\b({_NONZERO})[ -]({'|'.join(_TENS)})(?:[ -]({_NONZERO}))?\b", re.IGNORECASE)
 _PRONOUNCED = {"wun": "one", "tree": "three", "fower": "four", "fife": "five", "ait": "eight", "niner": "nine"}
 _SAID_SO = re.compile(
     rf"\b({'|'.join(_PRONOUNCED)})(?= (?:{'|'.join([*_DIGITS, *_PRONOUNCED])}|[a-z]*(?:metres?|meters?|minutes?|seconds?|degrees?|hours?))\b)", re.IGNORECASE
@@ -52,7 +55,7 @@ def rewritings(text: str) -> tuple[str, ...]:
     text = _VULGAR.sub(lambda match: f" {float(match[1] or 0) + VULGAR[match[2]]:g}", text)
     text = _SAID_SO.sub(lambda match: _PRONOUNCED[match[1].lower()], text)
     found = dict.fromkeys([text])
-    makers = (_with_numerals, _with_units, _with_articles, _thousands, _clock, _south, _apart, _speak, _radio, _cuts)
+    makers = (_with_numerals, _with_units, _with_articles, _thousands, _clock, _south, _apart, _speak, _radio, _hundreds, _cuts)
     for maker in makers:
         for known in list(found) if maker is not _cuts else [*found][:3]:
             found.update(dict.fromkeys(itertools.islice(maker(known), MOST_REWRITINGS)))
@@ -160,6 +163,17 @@ def _speak(text: str) -> Iterator[str]:
 def _radio(text: str) -> Iterator[str]:
     if _RADIO.search(text):
         yield radio_digits(text)
+
+
+def _hundreds(text: str) -> Iterator[str]:
+    """ "one eighty" as 180, "two twenty-five" as 225."""
+
+    def number(match: re.Match[str]) -> str:
+        hundreds, tens, ones = (part.lower() if part else "" for part in match.groups())
+        return str(100 * int(_DIGITS[hundreds]) + _TENS[tens] + int(_DIGITS.get(ones, "0")))
+
+    if _HUNDREDS.search(text):
+        yield _HUNDREDS.sub(number, text)
 
 
 def _south(text: str) -> Iterator[str]:

@@ -22,6 +22,7 @@ DIVIDED = re.compile(
     re.IGNORECASE,
 )
 """Words for a turn that is divided into parts."""
+RECIPROCAL = re.compile(r"\breciprocal\b|\bopposite (?:heading|bearing|course|direction|way)\b|\bback bearing\b", re.IGNORECASE)
 
 
 class GroundedTaskValues(GroundedValues):
@@ -34,6 +35,7 @@ class GroundedTaskValues(GroundedValues):
         self._own = list(own_numbers(record, vocabulary))
         self._texts = list(own_texts(record))
         self._spans = Spans([prompt, *self._texts], named=True)
+        self._reciprocal = RECIPROCAL.search(prompt) is not None
         self._divided = DIVIDED.search(prompt) is not None
         self._counts = sector_counts([*(quantity.said for quantity in quantities(prompt)), *(number for number, _unit in self._own)])
 
@@ -47,6 +49,8 @@ class GroundedTaskValues(GroundedValues):
         if said is None:
             return super().number(grammar, parameter, without)
         facts = [*said, *(number for number, unit in self._own if None in (unit, parameter.unit) or unit == parameter.unit)]
+        if parameter.unit == "deg" and self._reciprocal:
+            facts += [(value + 180) % 360 for value in facts]
         values = usable([*facts, *(turned(facts, self._counts if self._divided else ()) if parameter.unit == "deg" else ())], parameter)
         return one_of(grammar, (written_number(value) for value in values if value not in without))
 
