@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
+from planner_ft.data.quantities import positions
 from planner_ft.document.language import language
 from planner_ft.document.lost import lost_values
 from planner_ft.document.said import read_command
 from planner_ft.document.warnings.command import unanswered
 from planner_ft.vocabulary import Vocabulary
+
+_PLACED = r"[\s,:]{0,2}(?:(?:at|around|about|near|by|on|centred on) )?"
+"""What stands between a thing and its coordinates."""
+_SEARCH = re.compile(r"\b(?:find|finding|search\w*|locat\w*|look(?:ing)? (?:for|around)|hunt\w*|seek\w*|spot|detect\w*|sweep for|where)\b", re.IGNORECASE)
+_NO_RETURN = re.compile(
+    r"\b(?:do not|don'?t|needn'?t|need not|no need to|without|never|not to|won'?t|not|no) (?!forget)(?:\w+ ){0,2}?"
+    r"(?:return(?:ing)?|com(?:e|ing) (?:back|home)|go(?:ing)? (?:back|home)|RTB)\b(?! (?:until|before|till|between|without|to (?!home|base)))",
+    re.IGNORECASE,
+)
 
 
 def count_lacking(command: str, answer: str, vocabulary: Vocabulary) -> int | None:
@@ -32,6 +43,8 @@ def count_lacking(command: str, answer: str, vocabulary: Vocabulary) -> int | No
         unanswered(command, titles, vocabulary),
         _repeated(tasks, vocabulary),
         _groundless(command, titles, vocabulary),
+        _searched_for_nothing(command, tasks, vocabulary),
+        _returned(command, tasks, vocabulary),
     )
     return sum(1 for items in found for _item in items)
 
@@ -40,6 +53,23 @@ def _groundless(command: str, titles: Iterable[str], vocabulary: Vocabulary) -> 
     """The titles of tasks that no word of the command can mean."""
     hints = language(vocabulary).hints
     yield from (title for title in titles if title in hints and not hints[title].search(command))
+
+
+def _searched_for_nothing(command: str, tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Iterator[str]:
+    """What is searched for although the command says where it is, and does not ask for a search: "the tide gauge at [-14, 22] ... the gauge"."""
+    if _SEARCH.search(command):
+        return
+    before = [command[: start - 1].lower() for _x, _y, start, _end in positions(command) if command[start - 1 : start] in ("[", "(")]
+    for task in tasks:
+        described = [str(value).lower() for value in task["parameters"].values()] if task["title"] == vocabulary.locate else []
+        yield from (text for text in described if any(re.search(rf"\b{re.escape(text)}{_PLACED}$", piece) for piece in before))
+
+
+def _returned(command: str, tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Iterator[str]:
+    """The way home, where the command rules it out."""
+    last = tasks[-1]
+    if list(vocabulary.home) in last["parameters"].values() and last["title"] == vocabulary.transit and _NO_RETURN.search(command):
+        yield last["title"]
 
 
 def _repeated(tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Iterator[str]:
