@@ -26,6 +26,8 @@ NEAR = 0.0051
 """Coordinates are rounded to two decimals."""
 PARTS = range(3, 13)
 """Lanes divide an area into this many parts."""
+SUM = re.compile(r"([xy]?)(-?\d+(?:\.\d+)?)([-+/])(\d+(?:\.\d+)?)=(-?\d+(?:\.\d+)?)")
+"""A sum: axis, base or length, sign, length or number of parts, result."""
 WORKING = re.compile(r"(?:(?:[xy]-?\d+(?:\.\d+)?[-+]|\d+(?:\.\d+)?/)\d+(?:\.\d+)?=-?\d+(?:\.\d+)?;?)*")
 """What a working looks like."""
 

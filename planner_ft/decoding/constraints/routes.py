@@ -35,7 +35,7 @@ from planner_ft.decoding.constraints.repeats import ROTATING, Step, TurnValues, 
 from planner_ft.decoding.constraints.waypoints import Ending, Ground, Path, Point
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.definition import Role
-from planner_ft.vocabulary.plans import STEP_KEYS
+from planner_ft.vocabulary.plans import STEP_KEYS, without_working
 
 FILTERS, PERCEPTIONS = (key(name) + "[" for name in STEP_KEYS[1:3])
 STEP_OPENS = "{" + key(STEP_KEYS[0]) + SKILL_OPENS
@@ -100,11 +100,16 @@ class TaskScript:
         if not text.endswith(SKILL_OPENS):
             return None
         if text.endswith(STEP_OPENS):
-            ahead = self if self.chosen is None else self._behind_step(text)
+            ahead = self._opened(text) if self.chosen is None else self._behind_step(text)
             ahead = replace(ahead, chosen=None, role="navigation", written=STEP_OPENS, beside=())
         else:
             ahead = self._behind_skill(text)
         return ahead._names(), ahead
+
+    def _opened(self, text: str) -> TaskScript:
+        """The script behind the opening, with what the working in it derives."""
+        working = without_working(text)[1]
+        return replace(self, ground=self.ground.shown(working)) if working else self
 
     def closing(self) -> Script:
         return replace(self, ground=replace(self.ground, paths=(), itinerary=None, alone=False, shaped=False), turns=None, companions=Companions())

@@ -11,12 +11,13 @@ import functools
 import itertools
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from planner_ft.data.quantities import bearings, quantities
+from planner_ft.data.quantities import ROUNDING, bearings, quantities
 from planner_ft.data.stated import stated_numbers
 from planner_ft.data.task import geometry as g
+from planner_ft.data.task.working import SUM
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.grammar import MOST_STEPS
 from planner_ft.decoding.constraints.reading import LONGEST
@@ -61,7 +62,7 @@ class Ground:
     `shaped`: the task is one of the paths, run once; other waypoints are the places `apart` from it.
 
     `stays` says that the vehicle may come to a place again, or stay where it is. A path counts as begun with `begun` of its waypoints in a row: with
-    fewer where the task is about such a path, since two moves can look like the beginning of many.
+    fewer where the task is about such a path, since two moves can look like the beginning of many. `worked` are coordinates that the answer derives itself.
     """
 
     places: tuple[Point, ...]
@@ -75,6 +76,19 @@ class Ground:
     begun: int = 2
     itinerary: Path | None = None
     alone: bool = False
+    worked: tuple[frozenset[float], frozenset[float]] = (frozenset(), frozenset())
+
+    def shown(self, working: str) -> Ground:
+        """The ground with the coordinates that a working (see planner_ft.data.task.working) derives from these facts; wrong sums derive nothing."""
+        found = tuple({place[axis] for place in self.places} for axis in (0, 1))
+        stated, lengths = tuple(map(frozenset, found)), set(self.lengths)
+        for axis, base, sign, away, result in SUM.findall(working):
+            one, other, value = float(base), float(away), float(result)
+            if sign == "/" and one in lengths and other and abs(one / other - value) <= ROUNDING:
+                lengths.add(value)
+            elif axis and one in found["xy".index(axis)] and other in lengths and abs(one + (other if sign == "+" else -other) - value) <= ROUNDING:
+                found["xy".index(axis)].add(g.tidy(value))
+        return replace(self, worked=(frozenset(found[0]), frozenset(found[1]))) if found != stated else self
 
     def following(self, before: Path) -> list[Point]:
         """The waypoints that may follow those `before`: other places, unless the text speaks of coming back."""
@@ -89,7 +103,8 @@ class Ground:
             return [point for point in dict.fromkeys((*starts, *self.apart)) if point not in before]
         bases = dict.fromkeys((*before[-1:], *self.places))
         away = (g.offset(base, bearing, length) for base in bases for length in self.lengths for bearing in self.bearings)
-        options = dict.fromkeys(itertools.chain(self.places, before, self._starts, onward, away))
+        derived = itertools.product(*self.worked)
+        options = dict.fromkeys(itertools.chain(self.places, before, self._starts, onward, away, derived))
         return [point for point in options if self.stays or point not in before]
 
     def ending(self, before: Path) -> Ending:

@@ -83,3 +83,16 @@ def test_shapes_that_are_not_derived_leave_room() -> None:
 def test_a_shape_that_is_ruled_out_binds_nothing(said: str) -> None:
     record = {"task": "SurveyTarget", "parameters": {"target_position": [60, 20], "radius": 6}, "prompt": said}
     assert read_ground(record, load_vocabulary()).free
+
+
+def test_a_working_derives_coordinates_by_right_sums_over_the_facts() -> None:
+    half = "Only the eastern half of the area: first lane on the north-south centre line from its south end, then outwards to the east."
+    record = {"task": "BathymetryGridSurvey", "parameters": {"center": [100, 0], "width": 80, "length": 40, "spacing": 10}, "prompt": half}
+    ground = read_ground(record, VOCABULARY)
+    assert not ground.told
+    # A sum that is wrong, one over a length that nobody said, and one from a place that nobody said.
+    shown = ground.shown("40/2=20;y0-20=-20;y-20+40=20;x100+10=110;x110+10=121;x110+7=117;x90+10=100")
+    assert shown.worked == ({0, 100, 110}, {0, -20, 20})
+    assert (110, 20) in shown.following(((100, -20), (100, 20)))
+    assert ground.shown("x100+7=107").worked == ground.worked
+    assert ground.shown("no sum").worked == ground.worked
