@@ -121,7 +121,7 @@ class Ground:
     @property
     def told(self) -> bool:
         """Whether the waypoints are known: nothing is left to work out."""
-        return self.itinerary is not None
+        return self.itinerary is not None or self.shaped
 
     @property
     def waypoints_alone(self) -> bool:
