@@ -36,6 +36,8 @@ _HALF = re.compile(r"\band (?:a )?half[ -](hour|minute|kilometre|kilometer|mile|
 _NUMBER_ARTICLE = re.compile(r"(\d) (an? (?:hour|minute|kilometre|kilometer|mile|metre|meter|day)\b)", re.IGNORECASE)
 _DIGITS = {word: str(int(value)) for word, value in SMALL.items() if value < 10 and word != "couple"}
 _RADIO = re.compile(rf"\b({'|'.join(_DIGITS)}) ({'|'.join(_DIGITS)})(?= ({'|'.join(unit for unit in UNITS if len(unit) > 2)})\b)", re.IGNORECASE)
+_AXIS_RADIO = re.compile(rf"\b([xy] (?:minus |negative )?)({'|'.join(_DIGITS)}) ({'|'.join(_DIGITS)})\b(?! (?:{'|'.join(_DIGITS)})\b)", re.IGNORECASE)
+"""A coordinate of two digits: "x five five"."""
 _TENS = {word: int(value) for word, value in SMALL.items() if value >= 10}
 _NONZERO = "|".join(word for word in _DIGITS if word not in ("zero", "oh"))
 _HUNDREDS = re.compile(rf"\b({_NONZERO})[ -]({'|'.join(_TENS)})(?:[ -]({_NONZERO}))?\b", re.IGNORECASE)
@@ -44,7 +46,7 @@ _SAID_SO = re.compile(
     rf"\b({'|'.join(_PRONOUNCED)})(?= (?:{'|'.join([*_DIGITS, *_PRONOUNCED])}|[a-z]*(?:metres?|meters?|minutes?|seconds?|degrees?|hours?))\b)", re.IGNORECASE
 )
 """Digits as radio procedure has them pronounced, before another one or a unit: a tree is a tree elsewhere."""
-_CABLES = re.compile(r"[ -](?:of )?(?:an? )?cables?(?:[ -]lengths?)?\b", re.IGNORECASE)
+CABLES = re.compile(r"[ -](?:of )?(?:an? )?cables?(?:[ -]lengths?)?\b", re.IGNORECASE)
 CABLE = 185.2
 _EXPONENT = re.compile(r"(?<![\w.])\d+(?:\.\d+)?e\+?\d{1,2}(?!\w)", re.IGNORECASE)
 
@@ -91,6 +93,7 @@ def states_position(text: str, position: list[float]) -> bool:
 def radio_digits(text: str) -> str:
     """A text with "lanes one five metres apart", as it is said over the radio, in figures; three digits and more are read so anyway."""
     plain = _SAID_SO.sub(lambda match: _PRONOUNCED[match[1].lower()], text)
+    plain = _AXIS_RADIO.sub(lambda match: match[1] + _DIGITS[match[2].lower()] + _DIGITS[match[3].lower()], plain)
     return _RADIO.sub(lambda match: _DIGITS[match[1].lower()] + _DIGITS[match[2].lower()], plain)
 
 
@@ -102,7 +105,7 @@ def _numbers(text: str, unit: str | None) -> Iterator[float]:
         yield from _durations(numbers)
         yield from _repeated(text, numbers)
     elif unit == "m":
-        yield from (quantity.value * CABLE for quantity in numbers if quantity.unit is None and _CABLES.match(text, quantity.end))
+        yield from (quantity.value * CABLE for quantity in numbers if quantity.unit is None and CABLES.match(text, quantity.end))
     elif unit == "%":
         yield from (100 * quantity.value for quantity in numbers if quantity.unit is None and quantity.value < 1)
     elif unit == "m/s":
@@ -161,7 +164,7 @@ def _speak(text: str) -> Iterator[str]:
 
 
 def _radio(text: str) -> Iterator[str]:
-    if _RADIO.search(text):
+    if _RADIO.search(text) or _AXIS_RADIO.search(text):
         yield radio_digits(text)
 
 

@@ -11,7 +11,7 @@ from typing import Any
 from planner_ft.data.lexicon import is_known
 from planner_ft.data.numerals import AND, FRACTIONS, SCALES, SMALL, UNITS
 from planner_ft.data.quantities import Quantity, close, positions, quantities
-from planner_ft.data.stated import rewritings, stated_numbers, stated_positions
+from planner_ft.data.stated import CABLES, rewritings, stated_numbers, stated_positions
 from planner_ft.data.words import edit_distance
 from planner_ft.decoding.constraints.patterns import WHOLE_DIGITS
 from planner_ft.decoding.constraints.reading.corrected import Corrections, read_corrections
@@ -121,7 +121,7 @@ def without_counts(text: str) -> str:
         before, behind = _WORD_BEFORE.search(text[: quantity.start]), _WORD_BEHIND.match(text[quantity.end :])
         said_before = before[1].lower() if before else ""
         stands = (word == "one" and said_before not in BEFORE_NUMBERS) or (word in FRACTIONS and not _AND_A.search(text[: quantity.start]))
-        if quantity.unit is None and (stands or (behind is not None and _is_thing(behind[1].lower()))):
+        if quantity.unit is None and not CABLES.match(text, quantity.end) and (stands or (behind is not None and _is_thing(behind[1].lower()))):
             pieces.append(text[end : quantity.start])
             end = quantity.end
     return ";".join([*pieces, text[end:]])

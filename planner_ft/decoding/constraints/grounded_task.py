@@ -9,7 +9,19 @@ from typing import Any
 
 from planner_ft.data.quantities import quantities
 from planner_ft.decoding.constraints.facts import MOST_CROSSED, own_numbers, own_texts, sector_counts, turned, usable
-from planner_ft.decoding.constraints.grammar import IDENTIFIED, MOST_TEXTS, Context, Grammar, Narrowed, Positions, SchemaValues, items, written, written_number
+from planner_ft.decoding.constraints.grammar import (
+    IDENTIFIED,
+    MOST_TEXTS,
+    Context,
+    Grammar,
+    Narrowed,
+    Positions,
+    SchemaValues,
+    corners,
+    items,
+    written,
+    written_number,
+)
 from planner_ft.decoding.constraints.grounded import GroundedValues, one_of
 from planner_ft.decoding.constraints.spans import Spans
 from planner_ft.support.files import compact_json
@@ -40,6 +52,9 @@ class GroundedTaskValues(GroundedValues):
         self._counts = sector_counts([*(quantity.said for quantity in quantities(prompt)), *(number for number, _unit in self._own)])
 
     def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
+        if parameter.type == "polygon":
+            position = self.position(grammar, ())
+            return [(corners(grammar, position), context)] if position else []
         named = self._named.get((owner.name, parameter.name)) if isinstance(owner, Skill) else None
         symbol = one_of(grammar, map(compact_json, sorted(named))) if named else None
         return [(symbol, context | IDENTIFIED)] if symbol else super().parameter(grammar, parameter, owner, context)

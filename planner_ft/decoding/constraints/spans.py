@@ -28,8 +28,12 @@ UNBEGINNING = ARTICLES | frozenset(
     ("and", "or", "of", "to", "at", "in", "on", "for", "from", "by", "with", "then", "now", "is", "are", "be", "it", "as", "so", "if", "but", "than")
 )
 """Words that no value begins with."""
+PICTURES = ("snapshot", "snapshots", "picture", "pictures", "still", "stills", "image", "images")
 NO_NAME_BEGINS = UNBEGINNING | frozenset(
-    ("both", "between", "each", "every", "any", "there", "here", "this", "that", "while", "during", "until", "when", "once", "only", "also", "not", "its")
+    (
+        *("both", "between", "each", "every", "any", "there", "here", "this", "that", "while", "during", "until", "when", "once", "only", "also", "not", "its"),
+        *PICTURES,
+    )
 )
 """Words that no name begins with."""
 UNENDING = frozenset({"the", "an", "and", "or", "of", "with", "then", "to", "from", "for", "now", "is", "are", "be", "if", "but", "than"})
@@ -39,7 +43,8 @@ QUOTES = ('"', "'", "“", "‘", "«")
 KINDS = frozenset(
     (
         *("region", "regions", "stream", "streams", "camera", "cameras", "sensor", "sensors", "cloud", "label", "labels", "note", "notes", "tag", "tags"),
-        *("snapshot", "snapshots", "picture", "pictures", "still", "stills", "image", "images", "leg", "legs", "step", "steps", "hold", "course", "data"),
+        *("leg", "legs", "step", "steps", "hold", "course", "data"),
+        *PICTURES,
     )
 )
 """Words for what has a name or is done, and are none."""

@@ -159,3 +159,16 @@ def test_forced_tokens_are_those_of_training(tokenizer: Any) -> None:
             count += len(forced)
             constraint.accept(token)
     assert count > 20
+
+
+def test_a_fence_has_corners_that_the_input_states(embedded: Any) -> None:
+    vocabulary = load_vocabulary()
+    factory = make_factory(embedded, "task", vocabulary, "grounded")
+    record = {"task": "DriftAudit", "parameters": {}, "prompt": "Float. Fence corners, in kilometres: [-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]."}
+    answer = '{"skill_sequence":[{"navigation_skill":{"name":"DriftWithCurrent","parameters":{}},"filter_skills":[{"name":"BoundaryEnforcement",'
+    answer += '"parameters":{"poly_coords":%s'
+    right = answer_ids(embedded, answer % "[[-500,-500],[500,-500],[500,500],[-500,500]]")
+    assert factory.start(record).admits(right) == len(right)
+    for wrong in ("[[-500,-500],[400,-500],[500,500]]", "[[-0.5,-0.5],[0.5,-0.5],[0.5,0.5]]"):
+        ids = answer_ids(embedded, answer % wrong)
+        assert factory.start(record).admits(ids) < len(ids)

@@ -31,11 +31,13 @@ _DOUBT = re.compile(
     r"\b(?:instead|rather than|scratch|scrap|correction|misread|no wait|I mean|make that|not|never|don't|neither|wrong|belay|sorry|should read|disregard)\b",
     re.IGNORECASE,
 )
+_SEVERAL = re.compile(r"\bfirst\b.*\b(?:second|other|last|next|latter)\b|\bformer\b.*\blatter\b|\brespectively\b|\bthe other\b", re.IGNORECASE | re.DOTALL)
+"""Words for several steps or values, each of which may have its own."""
 
 
 def read_named_values(text: str, spoken: Collection[str], vocabulary: Vocabulary) -> dict[tuple[str, str], frozenset[str]]:
     """By skill and parameter what its value is one of; nothing where several skills that are spoken of have such a parameter, or one is twice."""
-    if len(text) > LONGEST or _DOUBT.search(text):
+    if len(text) > LONGEST or _DOUBT.search(text) or _SEVERAL.search(text):
         return {}
     owners: dict[str, list[tuple[Skill, Parameter]]] = {}
     for skill in vocabulary.skills:
