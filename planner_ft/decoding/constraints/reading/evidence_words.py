@@ -67,7 +67,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"berth of|wide berth|(?:a|enough|good|any|some) berth|giv(?:e|es|ing) [^.;,]{0,40}berth",
         r"(?:closer|nearer)\b|(?:nearest|closest) (?:you|we|she|it|that|one|anything|to any)|(?:come|get|go|pass|approach|stray|ventur|too|so|"
         r"stay|keep)(?:s|ing|e)? (?:too |so |any |very )?(?:close|near)\b",
-        r"(?:safe\w*|keep\w*|your|hold\w*|stay\w*|maintain\w*|respect\w*|leav\w*|mind) (?:(?!measur|log|monitor|sector|record|read|visual|rang|"
+        r"(?:safe\w*|keep\w*|your|hold\w*|stay\w*|maintain\w*|respect\w*|leav\w*|mind|have|having) (?:(?!measur|log|monitor|sector|record|read|visual|rang|"
         r"obst|within|inside|station|position|lidar|laser|shortest)[a-z0-9.-]+ ){0,4}"
         r"(?:distance|separation|gap|space|room)\b|separation|minimum (?:safe\w* )?distance (?:of|to|from)",
         rf"{SIZE}[ -]?(?:clear|off\b|of (?:room|space|water|sea ?room|distance|separation|air)|separation|gap|buffer|between|"
