@@ -118,18 +118,24 @@ def _route(plan: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[tuple[fl
         movement = step["navigation_skill"]
         skill = vocabulary.skill.get(movement["name"])
         if skill is not None and skill.motion == "goto":
-            x, y = (movement["parameters"][parameter.name] for parameter in skill.coordinates)
-            yield x, y
+            x, y = (movement["parameters"].get(parameter.name) for parameter in skill.coordinates)
+            if _is_number(x) and _is_number(y):
+                yield x, y
 
 
 def _places(own: Sequence[tuple[Parameter | None, Any]]) -> Iterator[tuple[float, float]]:
     for parameter, value in own:
-        if parameter is not None and parameter.type in ("position", "polygon"):
-            yield from [value] if parameter.type == "position" else value
+        if parameter is not None and parameter.type in ("position", "polygon") and isinstance(value, list | tuple):
+            listed = [value] if parameter.type == "position" else value
+            yield from (place for place in listed if isinstance(place, list | tuple) and len(place) == 2 and all(map(_is_number, place)))
 
 
 def _is_length(parameter: Parameter | None, value: Any) -> bool:
-    return parameter is not None and parameter.unit == "m" and parameter.type in ("number", "integer") and not isinstance(value, str | list)
+    return parameter is not None and parameter.unit == "m" and _is_number(value)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _said(prompt: str) -> Iterator[float]:

@@ -51,6 +51,9 @@ def record(points: list[g.Point], prompt: str = "Survey it.", task: str = "Surve
         (record([(10, -30), (20, 5), (0, 0)], "To [10, -30], then [20, 5], then home."), ""),
         (record([(10, 20), (79.28, -20)], "80 m on 120 degrees.", target_position=[10, 20]), "80/2=40;y20-40=-20"),
         ({**record([]), "parameters": {"radius": 5}}, ""),
+        # Records that no check has seen.
+        (record([(45, None), (45, -18)], target_position=[33], radius="12"), ""),  # type: ignore[list-item]
+        (record([(45, -18)], target_position="x", radius=12), ""),
     ],
 )
 def test_sums_are_those_that_the_waypoints_need(sample: dict[str, Any], expected: str) -> None:

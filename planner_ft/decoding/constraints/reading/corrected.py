@@ -17,6 +17,7 @@ _NO = re.compile(r"[\s,.;:()…–—-]*[,.;…–—-] ?no,? (?:it'?s |it is |t
 _NOT = re.compile(r"(?:,|;|\band|\bbut|\(|^|[–—-]) ?not (?:the |at |of |for )?$", re.IGNORECASE)
 _COORDINATE = re.compile(r" ?[NESW]\b")
 LEAST = 0.2
+"""A number that corrects another is at least this share of it, and at most as many times as large."""
 
 
 @dataclass(frozen=True)
