@@ -127,7 +127,7 @@ def _places(own: Sequence[tuple[Parameter | None, Any]]) -> Iterator[tuple[float
     for parameter, value in own:
         if parameter is not None and parameter.type in ("position", "polygon") and isinstance(value, list | tuple):
             listed = [value] if parameter.type == "position" else value
-            yield from (place for place in listed if isinstance(place, list | tuple) and len(place) == 2 and all(map(_is_number, place)))
+            yield from ((place[0], place[1]) for place in listed if isinstance(place, list | tuple) and len(place) == 2 and all(map(_is_number, place)))
 
 
 def _is_length(parameter: Parameter | None, value: Any) -> bool:
