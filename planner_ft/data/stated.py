@@ -48,6 +48,7 @@ _SAID_SO = re.compile(
 """Digits as radio procedure has them pronounced, before another one or a unit: a tree is a tree elsewhere."""
 CABLES = re.compile(r"[ -](?:of )?(?:an? )?cables?(?:[ -]lengths?)?\b", re.IGNORECASE)
 CABLE = 185.2
+"""Metres in a cable, a tenth of a nautical mile."""
 _EXPONENT = re.compile(r"(?<![\w.])\d+(?:\.\d+)?e\+?\d{1,2}(?!\w)", re.IGNORECASE)
 
 

@@ -28,8 +28,6 @@ PARTS = range(3, 13)
 """Lanes divide an area into this many parts."""
 SUM = re.compile(r"([xy]?)(-?\d+(?:\.\d+)?)([-+/])(\d+(?:\.\d+)?)=(-?\d+(?:\.\d+)?)")
 """A sum: axis, base or length, sign, length or number of parts, result."""
-WORKING = re.compile(r"(?:(?:[xy]-?\d+(?:\.\d+)?[-+]|\d+(?:\.\d+)?/)\d+(?:\.\d+)?=-?\d+(?:\.\d+)?;?)*")
-"""What a working looks like."""
 
 _Length = tuple[float, float | None]
 """A length, and the one that it is a part of."""

@@ -56,7 +56,7 @@ ANY_INTEGER = rf"(0|-?[1-9][0-9]{{0,{WHOLE_DIGITS - 1}}})"
 ANY_NUMBER = rf"({ANY_INTEGER}|-?(0|[1-9][0-9]{{0,{WHOLE_DIGITS - 1}}}){_FRACTION})"
 ANY_POSITION = rf"\[{ANY_NUMBER},{ANY_NUMBER}\]"
 SUMS = r"[xy0-9.+/=;\-]"
-"""Signs of a working (see planner_ft.data.task.working). Its form is not enforced: nobody reads it but the model."""
+"""Signs of a working (see planner_ft.data.task.working). Its form is not enforced: where sums are read, wrong ones derive nothing."""
 
 
 @functools.lru_cache(maxsize=1024)
