@@ -100,10 +100,16 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
 
 
 def initialise(model: Any, init: Path) -> None:
-    """Take the weights of the model folder `init`, for a further stage of pretraining."""
+    """Take the weights of the model folder `init`, for a further stage of pretraining; a model of more layers begins as that one."""
     from transformers import LlamaForCausalLM
 
-    model.load_state_dict(LlamaForCausalLM.from_pretrained(init, dtype=model.dtype).state_dict())
+    from planner_ft.pretraining.growth import deepened
+
+    weights = LlamaForCausalLM.from_pretrained(init, dtype=model.dtype).state_dict()
+    try:
+        model.load_state_dict(deepened(weights, model.config.num_hidden_layers))
+    except ValueError as error:
+        raise SystemExit(f"--layers: {error}") from None
 
 
 def earlier_stages(init: Path | None) -> list[dict[str, Any]]:
