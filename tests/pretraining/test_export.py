@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import importlib.util
 import json
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -17,15 +16,6 @@ from planner_ft.pretraining.loop import PretrainSettings, new_model
 
 SETTINGS = PretrainSettings(hidden=32, layers=1, heads=2, feed_forward=48)
 SPECIAL = {"bos": 1, "eos": 2, "pad": 0}
-
-
-@pytest.fixture(scope="module")
-def script() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("pretrain_embedded", Path("scripts/pretrain_embedded.py"))
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def arguments(folder: Path, **given: Any) -> argparse.Namespace:
