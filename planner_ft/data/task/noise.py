@@ -1,48 +1,70 @@
-"""Typing errors and carelessness in a small share of the prompts; values are never touched."""
+"""What happens to a share of the task prompts on their way: slips of the fingers, hurry, telegrams, dictation; values are never touched."""
 
 from __future__ import annotations
 
 import random
 import re
+from collections.abc import Callable
 
+from planner_ft.data.mission.synthetic import commands_noise as sent
 from planner_ft.data.task.template import VALUE_CLOSE, VALUE_OPEN
 
-TYPOS = 0.05
-CARELESS = 0.06
-# A slip in one of these could change what is asked for.
-_KEPT = frozenset("north south clockwise anticlockwise counter right starboard corner first second third fourth fifth before after".split())  # noqa: SIM905
-_PLAIN_WORD = re.compile(r"[a-z]{5,}")
+# A slip in one of these, or a figure in its place, could change what is asked for.
+_KEPT = "north south clockwise anticlockwise counter right starboard corner first second third fourth fifth before after for to".split()  # noqa: SIM905
+_UNTOUCHED = re.compile(rf"{VALUE_OPEN}[^{VALUE_CLOSE}]*{VALUE_CLOSE}|\b(?:{'|'.join(_KEPT)})\b")
+_HIDDEN = re.compile(f"{VALUE_OPEN}(\\d+){VALUE_CLOSE}")
 
 
-def noisy(text: str, rng: random.Random) -> str:
-    """The prompt as typed: mostly unchanged."""
+def noisy(text: str, rng: random.Random, *, capitals: bool = True) -> str:
+    """The prompt, its values still marked, as it arrives: mostly unchanged; `capitals` tells whether a telegram may be all in capitals.
+
+    The changes are those of commands written by hand (`planner_ft.data.mission.synthetic.commands_noise`).
+    """
     roll = rng.random()
-    if roll < TYPOS:
-        text = _typo(text, rng)
-    elif roll < TYPOS + CARELESS:
-        text = text[0].lower() + text[1:] if rng.random() < 0.6 else text
-        text = text.rstrip(".") if rng.random() < 0.7 else text
+    for share, change in CHANGES:
+        if roll < share:
+            return _with_values_hidden(text, rng, change, capitals)
+        roll -= share
     return text
 
 
-def _typo(text: str, rng: random.Random) -> str:
-    words = [match for match in _PLAIN_WORD.finditer(text) if match.group() not in _KEPT and not _inside_value(text, match.start())]
-    if not words:
+def _with_values_hidden(text: str, rng: random.Random, change: Callable[[str, random.Random], str], capitals: bool) -> str:
+    """The text changed around its values and the words that are kept."""
+    untouched: list[str] = []
+
+    def hide(match: re.Match[str]) -> str:
+        untouched.append(match[0])
+        return f"{VALUE_OPEN}{len(untouched) - 1}{VALUE_CLOSE}"
+
+    changed = change(_UNTOUCHED.sub(hide, text), rng)
+    shouted = changed.isupper()
+    if shouted and not capitals:
         return text
-    match = words[int(rng.random() * len(words))]
-    return text[: match.start()] + misspelt(match.group(), rng) + text[match.end() :]
+    restored = _HIDDEN.sub(lambda match: untouched[int(match[1])], changed)
+    return restored.upper() if shouted else restored
 
 
-def _inside_value(text: str, place: int) -> bool:
-    return text.count(VALUE_OPEN, 0, place) > text.count(VALUE_CLOSE, 0, place)
+def careless(text: str, rng: random.Random) -> str:
+    """Without its capital, its full stop or both."""
+    text = text[0].lower() + text[1:] if rng.random() < 0.6 else text
+    return text.rstrip(".") if rng.random() < 0.7 else text
 
 
-def misspelt(word: str, rng: random.Random) -> str:
-    """The word with two letters swapped, one dropped or one doubled, its first letter kept."""
-    place = 1 + int(rng.random() * (len(word) - 2))
-    kind = rng.random()
-    if kind < 0.45:
-        return word[:place] + word[place + 1] + word[place] + word[place + 2 :]
-    if kind < 0.8:
-        return word[:place] + word[place + 1 :]
-    return word[:place] + word[place] + word[place:]
+def greeted(text: str, rng: random.Random) -> str:
+    """With a greeting ahead; "Right" would be a side here."""
+    changed = sent.greeted(text, rng)
+    return text if changed.startswith("Right") else changed
+
+
+CHANGES: tuple[tuple[float, Callable[[str, random.Random], str]], ...] = (
+    (0.05, careless),
+    (0.03, greeted),
+    (0.02, sent.signed),
+    (0.06, lambda text, rng: sent.slipped(text, rng, (), 1 if rng.random() < 0.65 else 2)),
+    (0.02, lambda text, rng: sent.garbled(text, rng, ())),
+    (0.01, lambda text, rng: sent.shortened(text, rng, ())),
+    (0.04, lambda text, _rng: sent.uncapitalised(text, ())),
+    (0.01, lambda text, rng: sent.dictated(text, rng, ())),
+    (0.04, lambda text, rng: sent.telegraphed(text, rng, ())),
+)
+"""What happens to a prompt, and to what share of them."""

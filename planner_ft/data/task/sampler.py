@@ -114,7 +114,8 @@ class Draws:
         whose = split_of(f"{bound.task.title} {skeleton(said)}")
         if whose not in ("train", self.split) or not self._may_hold(text):
             return None
-        return record(f"template/{len(expected['skill_sequence'])}", context, plain(noisy(said, self.rng)), expected)
+        prompt = plain(noisy(said, self.rng, capitals=not has_texts(expected)))
+        return record(f"template/{len(expected['skill_sequence'])}", context, prompt, expected)
 
     def from_script(self) -> dict[str, Any] | None:
         """One record without id from a script."""
@@ -129,13 +130,21 @@ class Draws:
         said = close_gaps(aside(say, text, said_skills(script), context))
         if not self.unseen and (split_of(f"{context.task.title} {skeleton(said)}") != self.split or not self._may_hold(text)):
             return None
-        prompt = plain(said if self.unseen else noisy(said, rng))
+        expected = expected_plan(script, book.vocabulary)
+        prompt = plain(said if self.unseen else noisy(said, rng, capitals=not has_texts(expected)))
         family = f"{'unseen-' if self.unseen else ''}{frame}/{script.movements[0].kind}{len(script.movements)}"
-        return record(family, context, prompt, expected_plan(script, book.vocabulary))
+        return record(family, context, prompt, expected)
 
     def _may_hold(self, text: str) -> bool:
         """Whether no held-out template of another split has this wording."""
         return held_out_wordings().get(mask_key(skeleton(text)), self.split) == self.split
+
+
+def has_texts(expected: dict[str, Any]) -> bool:
+    """Whether a plan has text values: words of the prompt that it holds with their capitals."""
+    steps = expected["skill_sequence"]
+    calls = [call for step in steps for call in (step["navigation_skill"], *step["filter_skills"], *step["perception_skills"])]
+    return any(isinstance(item, str) for call in calls for value in call["parameters"].values() for item in (value if isinstance(value, list) else [value]))
 
 
 def said_skills(script: Script) -> set[str]:
