@@ -23,6 +23,23 @@ _NO_RETURN = re.compile(
     re.IGNORECASE,
 )
 
+_HOME_MEANT = re.compile(
+    r"\b(?:(?:leav\w+|left|depart\w*|quit\w*|away|off|out) (?:from |of )?|(?:near|close|far|furth)\w* (?:to|from) |(?:north|south|east|west)\w* (?:of|from) )"
+    r"(?:the |your |our )?(?:home|base|harbou?r|port)\b",
+    re.IGNORECASE,
+)
+"""Home as what something is told from: where the vehicle leaves, what a target is near to."""
+_HOME = re.compile(r"\b(?:home\w*|hom|hme|base|back|return\w*|rt[bh]|come in|head in|in again|harbou?r|port|berth|shore|ashore|start\w*|origin|where)\b", re.IGNORECASE)
+_AGAIN = re.compile(
+    r"\b(?:again|another|each|every|both|twice|two|three|thrice|times|likewise|repeat\w*|second|once more|too|also|same|as well|either|all|ditto|before and after)\b",
+    re.IGNORECASE,
+)
+_ONCE = {
+    "Diagnostics": re.compile(r"\b(?:ch(?:e|c)\w*k\w*|chk\w*|diag\w*|test\w*|self-test\w*|health|verif\w*|prov\w*)\b", re.IGNORECASE),
+    "AutoGenerateReportSummary": re.compile(r"\b(?:rep\w*t\w*|rpt\w*|summ\w*|brief\w*|account\w*|wr[io]t\w*|note\w*|tell)\b", re.IGNORECASE),
+}
+"""Tasks that are done once in a mission, and the words that ask for them: a second time is asked for apart, or by a word for it."""
+
 
 def count_lacking(command: str, answer: str, vocabulary: Vocabulary) -> int | None:
     """How many stated values and instructions no task of a plan in JSON answers, how many tasks stand in it for another, and how many no word asks for.
@@ -45,6 +62,7 @@ def count_lacking(command: str, answer: str, vocabulary: Vocabulary) -> int | No
         _groundless(command, titles, vocabulary),
         _searched_for_nothing(command, tasks, vocabulary),
         _returned(command, tasks, vocabulary),
+        _again(command, [task["title"] for task in tasks]),
     )
     return sum(1 for items in found for _item in items)
 
@@ -66,10 +84,17 @@ def _searched_for_nothing(command: str, tasks: Sequence[Mapping[str, Any]], voca
 
 
 def _returned(command: str, tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Iterator[str]:
-    """The way home, where the command rules it out."""
+    """The way home, where the command rules it out or speaks of home in another sense alone ("before you leave home")."""
     last = tasks[-1]
-    if list(vocabulary.home) in last["parameters"].values() and last["title"] == vocabulary.transit and _NO_RETURN.search(command):
-        yield last["title"]
+    if list(vocabulary.home) in last["parameters"].values() and last["title"] == vocabulary.transit:
+        elsewhere, count = _HOME_MEANT.subn(" ", command)
+        if _NO_RETURN.search(command) or (count and not _HOME.search(elsewhere)):
+            yield last["title"]
+
+
+def _again(command: str, titles: Sequence[str]) -> Iterator[str]:
+    """The titles of tasks that stand in the plan twice, and in the command once."""
+    yield from (title for title, asked in _ONCE.items() if titles.count(title) > 1 and not _AGAIN.search(command) and len(asked.findall(command)) < 2)
 
 
 def _repeated(tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Iterator[str]:
