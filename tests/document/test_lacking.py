@@ -16,6 +16,7 @@ def task(title: str, **parameters: Any) -> dict[str, Any]:
 
 
 GO, HOLD = task("Transit", target_position=[20, 60]), task("KeepStation", duration=600)
+CHECK, HOME = task("Diagnostics"), task("Transit", target_position=[0, 0])
 
 
 @pytest.mark.parametrize(
@@ -38,6 +39,13 @@ GO, HOLD = task("Transit", target_position=[20, 60]), task("KeepStation", durati
         ("Hold by the buoy at [20, 60] for ten minutes.", [task("SearchAndDetect", target_description="buoy"), GO, HOLD], 1),
         ("Find the buoy at [20, 60] and hold there for ten minutes.", [task("SearchAndDetect", target_description="buoy"), GO, HOLD], 0),
         ("Hold at [20, 60] for ten minutes, and you needn't come back.", [GO, HOLD, task("Transit", target_position=[0, 0])], 1),
+        ("Check your sensors before leaving home, then hold at [20, 60] for ten minutes.", [CHECK, GO, HOLD, HOME], 1),
+        ("Check your sensors before leaving home, hold at [20, 60] for ten minutes and return.", [CHECK, GO, HOLD, HOME], 0),
+        ("Hold for ten minutes at [20, 60], which is closer to home, then back to base.", [GO, HOLD, HOME], 0),
+        ("A sensor check, then hold at [20, 60] for ten minutes.", [CHECK, GO, HOLD, CHECK], 1),
+        ("A sensor check, then hold at [20, 60] for ten minutes and check the sensors again.", [CHECK, GO, HOLD, CHECK], 0),
+        ("Test the sensors, hold at [20, 60] for ten minutes, test the sensors.", [CHECK, GO, HOLD, CHECK], 0),
+        ("Hold at [20, 60] for ten minutes and write a report.", [task("AutoGenerateReportSummary"), GO, HOLD, task("AutoGenerateReportSummary")], 1),
         ("Hold at [20, 60] for ten minutes, do not come back before that.", [GO, HOLD, task("Transit", target_position=[0, 0])], 0),
         ("Hold at [20, 60] for ten minutes.", [], None),
         ("Hold at [20, 60] for 1.2.3 minutes.", [GO], None),
