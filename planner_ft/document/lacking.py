@@ -29,14 +29,17 @@ _HOME_MEANT = re.compile(
     re.IGNORECASE,
 )
 """Home as what something is told from: where the vehicle leaves, what a target is near to."""
-_HOME = re.compile(r"\b(?:home\w*|hom|hme|base|back|return\w*|rt[bh]|come in|head in|in again|harbou?r|port|berth|shore|ashore|start\w*|origin|where)\b", re.IGNORECASE)
+_HOME = re.compile(
+    r"\b(?:home\w*|hom|hme|base|back|return\w*|rt[bh]|come in|head in|in again|harbou?r|port|berth|shore|ashore|start\w*|origin|where)\b", re.IGNORECASE
+)
 _AGAIN = re.compile(
-    r"\b(?:again|another|each|every|both|twice|two|three|thrice|times|likewise|repeat\w*|second|once more|too|also|same|as well|either|all|ditto|before and after)\b",
+    r"\b(?:again|another|each|every|both|twice|two|three|thrice|times|likewise|repeat\w*|second|once more|too|also|same|as well|either|all|ditto"
+    r"|before and after)\b",
     re.IGNORECASE,
 )
 _ONCE = {
     "Diagnostics": re.compile(r"\b(?:ch(?:e|c)\w*k\w*|chk\w*|diag\w*|test\w*|self-test\w*|health|verif\w*|prov\w*)\b", re.IGNORECASE),
-    "AutoGenerateReportSummary": re.compile(r"\b(?:rep\w*t\w*|rpt\w*|summ\w*|brief\w*|account\w*|wr[io]t\w*|note\w*|tell)\b", re.IGNORECASE),
+    "AutoGenerateReportSummary": re.compile(r"\b(?:rep\w*t\w*|rpt\w*|summ\w*|brief\w*|account\w*)\b", re.IGNORECASE),
 }
 """Tasks that are done once in a mission, and the words that ask for them: a second time is asked for apart, or by a word for it."""
 
