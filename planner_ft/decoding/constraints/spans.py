@@ -38,6 +38,13 @@ NO_NAME_BEGINS = UNBEGINNING | frozenset(
 """Words that no name begins with."""
 UNENDING = frozenset({"the", "an", "and", "or", "of", "with", "then", "to", "from", "for", "now", "is", "are", "be", "if", "but", "than"})
 """Words that no value ends with."""
+UNCROSSED = frozenset(
+    (
+        *("is", "are", "was", "were", "be", "been", "has", "have", "had", "shall", "should", "must", "would", "could"),
+        *("then", "when", "while", "before", "after", "until", "if", "because", "so", "but", "please", "there", "here"),
+    )
+)
+"""Words that no description goes on over, written small: with them another clause has begun."""
 QUOTES = ('"', "'", "“", "‘", "«")
 """Signs behind which a value begins with any word: a note "as found"."""
 KINDS = frozenset(
@@ -155,6 +162,8 @@ class Spans:
         for number, gap in enumerate(gaps):
             place = first + number
             if self._named and _QUOTED.search(gap):
+                continue
+            if not self._named and any(match.group() in UNCROSSED for match in matches[number : number + 2]):
                 continue
             # "A-40" and "region a, top left" have no article.
             if not gap.isspace() and matches[number].group().lower() == "a":

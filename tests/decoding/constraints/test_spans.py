@@ -48,6 +48,7 @@ def admitted(tokenizer: Any, texts: list[str], value: str, without: tuple[str, .
         ("survey the red can buoy, then the green one", "green can buoy"),
         ("two buoys, a striped one and a yellow one", "striped buoy"),
         ("send the OCR txt", "OCR text"),
+        ("inspect the yacht Here Comes Everybody", "yacht Here Comes Everybody"),
         ("请检查红色浮标", "红色浮标"),
         ("steam to St. Mary's light", "St. Mary's light"),
     ],
@@ -76,6 +77,8 @@ def test_spans_can_be_written(embedded: Any, command: str, value: str) -> None:
         ("find Krösting Demel", "Krosting Demel"),
         ("", "buoy"),
         ("x" * 200, "x" * 200),
+        ("The grey raft is to be towed.", "grey raft is to be towed"),
+        ("Circle the barge then film the crane.", "barge then film the crane"),
     ],
 )
 def test_what_nobody_said_cannot(embedded: Any, command: str, value: str) -> None:
