@@ -9,8 +9,9 @@ from typing import Any
 
 from planner_ft.decoding.constraints.reading import LONGEST
 from planner_ft.decoding.constraints.reading.asked import asked_movements
-from planner_ft.decoding.constraints.reading.evidence import required, spoken_of
+from planner_ft.decoding.constraints.reading.evidence import in_sentences, required, spoken_of
 from planner_ft.decoding.constraints.reading.movements import spoken_movements
+from planner_ft.decoding.constraints.reading.own_sentences import read_own_sentences
 from planner_ft.decoding.constraints.reading.scopes import Scope, read_scopes
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import STEP_KEYS
@@ -48,12 +49,15 @@ class Companions:
 
 def read_companions(record: dict[str, Any], vocabulary: Vocabulary) -> Companions:
     """What the prompt of a task input says of the skills beside its movements."""
-    text = str(record.get("prompt", ""))
+    text = in_sentences(str(record.get("prompt", "")))
     spoken = spoken_of(text, vocabulary) if len(text) <= LONGEST else None
     if spoken is None:
         return Companions()
-    scopes = {name: scope for name, scope in read_scopes(text, vocabulary).items() if name in spoken}
-    return Companions(spoken, required(text, vocabulary) | asked_movements(text, vocabulary), spoken_movements(text, vocabulary), scopes)
+    asked = required(text, vocabulary)
+    spoken |= asked
+    own = read_own_sentences(text, asked, vocabulary)
+    scopes = {name: scope for name, scope in (read_scopes(text, vocabulary) | own).items() if name in spoken}
+    return Companions(spoken, asked | asked_movements(text, vocabulary), spoken_movements(text, vocabulary), scopes)
 
 
 def to_insist_on(record: dict[str, Any], answer: str, vocabulary: Vocabulary) -> frozenset[str]:

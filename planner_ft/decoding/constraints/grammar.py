@@ -89,6 +89,9 @@ class Values(Protocol):
     def text(self, grammar: Grammar, without: Sequence[str]) -> str | None:
         """The symbol of a parameter's text, none of `without`."""
 
+    def item(self, grammar: Grammar, without: Sequence[str]) -> str | None:
+        """The terminal of a text of a list behind its first quotation mark, none of `without`."""
+
     def prose(self, grammar: Grammar) -> str:
         """The symbol of a task prompt, an assumption or a constraint."""
 
@@ -127,6 +130,9 @@ class SchemaValues:
     def text(self, grammar: Grammar, without: Sequence[str]) -> str:
         return grammar.terminal(f"{patterns.string(LONGEST_TEXT, blank=False)}{none_of_texts(without)}")
 
+    def item(self, grammar: Grammar, without: Sequence[str]) -> str | None:
+        return grammar.terminal(f"{patterns.string(LONGEST_TEXT, blank=False, opened=True)}{none_of_texts(without, opened=True)}")
+
     def prose(self, grammar: Grammar) -> str:
         return grammar.terminal(patterns.string(LONGEST_PROSE, blank=True))
 
@@ -158,6 +164,9 @@ class Narrowed:
     def text(self, grammar: Grammar, without: Sequence[str]) -> str | None:
         return self._values.text(grammar, without)
 
+    def item(self, grammar: Grammar, without: Sequence[str]) -> str | None:
+        return self._values.item(grammar, without)
+
     def prose(self, grammar: Grammar) -> str:
         return self._values.prose(grammar)
 
@@ -175,9 +184,9 @@ def written(position: Sequence[float]) -> str:
     return compact_json(canonical_value(list(position)))
 
 
-def none_of_texts(texts: Sequence[str]) -> str:
-    """What takes these texts, in capitals or not, out of a terminal of JSON strings."""
-    return _none_of(regex(f'(?i:"{patterns.escaped(patterns.quoted(text))}")') for text in texts)
+def none_of_texts(texts: Sequence[str], *, opened: bool = False) -> str:
+    """What takes these texts, in capitals or not, out of a terminal of JSON strings, or of what stands behind their first quotation marks."""
+    return _none_of(regex(f'(?i:{"" if opened else patterns.QUOTE}{patterns.escaped(patterns.quoted(text))}")') for text in texts)
 
 
 def _none_of(terminals: Iterable[str]) -> str:

@@ -86,6 +86,11 @@ class GroundedValues(Narrowed):
             return super().text(grammar, without)
         return self._spans.terminal(grammar, without)
 
+    def item(self, grammar: Grammar, without: Sequence[str]) -> str | None:
+        if self._spans.too_long:
+            return super().item(grammar, without)
+        return self._spans.terminal(grammar, without, opened=True)
+
     def prose(self, grammar: Grammar) -> str:
         if self._reading.numbers_free:
             return super().prose(grammar)

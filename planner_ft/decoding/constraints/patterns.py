@@ -15,6 +15,7 @@ WHOLE_DIGITS = 7
 DECIMALS = 4
 """Digits behind the point. Labels have two; with more than four, Python would write small numbers with an exponent."""
 
+QUOTE = '"'
 CHARACTER = r'[^"\\\x00-\x1f\x7f]'
 ESCAPE = r'\\(["\\bfnrt]|u00(0[0-7be-f]|1[0-9a-f]))'
 FIRST = r'([^"\\\s\x00-\x1f\x7f]|\\["\\])'
@@ -43,10 +44,10 @@ def escaped(text: str) -> str:
     return "".join(letter if letter.isalnum() or letter in " _" else rf"\x{{{ord(letter):x}}}" for letter in text)
 
 
-def string(longest: int, *, blank: bool) -> str:
-    """A JSON string of at most `longest` characters; without `blank` it begins with one that is no blank."""
+def string(longest: int, *, blank: bool, opened: bool = False) -> str:
+    """A JSON string of at most `longest` characters; without `blank` it begins with one that is no blank. `opened`: behind its first quotation mark."""
     rest = longest if blank else longest - 1
-    return regex(rf'"{"" if blank else FIRST}({CHARACTER}|{ESCAPE}){{0,{rest}}}"')
+    return regex(rf'{"" if opened else QUOTE}{"" if blank else FIRST}({CHARACTER}|{ESCAPE}){{0,{rest}}}"')
 
 
 # ---------------------------------------------------------------- numbers

@@ -26,7 +26,7 @@ OPEN_ENDED = re.compile(
     re.IGNORECASE,
 )
 """Words for a movement in as many steps as it takes."""
-AGAIN = re.compile(r"\b(?:again|once more|another|back|return\w*|same|likewise|ditto|each|twice|as before|between|either)\b", re.IGNORECASE)
+AGAIN = re.compile(r"\b(?:(?<!say )again|once more|another|back|return\w*|same|likewise|ditto|each|twice|as before|between|either)\b", re.IGNORECASE)
 """Words that can ask for a step a second time."""
 TIMES = re.compile(
     r"\s?(?:\w+ )?(?:times|x|turns?|circles?|pans?|nudges?|holds?|arcs?|steps?|stops?|sweeps?|waits?|drifts?|legs?|passes|bearings?|headings?)\b", re.IGNORECASE

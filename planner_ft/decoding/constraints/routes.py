@@ -17,6 +17,7 @@ from planner_ft.decoding.constraints.companions import Companions
 from planner_ft.decoding.constraints.grammar import (
     MOST_SKILLS,
     MOST_STEPS,
+    MOST_TEXTS,
     SKILL_OPENS,
     Context,
     Grammar,
@@ -40,6 +41,8 @@ from planner_ft.vocabulary.plans import STEP_KEYS, without_working
 FILTERS, PERCEPTIONS = (key(name) + "[" for name in STEP_KEYS[1:3])
 STEP_OPENS = "{" + key(STEP_KEYS[0]) + SKILL_OPENS
 CLOSES = "]}"
+LIST_OPENS, NEXT_TEXT = '["', '","'
+"""How a list of texts begins, and goes on behind one."""
 
 
 class RouteValues(Narrowed):
@@ -69,7 +72,7 @@ class TaskScript:
     A part ends where a name begins: tokenizers keep signs and letters apart. Parts that come again in another step are compiled once.
     `before` are the waypoints so far, `steps` the movements of the steps that are written; `turns` are the rotations of the whole plan where
     they are certain. `chosen` is the skill whose name was written last, None where a name is to follow; `written` is the text of the step that is
-    being written, as far as its parts are matched, and `beside` are the skills of the list that is being written.
+    being written, as far as its parts are matched, `beside` are the skills of the list that is being written, and `listed` the texts of a skill's own list.
     `could_end` says whether the answer could have ended behind the steps that are written; with `owes`, the model would have ended it there, although
     movements that are asked for are missing.
     """
@@ -86,6 +89,7 @@ class TaskScript:
     role: Role = "navigation"
     written: str = ""
     beside: tuple[Step, ...] = ()
+    listed: tuple[str, ...] = ()
     could_end: bool = False
     owes: bool = False
 
@@ -98,10 +102,14 @@ class TaskScript:
             chosen = replace(self, chosen=self.vocabulary.skill[text], written=self.written + text, owes=False)
             return chosen._behind_name(), chosen
         if not text.endswith(SKILL_OPENS):
-            return None
+            if not text.endswith((LIST_OPENS, NEXT_TEXT)):
+                return None
+            said = (*self.listed, *([json.loads('"' + text[: 1 - len(NEXT_TEXT)])] if text.endswith(NEXT_TEXT) else []))
+            ahead = replace(self, written=self.written + text, listed=said)
+            return ahead._behind_text(), ahead
         if text.endswith(STEP_OPENS):
             ahead = self._opened(text) if self.chosen is None else self._behind_step(text)
-            ahead = replace(ahead, chosen=None, role="navigation", written=STEP_OPENS, beside=())
+            ahead = replace(ahead, chosen=None, role="navigation", written=STEP_OPENS, beside=(), listed=())
         else:
             ahead = self._behind_skill(text)
         return ahead._names(), ahead
@@ -166,7 +174,7 @@ class TaskScript:
         role: Role = "filter" if text.endswith(FILTERS + SKILL_OPENS) else "perception" if text.endswith(PERCEPTIONS + SKILL_OPENS) else self.role
         whole = self.written + text
         beside = (*self.beside, self._first_of(whole[whole.rindex(SKILL_OPENS, 0, -len(SKILL_OPENS)) :])) if role == self.role else ()
-        return replace(self, chosen=None, role=role, written=whole, beside=beside)
+        return replace(self, chosen=None, role=role, written=whole, beside=beside, listed=())
 
     def _first_of(self, text: str) -> Step:
         """The skill that a text begins with."""
@@ -245,7 +253,27 @@ class TaskScript:
             return grammar.text(" | ".join(options))
         movement, before = self._movement
         ending, said = self._ending(movement, before), [*(skill for skill, _parameters in self.beside), self.chosen]
-        return grammar.text(f"{self._body(grammar, self._values_of(self.chosen))} {self._list(grammar, self.role, movement, ending, said)}")
+        values, behind = self._values_of(self.chosen), self._list(grammar, self.role, movement, ending, said)
+        if self._lists_texts and values.item(Grammar(), ()):
+            only, opens = self.chosen.parameters[0], f'",{key("parameters")}{{'
+            without = "" if values.needs(only, self.chosen) else f" | {literal(opens + '}}')} {behind}"
+            return grammar.text(f"{literal(opens + key(only.name) + LIST_OPENS)}{without}")
+        return grammar.text(f"{self._body(grammar, values)} {behind}")
+
+    @property
+    def _lists_texts(self) -> bool:
+        """Whether the chosen skill has a list of texts and nothing else: it is written text by text, since none stands in it twice."""
+        return self.chosen is not None and [item.type for item in self.chosen.parameters] == ["texts"]
+
+    def _behind_text(self) -> str:
+        """A text of a list that none before it is, and what may stand behind that."""
+        assert self.chosen is not None
+        grammar, (movement, before) = Grammar(), self._movement
+        ending, said = self._ending(movement, before), [*(skill for skill, _parameters in self.beside), self.chosen]
+        behind = f"{literal(']}}')} {self._list(grammar, self.role, movement, ending, said)}"
+        text = self.values.item(grammar, self.listed) or self.values.item(grammar, ())
+        more = len(self.listed) + 1 < MOST_TEXTS and self.values.item(Grammar(), (*self.listed, "")) is not None
+        return grammar.text(f"{text} ({literal(NEXT_TEXT[1:])} | {behind})" if more else f"{text} {behind}")
 
     def _list(self, grammar: Grammar, role: Role, movement: Skill, ending: Ending, said: Sequence[Skill] = ()) -> str:
         """What may stand in the list of a role's skills behind those that were said: the next one, or what follows the list."""

@@ -102,8 +102,11 @@ class Spans:
         """Whether the texts have more words than spans can be made of."""
         return len(self._pieces) > MOST_WORDS
 
-    def terminal(self, grammar: Grammar, without: Sequence[str] = ()) -> str | None:
-        """The terminal of a span in quotation marks, none of `without`; None where there is no span, or no word beside these."""
+    def terminal(self, grammar: Grammar, without: Sequence[str] = (), *, opened: bool = False) -> str | None:
+        """The terminal of a span in quotation marks, none of `without`; None where there is no span, or no word beside these.
+
+        `opened`: the first quotation mark is written.
+        """
         if without and not self._has_word_beside(without):
             return None
         starts = self._chain(grammar, 0) if len(self._pieces) <= BLOCK else self._chain(grammar, 0) | self._chain(grammar, BLOCK // 2)
@@ -112,8 +115,8 @@ class Spans:
         span = grammar.terminal(" | ".join(sorted(starts)))
         marks = literal('"')
         joined = f'(" " {span})?' if self.loose else ""
-        whole = grammar.terminal(f"{marks} {span} {joined} {marks}")
-        return grammar.terminal(f"{whole}{none_of_texts(without)}") if without else whole
+        whole = grammar.terminal(f"{'' if opened else marks} {span} {joined} {marks}")
+        return grammar.terminal(f"{whole}{none_of_texts(without, opened=opened)}") if without else whole
 
     def _has_word_beside(self, without: Sequence[str]) -> bool:
         """Whether a single word is a span and none of these texts: what they leave is not empty then."""

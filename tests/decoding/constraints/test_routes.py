@@ -87,6 +87,19 @@ def test_a_step_that_may_not_follow_gives_way_to_the_end(tokenizer: Any) -> None
     assert answer.instead(ids(tokenizer, "sail")[0]) is None
 
 
+@pytest.mark.parametrize(
+    ("classes", "whole"),
+    [(["seals"], True), (["seals", "pots", "rafts"], True), (["seals", "pots", "seals"], False), (["pots", "Pots"], False)],
+)
+def test_no_text_stands_twice_in_a_list(tokenizer: Any, classes: list[str], whole: bool) -> None:
+    record = {"task": "Transit", "parameters": {"target_position": [30, 40]}, "prompt": "Go to [30, 40] and detect seals, pots and rafts."}
+    step: dict[str, Any] = {"navigation_skill": {"name": "GoToXY", "parameters": {"x": 30, "y": 40}}, "filter_skills": []}
+    step["perception_skills"] = [{"name": "DetectObjects", "parameters": {"class_list": classes}}]
+    step |= {"stop_conditions": [], "failure_modes": [], "expected_outputs": []}
+    tokens = ids(tokenizer, completion_text("task", {"skill_sequence": [step]}, VOCABULARY))
+    assert (start(tokenizer, record).admits(tokens) == len(tokens)) is whole
+
+
 STEP = '{"navigation_skill":{"name":"%s","parameters":%s},"filter_skills":[],"perception_skills":[],"stop_conditions":[],'
 STEP += '"failure_modes":[],"expected_outputs":[]}'
 

@@ -37,6 +37,7 @@ _PATTERNS = {
         r"\b(?:keep|hold|maintain)(?:ing)? (?:the |a |an )?[^.;,:]{1,40} "
         r"(?:centred|centered|in the (?:centre|center|middle) of the (?:frame|picture|image|view))\b",
         r"\b(?:hold(?:ing)? (?:position|station)|station[ -]keep\w*) visually on\b",
+        r"(?:^|[.;] ?)[a-z][a-z -]{2,30} (?:stays|is kept|is to stay) in (?:the )?(?:centre|center|middle) of (?:the )?(?:frame|picture|image)\b",
     ),
 }
 ASKS = {motion: re.compile("|".join(wordings), re.IGNORECASE) for motion, wordings in _PATTERNS.items()}

@@ -14,6 +14,7 @@ from collections.abc import Iterable
 
 from planner_ft.data.lexicon import corrections, is_known, known_words
 from planner_ft.data.words import edit_distance
+from planner_ft.decoding.constraints.reading import evidence_asked as a
 from planner_ft.decoding.constraints.reading import evidence_context as c
 from planner_ft.decoding.constraints.reading import evidence_words as w
 from planner_ft.vocabulary import Vocabulary
@@ -49,13 +50,14 @@ NEGATION = re.compile(
 )
 """Words by which a sentence may not ask for what it names."""
 TAKEN_BACK = re.compile(
-    r"\b(?:scrap|scratch|cancel\w*|belay|disregard|strike (?:that|it)|as you were|second thoughts?|change of plan|change your plans?|no longer|"
+    r"\b(?:scrap|scratch|cancel\w*|belay|disregard|strike (?:that|it|the)|as you were|second thoughts?|change of plan|change your plans?|no longer|"
     r"correction|ignore|forget|never mind|(?:that|this|it|those|these|they|all) (?:was|were|is|are|has been|have been) (?:already |all )?done|"
-    r"done already|already done|drop (?:that|it|this)\b|leave (?:that|it|them) out|skip (?:that|it|them|this)|none of (?:that|this|it|these))\b"
+    r"done already|already done|drop (?:that|it|this)\b|leave (?:that|it|them) out|take (?:[a-z]+ ){0,4}out\b|skip (?:that|it|them|this)|none of (?:that|this|it|these))\b"
 )
 """Words that take back something which another sentence asks for."""
 RULED_OUT = re.compile(
-    r"\b(?:nothing (?:is |needs |has )?to be|(?:no|without(?: any)?|never mind(?: the| about the)?|forget(?: about)?(?: the)?|skip(?: the)?|"
+    r"\b(?:(?:don't|dont|do not|no need to) bother(?: with| about)?(?: a| the| any)?|nothing (?:is |needs |has )?to be|(?:no|"
+    r"without(?: any)?|never mind(?: the| about the)?|forget(?: about)?(?: the)?|skip(?: the)?|"
     r"(?:do(?:es)? not|don't|needn't|not) (?:need|want|require)"
     r"(?: to| any| a| the)?|no need (?:for|of)(?: a| any| the)?)(?: [a-z]+)?) $"
 )
@@ -88,14 +90,29 @@ def required(text: str, vocabulary: Vocabulary) -> frozenset[str]:
     names = {skill.name for role in ("filter", "perception") for skill in vocabulary.skills_in_role(role)}
     if not names <= w.SPOKEN.keys() or not readable(text):
         return frozenset()
-    plain = _plain(text)
-    if TAKEN_BACK.search(plain):
+    plain = _plain(in_sentences(text))
+    if TAKEN_BACK.search(_PASSING.sub(" ", plain)):
         return frozenset()
     sentences = [_HARMLESS.sub(" ", match.group()) for match in _SENTENCE.finditer(plain)]
-    doubtful = [sentence for sentence in sentences if NEGATION.search(sentence)]
+    doubtful = [sentence for sentence in sentences if NEGATION.search(_PASSING.sub(" ", sentence))]
     sure = [sentence for sentence in sentences if sentence not in doubtful]
     asked = {name for name in names if any(_unmistakable(name).search(sentence) for sentence in sure)}
     return frozenset(name for name in asked if not any(_spoken(name).search(sentence) for sentence in doubtful))
+
+
+def asks_for(sentence: str, name: str) -> bool:
+    """Whether a sentence in small letters has words for a skill and no other."""
+    return name in c.UNMISTAKABLE and _unmistakable(name).search(sentence) is not None
+
+
+def words_for(name: str) -> re.Pattern[str]:
+    """The words that can mean a skill, in small letters."""
+    return _spoken(name)
+
+
+def in_sentences(text: str) -> str:
+    """The text, a telegram's stops as the ends of sentences."""
+    return _STOP.sub(".", text) if text.isupper() else text
 
 
 def _speaks(text: str, name: str) -> bool:
@@ -226,9 +243,11 @@ def _spoken(name: str) -> re.Pattern[str]:
 
 @functools.cache
 def _unmistakable(name: str) -> re.Pattern[str]:
-    return re.compile("|".join(rf"\b(?:{pattern})" for pattern in c.UNMISTAKABLE[name]))
+    return re.compile("|".join(rf"\b(?:{pattern})" for pattern in (*c.UNMISTAKABLE[name], *a.ASKED[name])))
 
 
+_STOP = re.compile(r"[ .,]*\bSTOP\b[.,]*")
+"""The end of a sentence in a telegram."""
 _NAME = re.compile(r"(?<=[a-z,] )[A-Z][a-z]+")
 _FOREIGN = frozenset(
     ("und", "der", "die", "das", "dem", "den", "mit", "zum", "zur", "nach", "auf", "ist", "nicht", "wenn", "het", "een", "van", "naar", "les")
@@ -252,5 +271,6 @@ _SOUGHT_OTHERWISE = re.compile(c.SOUGHT_OTHERWISE)
 _BY_SONAR_BEHIND, _BY_SONAR_BEFORE = re.compile(c.BY_SONAR_BEHIND), re.compile(c.BY_SONAR_BEFORE)
 _RECORDED, _RECORDED_BEHIND, _ANY_SEEKING = (re.compile(pattern) for pattern in (c.RECORDED, c.RECORDED_BEHIND, c.ANY_SEEKING))
 _HARMLESS = re.compile(c.HARMLESS)
+_PASSING = re.compile(a.PASSING)
 _HEALTH = frozenset(c.HEALTH)
 _IMPLIED = tuple((re.compile(rf"\b(?:{pattern})"), frozenset(names)) for pattern, names in c.IMPLIED)

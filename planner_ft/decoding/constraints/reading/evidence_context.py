@@ -130,7 +130,7 @@ UNMISTAKABLE: dict[str, tuple[str, ...]] = {
         r"(?<!sonar )(?<!feature )(?:object )?detector (?:on|running|runs|look(?:s|ing)?)\b",
         r"run(?:ning)? (?:the )?(?:object )?detector\b",
         r"object detection (?:on|running|for)\b|run(?:ning)? object detection",
-        r"(?:camera|object) detection of\b|detector on\b|look-?out for (?!the )[a-z]|eyes (?:peeled|open) for\b|mind(?:ing)? out for\b|"
+        r"(?:camera|object) detection of\b|detector on\b|look-?out for (?!the |hot)[a-z]|eyes (?:peeled|open) for\b|mind(?:ing)? out for\b|"
         r"whether there are (?:any )?[a-z, -]{3,40} about\b",
         r"when the camera sees\b|watch (?:is )?kept for\b",
     ),

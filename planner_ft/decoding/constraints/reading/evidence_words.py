@@ -61,6 +61,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"slewing|veering)",
     ),
     "ObstacleAvoidance": (
+        r"giv\w+ way\b",
         r"\w*margins?\b|marg\b|clr\b|oa\b|\w*avoid\w*|collision|collid\w+|anti-?coll\w+|evad\w+|evasi\w+|dodg\w+|proximity|skirt\w*|bump\w*|hit\b|"
         r"hitting|touch(?!down)\w*|safety",
         r"clear(?:ance|ances|ing)?\b(?! (?:of (?:drop|water|spray|salt|dirt)|lens|cam))",
@@ -90,6 +91,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"in (?:the|your) path",
     ),
     "BoundaryEnforcement": (
+        r"playground",
         r"\w*fenc\w*|\w*bound(?!\b)\w*|(?:in|out of|within|of|the) bounds\b|bound (?:by|to|the|your|us|you)\b|polygon\w*|poly\b|perimeter\w*|enclos\w+|corral|"
         r"cordon\w*",
         r"(?:the|a|this|that|in|inside|within|leave|geo-?|virtual|allowed|safety|permitted|given|corner) box\b(?! (?:search|survey|\d))|"
@@ -123,6 +125,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"never|not) (?:be |to be )?(?:left|crossed)|(?:in|:) [\[(] ?-?\d[^\])a-z]*[\])](?:[ ,;]+(?:and )?[\[(] ?-?\d[^\])a-z]*[\])]){2}",
     ),
     "DetectObjects": (
+        r"class(?:es)?\b",
         r"(?<!\bsonar )(?<!\bfeature )(?<!\btext )(?<!\bhotspot )detector\w*|objects?\b(?! \w*\d)|classif\w+|yolo|det\b|(?:object|image|"
         r"visual) recogni\w+|obj\b",
         r"look-?outs?\b|eyes?\b[^.;,]{0,20}(?:open|peeled|out\b|for\b)|(?:in|come\w* into) sight|sight(?:ed|ings?)\b|show up|pop up",
@@ -142,6 +145,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"a watch (?:is )?kept|alert (?:for|to)|(?:shout|call out|warn) ",
     ),
     "TrackObjects": (
+        r"plots?\b",
         r"tracker\w*|tracked\b(?! (?:pixel|offset|pose))|(?<!\bcable )tracking\b|trk\b|identit\w+|persisten\w+|tabs on|re-?identif\w+",
         r"(?<!\bcable )(?<!\bon )(?<!\boff )(?<!\bthe )(?<!\bgps )(?<!back)(?:track|tracks)\b(?! (?:the |of the |of your |of our |your |a |"
         r"of )?(?:[a-z]+ )?(?:pixel|visual|offset|pose|relative|cable\b(?! (?:clamp|entry|drum|buoy|ferry|layer|winch))|"
@@ -171,6 +175,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"number|sign)",
     ),
     "GetThermalStats": (
+        r"(?:hot|warm|fever)\b",
         r"therm[a-z]*\b(?! (?:cam\w*|stream|feed|view|clips?|images?|videos?|picture|files?|search)\b)|thermo\w*",
         r"(?:with|by|through|using|on|in|from|via|under) (?:the )?(?:thermal|infra-?red|ir)\b(?! (?:cam|stream|feed|view))",
         r"(?<!\bhighest )\w*temper\w*|temps?\b|heat (?:of|in|on|levels?|readings?)|heat-? ?(?:map|stat)\w*|pyro\w*|cold\w*|cool\b|hotness|warmth",
@@ -192,6 +197,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"\d ?(?:°|º|deg\w*)? ?(?:c\b|celsius|centigrade|f\b|fahrenheit)|celsius|centigrade",
     ),
     "CheckLensClearness": (
+        r"drops\b|raindrops",
         r"\w*lens\w*|droplet\w*|spray\w*|spatter\w*|splash(?:es|ed)?\b(?! deck)|wet\b|wetness|salt\w*|dirt\w*|clean\w*|smudg\w*|smear\w*|glass\b|"
         r"optics?\b|fogg\w*|misty|mist(?:ed|ing)?\b|condens\w*|obscur\w*|grime",
         r"(?:for|of|any|water|rain|no|from|by|with|are|salt) drops?\b(?! (?:the|a|pin|marker|map|another|one))|raindrops?|water on (?:it|"
@@ -200,6 +206,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"wip(?:e|es|ed|ing|er|ers)\b|streak\w*|sprayed|rub(?:bed|bing)? (?:dry|clean)|blind(?:ed)? by",
     ),
     "GetImageQualityMetrics": (
+        r"rat(?:e|ing) (?:the )?(?:[a-z]+ )?cam\w*",
         r"(?<!\bgeotag )(?<!\bgps )(?<!\bgeotagging )(?<!\bposition )(?<!\bfix )qualit\w*|\w*metrics?\b|usab\w*|useful\w*|sharp\w*|blur\w*|"
         r"crisp\w*|(?:in|"
         r"out of|check\w*|verify|test) (?:the )?focus|expos(?:ure|ed)\b(?! cable)|contrast|clarity",
@@ -213,6 +220,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"good for anything",
     ),
     "CalculateVisualOffset": (
+        r"dx\b",
         r"\w*offset\w*|off-?set\w*|pixel\w*|px\b|displac\w*|deviat\w*|misalign\w*|(?<!\bgps )(?<!\bposition )(?<!\bhorizontal )errors?\b|"
         r"discrepan\w*",
         r"off[ -](?:the )?(?:[a-z]+ )?(?:cent\w+|middle|axis)|(?:from|to|and|between) (?:the )?(?:[a-z]+ )?(?:cent(?:re|er)|"
@@ -264,6 +272,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"nearest) (?:thing|object|wall|obst)",
     ),
     "FitCylinderModel": (
+        r"round\?",
         r"\w*cylind\w*|cyl\b|\w*cloud\w*|pcl\w*|fit(?:s|ted|ting)?\b(?! for (?:use|purpose))|round shape|tubular|diameter|(?:large|big|the|"
         r"any) curve\b|curve (?:in|from|fit)|circle fit\w*|models?\b|modell?(?:ed|ing)|round (?:pile|column|pillar|thing)",
         r"circular|tubes?\b|(?:something|anything|whatever is) round\b|(?:round|curved) (?:object|post|thing|leg|pile|column)s?\b|curve of",
@@ -288,6 +297,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"under|beneath|underneath) (?:us|you|her|the (?:boat|vessel|hull|vehicle|usv|craft))|how much water",
     ),
     "GetHorizonAngle": (
+        r"sea ?-?line\b",
         r"\w*horizon(?!tal)\w*|tilt\w*|inclin\w*|(?:how|is|are|be|lies?|lying|stays?|sits?) level\b|levelness|heel(?:s|ing|ed)?\b|list(?:s|"
         r"ing)? to (?:port|starboard)|(?:any|her|much|angle of) list\b|skew\w*|slant\w*|imu\w*|gyro\w*|ahrs\w*|mru\w*|inertial\w*",
         r"sky-?line\w*|lean(?:s|ed|ing)?\b|upright|(?:even|level) keel|lopsided|crooked|(?:sit|lie|rid|stand|float|lying)\w* (?:straight|level|"
@@ -363,6 +373,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"\ds) (?:of (?:the )?)?(?:\w+ )?(?:video|footage|clip|film|picture|back|before)",
     ),
     "CaptureGeoSnapshot": (
+        r"fotos?\b",
         r"(?<!\benvironment )(?<!\benvironmental )(?<!\benv )(?<!\bstate )snap(?:s|ped|ping)?\b|"
         r"(?<!\benvironment )(?<!\benvironmental )(?<!\benv )(?<!\bstate )(?:geo\w*)?-?snap-?shot\w*(?! of (?:the |all )?env)",
         r"(?<!\bhold )(?<!\bstay )(?<!\bkeep )(?<!\bsit )(?<!\bstand )(?<!\blie )(?<!\blying )(?<!\bbe )(?<!\bremain )(?<!\bholding )"

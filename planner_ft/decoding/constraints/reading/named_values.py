@@ -27,17 +27,17 @@ CLOSING_KINDS = frozenset({"label", "tag", "type"})
 """Kinds that a few words may follow up to the end of the clause."""
 UNTOLD_KINDS = frozenset({"target"})
 """Kinds whose word names other things too, as "object" does where something is the target of another skill."""
-_DOUBT = re.compile(
+DOUBT = re.compile(
     r"\b(?:instead|rather than|scratch|scrap|correction|misread|no wait|I mean|make that|not|never|don't|neither|wrong|belay|sorry|should read|disregard)\b",
     re.IGNORECASE,
 )
-_SEVERAL = re.compile(r"\bfirst\b.*\b(?:second|other|last|next|latter)\b|\bformer\b.*\blatter\b|\brespectively\b|\bthe other\b", re.IGNORECASE | re.DOTALL)
+SEVERAL = re.compile(r"\bfirst\b.*\b(?:second|other|last|next|latter)\b|\bformer\b.*\blatter\b|\brespectively\b|\bthe other\b", re.IGNORECASE | re.DOTALL)
 """Words for several steps or values, each of which may have its own."""
 
 
 def read_named_values(text: str, spoken: Collection[str], vocabulary: Vocabulary) -> dict[tuple[str, str], frozenset[str]]:
     """By skill and parameter what its value is one of; nothing where several skills that are spoken of have such a parameter, or one is twice."""
-    if len(text) > LONGEST or _DOUBT.search(text) or _SEVERAL.search(text):
+    if len(text) > LONGEST or DOUBT.search(text) or SEVERAL.search(text):
         return {}
     owners: dict[str, list[tuple[Skill, Parameter]]] = {}
     for skill in vocabulary.skills:

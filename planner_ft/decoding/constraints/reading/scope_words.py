@@ -25,7 +25,7 @@ SKILL_WORDS = {
         r"everything|anything)|"
         r"(?:metres?|meters?|feet|m) (?:\w+ )?(?:clear|off|away|of room|of space|between)|keep\w* clear|stay\w* clear|steer\w* clear|"
         r"safe(?:ty)? (?:distance|gap)|your distance|no closer|no nearer|closer than|nearer than|not within|go within|berth of|no less than|avoid\w*|"
-        r"(?:give|giving) (?:everything|all|anything)|(?<!to )(?<!far )(?<!nearest )(?<!range )obstacles|room to|(?:will|"
+        r"(?:give|giving) (?:everything|all|anything)|(?<!to )(?<!far )(?<!nearest )(?<!range )obstacles|room to|to spare|(?:will|"
         r"would) (?:have to )?do|is enough"
     ),
     "BoundaryEnforcement": _words(
@@ -433,7 +433,8 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
         r"\b(?:as soon as|begins?\b|ends\b|until|till|up to|as far as|(?:from|until|up to|to) (?:there|then|that|here|the (?:first|second|"
         r"third|moment|turn|wait|"
         r"hold|settling|change|\w+ on))|after|before|between|past|beyond|once|homewards?|"
-        r"outwards?|onwards?|there|thereafter|later|earlier|where|wherever|whenever|on it\b|at (?:the |its )?(?:very |far )?(?:start|end|finish|"
+        r"outwards?|onwards?|(?<!in )(?<!out )there|thereafter|later|earlier|where|wherever|whenever|on it\b|at (?:the |its )?(?:very |"
+        r"far )?(?:start|end|finish|"
         r"corners?|mid-?sides?|stops?|beginning)|at @|"
         r"(?:while|when) \w+ing and \w+ing|every (?:other|second|third)|alternate|(?:while|when|as) (?:it|she|you|the [\w-]+|we) (?:is |"
         r"are )?\w+|in [1-9]\b|(?:goes|go) with|belongs? to|(?:first|second|third|last|1st|2nd|3rd|each|both) times?|corners|"

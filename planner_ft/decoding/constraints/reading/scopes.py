@@ -153,7 +153,7 @@ class Reading:
 
 def read_scopes(text: str, vocabulary: Vocabulary) -> dict[str, Scope]:
     """The skills of a task input of which it is plain where they run; empty where nothing is."""
-    plain = _plain(text)
+    plain = plain_form(text)
     if w.CHANGED.search(plain):
         return {}
     names = [skill.name for role in ("filter", "perception") for skill in vocabulary.skills_in_role(role) if skill.name in w.SKILL_WORDS]
@@ -209,7 +209,7 @@ def _scope(places: list[tuple[Part | None, str]], reading: Reading) -> Scope | N
     )
 
 
-def _plain(text: str) -> str:
+def plain_form(text: str) -> str:
     """The text in small letters, with marks for quotations and places and without corners of boundaries and names of cameras."""
     plain = w.QUOTED.sub(" q ", without_fences(text))
     behind = len(plain)
@@ -240,7 +240,7 @@ def _clauses(plain: str, names: Sequence[str], counted: bool) -> list[Clause]:
         for text in w.CLAUSE.split(sentence):
             if not text.strip() or w.TWO_STEPS.match(text):
                 continue
-            clause = Clause(text, tuple(_marks(text, names, counted)))
+            clause = Clause(text, tuple(marks_of(text, names, counted)))
             header = w.HEADER.match(text)
             first = clause.marks[0] if clause.marks else None
             if header and first and first.kind == "scope" and first.end <= header.end():
@@ -251,7 +251,7 @@ def _clauses(plain: str, names: Sequence[str], counted: bool) -> list[Clause]:
     return clauses
 
 
-def _marks(text: str, names: Sequence[str], counted: bool) -> list[Mark]:
+def marks_of(text: str, names: Sequence[str], counted: bool) -> list[Mark]:
     scopes = list(
         _free(
             (

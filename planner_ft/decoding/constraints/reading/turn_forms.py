@@ -48,6 +48,13 @@ _SIDED = (
 )
 
 
+_PART_OF_TURN = {"half": 180, "third": 120, "quarter": 90, "sixth": 60, "eighth": 45}
+_IN_FRACTIONS = re.compile(
+    r"\b(two|three|four|five|six|seven|eight|[2-8]) (half|third|quarter|sixth|eighth)[- ](turns|rotations|swings|pans|nudges)\b", re.IGNORECASE
+)
+"""Several turns of a fraction of the whole."""
+
+
 def plain(text: str, parameters: dict[str, Any]) -> str:
     """The text in one form, in small letters but for the tokens."""
     text = _MISSPELT_WORD.sub(lambda match: _MISSPELT.get(match[0], match[0]), text)
@@ -57,6 +64,7 @@ def plain(text: str, parameters: dict[str, Any]) -> str:
     text = _PLACE.sub(" \x01 ", _ID.sub("ident", _ORDINAL.sub("nth", _IN_ORDER.sub("in order", _QUOTED.sub("quote", text)))))
     text = _ONE.sub(lambda match: f"{match[1]} it", text)
     text = _TIMES_SIGN.sub(" times ", text)
+    text = _IN_FRACTIONS.sub(lambda match: f"{match[1]} {match[3]} of {_PART_OF_TURN[match[2].lower()]:g} degrees", text)
     text = re.sub(r"\b[Tt]wice\b", "2 times", re.sub(r"\b[Tt]hrice\b", "3 times", text))
     text = _LETTERS.sub(lambda match: COMPASS[SHORT.index(match[0])] if _is_direction(text[: match.start()]) else match[0], text)
     pieces, at = [], 0
@@ -245,7 +253,7 @@ COUNTED = compiled(
     r"\b(?:steps?|parts?|stages?|legs?|phases?|tasks?|points?|panel|pile|turbine|berth|contact|boat|target|marker|tag|buoy|channel|plan [a-z]|"
     r"no\.?|number) "
     r"N-?\d+(?:(?:\s*(?:,|and|to|or|-))+\s*N\d+)*|\bN\d+ (?=[a-z]+s\b)(?!times|degrees|headings|directions|steps|equal|pans|nudges|turns|rotations|"
-    r"sectors|bearings|is\b|as\b|pass\b|views|parts|stops)"
+    r"sectors|bearings|is\b|as\b|across\b|pass\b|views|parts|stops)"
 )
 
 

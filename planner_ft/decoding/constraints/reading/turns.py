@@ -56,7 +56,7 @@ _STRONG = f.compiled(
 )
 """What a movement to a heading is named by; "take her to 145, 30" may be a place."""
 _TURNS_THERE = f.compiled(r"turn|rotat|pivot|swing|spin|swivel|slew|twist|^(?: |,|then|and)*come")
-_IN_PLACE = f.compiled(r"nudg|\bpan|yaw|twist|rotat|bow|nose|heading|on the spot|in place|pivot|spin|swivel|trim|\beas(?:e|ing)\b")
+_IN_PLACE = f.compiled(r"nudg|\bpan|yaw|twist|rotat|bow|nose|heading|on the spot|in place|pivot|spin|swivel|trim|\beas(?:e|ing)\b|sweep [DN][\d.]+ across")
 _SEPARATOR = f.compiled(
     rf"^ ?(?:[,;/.]|->|→|-|and|then|finally|lastly|last|next|after that|afterwards|on|again|round|{_VERB}|fac(?:e|ing)|to|onto|towards|due|on to|"
     rf"the|bow|heading|bearing| )* ?$"
@@ -69,8 +69,8 @@ _BY = f.compiled(
     r",?(?: (?:by|through|of|across|another|a further|some|about|the view|slowly))*(?<! on) $"
 )
 _LOOSE_END = f.compiled(
-    r"^ ?,? ?(?:N\d+ [a-z]+|(?:with|on|at|in)(?: a| the)? L (?!clear|margin|of clear|of margin|safety|between|minimum|in hand|of room|"
-    r"spare))"
+    rf"^ ?,? ?(?:N\d+ (?!(?:back |across |over |further )?(?:{f.SIDE}))[a-z]+|"
+    r"(?:with|on|at|in)(?: a| the)? L (?!clear|margin|of clear|of margin|safety|between|minimum|in hand|of room|spare))"
 )
 """Another count, or a radius, right behind an angle."""
 _IS_COUNT = f.compiled(r" ?(?:times|pans|nudges|turns|rotations|steps|(?:equal|separate|single|successive|small|even) (?:steps|turns|pans))\b")
@@ -90,7 +90,7 @@ _SIDE_BEFORE = f.compiled(
 )
 _SIDE_BEHIND = f.compiled(
     rf"^ ?(?:turn |pan |nudge |rotation |yaw |swing |twist |of (?:yaw|rotation|turn) |more |on the spot |round |"
-    rf"back )?,? ?(?P<side>{f.SIDE})"
+    rf"(?:right )?back |across |over |further )?,? ?(?P<side>{f.SIDE})"
 )
 _TIMES_BEHIND = f.compiled(
     r"^[ ,]*(?:(?:each|at a time),? ?)?N(\d+) times?(?: over| in a row| running)?\b|^[ ,]*in N(\d+) (?:turns|pans|steps|"
@@ -330,6 +330,7 @@ _START = f.compiled(
     r"\b(?:from|start\w*(?: (?:at|with|from|in|on))?|beginn?\w*(?: (?:at|with|from|in|on))?|on from)(?: (?:the|due|heading|a heading of|bearing|"
     r"facing))* (?P<v>[DNC]\d+(?:\.\d+)?)"
     r"|(?P<w>[DNC]\d+(?:\.\d+)?) first\b"
+    r"|\bthe first (?:it|heading|bearing|of (?:them|these))(?: is| being| at| on| to| the| due| towards|,)* (?P<u>[DNC]\d+(?:\.\d+)?)"
 )
 _SECTORS = f.compiled(
     r"\bN(?P<count>\d+) (?:(?:even|equal|evenly spaced|equally spaced|regular|sector|different|compass|equidistant|evenly-spaced) )*(?:headings|"
@@ -354,8 +355,15 @@ _FULL_TURN = f.compiled(
     + r")[ ,]*)?\b(?:full turn|full circle|full rotation|(?:all the way|right|once|completely|once all the way) round|a?round once|D360|"
     r"one revolution|complete (?:turn|circle|rotation|revolution)|whole (?:turn|circle)|spin)\b"
     r"(?P<between>[^.;]*?)\bin N(?P<count>\d+) (?:(?:equal|even|equally sized) )*(?:steps|parts|pans|turns|nudges|rotations|"
-    r"goes)\b(?! of D)(?P<behind>[ ,]*(?:" + f.SIDE + r"))?"
+    r"goes)\b(?: of D(?P<each>\d+(?:\.\d+)?)\b)?(?P<behind>[ ,]*(?:" + f.SIDE + r"))?"
 )
+_PARTS = f.compiled(
+    r"\b(?P<verb>(?:pan|turn|swing|rotat|nudg|yaw|sweep|scan|twist|pivot|spin|slew)(?:e|ing|ning|ting)?)\b(?P<lead>[^.;:~DNCPL]{0,40}?) "
+    r"D(?P<width>\d+(?:\.\d+)?),?(?P<behind>[^.;:~DNCPL]{0,30}?),? (?:in|divided into|split into|cut into) N(?P<count>\d+) "
+    r"(?:(?:equal|even|equally large|equal-sized|identical) (?:parts|steps|stages|portions|pieces|goes|nudges|pans|turns|rotations)|"
+    r"(?:parts|portions|pieces|stages))\b(?! of [DN])"
+)
+"""A whole angle that is turned in parts."""
 _LISTED_FIRST = f.compiled(
     rf"(?:^|[.;] )(?P<list> ?(?:due )?{f.V}(?:(?: ?,| ?/| ?-| and| then)+ (?:due )?{f.V})+)(?: in that order)?[ :,-]*(?:turn to|face|look at|"
     rf"point to|(?:with )?the bow on|turn onto) "
@@ -375,9 +383,14 @@ def _counted(text: str) -> Iterator[Found]:
         if not step or width % step:
             raise _Uncertain
         yield Found(match.start(), match.end(), ((NUDGE, _sign(side) * step),) * int(width // step))
+    for match in _PARTS.finditer(text):
+        yield _in_parts(match, text)
+    text = _PARTS.sub(f.mask, text)
     for match in _FULL_TURN.finditer(text):
         sides = [side for side in (match["ahead"], *re.findall(f.SIDE, match["between"]), match["behind"]) if side]
         if _START.search(text[match.end() :].partition(". ")[0]):
+            raise _Uncertain
+        if match["each"] and int(match["count"]) * float(match["each"]) != 360:
             raise _Uncertain
         if len(sides) > 1 or int(match["count"]) < 2 or re.search("[DC][+-]?[0-9]", match["between"]):
             raise _Uncertain
@@ -391,6 +404,19 @@ def _counted(text: str) -> Iterator[Found]:
     text = _FULL_TURN.sub(f.mask, _RANGE.sub(f.mask, text))
     yield from _every(text)
     yield from _sectors(text)
+
+
+def _in_parts(match: re.Match[str], text: str) -> Found:
+    """The parts of an angle: "pan left across 120 degrees in three equal parts"."""
+    begins = max(text.rfind(mark, 0, match.start()) for mark in (". ", "; ")) + 1
+    sides = re.findall(f.SIDE, f"{match['lead']} | {match['behind']}")
+    rest = re.match(rf"[ ,]*({f.SIDE})", text[match.end() :])
+    sides += [rest[1]] if rest else []
+    count, width = int(match["count"]), float(match["width"])
+    if len(sides) > 1 or not 2 <= count <= MOST or not 0 < width <= 360 or _CURVED.search(text[begins:].partition(". ")[0].replace("sweep", "")):
+        raise _Uncertain
+    turns = ((NUDGE, g.tidy((_sign(sides[0]) if sides else 1) * width / count)),) * count
+    return Found(match.start(), match.end() + (rest.end() if rest else 0), turns)
 
 
 def _range(match: re.Match[str], text: str) -> Found:
@@ -416,7 +442,7 @@ def _every(text: str) -> Iterator[Found]:
         step = float(match["step"])
         if not start or len(sides) != 1 or not step or 360 % step or not re.search(r"round|full circle|compass", rest):
             raise _Uncertain
-        first = float((start["v"] or start["w"])[1:])
+        first = float((start["v"] or start["w"] or start["u"])[1:])
         turns = tuple((ROTATE, (first + _sign(sides[0]) * step * index) % 360) for index in range(int(360 // step)))
         yield Found(match.start(), match.end() + start.end(), turns)
 
@@ -434,7 +460,7 @@ def _sectors(text: str) -> Iterator[Found]:
     count = int(match["count"] or match["parts"] or match["steps"])
     if len(found) > 1 or len(starts) != 1 or len(ways) > 1 or not 2 <= count <= MOST or not (apart or _ALL_ROUND.search(sentence)):
         raise _Uncertain
-    first = float((starts[0]["v"] or starts[0]["w"])[1:])
+    first = float((starts[0]["v"] or starts[0]["w"] or starts[0]["u"])[1:])
     step = float(apart["step"] or apart["steps"]) if apart else 360 / count
     if apart and abs(step * count - 360) > 0.01 and not ways:
         raise _Uncertain

@@ -187,10 +187,32 @@ def test_fences(text: str) -> None:
         ("Hold 40 s with persistent tracking of ferry-2.", "TrackObjects"),
         ("Turn to 90 with the text in the upper half read, not in the hold.", "OCRScanning"),
         ("Let nothing come closer than 6 m.", "ObstacleAvoidance"),
+        ("Pass it 9 m off, from end to end, and save the lidar sweep as a 2D profile.", "LogLidarSlice"),
+        ("Run down it with the bow locked.", "LockHeading"),
+        ("Take a fix in the drifts, nothing in the holds.", "GetGPSLocation"),
+        ("Wait until she is steady and rate the usability of the frame.", "GetImageQualityMetrics"),
+        ("Go to (4, 4) with a margin of 12 m, then to (9, 9), where the margin is no longer needed.", "ObstacleAvoidance"),
+        ("HOLD TWO MINUTES STOP LOG ENVIRONMENT STOP NO REPLY", "LogEnvironmentState"),
     ],
 )
 def test_plain_requests_are_required(text: str, skill: str) -> None:
     assert skill in required(text, VOCABULARY)
+
+
+@pytest.mark.parametrize(
+    ("text", "skill"),
+    [
+        ("Hold for a minute, and do not leave a mark on the map.", "CreateMapMarker"),
+        ("Turn to 90. Don't bother with a margin.", "ObstacleAvoidance"),
+        ("Lookout for hot spots.", "DetectObjects"),
+    ],
+)
+def test_what_is_ruled_out_or_meant_otherwise_is_not_required(text: str, skill: str) -> None:
+    assert skill not in required(text, VOCABULARY)
+
+
+def test_what_one_need_not_bother_with_is_not_spoken_of() -> None:
+    assert "ObstacleAvoidance" not in (spoken_of("Engines off, float 5 min. Don't bother with a margin.", VOCABULARY) or ())
 
 
 def test_what_others_do_is_not_required() -> None:
