@@ -127,8 +127,8 @@ def _value(skill: Skill, parameters: Mapping[str, Any]) -> Any:
 
 
 def _telling(skill: Skill) -> list[Parameter]:
-    """The parameters of a skill, those first whose values tell its uses apart: two arcs share a radius sooner than an angle."""
-    return sorted(skill.parameters, key=lambda item: item.unit != "deg")
+    """The parameters of a skill, those first whose values tell its uses apart: two arcs share a radius sooner than an angle, two holds sooner than a time."""
+    return sorted(skill.parameters, key=lambda item: item.unit not in ("deg", "s"))
 
 
 class TurnValues(Narrowed):

@@ -52,7 +52,8 @@ NEGATION = re.compile(
 TAKEN_BACK = re.compile(
     r"\b(?:scrap|scratch|cancel\w*|belay|disregard|strike (?:that|it|the)|as you were|second thoughts?|change of plan|change your plans?|no longer|"
     r"correction|ignore|forget|never mind|(?:that|this|it|those|these|they|all) (?:was|were|is|are|has been|have been) (?:already |all )?done|"
-    r"done already|already done|drop (?:that|it|this)\b|leave (?:that|it|them) out|take (?:[a-z]+ ){0,4}out\b|skip (?:that|it|them|this)|none of (?:that|this|it|these))\b"
+    r"done already|already done|drop (?:that|it|this)\b|leave (?:that|it|them) out|"
+    r"take (?:[a-z]+ ){0,4}out\b|skip (?:that|it|them|this)|none of (?:that|this|it|these))\b"
 )
 """Words that take back something which another sentence asks for."""
 RULED_OUT = re.compile(
