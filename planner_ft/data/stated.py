@@ -49,6 +49,12 @@ _SAID_SO = re.compile(
 CABLES = re.compile(r"[ -](?:of )?(?:an? )?cables?(?:[ -]lengths?)?\b", re.IGNORECASE)
 CABLE = 185.2
 """Metres in a cable, a tenth of a nautical mile."""
+POINTS = re.compile(
+    r" points?(?: of the compass)?,? (?:further |more )?(?:to (?:the )?(?:starboard|port|left|right)|of the compass|(?:off|on|abaft|before) the)\b",
+    re.IGNORECASE,
+)
+POINT = 11.25
+"""Degrees in a point of the compass, a thirty-second of the circle."""
 _EXPONENT = re.compile(r"(?<![\w.])\d+(?:\.\d+)?e\+?\d{1,2}(?!\w)", re.IGNORECASE)
 
 
@@ -100,7 +106,8 @@ def radio_digits(text: str) -> str:
 
 def _numbers(text: str, unit: str | None) -> Iterator[float]:
     numbers = quantities(text)
-    yield from (quantity.value for quantity in numbers if quantity.unit in (unit, None))
+    parts = _parts_of_durations(text, numbers) if unit == "s" else set()
+    yield from (quantity.value for quantity in numbers if quantity.unit in (unit, None) and quantity not in parts)
     yield from (float(match) for match in _EXPONENT.findall(text))
     if unit == "s":
         yield from _durations(numbers)
@@ -114,6 +121,17 @@ def _numbers(text: str, unit: str | None) -> Iterator[float]:
     elif unit == "deg":
         yield from bearings(text)
         yield from turns(text)
+        yield from (quantity.value * POINT for quantity in numbers if quantity.unit is None and POINTS.match(text, quantity.end))
+
+
+def _parts_of_durations(text: str, numbers: tuple[Quantity, ...]) -> set[Quantity]:
+    """The parts of "2 h 20 min": durations side by side, the longer unit first, which are said as one."""
+    found: set[Quantity] = set()
+    for first, second in itertools.pairwise(numbers):
+        joined = first.unit == second.unit == "s" and first.said > 0 and second.said > 0 and text[first.end : second.start] in (" ", "")
+        if joined and first.value / first.said > second.value / second.said and second.value < first.value / first.said:
+            found |= {first, second}
+    return found
 
 
 def _durations(numbers: tuple[Quantity, ...]) -> Iterator[float]:

@@ -9,7 +9,7 @@ from typing import Any
 
 from planner_ft.decoding.constraints.reading import LONGEST
 from planner_ft.decoding.constraints.reading.asked import asked_movements
-from planner_ft.decoding.constraints.reading.evidence import in_sentences, required, spoken_of
+from planner_ft.decoding.constraints.reading.evidence import required, spoken_of
 from planner_ft.decoding.constraints.reading.movements import spoken_movements
 from planner_ft.decoding.constraints.reading.own_sentences import read_own_sentences
 from planner_ft.decoding.constraints.reading.scopes import Scope, read_scopes
@@ -49,7 +49,7 @@ class Companions:
 
 def read_companions(record: dict[str, Any], vocabulary: Vocabulary) -> Companions:
     """What the prompt of a task input says of the skills beside its movements."""
-    text = in_sentences(str(record.get("prompt", "")))
+    text = str(record.get("prompt", ""))
     spoken = spoken_of(text, vocabulary) if len(text) <= LONGEST else None
     if spoken is None:
         return Companions()

@@ -18,6 +18,7 @@ from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, Grounde
 from planner_ft.decoding.constraints.reading import LONGEST
 from planner_ft.decoding.constraints.reading.described_values import read_described_values
 from planner_ft.decoding.constraints.reading.named_values import read_named_values
+from planner_ft.decoding.constraints.reading.telegrams import in_small_letters
 from planner_ft.decoding.constraints.reading.turns import read_turns
 from planner_ft.decoding.constraints.routes import TaskScript
 from planner_ft.decoding.constraints.state import MissionScript, ResolvedValues, names_unresolved
@@ -81,7 +82,8 @@ class Factory:
     def _grounded_task(self, record: dict[str, Any], limit: int) -> Constraint:
         if names_unresolved(record, self.vocabulary):
             return Answer(self.tokens, self._schema, limit, self._reserve)
-        prompt = str(record.get("prompt", ""))
+        record = _plainly_written(record)
+        prompt = record["prompt"]
         companions = replace(read_companions(record, self.vocabulary), insisted=self.insisted)
         mentioned = companions.mentioned
         named = read_described_values(prompt, mentioned, self.vocabulary) | read_named_values(prompt, mentioned, self.vocabulary)
@@ -98,7 +100,7 @@ class Factory:
         """What an answer is to be written again with, because it leaves out what its input asks for beyond doubt; None where it need not be."""
         if self.strength != "grounded" or self.level != "task" or self.insisted or names_unresolved(record, self.vocabulary):
             return None
-        insisted = to_insist_on(record, answer, self.vocabulary)
+        insisted = to_insist_on(_plainly_written(record), answer, self.vocabulary)
         return replace(self, insisted=insisted) if insisted else None
 
     def check(self, limit: int) -> None:
@@ -136,3 +138,8 @@ class Factory:
         if self.level == "mission":
             return MissionScript(self.vocabulary, SchemaValues())
         return Whole(plan_grammar(self.level, self.vocabulary, ResolvedValues(SchemaValues(), self.vocabulary)))
+
+
+def _plainly_written(record: dict[str, Any]) -> dict[str, Any]:
+    """A task input whose prompt is not in capitals: everything that reads it gets it so."""
+    return {**record, "prompt": in_small_letters(str(record.get("prompt", "")))}

@@ -21,10 +21,13 @@ from planner_ft.data.task.working import SUM
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.grammar import MOST_STEPS
 from planner_ft.decoding.constraints.reading import LONGEST
+from planner_ft.decoding.constraints.reading.faces import read_faces
 from planner_ft.decoding.constraints.reading.itinerary import moves_otherwise, read_itinerary, stays
 from planner_ft.decoding.constraints.reading.one_shape import one_shape
 from planner_ft.decoding.constraints.reading.own_movement import own_movement
 from planner_ft.decoding.constraints.reading.runs import read_runs
+from planner_ft.decoding.constraints.reading.stations import read_stations
+from planner_ft.decoding.constraints.reading.written_out import written_out
 from planner_ft.vocabulary import Vocabulary
 
 Point = g.Point
@@ -159,7 +162,8 @@ def _within(path: Path, before: Path) -> bool:
 
 def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     """The facts of a task input. Waypoints are free where its numbers cannot be read with certainty."""
-    reading = read(str(record.get("prompt", "")), vocabulary)
+    record = {**record, "prompt": written_out(str(record.get("prompt", "")), _tidy(vocabulary.home))}
+    reading = read(record["prompt"], vocabulary)
     given = record.get("parameters")
     parameters = given if isinstance(given, dict) else {}
     home = _tidy(vocabulary.home)
@@ -180,7 +184,9 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
         facts = _Facts(reading.text, parameters, centres or places, lengths, tuple(said), tuple(counts))
         paths = _paths(facts, task.pattern if task else "", sorted(angles))
     whole = None if reading.numbers_free or task is None else own_movement(reading.text, parameters, own[0] if len(own) == 1 else None, task, vocabulary)
-    itinerary = read_itinerary(record, vocabulary) if whole is None and not reading.numbers_free else whole
+    itinerary = whole
+    if whole is None and not reading.numbers_free:
+        itinerary = read_faces(record) or read_stations(record) or read_itinerary(record, vocabulary)
     itinerary = itinerary if itinerary is None or len(itinerary) <= MOST_STEPS else None
     found = tuple(dict.fromkeys(itertools.islice(paths, MOST_PATHS)))
     begun = 2 if task and task.pattern in ("lawnmower", "square") else 3

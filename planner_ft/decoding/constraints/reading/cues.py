@@ -17,6 +17,15 @@ BEGINNING = re.compile(
     r"\b(?:(?<!you )start\w*|begin\w*|first|enter\w*|entr\w+|from the|opposite|other|far|near|upper|lower|top|bottom|left|right)\b", re.IGNORECASE
 )
 REVERSED = re.compile(r"\b(?:other way|reverse\w*|opposite|either way)\b", re.IGNORECASE)
+FIRST_LANE = re.compile(
+    r"\bfirst (?:lane|line|track|leg|run)\b[^.;]{0,30}?\b(north|south|east|west)(?:ern)?most\b|"
+    r"\b(?:with|at|from|on) the (north|south|east|west)(?:ern)?most (?:lane|line|track|leg|run)\b|"
+    r"\b(north|south|east|west)(?:ern)?most (?:lane|line|track|leg|run) first\b",
+    re.IGNORECASE,
+)
+"""The lane that a grid begins with."""
+LANE_END = re.compile(r"\b(?:start\w*|begin\w*|from)\b[^.;,]{0,15}?\b(?:its|the) (north|south|east|west)(?:ern)? end\b", re.IGNORECASE)
+"""The end of it that is first."""
 
 
 @dataclass(frozen=True)
@@ -34,9 +43,11 @@ ANY = Cues(g.CORNERS, ("y", "x"), g.SQUARE_STARTS, (False, True))
 
 def read_cues(text: str) -> Cues:
     """What the words of an input leave possible."""
+    text = w.EXTENT.sub(r"\1", text)
     along_x, along_y = w.LANES_X.search(text), w.LANES_Y.search(text)
     plain = w.LANES_Y.sub(" ", w.LANES_X.sub(" ", text))
     corners = tuple(dict.fromkeys(named_corner(match) for match in w.CORNER.finditer(plain)))
+    corners = corners or _first_lane(plain)
     rest = w.CORNER.sub(" ", plain)
     sides = tuple(dict.fromkeys(re.sub(r"ern$", "", match[1] or match[2]).lower() for match in w.SIDE.finditer(rest)))
     open_beginning = BEGINNING.search(rest) is not None
@@ -47,3 +58,10 @@ def read_cues(text: str) -> Cues:
         (*corners, *sides) or (ANY.starts if open_beginning else ("east",)),
         ANY.turns if REVERSED.search(text) else turns or (False,),
     )
+
+
+def _first_lane(text: str) -> tuple[g.Corner, ...]:
+    """The corner at which the lane begins that is named first, by its side of the area and by its end."""
+    lanes = {next(filter(None, match.groups())).lower() for match in FIRST_LANE.finditer(text)}
+    ends = {match[1].lower() for match in LANE_END.finditer(text)}
+    return tuple(corner for corner in g.CORNERS if len(lanes) == len(ends) == 1 and set(corner.split("-")) == lanes | ends)

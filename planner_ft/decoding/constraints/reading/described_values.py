@@ -11,7 +11,7 @@ import re
 from collections.abc import Collection, Sequence
 
 from planner_ft.decoding.constraints.reading import LONGEST
-from planner_ft.decoding.constraints.reading.evidence import in_sentences, mentions, words_for
+from planner_ft.decoding.constraints.reading.evidence import mentions, words_for
 from planner_ft.decoding.constraints.reading.named_values import DOUBT, IDENTIFIER, SEVERAL
 from planner_ft.vocabulary import Vocabulary
 
@@ -115,22 +115,20 @@ def read_described_values(text: str, spoken: Collection[str], vocabulary: Vocabu
     """By skill and parameter what its value is one of, where every sentence that speaks of the skill says it plainly."""
     if len(text) > LONGEST or DOUBT.search(text) or SEVERAL.search(text):
         return {}
-    plain = in_sentences(text)
-    plain = plain.lower() if text.isupper() else plain
-    if _LIKEWISE.search(plain):
+    if _LIKEWISE.search(text):
         return {}
     said: dict[str, dict[str, list[re.Match[str]]]] = {}
     for (name, parameter), patterns in _PATTERNS.items():
         if name in spoken and name in vocabulary.skill and parameter in {item.name for item in vocabulary.skill[name].parameters}:
-            matches = [match for pattern in patterns for match in _compiled(pattern).finditer(plain)]
+            matches = [match for pattern in patterns for match in _compiled(pattern).finditer(text)]
             if matches:
                 said.setdefault(name, {})[parameter] = matches
     return {
         (name, parameter): frozenset(values)
         for name, having in said.items()
-        if not _spoken_elsewhere(plain, name, [match for matches in having.values() for match in matches])
+        if not _spoken_elsewhere(text, name, [match for matches in having.values() for match in matches])
         for parameter, matches in having.items()
-        if len(matches) >= (mentions(plain, name) or 1)
+        if len(matches) >= (mentions(text, name) or 1)
         and (values := _values(matches))
         and (parameter != "camera_id" or all(_CAMERA.search(value) for value in values))
     }

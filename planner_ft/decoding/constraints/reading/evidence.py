@@ -91,7 +91,7 @@ def required(text: str, vocabulary: Vocabulary) -> frozenset[str]:
     names = {skill.name for role in ("filter", "perception") for skill in vocabulary.skills_in_role(role)}
     if not names <= w.SPOKEN.keys() or not readable(text):
         return frozenset()
-    plain = _plain(in_sentences(text))
+    plain = _plain(text)
     if TAKEN_BACK.search(_PASSING.sub(" ", plain)):
         return frozenset()
     sentences = [_HARMLESS.sub(" ", match.group()) for match in _SENTENCE.finditer(plain)]
@@ -109,11 +109,6 @@ def asks_for(sentence: str, name: str) -> bool:
 def words_for(name: str) -> re.Pattern[str]:
     """The words that can mean a skill, in small letters."""
     return _spoken(name)
-
-
-def in_sentences(text: str) -> str:
-    """The text, a telegram's stops as the ends of sentences."""
-    return _STOP.sub(".", text) if text.isupper() else text
 
 
 def _speaks(text: str, name: str) -> bool:
@@ -247,8 +242,6 @@ def _unmistakable(name: str) -> re.Pattern[str]:
     return re.compile("|".join(rf"\b(?:{pattern})" for pattern in (*c.UNMISTAKABLE[name], *a.ASKED[name])))
 
 
-_STOP = re.compile(r"[ .,]*\bSTOP\b[.,]*")
-"""The end of a sentence in a telegram."""
 _NAME = re.compile(r"(?<=[a-z,] )[A-Z][a-z]+")
 _FOREIGN = frozenset(
     ("und", "der", "die", "das", "dem", "den", "mit", "zum", "zur", "nach", "auf", "ist", "nicht", "wenn", "het", "een", "van", "naar", "les")

@@ -15,6 +15,7 @@ from typing import Any
 from planner_ft.data.quantities import COMPASS, SHORT, positions
 from planner_ft.data.stated import radio_digits
 from planner_ft.data.task import geometry as g
+from planner_ft.decoding.constraints.reading import run_wordings as r
 from planner_ft.decoding.constraints.reading import wordings as w
 from planner_ft.decoding.constraints.reading.shapes import Facts, Place, Point, Uncertain, grid_path, square_path, stated_sizes, stated_ways
 from planner_ft.vocabulary import Vocabulary
@@ -29,7 +30,7 @@ def read_itinerary(record: dict[str, Any], vocabulary: Vocabulary) -> Path | Non
     given = record.get("parameters")
     parameters = given if isinstance(given, dict) else {}
     text = reworded(without_fences(_without_marks(str(record.get("prompt", "")))))
-    if text is None or w.UNORDERED.search(text):
+    if text is None or w.UNORDERED.search(text) or w.UNSURE.search(text):
         return None
     parts = [part for part in w.PART.split(text) if part and part.strip()]
     facts = Facts(parameters, _own_place(parameters), g.point(*vocabulary.home), len(parts) == 1, _turned(text))
@@ -48,6 +49,16 @@ def read_itinerary(record: dict[str, Any], vocabulary: Vocabulary) -> Path | Non
     if any(one == two for one, two in itertools.pairwise(walked)) or g.point(*vocabulary.unresolved) in walked:
         return None
     return tuple(walked) if walked and not unsettled(walked, text, facts.home) else None
+
+
+def plain_text(prompt: str) -> str:
+    """A prompt with its spoken digits and its thousands in figures."""
+    return r.THOUSANDS.sub(lambda number: number[0].replace(",", ""), radio_digits(r.SPOKEN.sub(_figures, prompt)))
+
+
+def _figures(spoken: re.Match[str]) -> str:
+    """Three digits that were said one by one, as figures."""
+    return "".join(str(r.DIGITS.index(word.lower().removesuffix("r") if word.lower() == "niner" else word.lower())) for word in spoken.groups())
 
 
 def reworded(text: str) -> str | None:

@@ -48,7 +48,7 @@ def read_named_values(text: str, spoken: Collection[str], vocabulary: Vocabulary
     found = {}
     for name, having in owners.items():
         kind, owner = _ENDING.sub("", name), having[0][0].name
-        untold = kind in UNTOLD_KINDS or (kind == "object" and "target_id" in owners)
+        untold = kind in UNTOLD_KINDS or (kind == "object" and "target_id" in owners) or (kind == "region" and "roi" in owners)
         values = None if untold or len(having) > 1 or mentions(text, owner) > 1 else _values(text, kind)
         if values:
             found[owner, name] = values

@@ -286,6 +286,8 @@ WAY_BEHIND = re.compile(
     re.IGNORECASE,
 )
 """The direction of a way off behind its length, and whether it is "of" something."""
+BY_WAY = re.compile(r"\b(?:by way of|via|through|after|past|first|before)\b[^.;]{0,40}$", re.IGNORECASE)
+"""Before a point that is passed on the way to the thing it is counted from."""
 OF_IT = re.compile(r"^(?:it|that|there|this|the same)\b", re.IGNORECASE)
 """The thing that was named before."""
 ANCHOR = re.compile(
@@ -391,6 +393,8 @@ GIVEN_PLACE = re.compile(r"\b(?:planned|given|stated|goal|docking|target|task|st
 """The task's place by its full name."""
 OF_OWN_HOME = re.compile(r"\bof (?P<home>home|base|the origin)\b", re.IGNORECASE)
 """Home as what a way off is counted from."""
+THOUSANDS = re.compile(r"(?<![\d.,\[(=−–-])\d{1,3}(?:,\d{3})+(?=[ -]?(?:m|met(?:re|er)s?|ft|foot|feet|yards?|yd)\b)", re.IGNORECASE)
+"""A length with commas between its thousands."""
 DIGITS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 """Digits in words."""
 SPOKEN = re.compile(rf"\b({'|'.join(DIGITS)}|niner)[ -]({'|'.join(DIGITS)}|niner)[ -]({'|'.join(DIGITS)}|niner)\b", re.IGNORECASE)

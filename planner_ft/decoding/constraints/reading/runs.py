@@ -13,13 +13,12 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from planner_ft.data.quantities import positions, quantities
-from planner_ft.data.stated import radio_digits
 from planner_ft.data.task import geometry as g
 from planner_ft.data.words import edit_distance, words
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.reading import run_wordings as r
 from planner_ft.decoding.constraints.reading import wordings as w
-from planner_ft.decoding.constraints.reading.itinerary import reworded, unsettled, without_fences
+from planner_ft.decoding.constraints.reading.itinerary import plain_text, reworded, unsettled, without_fences
 from planner_ft.decoding.constraints.reading.shapes import Place, Point, Uncertain, stated_lengths, stated_sizes
 from planner_ft.decoding.constraints.reading.tracks import read_track
 from planner_ft.vocabulary import Vocabulary
@@ -55,6 +54,10 @@ class _Facts:
         return next((value for name in names if isinstance(value := self.parameters.get(name), int | float)), None)
 
 
+SHIFTED = re.compile(r"\b(?:shifted|displaced) (?:by )?\d", re.IGNORECASE)
+"""A line that is moved aside as a whole: not read."""
+
+
 def read_runs(record: dict[str, Any], vocabulary: Vocabulary) -> Path | None:
     """Every waypoint of the answer in order, where the input leaves no choice; None where it does."""
     given = record.get("parameters")
@@ -62,10 +65,10 @@ def read_runs(record: dict[str, Any], vocabulary: Vocabulary) -> Path | None:
     if read(str(record.get("prompt", "")), vocabulary).numbers_free:
         return None
     facts = _Facts(parameters, _own_place(parameters), g.point(*vocabulary.home))
-    fenced = w.LIST_MARK.sub(lambda mark: ";" + " " * (len(mark[0]) - 1), radio_digits(r.SPOKEN.sub(_figures, str(record.get("prompt", "")))))
+    fenced = w.LIST_MARK.sub(lambda mark: ";" + " " * (len(mark[0]) - 1), plain_text(str(record.get("prompt", ""))))
     plain = without_fences(fenced)
     text = reworded(plain)
-    if text is None:
+    if text is None or SHIFTED.search(text):
         return None
     try:
         track = read_track(text, parameters)
@@ -95,11 +98,6 @@ def _own_place(parameters: dict[str, Any]) -> Point | None:
     pairs = [value for value in parameters.values() if isinstance(value, list) and len(value) == 2]
     own = [pair for pair in pairs if all(isinstance(item, int | float) for item in pair)]
     return g.point(*own[0]) if len(own) == 1 else None
-
-
-def _figures(spoken: re.Match[str]) -> str:
-    """Three digits that were said one by one, as figures."""
-    return "".join(str(r.DIGITS.index(word.lower().removesuffix("r") if word.lower() == "niner" else word.lower())) for word in spoken.groups())
 
 
 def _unquoted(text: str) -> str:
@@ -340,6 +338,8 @@ def _offsets(bare: str, mentioned: list[tuple[int, int, Point]]) -> Iterator[tup
             continue
         if not r.OF_IT.match(bare[behind:]):
             about = _anchor(bare, behind, mentioned)
+        elif about is None and not r.BY_WAY.search(bare[: joined[0][0]]):
+            about = max((one for one in mentioned if one[1] <= joined[0][0]), default=None)
         if about is None or len(joined) > 2:
             raise Uncertain
         point = about[2]

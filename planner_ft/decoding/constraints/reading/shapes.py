@@ -118,6 +118,10 @@ def named_sizes(text: str, lengths: list[tuple[float, int, int]]) -> Iterator[tu
             yield "width", value, {start}
         elif w.IS_LENGTH.match(behind):
             yield "length", value, {start}
+    for quantity in quantities(text):
+        bare = w.BARE_SIZE.match(text[quantity.end :]) if quantity.unit is None and quantity.value > 0 else None
+        if bare:
+            yield "width" if bare["width"] else "length", g.tidy(quantity.value), {quantity.start}
     spans = sorted((quantity.start, quantity.end, quantity.said) for quantity in quantities(text))
     for (start, end, first), (following, _end, second) in itertools.pairwise(spans):
         if w.BY.fullmatch(text[end:following]) or w.BY.fullmatch(re.sub(r"^\s?k?m\b|^\s?met(?:re|er)s?\b", "", text[end:following])):
@@ -131,6 +135,7 @@ def named_sizes(text: str, lengths: list[tuple[float, int, int]]) -> Iterator[tu
 
 
 def _along(text: str) -> g.Axis:
+    text = w.EXTENT.sub(r"\1", text)
     x, y = w.LANES_X.search(text), w.LANES_Y.search(text)
     if x and y:
         raise Uncertain
@@ -139,7 +144,7 @@ def _along(text: str) -> g.Axis:
 
 def _grid_corner(text: str) -> g.Corner:
     """The corner that a grid starts at."""
-    plain = w.LANES_Y.sub(" ", w.LANES_X.sub(" ", text))
+    plain = w.LANES_Y.sub(" ", w.LANES_X.sub(" ", w.EXTENT.sub(r"\1", text)))
     named = {named_corner(match) for match in w.CORNER.finditer(plain)}
     rest = w.STEP.sub(" ", w.CORNER.sub(" ", plain))
     steps = [match[1].lower() for match in w.STEP.finditer(plain)]

@@ -41,8 +41,18 @@ UNORDERED = _words(
     r"correction|rather|instead|actually|sorry|no, |i mean|not (?:go|at|to)|two (?:grids|squares)|both (?:\d|"
     r"the)|go there|start point|from the (?:given |planned )?start|set course|start position"
 )
+UNSURE = re.compile(
+    r"\b(?:same|that) [xy]\b|\b(?:displaced|shifted) (?:by )?\d|\bshift (?:the|that|it)\b|\bstand-?off (?:of )?\d|\b(?:given|planned|stated|set) maximum\b|"
+    r"\b(?:headings|bearings) on the spot\b|\borbit(?:ing)? (?:the|that|it)\b|[\])\d] (?:last|first|in the middle)(?=[,.;])|\(-?\d[\d.]*;|\[[\[(]-?\d|"
+    r"\bdestination is\b|\bfrom the cent(?:re|er)\b|\bof it:|\b(?:one|two|three) sides\b|\b[A-D]-[A-D]\b|"
+    r"\b(?:north|south|east|west)[a-z-]* of (?:x ?=? ?)?[\[(]?-?\d[^.;]{1,20}? (?:at|by) (?!\()(?:\d|[a-z]+ (?:metres?|meters?|yards|feet)\b)",
+    re.IGNORECASE,
+)
+"""Ways to tell a point from another, an order or a figure that are not read here, and lists of corners that no word makes a fence."""
 COUNTS = re.compile(
-    r"\b(?:steps?|parts?|stages?|legs?|headings?|bearings?|through|look\w*|bow to|turn to|facing|face)\s[\d.,\s]*(?:and )?(?:then )?$", re.IGNORECASE
+    r"\b(?:steps?|parts?|stages?|legs?|headings?|bearings?|through|look\w*|bow to|"
+    r"(?:turn|swing|rotate|pivot|swivel|spin) to|facing|face)\s[\d.,\s]*(?:and )?(?:then )?$",
+    re.IGNORECASE,
 )
 """What stands before numbers that count steps or are headings."""
 TURNED = re.compile(
@@ -134,6 +144,12 @@ COMPASS = re.compile(r"\b(?:north|south|east|west)\w*\b", re.IGNORECASE)
 BEGINS = _words(r"start\w*|begin\w*|corner (?:to|and)|from the (?:other|far|near)")
 LANES_X = _words(r"east(?:[- –]to)?[- –](?:and[- ])?west|west(?:[- –]to)?[- –]east|(?:along|parallel to) (?:the )?x(?:[- ]axis)?")
 LANES_Y = _words(r"north(?:[- –]to)?[- –](?:and[- ])?south|south(?:[- –]to)?[- –]north|(?:along|parallel to) (?:the )?y(?:[- ]axis)?")
+EXTENT = re.compile(
+    r"(\b(?:wide|broad|long|width|length|extent|across)\W{0,3})(?:east|west|north|south)(?:[- –]to)?[- –](?:and[- ])?(?:west|east|south|north)\b", re.IGNORECASE
+)
+"""An extent with the direction in which it is measured: "40 m wide (east-west)"."""
+BARE_SIZE = re.compile(r"^ ?(?:(?P<width>wide|broad|across)|(?P<length>long))\b", re.IGNORECASE)
+"""An extent without a unit: "15 wide and 24 long"."""
 STEP = re.compile(
     r"\b(?:step\w*|work\w*|progress\w*|shift\w*|advanc\w*|mov\w+) (?:to(?:wards)? (?:the )?)?(?:lane by lane )?(north|south|east|west)(?:wards?)?\b",
     re.IGNORECASE,
@@ -161,14 +177,15 @@ MARGIN = _words(
     r"berth"
 )
 BY = re.compile(r"\s?(?:m|metres?|meters?)?\s?(?:\(x\)|wide|in x)?\s?(?:by|x|×)\s?", re.IGNORECASE)
-IS_WIDTH = re.compile(r"^\s?(?:m|metres?|meters?)?[ -]?(?:wide|in width|width|along x|in x|\(x\)|from (?:west to east|east to west))", re.IGNORECASE)
+IS_WIDTH = re.compile(r"^\s?(?:m|metres?|meters?)?[ -]?(?:wide\b|in width|width|along x|in x|\(x\)|from (?:west to east|east to west))", re.IGNORECASE)
 IS_LENGTH = re.compile(r"^\s?(?:m|metres?|meters?)?[ -]?(?:long|in length|length|along y|in y|\(y\)|from (?:north to south|south to north))", re.IGNORECASE)
 IS_SPACING_BEHIND = re.compile(
     r"^\s?(?:m|metres?|meters?)?[ -]?(?:apart|spacing|line spacing|lane spacing|pitch|(?:in )?between (?:the )?(?:lanes|lines|them)|line to line)",
     re.IGNORECASE,
 )
 IS_SPACING_BEFORE = re.compile(
-    r"\b(?:spacing (?:is |of |at )?|spaced (?:at )?|lanes? (?:every|at)|lines? every|line spacing(?: is| of)?|"
+    r"\b(?:spacing (?:is |of |at )?|spaced (?:at )?|lanes? (?:every|at)|lines? every|(?:one|a) (?:lane|line|track) (?:every|each|to every|per)|"
+    r"line spacing(?: is| of)?|"
     r"spacing to be|pitch (?:of )?|lane every|apart by|lanes) ?$",
     re.IGNORECASE,
 )

@@ -10,6 +10,7 @@ import pytest
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.decoding.constraints.companions import read_companions
 from planner_ft.decoding.constraints.reading.described_values import read_described_values
+from planner_ft.decoding.constraints.reading.telegrams import in_small_letters
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()
@@ -33,7 +34,7 @@ VOCABULARY = load_vocabulary()
     ],
 )
 def test_a_value_reaches_to_its_end(text: str, skill: str, parameter: str, value: str) -> None:
-    assert read_described_values(text, {skill}, VOCABULARY)[skill, parameter] == frozenset({value})
+    assert read_described_values(in_small_letters(text), {skill}, VOCABULARY)[skill, parameter] == frozenset({value})
 
 
 @pytest.mark.parametrize(

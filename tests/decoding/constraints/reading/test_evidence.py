@@ -9,6 +9,7 @@ import pytest
 
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.decoding.constraints.reading.evidence import required, spoken_of
+from planner_ft.decoding.constraints.reading.telegrams import in_small_letters
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()
@@ -196,7 +197,7 @@ def test_fences(text: str) -> None:
     ],
 )
 def test_plain_requests_are_required(text: str, skill: str) -> None:
-    assert skill in required(text, VOCABULARY)
+    assert skill in required(in_small_letters(text), VOCABULARY)
 
 
 @pytest.mark.parametrize(

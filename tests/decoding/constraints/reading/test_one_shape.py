@@ -40,6 +40,17 @@ def only(facts: Ground, path: list[tuple[float, float]]) -> bool:
         ),
         ("Execute a lawnmower survey of the area, clear of anything by 6 m.", GRID, g.lawnmower((120, 80), 40, 60, 10)),
         ("Survey block. Enter at the southeast corner, lane spacing one five metres.", {**GRID, "width": 60}, None),
+        (
+            "Lanes parallel to the x axis at the task's spacing. First lane is the southernmost and it starts at its east end.",
+            GRID,
+            g.lawnmower((120, 80), 40, 60, 10, "south-east", "x"),
+        ),
+        (
+            "Sound a block 30 metres wide (east-west) and 20 metres long (north-south), centre (120, 80), lanes five metres apart.",
+            GRID,
+            g.lawnmower((120, 80), 30, 20, 5),
+        ),
+        ("Little grid, 12 wide and 18 long, one lane every 6 m.", GRID, g.lawnmower((120, 80), 12, 18, 6)),
         ("The block measures 80 m by 30 m. Cover it in east-west lines 10 m apart.", GRID, g.lawnmower((120, 80), 80, 30, 10, "south-west", "x")),
     ],
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from planner_ft.decoding.constraints.companions import read_companions
+from planner_ft.decoding.constraints.reading.telegrams import in_small_letters
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()
@@ -21,7 +22,7 @@ TWO = ["GoToXY", "StationKeep"]
     ],
 )
 def test_what_a_sentence_behind_the_movements_asks_for_runs_in_every_step(text: str, skill: str) -> None:
-    companions = read_companions({"prompt": text}, VOCABULARY)
+    companions = read_companions({"prompt": in_small_letters(text)}, VOCABULARY)
     assert skill in companions.asked
     assert [companions.runs(skill, name, TWO[:number]) for number, name in enumerate(TWO)] == [True, True]
 

@@ -38,24 +38,8 @@ def test_tracks_are_run_as_the_prompt_says(prompt: str, path: list[tuple[float, 
     assert runs("SubseaCableTrack", prompt, **TRACK) == tuple(path)
 
 
-@pytest.mark.parametrize(
-    ("prompt", "path"),
-    [
-        ("The jetty's north face runs from [0, 40] to [60, 40]. Make one pass along it, west to east, at the stand-off given.", [(0, 52), (60, 52)]),
-        ("The wall lies on x = -200, from y = 0 to y = 90. Run northbound, 10 m off it on the west side.", [(-210, 0), (-210, 90)]),
-        (
-            "The quay edge is the straight line from [0, 0] to [80, 60]. Run parallel to it in that direction on the north-west side, 10 m off.",
-            [(-6, 8), (74, 68)],
-        ),
-        (
-            "The pier face runs from [0, 0] to [50, 0]. First run eastbound at 10 m on its north side. Then run westbound at 20 m on its north side.",
-            [(0, 10), (50, 10), (50, 20), (0, 20)],
-        ),
-        ("Run parallel to the wall from (0, 30) to (90, 30).", [(0, 30), (90, 30)]),
-    ],
-)
-def test_passes_keep_off_a_described_face(prompt: str, path: list[tuple[float, float]]) -> None:
-    assert runs("ParallelStructurePass", prompt, **NORTH) == tuple(path)
+def test_a_wall_that_is_only_run_along_has_no_stand_off() -> None:
+    assert runs("ParallelStructurePass", "Run parallel to the wall from (0, 30) to (90, 30).", **NORTH) == ((0, 30), (90, 30))
 
 
 @pytest.mark.parametrize(
