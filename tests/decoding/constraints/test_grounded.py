@@ -10,6 +10,7 @@ import pytest
 from planner_ft.data.mission.synthetic import sample_missions
 from planner_ft.data.rules import rule_problems
 from planner_ft.data.task.sampler import sample_tasks
+from planner_ft.data.task.steps import plan_step
 from planner_ft.data.words import says
 from planner_ft.prompts.text import completion_text
 from planner_ft.support.files import compact_json, read_jsonl
@@ -147,16 +148,31 @@ def test_right_plans_can_be_written(embedded: Any, level: Level) -> None:
         assert len(refused) <= (1 - share) * len(records), refused
 
 
-def test_forced_tokens_are_those_of_training(tokenizer: Any) -> None:
+def turned(prompt: str, *movements: tuple[str, dict[str, float]]) -> dict[str, Any]:
+    """A task input that says which way to turn, and the movements that it asks for."""
+    steps = [plan_step(name, parameters, [], [], load_vocabulary()) for name, parameters in (("GoToXY", {"x": 5, "y": -12}), *movements)]
+    return {"task": "Transit", "parameters": {"target_position": [5, -12]}, "prompt": prompt, "expected": {"skill_sequence": steps}}
+
+
+# All of a turn is known but what runs beside it: its text ends within a token of the embedded candidate's tokenizer.
+TURNED = [
+    turned("Drive to [5, -12], turn to 270 degrees, then hold within one metre.", ("RotateToHeading", {"heading": 270}), ("StationKeep", {"radius": 1})),
+    turned("Go to [5, -12] and turn 5 degrees to port. Hold for 30 seconds.", ("NudgeYaw", {"delta_yaw": -5}), ("StationKeep", {"time": 30})),
+]
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_forced_tokens_are_those_of_training(tokenizer: Any, level: Level) -> None:
     vocabulary = load_vocabulary()
-    factory = make_factory(tokenizer, "mission", vocabulary, "grounded")
+    factory = make_factory(tokenizer, level, vocabulary, "grounded")
     count = 0
-    for record in read_jsonl(CURATED / "validation.jsonl")[:12]:
-        ids = answer_ids(tokenizer, completion_text("mission", record["expected"], vocabulary))
-        constraint = factory.start(record)
+    records = read_jsonl(CURATED / "validation.jsonl")[:12] if level == "mission" else TURNED
+    for record in records:
+        ids = answer_ids(tokenizer, completion_text(level, record["expected"], vocabulary))
+        constraint = factory.start(record, 4096)
         for place, token in enumerate(ids):
             forced = constraint.forced()
-            assert forced == ids[place : place + len(forced)]
+            assert forced == ids[place : place + len(forced)], (record["prompt"], tokenizer.decode(ids[:place]))
             count += len(forced)
             constraint.accept(token)
     assert count > 20
