@@ -3,10 +3,15 @@
 Precision comes before coverage: what is read is enforced, and where a reading is not certain the model decides.
 
     itinerary, own_movement, one_shape, runs, tracks   waypoints, with shapes, cues
+    faces, face_wordings, stations, written_out        faces told by an axis, waypoints at intervals, places told from home
     turns, turn_forms                                  rotations
     evidence, evidence_words, evidence_context         skills that the text speaks of at all
+    evidence_asked, asked                              skills and movements that it asks for in plain words
+    named_values, described_values                     text values
+    corrected                                          numbers that are taken back
     movements                                          movements that it speaks of
-    scopes, scope_words                                steps in which a skill runs
+    scopes, scope_words, own_sentences                 steps in which a skill runs
+    telegrams                                          prompts in capitals
     wordings, run_wordings                             patterns that several of them share
 """
 
