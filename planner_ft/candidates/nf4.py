@@ -45,7 +45,7 @@ def _rounded_scales(scales: Tensor) -> Tensor:
     largest = shifted.abs().amax(1, keepdim=True)
     values = dynamic_values()
     # The CPU kernel looks values up in a table of 2**16 steps from -1 to 1.
-    wanted = ((shifted / largest.clamp(min=TINY) + 1) * HALF_TABLE + 0.5).floor() / HALF_TABLE - 1
+    wanted = ((shifted * (1.0 / largest.clamp(min=TINY)) + 1) * HALF_TABLE + 0.5).floor() / HALF_TABLE - 1
     nearest = torch.bucketize(wanted, (values[:-1] + values[1:]) / 2)
     return (values[nearest] * largest).reshape(-1)[: len(scales)] + mean
 

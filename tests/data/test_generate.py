@@ -112,7 +112,8 @@ def test_the_chat_form_holds_the_answer_that_we_train_on(tmp_path: Path) -> None
 
 def test_every_split_loads_with_datasets_at_once(tmp_path: Path) -> None:
     datasets = pytest.importorskip("datasets")
-    for result in generate(GenerationSettings(out=tmp_path, **SMALL)):
+    settings = GenerationSettings(out=tmp_path, **{**SMALL, "train": 80})  # the first split names the columns: with too few records some are missing
+    for result in generate(settings):
         files = {split: str(result.folder / f"{split}.jsonl") for split in result.counts}
         loaded = datasets.load_dataset("json", data_files=files, cache_dir=str(tmp_path / "cache"))
         assert {split: len(rows) for split, rows in loaded.items()} == result.counts
