@@ -16,8 +16,6 @@ from planner_ft.decoding.constraints.grammar import SchemaValues, plan_grammar
 from planner_ft.decoding.constraints.grounded import GroundedValues
 from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, GroundedTaskValues
 from planner_ft.decoding.constraints.reading import LONGEST
-from planner_ft.decoding.constraints.reading.described_values import read_described_values
-from planner_ft.decoding.constraints.reading.named_values import read_named_values
 from planner_ft.decoding.constraints.reading.telegrams import in_small_letters
 from planner_ft.decoding.constraints.reading.turns import read_turns
 from planner_ft.decoding.constraints.routes import TaskScript
@@ -85,9 +83,7 @@ class Factory:
         record = _plainly_written(record)
         prompt = record["prompt"]
         companions = replace(read_companions(record, self.vocabulary), insisted=self.insisted)
-        mentioned = companions.mentioned
-        named = read_described_values(prompt, mentioned, self.vocabulary) | read_named_values(prompt, mentioned, self.vocabulary)
-        values, ground = GroundedTaskValues(record, self.vocabulary, named), read_ground(record, self.vocabulary)
+        values, ground = GroundedTaskValues(record, self.vocabulary, companions.mentioned), read_ground(record, self.vocabulary)
         turns = read_turns(record, self.vocabulary) if len(prompt) <= LONGEST else None
         # Where the readings contradict each other, neither is certain.
         turns = None if turns and ground.waypoints_alone else turns

@@ -34,7 +34,7 @@ _WORD_BEFORE = re.compile(r"([a-z]+)\W*$", re.IGNORECASE)
 _WORD_BEHIND = re.compile(r"[ -]([a-z]+s)\b(?!['’])", re.IGNORECASE)
 _NUMBER = r"[-−–]?\d+(?:\.\d+)?"
 _PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
-_WRITTEN_PAIR = re.compile(rf"\[\s*{_PAIR}\s*\]|\(\s*{_PAIR}\s*\)|(?<!\w)x\s?[=:]?\s?{_NUMBER}\W{{0,3}}y\s?[=:]?\s?{_NUMBER}", re.IGNORECASE)
+WRITTEN_PAIR = re.compile(rf"\[\s*{_PAIR}\s*\]|\(\s*{_PAIR}\s*\)|(?<!\w)x\s?[=:]?\s?{_NUMBER}\W{{0,3}}y\s?[=:]?\s?{_NUMBER}", re.IGNORECASE)
 """Two numbers that are certainly coordinates, and no other values."""
 _UNREAD = re.compile(r"\d+(?:\.\d+){2,}|\d+['’]\d+|\d\^\d|0x[0-9a-f]+|[×*]\s?10\b", re.IGNORECASE)
 _UNREAD_UNITS = re.compile(
@@ -86,7 +86,7 @@ class Reading:
 def read(text: str, vocabulary: Vocabulary) -> Reading:
     """Read a command or a task prompt."""
     notes = list(_notes(text))
-    converted = _converted(text)
+    converted = in_metres(text)
     places = [converted.get(place, place) for x, y in stated_positions(text) if max(abs(x), abs(y)) < LARGEST for place in [(round(x, 2), round(y, 2))]]
     loose = () if notes else tuple(_loose(text))
     if loose:
@@ -96,7 +96,7 @@ def read(text: str, vocabulary: Vocabulary) -> Reading:
     return Reading(text, bare, without_counts(bare), tuple(known), loose, any("number" in note for note in notes), tuple(notes), read_corrections(bare))
 
 
-def _converted(text: str) -> dict[Position, Position]:
+def in_metres(text: str) -> dict[Position, Position]:
     """Coordinates in a sentence that says their unit ("fence corners, in kilometres: ..."), with what they are in metres."""
     found = {}
     for match in _COORDINATE_UNIT.finditer(text):
@@ -110,7 +110,7 @@ def _converted(text: str) -> dict[Position, Position]:
 
 def without_pairs(text: str) -> str:
     """A text without what certainly is a coordinate."""
-    return _WRITTEN_PAIR.sub(" ; ", text)
+    return WRITTEN_PAIR.sub(" ; ", text)
 
 
 def without_counts(text: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 from planner_ft.data.quantities import quantities
@@ -23,6 +23,7 @@ from planner_ft.decoding.constraints.grammar import (
     written_number,
 )
 from planner_ft.decoding.constraints.grounded import GroundedValues, one_of
+from planner_ft.decoding.constraints.reading.told_values import read_told_values
 from planner_ft.decoding.constraints.spans import Spans
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
@@ -38,12 +39,12 @@ RECIPROCAL = re.compile(r"\breciprocal\b|\bopposite (?:heading|bearing|course|di
 
 
 class GroundedTaskValues(GroundedValues):
-    """The values of a skill sequence that its input states; `named` are those by skill and parameter (see `read_named_values`). Routes have the waypoints."""
+    """The values of a skill sequence that its input states; of the skills `mentioned` in it some are told beyond doubt. Routes have the waypoints."""
 
-    def __init__(self, record: dict[str, Any], vocabulary: Vocabulary, named: Mapping[tuple[str, str], frozenset[str]] | None = None) -> None:
+    def __init__(self, record: dict[str, Any], vocabulary: Vocabulary, mentioned: Collection[str] = ()) -> None:
         prompt = str(record.get("prompt", ""))
         super().__init__(prompt, vocabulary)
-        self._named = named or {}
+        self._told = read_told_values(self._reading, mentioned, vocabulary)
         self._own = list(own_numbers(record, vocabulary))
         self._texts = list(own_texts(record))
         self._spans = Spans([prompt, *self._texts], named=True)
@@ -52,12 +53,16 @@ class GroundedTaskValues(GroundedValues):
         self._counts = sector_counts([*(quantity.said for quantity in quantities(prompt)), *(number for number, _unit in self._own)])
 
     def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
+        symbol = one_of(grammar, sorted(self._told.get((owner.name, parameter.name), ()))) if isinstance(owner, Skill) else None
+        if symbol:
+            return [(symbol, context | IDENTIFIED)]
         if parameter.type == "polygon":
             position = self.position(grammar, ())
             return [(corners(grammar, position), context)] if position else []
-        named = self._named.get((owner.name, parameter.name)) if isinstance(owner, Skill) else None
-        symbol = one_of(grammar, map(compact_json, sorted(named))) if named else None
-        return [(symbol, context | IDENTIFIED)] if symbol else super().parameter(grammar, parameter, owner, context)
+        return super().parameter(grammar, parameter, owner, context)
+
+    def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
+        return super().needs(parameter, owner) or (isinstance(owner, Skill) and (owner.name, parameter.name) in self._told)
 
     def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str | None:
         said = self._reading.numbers(parameter)

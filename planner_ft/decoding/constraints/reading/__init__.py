@@ -7,7 +7,9 @@ Precision comes before coverage: what is read is enforced, and where a reading i
     turns, turn_forms                                  rotations
     evidence, evidence_words, evidence_context         skills that the text speaks of at all
     evidence_asked, asked                              skills and movements that it asks for in plain words
+    told_values                                        values that leave no choice, from:
     named_values, described_values                     text values
+    clearances, fences                                 margins to obstacles, lists of corners
     corrected                                          numbers that are taken back
     movements                                          movements that it speaks of
     scopes, scope_words, own_sentences                 steps in which a skill runs

@@ -83,6 +83,10 @@ _PATTERNS: dict[tuple[str, str], tuple[str, ...]] = {
         rf"\b(?:recording|record|disk|film)\b[^.;]{{0,60}} (?:under|as) (?:the )?(?:file )?(?:tag |name )?(?P<v>{IDENTIFIER}){_END}",
     ),
     ("CaptureGeoSnapshot", "note"): (rf"\b(?:stills?|pictures?|photos?|snapshots?|frames?)\b[^.;]{{0,40}}\bnote(?: is|:|,)? {_NAME}{_CLAUSE}",),
+    ("CaptureGeoSnapshot", "sensor_id"): (
+        rf"\b(?:stills?|pictures?|photos?|snapshots?|frames?)(?: with position)? (?:from|with|by|through|on|off) (?:the )?(?:camera |sensor )?"
+        rf"(?P<v>{IDENTIFIER}){_END}",
+    ),
     ("CreateMapMarker", "label"): (
         rf"\blabel(?:led)?(?: as| is|:|,)? {_NAME}{_CLAUSE}",
         rf"(?:marker|pin) (?:named|called|labelled) {_NAME}(?:{_CLAUSE}|(?= and {_VERB}\b))",
@@ -100,7 +104,7 @@ _KIND_BEFORE = re.compile(rf"^(?:camera|sensor|stream|cloud|region|object|target
 _NO_NAME = re.compile(
     r"(?:camera|cameras|sensor|stream|region|roi|surface|frame|picture|image|way|target|feature|object|view|light|vessel|boat|position|place|spot|log|boat's)"
     r"|(?:marker|contact|roi|region|target|vessel|ship|sensor|camera|stream|cloud|object|feature|type|sounder|sonde|file) .*|"
-    r"beginning|end|start|middle|rest|.*[- ]named\b.*",
+    r"beginning|end|start|middle|rest|.*[- ]named\b.*|position fix|\d+(?:\.\d+)?(?: ?(?:s|sec\w*|min\w*|m|met\w+)\b.*)?",
     re.IGNORECASE,
 )
 """What is the word for a kind, or may or may not have one before its name."""

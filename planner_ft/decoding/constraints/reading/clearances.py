@@ -1,0 +1,61 @@
+"""The margins to obstacles that an input states: "8 m of clearance", "nothing may come closer than ten metres"."""
+
+from __future__ import annotations
+
+import re
+
+from planner_ft.data.quantities import quantities
+from planner_ft.data.stated import CABLES
+
+_THINGS = (
+    r"(?:everything|anything|everybody|anybody|every(?: \w+)? obstacle|any(?: \w+)? obstacles?|all(?: the)? obstacles|obstacles|(?:all )?traffic|"
+    r"other (?:boats|craft|vessels))"
+)
+_LED = re.compile(
+    r"\b(?:(?:safety |obstacle )?(?:margin|clearance)s?|(?:safety|obstacle) distance|(?:minimum|safe) (?:distance|separation) (?:to|from) (?:all )?obstacles|"
+    rf"clear of {_THINGS} by|avoid\w* {_THINGS} (?:by|with)|nothing (?:may |is to |must |should |shall |can )?comes? (?:closer|nearer) than|"
+    rf"let nothing (?:come )?(?:closer|nearer) than)(?: (?:to|from) {_THINGS})?(?:[:,=]| of| is| at| to be| being| by)*"
+    r"(?: (?:at least|about|a minimum of|no less than|not less than))? ?$",
+    re.IGNORECASE,
+)
+"""Words before a clearance."""
+_FOLLOWED = re.compile(
+    r"^,? ?(?:of |in )?(?:(?:safety |obstacle )?(?:margin|clearance)\b|clear\b|"
+    r"(?:clear )?(?:room|space|water|sea ?room) (?:all |to |from |between |round|around)|to spare\b|"
+    rf"(?:at least |minimum |clear |away |or more )?(?:from|off|of|to) {_THINGS}\b|(?:away|minimum) (?:from|to) {_THINGS}\b)",
+    re.IGNORECASE,
+)
+"""Words behind one."""
+_BOUND_BEFORE = re.compile(
+    r"\b(?:radius|radii|diameter|circle|ring|within|every|spacing|grid|box|area|patch|spaced|length|width|distance|from|over|"
+    r"for|along)(?: (?:of|is|at|a|the|about))* ?$",
+    re.IGNORECASE,
+)
+_BOUND_BEHIND = re.compile(
+    r"^[ -]?(?:radius|radii|diameter|circle|ring|watch circle|wide|long|broad|apart|spacing|deep|square|round (?:the|it)|by \d|x \d|grid|box|"
+    r"line|lines|lanes|legs|tolerance|(?:to (?:the )?|due |further )?(?:north|south|east|west|port|starboard)|ahead|astern|off (?:it|the|its|on|her)\b|"
+    r"from (?:it|the|its)\b|out\b|hops|on (?:heading|course|bearing))",
+    re.IGNORECASE,
+)
+"""Words before and behind a length that is another thing's."""
+_WILL_DO = re.compile(r"^ (?:will do|is enough|are enough|is plenty|suffic\w+)", re.IGNORECASE)
+_PART = re.compile(r"\b(?:of|a|an)\s+$", re.IGNORECASE)
+_DIGIT = re.compile(r" (?:one|two|three|four|five|six|seven|eight|nine|niner|zero)\b", re.IGNORECASE)
+"""What goes on behind a number whose digits are said one by one."""
+
+
+def clearances(text: str) -> set[float]:
+    """The lengths that are clearances beyond doubt, with those that may be; nothing where no length is one."""
+    certain, possible = set(), set()
+    for quantity in quantities(text):
+        before, behind = text[: quantity.start], text[quantity.end :]
+        if CABLES.match(behind):
+            return set()
+        length = quantity.unit == "m" or (quantity.unit is None and _WILL_DO.match(behind))
+        if _LED.search(before) or (length and _FOLLOWED.match(behind)):
+            if _PART.search(before) or _DIGIT.match(behind) or quantity.unit not in ("m", None):
+                return set()
+            certain.add(quantity.value)
+        elif length and not _BOUND_BEFORE.search(before) and not _BOUND_BEHIND.match(behind):
+            possible.add(quantity.value)
+    return certain | possible if certain else set()
