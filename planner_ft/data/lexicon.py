@@ -35,19 +35,20 @@ def is_known(word: str) -> bool:
 def corrections(word: str, most: int = 6) -> tuple[str, ...]:
     """Known words that `word` can be a misspelling or a shortening of, the nearest first; none for a known word.
 
-    Words up to five letters may differ by one edit, longer ones by two; neighbouring letters that are swapped are one
-    edit. A word without vowels is also the consonants of another: "thrml" is thermal.
+    Words up to five letters may differ by one edit, longer ones by two, and so may those of five that nothing else is near and
+    that begin alike; neighbouring letters that are swapped are one edit. A word without vowels is also the consonants of another: "thrml" is thermal.
     """
     lowered = word.lower()
     if len(lowered) < 3 or lowered in known_words():
         return ()
-    found = sorted([*_misspelt(lowered), *(_shortened(lowered) if not set(lowered) & set("aeiou") else ())])
+    found = sorted([*_misspelt(lowered, 1 if len(lowered) < 6 else 2), *(_shortened(lowered) if not set(lowered) & set("aeiou") else ())])
+    if not found and len(lowered) == 5:
+        found = sorted(item for item in _misspelt(lowered, 2) if item[2][0] == lowered[0])
     return tuple(dict.fromkeys(candidate for _distance, _count, candidate in found))[:most]
 
 
-def _misspelt(word: str) -> Iterator[tuple[int, int, str]]:
-    """(edits, -frequency, known word) of the known words near `word`."""
-    limit = 1 if len(word) < 6 else 2
+def _misspelt(word: str, limit: int) -> Iterator[tuple[int, int, str]]:
+    """(edits, -frequency, known word) of the known words that `limit` edits make of `word`."""
     letters = _letters(word)
     for length in range(len(word) - limit, len(word) + limit + 1):
         for candidate, others in _by_length().get(length, ()):

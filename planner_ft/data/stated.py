@@ -46,6 +46,8 @@ _SAID_SO = re.compile(
     rf"\b({'|'.join(_PRONOUNCED)})(?= (?:{'|'.join([*_DIGITS, *_PRONOUNCED])}|[a-z]*(?:metres?|meters?|minutes?|seconds?|degrees?|hours?))\b)", re.IGNORECASE
 )
 """Digits as radio procedure has them pronounced, before another one or a unit: a tree is a tree elsewhere."""
+_HYPHENED = re.compile(rf"\b({'|'.join([*_DIGITS, *_PRONOUNCED])})-(?=(?:{'|'.join([*_DIGITS, *_PRONOUNCED])})\b)", re.IGNORECASE)
+"""A digit that a hyphen ties to the next: "one-eight-zero"."""
 CABLES = re.compile(r"[ -](?:of )?(?:an? )?cables?(?:[ -]lengths?)?\b", re.IGNORECASE)
 CABLE = 185.2
 """Metres in a cable, a tenth of a nautical mile."""
@@ -62,7 +64,7 @@ _EXPONENT = re.compile(r"(?<![\w.])\d+(?:\.\d+)?e\+?\d{1,2}(?!\w)", re.IGNORECAS
 def rewritings(text: str) -> tuple[str, ...]:
     """The text, and the ways in which it can be written out otherwise; at most MOST_REWRITINGS in all."""
     text = _VULGAR.sub(lambda match: f" {float(match[1] or 0) + VULGAR[match[2]]:g}", text)
-    text = _SAID_SO.sub(lambda match: _PRONOUNCED[match[1].lower()], text)
+    text = _SAID_SO.sub(lambda match: _PRONOUNCED[match[1].lower()], unhyphened(text))
     found = dict.fromkeys([text])
     makers = (_with_numerals, _with_units, _with_articles, _thousands, _clock, _south, _apart, _speak, _radio, _hundreds, _cuts)
     for maker in makers:
@@ -95,6 +97,11 @@ def states_number(text: str, value: float, unit: str | None) -> bool:
 def states_position(text: str, position: list[float]) -> bool:
     """Whether the coordinates occur in the text as a pair, in this order."""
     return any(close(x, position[0]) and close(y, position[1]) for x, y in stated_positions(text))
+
+
+def unhyphened(text: str) -> str:
+    """A text with "one-eight-zero" in words apart."""
+    return _HYPHENED.sub(r"\1 ", text)
 
 
 def radio_digits(text: str) -> str:

@@ -10,6 +10,7 @@ from planner_ft.data.lexicon import corrections, is_known, known_words
     [
         ("grean", "green"), ("barell", "barrel"), ("bouy", "buoy"), ("woden", "wooden"), ("yelow", "yellow"), ("craked", "cracked"),
         ("thermla", "thermal"), ("nmae", "name"), ("phoots", "photos"), ("bollrd", "bollard"), ("txt", "text"), ("thrml", "thermal"), ("filles", "files"),
+        ("ankor", "anchor"),
     ],
 )  # fmt: skip
 def test_misspellings_are_put_right(written: str, meant: str) -> None:

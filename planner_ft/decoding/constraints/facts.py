@@ -11,7 +11,7 @@ from typing import Any
 from planner_ft.data.lexicon import is_known
 from planner_ft.data.numerals import AND, FRACTIONS, SCALES, SMALL, UNITS
 from planner_ft.data.quantities import Quantity, close, positions, quantities
-from planner_ft.data.stated import CABLES, rewritings, stated_numbers, stated_positions
+from planner_ft.data.stated import CABLES, rewritings, stated_numbers, stated_positions, unhyphened
 from planner_ft.data.words import edit_distance
 from planner_ft.decoding.constraints.patterns import WHOLE_DIGITS
 from planner_ft.decoding.constraints.reading.corrected import Corrections, read_corrections
@@ -52,6 +52,14 @@ _NO_AXIS = r"(?![a-z-]| (?:side|face|wall|end|edge|corner|of (?!home|base|here))
 _CUE_BEHIND = re.compile(rf"^\s?(?:m|met(?:re|er)s?)?\s?(?:to the |due )?{_AXIS}{_NO_AXIS}", re.IGNORECASE)
 
 
+_ANGLE_BEFORE = re.compile(r"\b(?:courses?|headings?|bearings?|hdg|azimuth|steering|steer)(?: of| is| to|:|=)? ?$", re.IGNORECASE)
+_DIGIT = re.compile(r" (?:one|two|three|four|five|six|seven|eight|nine|niner|zero|oh)\b", re.IGNORECASE)
+_ANGLE = re.compile(r"0\d\d")
+"""Three figures with a leading nought."""
+_UNIT_LEFT_OUT = re.compile(r"(?: (?:more|at|here|there|on|and|then|in)\b|[.,;)]|$)(?! ?\d)", re.IGNORECASE)
+"""What stands behind a number whose unit was said before: "ten minutes here and five there"."""
+
+
 @dataclass(frozen=True)
 class Reading:
     """The facts of a text.
@@ -79,7 +87,7 @@ class Reading:
         """Numbers in a unit that the text states, whatever their range; None where any can be meant."""
         if self.numbers_free:
             return None
-        found = stated_numbers(self.measures if unit in MEASURES else self.bare, unit)
+        found = stated_numbers(self.measures if unit in MEASURES else self.bare, unit) | (_durations(self.measures) if unit == "s" else frozenset())
         return frozenset(value for value in found if not any(close(value, other) for other in self.corrections.taken_back)) | self.corrections.instead
 
 
@@ -92,7 +100,7 @@ def read(text: str, vocabulary: Vocabulary) -> Reading:
     if loose:
         notes.append("The coordinates in the command could not be read with certainty.")
     known = dict.fromkeys([vocabulary.home, vocabulary.unresolved, *places])
-    bare = without_pairs(text)
+    bare = without_pairs(unhyphened(text))
     return Reading(text, bare, without_counts(bare), tuple(known), loose, any("number" in note for note in notes), tuple(notes), read_corrections(bare))
 
 
@@ -120,11 +128,22 @@ def without_counts(text: str) -> str:
         word = text[quantity.start : quantity.end].lower()
         before, behind = _WORD_BEFORE.search(text[: quantity.start]), _WORD_BEHIND.match(text[quantity.end :])
         said_before = before[1].lower() if before else ""
-        stands = (word == "one" and said_before not in BEFORE_NUMBERS) or (word in FRACTIONS and not _AND_A.search(text[: quantity.start]))
-        if quantity.unit is None and not CABLES.match(text, quantity.end) and (stands or (behind is not None and _is_thing(behind[1].lower()))):
+        stands = (word == "one" and said_before not in BEFORE_NUMBERS and not _DIGIT.match(text, quantity.end)) or (
+            word in FRACTIONS and not _AND_A.search(text[: quantity.start])
+        )
+        angle = _ANGLE.fullmatch(word) or _ANGLE_BEFORE.search(text[: quantity.start])
+        if quantity.unit is None and not CABLES.match(text, quantity.end) and (stands or angle or (behind is not None and _is_thing(behind[1].lower()))):
             pieces.append(text[end : quantity.start])
             end = quantity.end
     return ";".join([*pieces, text[end:]])
+
+
+def _durations(text: str) -> frozenset[float]:
+    """Durations in seconds whose unit was said with another one: "ten minutes here and five there"."""
+    numbers = quantities(text)
+    factors = {quantity.value / quantity.said for quantity in numbers if quantity.unit == "s" and quantity.said}
+    bare = [quantity for quantity in numbers if quantity.unit is None and quantity.said > 0 and _UNIT_LEFT_OUT.match(text, quantity.end)]
+    return frozenset(quantity.said * factor for quantity in bare for factor in factors)
 
 
 def _is_thing(word: str) -> bool:

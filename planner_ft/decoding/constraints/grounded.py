@@ -5,10 +5,11 @@ from __future__ import annotations
 import functools
 import re
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from planner_ft.data.stated import rewritings
 from planner_ft.decoding.constraints import patterns
-from planner_ft.decoding.constraints.facts import Reading, read
+from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.grammar import (
     IDENTIFIED,
     LONGEST_PROSE,
@@ -23,6 +24,7 @@ from planner_ft.decoding.constraints.grammar import (
     written_number,
 )
 from planner_ft.decoding.constraints.patterns import literal, regex
+from planner_ft.decoding.constraints.reading.written_out import places_off_home
 from planner_ft.decoding.constraints.spans import Spans
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 
@@ -37,7 +39,9 @@ class GroundedValues(Narrowed):
     def __init__(self, prompt: str, vocabulary: Vocabulary, texts: Sequence[str] = ()) -> None:
         super().__init__(SchemaValues())
         self._vocabulary = vocabulary
-        self._reading: Reading = read(prompt, vocabulary)
+        reading = read(prompt, vocabulary)
+        off_home = places_off_home(prompt, (float(vocabulary.home[0]), float(vocabulary.home[1])))
+        self._reading = replace(reading, places=tuple(dict.fromkeys([*reading.places, *off_home])))
         self._spans = Spans([prompt, *texts])
         self._numbers: dict[Parameter, list[str] | None] = {}
         self.notes = [*self._reading.notes, *([TOO_LONG] if self._spans.too_long else [])]

@@ -53,7 +53,7 @@ class GroundedTaskValues(GroundedValues):
         self._counts = sector_counts([*(quantity.said for quantity in quantities(prompt)), *(number for number, _unit in self._own)])
 
     def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
-        symbol = one_of(grammar, sorted(self._told.get((owner.name, parameter.name), ()))) if isinstance(owner, Skill) else None
+        symbol = one_of(grammar, sorted(self._told.values.get((owner.name, parameter.name), ()))) if isinstance(owner, Skill) else None
         if symbol:
             return [(symbol, context | IDENTIFIED)]
         if parameter.type == "polygon":
@@ -62,7 +62,7 @@ class GroundedTaskValues(GroundedValues):
         return super().parameter(grammar, parameter, owner, context)
 
     def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
-        return super().needs(parameter, owner) or (isinstance(owner, Skill) and (owner.name, parameter.name) in self._told)
+        return super().needs(parameter, owner) or (isinstance(owner, Skill) and (owner.name, parameter.name) in self._told.needed)
 
     def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str | None:
         said = self._reading.numbers(parameter)

@@ -83,6 +83,28 @@ def test_a_number_that_counts_things_is_no_measure(embedded: Any, prompt: str, p
     assert admitted(embedded, ("HorizontalPanorama", parameters), prompt=prompt) is possible
 
 
+@pytest.mark.parametrize(
+    ("prompt", "seconds", "possible"),
+    [
+        ("hold twelve minutes at the lock, then at the weir four", 240, True),
+        ("stay for 3 h and later two more", 7200, True),
+        ("follow course 075, then hold", 75, False),
+        ("steer 120 and wait", 120, False),
+        ("hold here for niner-zero seconds", 90, True),
+        ("hold one-five minutes", 900, True),
+    ],
+)
+def test_durations_as_they_are_said(embedded: Any, prompt: str, seconds: float, possible: bool) -> None:
+    assert admitted(embedded, ("KeepStation", {"duration": seconds}), prompt=prompt) is possible
+
+
+def test_places_are_told_from_home(embedded: Any) -> None:
+    prompt = "A panorama from a spot forty metres due south of home, then go to the point 90 m east and 20 m north of home."
+    for place in ([0, -40], [90, 20]):
+        assert admitted(embedded, ("Transit", {"target_position": place}), prompt=prompt)
+    assert not admitted(embedded, ("Transit", {"target_position": [0, 40]}), prompt=prompt)
+
+
 def test_the_logic_of_the_plan_holds_as_well(embedded: Any) -> None:
     go: tuple[str, dict[str, Any]] = ("Transit", {"target_position": [120, -35]})
     assert admitted(embedded, go, ("PerformOrbit", {"center": [120, -35], "radius": 25, "arc": 180}), ("DriftAudit", {"duration": 1800}))

@@ -99,7 +99,7 @@ _PATTERNS: dict[tuple[str, str], tuple[str, ...]] = {
     ("GetHorizonAngle", "sensor_id"): (rf"(?:horizon (?:tilt|angle)|tilt of the horizon|its tilt)(?: with| from| by| off| using) {_SENSOR}",),
 }
 """What stands before a value, by skill and parameter, and ends it."""
-_KIND_BEFORE = re.compile(rf"^(?:camera|sensor|stream|cloud|region|object|target|roi|feature|type|sounder|sonde) (?={IDENTIFIER}$)", re.IGNORECASE)
+_KIND_BEFORE = re.compile(rf"^(?:camera|sensor|stream|cloud|region|object|target|frame|roi|feature|type|sounder|sonde) (?={IDENTIFIER}$)", re.IGNORECASE)
 """A word for the kind before an identifier is no part of it."""
 _NO_NAME = re.compile(
     r"(?:camera|cameras|sensor|stream|region|roi|surface|frame|picture|image|way|target|feature|object|view|light|vessel|boat|position|place|spot|log|boat's)"

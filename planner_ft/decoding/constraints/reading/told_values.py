@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass, field
 
 from planner_ft.decoding.constraints.facts import Reading, usable
 from planner_ft.decoding.constraints.grammar import written, written_number
@@ -14,24 +15,37 @@ from planner_ft.decoding.constraints.reading.named_values import DOUBT, read_nam
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary
 
-Told = dict[tuple[str, str], frozenset[str]]
-"""By skill and parameter the values in JSON, as plans write them, that it has one of."""
-
 CLEARANCE, FENCE = ("ObstacleAvoidance", "min_distance"), ("BoundaryEnforcement", "poly_coords")
+STARTED_AND_STOPPED = "SetStreamRecording"
+"""The skill that runs twice with different values in one step, where recordings begin and end."""
+
+
+@dataclass(frozen=True)
+class Told:
+    """By skill and parameter the `values` in JSON, as plans write them, that it has one of; those `needed` are always written."""
+
+    values: Mapping[tuple[str, str], frozenset[str]] = field(default_factory=dict)
+    needed: frozenset[tuple[str, str]] = frozenset()
 
 
 def read_told_values(reading: Reading, spoken: Collection[str], vocabulary: Vocabulary) -> Told:
-    """What the text of a reading tells of the values of the skills that it speaks of."""
+    """What the text of a reading tells of the values of the skills that it speaks of.
+
+    What stands behind the words for a skill is certainly its own; a name behind the word for its kind may be another skill's.
+    """
     text = reading.text
-    named = read_described_values(text, spoken, vocabulary) | read_named_values(text, spoken, vocabulary)
-    told: Told = {key: frozenset(map(compact_json, values)) for key, values in named.items()}
-    if len(text) > LONGEST or reading.numbers_free or reading.loose:
-        return told
-    if CLEARANCE[0] in spoken and CLEARANCE[0] in vocabulary.skill and not DOUBT.search(text):
-        parameter = vocabulary.skill[CLEARANCE[0]].by_name[CLEARANCE[1]]
-        values = usable(clearances(text), parameter)
-        told |= {CLEARANCE: frozenset(map(written_number, values))} if values else {}
-    if FENCE[0] in spoken and FENCE[0] in vocabulary.skill:
-        lists = frozenset(f"[{','.join(map(written, corners))}]" for corners in fences(text))
-        told |= {FENCE: lists} if lists else {}
-    return told
+    described = read_described_values(text, spoken, vocabulary)
+    told = {key: frozenset(map(compact_json, values)) for key, values in (described | read_named_values(text, spoken, vocabulary)).items()}
+    needed = {key for key in described if key[0] != STARTED_AND_STOPPED}
+    if len(text) <= LONGEST and not reading.numbers_free and not reading.loose:
+        counted = {CLEARANCE: _clearances(text, vocabulary), FENCE: (f"[{','.join(map(written, corners))}]" for corners in fences(text))}
+        found = {key: frozenset(values) for key, values in counted.items() if key[0] in spoken and key[0] in vocabulary.skill}
+        told |= {key: values for key, values in found.items() if values}
+        needed |= {key for key, values in found.items() if values}
+    return Told(told, frozenset(needed))
+
+
+def _clearances(text: str, vocabulary: Vocabulary) -> Iterator[str]:
+    skill, name = CLEARANCE
+    if not DOUBT.search(text) and skill in vocabulary.skill:
+        yield from map(written_number, usable(clearances(text), vocabulary.skill[skill].by_name[name]))

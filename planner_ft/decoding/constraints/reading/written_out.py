@@ -38,6 +38,11 @@ def written_out(prompt: str, home: Point) -> str:
     return THERE.sub(r"\g<mark>\g<go> to \g<place>", _in_coordinates(prompt, home))
 
 
+def places_off_home(text: str, home: Point) -> list[Point]:
+    """The places that a text states by their ways off home."""
+    return [point for _start, _end, point in _off_home(plain_text(text), home)] if OF_HOME.search(text) else []
+
+
 def _in_coordinates(prompt: str, home: Point) -> str:
     if not OF_HOME.search(prompt):
         return prompt
