@@ -17,6 +17,8 @@ from planner_ft.vocabulary import Vocabulary
 _PLACED = r"[\s,:]{0,2}(?:(?:at|around|about|near|by|on|centred on) )?"
 """What stands between a thing and its coordinates."""
 _SEARCH = re.compile(r"\b(?:find|finding|search\w*|locat\w*|look(?:ing)? (?:for|around)|hunt\w*|seek\w*|spot|detect\w*|sweep for|where)\b", re.IGNORECASE)
+_ANOTHER = re.compile(r"\b(?:another|other|second|also|both|two|one more|any|each|every|different|all)\b", re.IGNORECASE)
+_WORK = re.compile(r"\b(?:inspection|survey|report|panorama|check|self-test|time lapse|orbit|transit|berthing|docking|scan|sounding|soundings)$")
 _NO_RETURN = re.compile(
     r"\b(?:do not|don'?t|needn'?t|need not|no need to|without|never|not to|won'?t|not|no) (?!forget)(?:\w+ ){0,2}?"
     r"(?:return(?:ing)?|com(?:e|ing) (?:back|home)|go(?:ing)? (?:back|home)|RTB)\b(?! (?:until|before|till|between|without|to (?!home|base)))",
@@ -64,6 +66,7 @@ def count_lacking(command: str, answer: str, vocabulary: Vocabulary) -> int | No
         _repeated(tasks, vocabulary),
         _groundless(command, titles, vocabulary),
         _searched_for_nothing(command, tasks, vocabulary),
+        _searched_again(command, tasks, vocabulary),
         _returned(command, tasks, vocabulary),
         _again(command, [task["title"] for task in tasks]),
     )
@@ -84,6 +87,17 @@ def _searched_for_nothing(command: str, tasks: Sequence[Mapping[str, Any]], voca
     for task in tasks:
         described = [str(value).lower() for value in task["parameters"].values()] if task["title"] == vocabulary.locate else []
         yield from (text for text in described if any(re.search(rf"\b{re.escape(text)}{_PLACED}$", piece) for piece in before))
+
+
+def _searched_again(command: str, tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Iterator[str]:
+    """What was found before under its full name ("the sunken lighter ... the lighter"), and what is no thing but work ("for the inspection")."""
+    before: list[str] = []
+    for task in tasks:
+        described = [str(value).lower() for value in task["parameters"].values()] if task["title"] == vocabulary.locate else []
+        for text in described:
+            if _WORK.search(text) or (any(other.endswith(f" {text}") for other in before) and not _ANOTHER.search(command)):
+                yield text
+        before += described
 
 
 def _returned(command: str, tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Iterator[str]:

@@ -16,6 +16,8 @@ def task(title: str, **parameters: Any) -> dict[str, Any]:
 
 
 GO, HOLD = task("Transit", target_position=[20, 60]), task("KeepStation", duration=600)
+FIND, FOLLOW = task("SearchAndDetect", target_description="red buoy"), task("FollowTarget", target_position=[-99, -99])
+ROUND = task("PerformOrbit", center=[-99, -99])
 CHECK, HOME = task("Diagnostics"), task("Transit", target_position=[0, 0])
 
 
@@ -47,6 +49,9 @@ CHECK, HOME = task("Diagnostics"), task("Transit", target_position=[0, 0])
         ("Test the sensors, hold at [20, 60] for ten minutes, test the sensors.", [CHECK, GO, HOLD, CHECK], 0),
         ("Hold at [20, 60] for ten minutes and write a report.", [task("AutoGenerateReportSummary"), GO, HOLD, task("AutoGenerateReportSummary")], 1),
         ("Hold at [20, 60] for ten minutes, do not come back before that.", [GO, HOLD, task("Transit", target_position=[0, 0])], 0),
+        ("Find the red buoy, follow it, then the buoy is circled.", [FIND, FOLLOW, task("SearchAndDetect", target_description="buoy"), ROUND], 1),
+        ("Find the red buoy, follow it, then another buoy is circled.", [FIND, FOLLOW, task("SearchAndDetect", target_description="buoy"), ROUND], 0),
+        ("Find the red buoy and follow it for the scour inspection.", [FIND, FOLLOW, task("SearchAndDetect", target_description="scour inspection")], 2),
         ("Hold at [20, 60] for ten minutes.", [], None),
         ("Hold at [20, 60] for 1.2.3 minutes.", [GO], None),
     ],
