@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import functools
+import re
+from pathlib import Path
 from random import Random
 
 from planner_ft.data.mission.synthetic import lexicon
@@ -39,6 +42,7 @@ __all__ = [
     "ship_name",
     "side",
     "structure",
+    "things",
     "with_phrase",
 ]
 
@@ -47,6 +51,15 @@ GROUPS = ("mark", "vessel", "structure", "thing", "nature")
 GROUP_WEIGHTS = (24, 25, 36, 12, 3)
 INVENTED = 0.025
 """Share of nouns that are invented words."""
+COMPOUND = 0.12
+"""Share of nouns, features and data items whose first word is any thing's name, so that names are read and not remembered: "mushroom barge"."""
+_THINGS = Path(__file__).parents[2] / "things.txt"
+_MEANS_MORE = re.compile(
+    r"inspect\w*|search\w*|survey\w*|scan\w*|dock\w*|berth\w*|home\w*|base\w*|(?:north|south|east|west)\w*|port|starboard|hold\w*|drift\w*|film\w*|test\w*|check\w*|"
+    r"track\w*|circ\w*|orbit\w*|level|second|left|right|hot\w*|therm\w*|temp\w*|glare|sonar|depth|sound\w*|report\w*|log|record\w*|half|quarter|double|single|once|"
+    r"round|full|whole|dead|moving|missing|lost|stray|near\w*|far\w*|next|last|first"
+)
+"""Words of orders, numbers and directions: no part of a name without more."""
 ITEMS = tuple(item for item in lexicon.DATA_ITEMS if "report" not in item and item != "summary")
 MARKS = ("cross", "board", "lamp", "marker", "triangle", "square", "tag", "beacon", "disc", "panel", "diamond", "circle", "arrow", "stripe", "light")
 MARK_LOOKS = (*COLOURS, "striped", "flashing", "chequered", "reflective", "lit", "upper", "lower", "big", "double", "fluorescent", "round", "infrared")
@@ -72,11 +85,26 @@ AFLOAT = (
 )  # fmt: skip
 
 
+@functools.cache
+def things() -> tuple[str, ...]:
+    """Words that name any thing or how it looks, and nothing of an order."""
+    words = dict.fromkeys(_THINGS.read_text(encoding="utf-8").split())
+    return tuple(word for word in words if len(word) > 2 and word.isalpha() and not _MEANS_MORE.fullmatch(word))
+
+
+def _compound(rng: Random, head: str) -> str:
+    """A thing's name before the last word of another: "mushroom barge"."""
+    last = head.split()[-1]
+    word = rng.choice(things())
+    return head if word == last else f"{word} {last}"
+
+
 def noun(rng: Random) -> str:
     """A thing on the water or ashore."""
     if rng.random() < INVENTED:
         return pseudo_word(rng) if rng.random() < 0.6 else f"{pseudo_word(rng)} {rng.choice(NOUNS[rng.choice(GROUPS)]).split()[-1]}"
-    return rng.choice(NOUNS[rng.choices(GROUPS, GROUP_WEIGHTS)[0]])
+    base = rng.choice(NOUNS[rng.choices(GROUPS, GROUP_WEIGHTS)[0]])
+    return _compound(rng, base) if rng.random() < COMPOUND else base
 
 
 def group_of(base: str) -> str:
@@ -201,6 +229,8 @@ def feature(rng: Random) -> str:
     base = rng.choice(lexicon.FEATURES)
     if rng.random() < 0.02:
         base = f"{pseudo_word(rng)} {base.split()[-1]}"
+    elif rng.random() < COMPOUND:
+        base = _compound(rng, base)
     if rng.random() < 0.3:
         look = rng.choice(FEATURE_LOOKS)
         base = base if base.startswith(look) else f"{look} {base}"
@@ -226,4 +256,4 @@ def data_item(rng: Random) -> str:
     """Something to send, without article."""
     if rng.random() < 0.65:
         return rng.choice(ITEMS)
-    return f"{rng.choice(SUBJECTS)} {rng.choice(RECORDINGS)}"
+    return f"{rng.choice(things() if rng.random() < COMPOUND else SUBJECTS)} {rng.choice(RECORDINGS)}"

@@ -6,7 +6,7 @@ from random import Random
 from planner_ft.data.mission.synthetic import lexicon
 from planner_ft.data.mission.synthetic.lexicon_names import PLACE_ENDS, PLACE_STARTS, SHIP_ENDS, SHIP_STARTS
 from planner_ft.data.mission.synthetic.names import code, place_name, ship_name
-from planner_ft.data.mission.synthetic.words import FEATURE_LOOKS, structure
+from planner_ft.data.mission.synthetic.words import FEATURE_LOOKS, noun, structure, things
 
 
 def known_words() -> set[str]:
@@ -15,7 +15,7 @@ def known_words() -> set[str]:
         ("with", "the", "a", "an", "of", "number", "No.", "KP", "Alpha", "Beta", "Gamma", "Delta", "Echo", "Bravo"),
     )  # fmt: skip
     texts = [text for pool in pools for text in pool]
-    return {word for text in texts for word in text.split(" ")}
+    return {*things(), *(word for text in texts for word in text.split(" "))}
 
 
 def test_few_descriptions_hold_an_invented_word():
@@ -25,6 +25,12 @@ def test_few_descriptions_hold_an_invented_word():
         words = (structure(Random(seed), 1, located=False).description or "").split(" ")
         invented += any(word not in known and word not in places and not re.search(r"\d|^[A-Z]+$|^[A-Z]/", word) for word in words)
     assert 0.02 < invented / 3000 < 0.08
+
+
+def test_names_are_also_put_together_of_any_things():
+    drawn = {noun(Random(seed)) for seed in range(3000)} - set(lexicon.TARGET_NOUNS)
+    assert len(drawn) > 200
+    assert not {"home", "base", "search", "north", "port", "first"} & set(things())
 
 
 def test_codes_take_many_forms():
