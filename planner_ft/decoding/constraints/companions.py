@@ -13,6 +13,7 @@ from planner_ft.decoding.constraints.reading.evidence import required, spoken_of
 from planner_ft.decoding.constraints.reading.movements import spoken_movements
 from planner_ft.decoding.constraints.reading.own_sentences import read_own_sentences
 from planner_ft.decoding.constraints.reading.scopes import Scope, read_scopes
+from planner_ft.decoding.constraints.reading.step_scopes import StepScope, read_step_scopes
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import STEP_KEYS
 
@@ -23,6 +24,7 @@ class Companions:
 
     `spoken` are those that it speaks of, `movements` the navigation skills likewise (None: that cannot be told); `asked` are those that it asks for
     beyond doubt, movements among them, `scopes` the steps in which some run. Those `insisted` on run in every step that does not rule them out.
+    `told` are the steps as the row of the text's movements tells them.
     """
 
     spoken: frozenset[str] | None = None
@@ -30,6 +32,7 @@ class Companions:
     movements: frozenset[str] | None = None
     scopes: Mapping[str, Scope] = field(default_factory=dict)
     insisted: frozenset[str] = frozenset()
+    told: Mapping[str, StepScope] = field(default_factory=dict)
 
     @property
     def mentioned(self) -> frozenset[str]:
@@ -42,9 +45,16 @@ class Companions:
             return False
         scope = self.scopes.get(skill)
         verdict = scope.allows(len(earlier), movement, None, earlier) if scope else None
+        told = self.told[skill].allows([*earlier, movement]) if skill in self.told else None
+        # Where the readings contradict each other, neither is certain.
+        verdict = told if verdict is None else None if told not in (None, verdict) else verdict
         if skill in self.insisted and verdict is None:
             return True
         return None if verdict and skill not in self.asked else verdict
+
+    def value(self, skill: str, movement: str, earlier: Sequence[str]) -> float | None:
+        """The value of a skill's first parameter beside a movement, where it differs between steps and is told for this one."""
+        return self.told[skill].value([*earlier, movement]) if skill in self.told else None
 
 
 def read_companions(record: dict[str, Any], vocabulary: Vocabulary) -> Companions:
@@ -57,7 +67,9 @@ def read_companions(record: dict[str, Any], vocabulary: Vocabulary) -> Companion
     spoken |= asked
     own = read_own_sentences(text, asked, vocabulary)
     scopes = {name: scope for name, scope in (read_scopes(text, vocabulary) | own).items() if name in spoken}
-    return Companions(spoken, asked | asked_movements(text, vocabulary), spoken_movements(text, vocabulary), scopes)
+    steps = read_step_scopes(text, spoken, vocabulary)
+    asked_for = asked | (steps.asked & spoken) | asked_movements(text, vocabulary)
+    return Companions(spoken, asked_for, spoken_movements(text, vocabulary), scopes, told=steps.scopes)
 
 
 def to_insist_on(record: dict[str, Any], answer: str, vocabulary: Vocabulary) -> frozenset[str]:

@@ -132,7 +132,7 @@ def _telling(skill: Skill) -> list[Parameter]:
 
 
 class TurnValues(Narrowed):
-    """The values of another strength, with this one value for a skill that turns the vehicle."""
+    """The values of another strength, with this one value for the first parameter of a skill, as of one that turns the vehicle."""
 
     def __init__(self, values: Values, skill: Skill, value: float) -> None:
         super().__init__(values)

@@ -203,6 +203,8 @@ class TaskScript:
         if self.role != "navigation" and self._runs(skill, self._movement[0]) is False:
             return False
         uses = [parameters for used, parameters in self.beside if used == skill]
+        if uses and self._told_value(skill) is not None:
+            return False
         if self.role == "navigation" and {} in spent(skill, self.steps, self.text):
             return False
         return repeatable(skill, uses) and skill_body(Grammar(), skill, self._values_of(skill)) is not None
@@ -217,7 +219,16 @@ class TaskScript:
             return TurnValues(self.values, skill, self._turn[1])
         if skill.role == "navigation":
             return UnlikeValues(self.values, skill, spent(skill, self.steps, self.text))
+        told = self._told_value(skill)
+        if told is not None:
+            return TurnValues(self.values, skill, told)
         return UnlikeValues(self.values, skill, [parameters for used, parameters in self.beside if used == skill])
+
+    def _told_value(self, skill: Skill) -> float | None:
+        """The value of a filter or perception skill in the step that is being written, where the input tells one for it."""
+        if skill.role == "navigation" or not skill.parameters:
+            return None
+        return self.companions.value(skill.name, self._movement[0].name, [earlier.name for earlier, _parameters in self.steps])
 
     @property
     def _turned(self) -> int:
@@ -238,8 +249,14 @@ class TaskScript:
         """Whether a list of skills beside a movement may go on, and whether it may end, behind those that were `said`."""
         skills = [(skill, self._runs(skill, movement)) for skill in self.vocabulary.skills_in_role(role)]
         missing = any(runs and skill not in said for skill, runs in skills)
-        more = len(said) < MOST_SKILLS and any(runs is not False and (skill not in said or skill.parameters) for skill, runs in skills)
+        more = len(said) < MOST_SKILLS and any(
+            runs is not False and (skill not in said or (skill.parameters and not self._single(skill, movement))) for skill, runs in skills
+        )
         return more or missing, not missing
+
+    def _single(self, skill: Skill, movement: Skill) -> bool:
+        """Whether a skill stands beside a movement once, since its value there is told."""
+        return self.companions.value(skill.name, movement.name, [earlier.name for earlier, _parameters in self.steps]) is not None
 
     def _behind_name(self) -> str:
         """What may stand behind the chosen name, up to the next one."""

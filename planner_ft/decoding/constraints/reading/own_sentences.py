@@ -14,7 +14,7 @@ from planner_ft.decoding.constraints.reading.evidence import asks_for
 from planner_ft.decoding.constraints.reading.scopes import EVERYWHERE, Mark, Scope, marks_of, plain_form
 from planner_ft.vocabulary import Vocabulary
 
-_SOMEWHERE = re.compile(
+SOMEWHERE = re.compile(
     rf"\b(?:{w.ORD}|one|two|three|both|each|every|either|[a-f]|steps?|parts?|stages?|legs?|runs?|turns?|holds?|halts?|stops?|stays?|drifts?|arcs?|ways?|waits?|"
     r"pauses?|lanes?|ends?|corners?|points?|waypoints?|places?|headings?|bearings?|spots?|squares?|grids?|sweeps?|pans?|nudges?|moves?|"
     r"out|back|home|there|then|here|once|twice|times|again|only|alone|just|rest|others?|when(?:ever)?|while|during|until|till|before|after|where(?:ver)?|as|"
@@ -65,6 +65,6 @@ def _asks(sentence: str, name: str, said: Sequence[Mark]) -> bool:
 def _holds_throughout(number: int, sentences: list[str], kinds: list[str]) -> bool:
     """Whether a sentence, and those behind it, name no steps."""
     said = _SHOWN.sub(" ", sentences[number])
-    if "scope" in kinds or _SOMEWHERE.search(said) or ":" in said or w.REFUSED.search(said):
+    if "scope" in kinds or SOMEWHERE.search(said) or ":" in said or w.REFUSED.search(said):
         return False
     return not any(_SPOKEN_ON.search(sentence) for sentence in sentences[number + 1 :])
