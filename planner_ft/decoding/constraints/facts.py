@@ -47,7 +47,7 @@ _COORDINATE_UNIT = re.compile(
 )
 """The unit of the coordinates in a sentence, which are metres elsewhere."""
 _AXIS = r"(?:eastings?|northings?|east|north|west|south|latitude|longitude|coordinates?|[xy])"
-_AXIS_CUE = re.compile(rf"(?<![a-z]){_AXIS}\W{{0,3}}(?:minus |negative |of |is )?[-−–]?$", re.IGNORECASE)
+_AXIS_CUE = re.compile(rf"(?<![a-z]){_AXIS}(?:(?![.;]\s)\W){{0,3}}(?:minus |negative |of |is )?[-−–]?$", re.IGNORECASE)
 _NO_AXIS = r"(?![a-z-]| (?:side|face|wall|end|edge|corner|of (?!home|base|here)))"
 _CUE_BEHIND = re.compile(rf"^\s?(?:m|met(?:re|er)s?)?\s?(?:to the |due )?{_AXIS}{_NO_AXIS}", re.IGNORECASE)
 

@@ -26,6 +26,18 @@ OPEN_ENDED = re.compile(
     re.IGNORECASE,
 )
 """Words for a movement in as many steps as it takes."""
+SHARED = re.compile(
+    r"\b(?:each|every|any)\b(?! ?(?:other )?(?:\d|few|second|minute|metre|meter|half|quarter|two|three|four|five|six|eight|ten|twelve|fifteen|twenty|"
+    r"thirty|fifty))|"
+    r"\b(?:both|all|times|times|per|corners|ends|stops|points|waypoints|between|in between|either|places|stations|holds|headings|bearings|whenever|always|"
+    r"same|likewise|again)\b",
+    re.IGNORECASE,
+)
+"""Words for a step that comes at several places."""
+STANDING = re.compile(
+    r"(?<!that )(?<!the )(?<!this )(?<!these )(?<!each )(?<!every )\b(?:hold|wait|stay|remain|drift|float|keep station)(?:s|ing)?\b", re.IGNORECASE
+)
+"""Verbs for a step that goes nowhere."""
 AGAIN = re.compile(r"\b(?:(?<!say )again|once more|another|back|return\w*|same|likewise|ditto|each|twice|as before|between|either)\b", re.IGNORECASE)
 """Words that can ask for a step a second time."""
 TIMES = re.compile(
@@ -41,17 +53,18 @@ _POINT = re.compile(r"\b(?:north|south|east|west)(?:[ -]?(?:north|south|east|wes
 _POINTS = {name.lower().replace("-", ""): 22.5 * index for names in (COMPASS, SHORT) for index, name in enumerate(names)}
 
 
-def most_often(text: str, value: Any) -> int:
-    """How often a step with this value may come: as often as the text says it, or as it asks for repetition."""
+def most_often(text: str, value: Any, *, counted_only: bool = False) -> int:
+    """How often a step with this value may come: as often as the text says it, or as it asks for repetition; with `counted_only`, so many times at most."""
     plain = radio_digits(text)
-    if OPEN_ENDED.search(plain):
+    open_ended = OPEN_ENDED.search(plain) is not None
+    if open_ended and not counted_only:
         return UNBOUNDED
     counted = [int(found.said) for found in quantities(plain) if found.unit is None and found.said in range(2, 37) and TIMES.match(plain[found.end :])]
     said = 0
     if isinstance(value, int | float) and not isinstance(value, bool):
         said = sum(close(found.value, abs(value)) or close(found.said, abs(value)) for found in quantities(plain))
         said = max(said, sum(bearing == value % 360 for bearing in _compass(plain)))
-    return max(1, said, 2 if AGAIN.search(plain) else 1, *counted)
+    return max(1, said, 2 if AGAIN.search(plain) else 1, len(STANDING.findall(plain)) if open_ended else 1, *counted)
 
 
 def _compass(text: str) -> Iterator[float]:
@@ -102,7 +115,15 @@ def spent(skill: Skill, steps: Sequence[Step], text: str) -> list[Mapping[str, A
     # A hold comes again behind every turn; a turn does not.
     recent = steps if skill.motion in TURNING else list(itertools.takewhile(lambda step: step[0] == skill, reversed(steps)))
     uses = [parameters for used, parameters in recent if used == skill]
-    found = [one for number, one in enumerate(uses) if one not in uses[:number] and uses.count(one) >= most_often(text, _value(skill, one))]
+    # What follows itself without a movement between is no step on the way round: words like "every" do not ask for it.
+    standing = skill.motion not in TURNING
+    found = [
+        one for number, one in enumerate(uses) if one not in uses[:number] and uses.count(one) >= most_often(text, _value(skill, one), counted_only=standing)
+    ]
+    if standing and not SHARED.search(text):
+        everywhere = [parameters for used, parameters in steps if used == skill and parameters]
+        most = max(2, *(most_often(text, _value(skill, one), counted_only=True) for one in everywhere)) if everywhere else 2
+        found += [one for number, one in enumerate(everywhere) if one not in [*found, *everywhere[:number]] and everywhere.count(one) >= most]
     ahead = facing(steps) if skill.motion == "turn_to" else None
     return found if ahead is None else [*found, {skill.parameters[0].name: ahead}]
 

@@ -193,7 +193,9 @@ class TaskScript:
 
     def _offers(self, skill: Skill) -> bool:
         if skill.coordinates:
-            return self.ground.free or bool(self.ground.following(self.before))
+            return (self.ground.free or bool(self.ground.following(self.before))) and not self._halt_due(self.steps[-1][0] if self.steps else None, self.before)
+        if self.role == "navigation" and self.ground.halts_here(self.before) is False:
+            return False
         if self.role == "navigation" and self.ground.waypoints_alone:
             return False
         if skill.motion in ROTATING and self.turns is not None:
@@ -329,8 +331,19 @@ class TaskScript:
 
     def _read_ending(self, movement: Skill, before: Path) -> Ending:
         """The same as far as paths and rotations tell: none is left half-way."""
+        if self._halt_due(movement, before):
+            return "not yet"
         turned = self._turned + (movement.motion in ROTATING)
         return "not yet" if self.turns is not None and turned < len(self.turns) else self.ground.ending(before)
+
+    def _halt_due(self, movement: Skill | None, before: Path) -> bool:
+        """Whether a hold or the like must follow a step with this movement, which goes to a waypoint where the input asks for one."""
+        return movement is not None and bool(movement.coordinates) and self.ground.halts_here(before) is True and self._any_halt
+
+    @functools.cached_property
+    def _any_halt(self) -> bool:
+        """Whether the input speaks of a movement that goes nowhere."""
+        return any(self._spoken(skill) for skill in self.vocabulary.skills_in_role("navigation") if not skill.coordinates)
 
     def _ends(self, ending: Ending) -> str:
         """What follows a step: another one, or the end."""

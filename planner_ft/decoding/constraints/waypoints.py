@@ -21,12 +21,17 @@ from planner_ft.data.task.working import SUM
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.grammar import MOST_STEPS
 from planner_ft.decoding.constraints.reading import LONGEST
+from planner_ft.decoding.constraints.reading.extents import extents
 from planner_ft.decoding.constraints.reading.faces import read_faces
+from planner_ft.decoding.constraints.reading.halts import Halts, halts_at, read_halts
 from planner_ft.decoding.constraints.reading.itinerary import moves_otherwise, read_itinerary, stays
+from planner_ft.decoding.constraints.reading.lanes import without_courses
+from planner_ft.decoding.constraints.reading.legs import read_legs
 from planner_ft.decoding.constraints.reading.one_shape import one_shape
 from planner_ft.decoding.constraints.reading.own_movement import own_movement
 from planner_ft.decoding.constraints.reading.runs import read_runs
 from planner_ft.decoding.constraints.reading.stations import read_stations
+from planner_ft.decoding.constraints.reading.tracks import read_cable
 from planner_ft.decoding.constraints.reading.written_out import written_out
 from planner_ft.vocabulary import Vocabulary
 
@@ -64,6 +69,8 @@ class Ground:
 
     `shaped`: the task is one of the paths, run once; other waypoints are the places `apart` from it.
 
+    `halts`: where on the one path something else is done than to go on.
+
     `stays` says that the vehicle may come to a place again, or stay where it is. A path counts as begun with `begun` of its waypoints in a row: with
     fewer where the task is about such a path, since two moves can look like the beginning of many. `worked` are coordinates that the answer derives itself.
     """
@@ -79,6 +86,7 @@ class Ground:
     begun: int = 2
     itinerary: Path | None = None
     alone: bool = False
+    halts: Halts | None = None
     worked: tuple[frozenset[float], frozenset[float]] = (frozenset(), frozenset())
 
     def shown(self, working: str) -> Ground:
@@ -121,6 +129,13 @@ class Ground:
         ends = not begun or begun[0][1] < self.begun or any(done == len(path) for path, done in begun)
         return "may" if ends else "not yet"
 
+    def halts_here(self, before: Path) -> bool | None:
+        """Whether a step that goes nowhere must (True) or must not (False) stand behind these waypoints; None where the model decides."""
+        paths = [self.itinerary] if self.itinerary is not None else [path for path in self.paths if path[: len(before)] == before] if self.shaped else []
+        if self.halts is None or not paths or paths[0] is None or len(before) > len(paths[0]):
+            return None
+        return halts_at(self.halts, paths[0], len(before))
+
     @property
     def told(self) -> bool:
         """Whether the waypoints are known: nothing is left to work out."""
@@ -155,6 +170,12 @@ class Ground:
         return passing
 
 
+def _round_own(path: Path, own: list[Point]) -> bool:
+    """Whether a path of four waypoints or more has the task's own place in its middle."""
+    middle = tuple((min(point[axis] for point in path) + max(point[axis] for point in path)) / 2 for axis in (0, 1)) if len(path) >= 4 else ()
+    return len(own) == 1 and bool(middle) and all(abs(one - other) < 0.02 for one, other in zip(middle, own[0], strict=True))
+
+
 def _within(path: Path, before: Path) -> bool:
     """Whether a path was run."""
     return any(before[place : place + len(path)] == path for place in range(len(before) - len(path) + 1))
@@ -162,7 +183,9 @@ def _within(path: Path, before: Path) -> bool:
 
 def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     """The facts of a task input. Waypoints are free where its numbers cannot be read with certainty."""
-    record = {**record, "prompt": written_out(str(record.get("prompt", "")), _tidy(vocabulary.home))}
+    task = vocabulary.task.get(str(record.get("task")))
+    prompt = written_out(str(record.get("prompt", "")), _tidy(vocabulary.home))
+    record = {**record, "prompt": extents(prompt) if task and task.pattern == "lawnmower" else prompt}
     reading = read(record["prompt"], vocabulary)
     given = record.get("parameters")
     parameters = given if isinstance(given, dict) else {}
@@ -178,15 +201,15 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     loose = LOOSE.search(reading.text) is not None
     free = unread or loose or len(places) > MOST_PLACES or len(lengths) > MOST_LENGTHS
     paths: Iterator[Path] = iter(())
-    task = vocabulary.task.get(str(record.get("task")))
     if not free:
         centres = tuple(place for place in places if place != home or place in own)
         facts = _Facts(reading.text, parameters, centres or places, lengths, tuple(said), tuple(counts))
         paths = _paths(facts, task.pattern if task else "", sorted(angles))
     whole = None if reading.numbers_free or task is None else own_movement(reading.text, parameters, own[0] if len(own) == 1 else None, task, vocabulary)
-    itinerary = whole
+    itinerary, run = whole, None
     if whole is None and not reading.numbers_free:
-        itinerary = read_faces(record) or read_stations(record) or read_itinerary(record, vocabulary)
+        run = read_legs(record, home) or read_faces(record) or read_stations(record) or read_cable(record)
+        itinerary = run or read_itinerary(record, vocabulary)
     itinerary = itinerary if itinerary is None or len(itinerary) <= MOST_STEPS else None
     found = tuple(dict.fromkeys(itertools.islice(paths, MOST_PATHS)))
     begun = 2 if task and task.pattern in ("lawnmower", "square") else 3
@@ -197,6 +220,8 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     if shape is not None:
         (found, apart), begun = shape, 1
     free = free and itinerary is None and shape is None
+    text = without_courses(reading.text) if run or (task is not None and task.pattern == "lawnmower") else reading.text
+    one_path = not apart and (shape is not None or (itinerary is not None and _round_own(itinerary, own)))
     return Ground(
         places,
         lengths,
@@ -208,7 +233,8 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
         stays=AGAIN.search(reading.text) is not None,
         begun=begun,
         itinerary=itinerary,
-        alone=bool(whole) if whole is not None else itinerary != () and not moves_otherwise(reading.text),
+        alone=bool(whole) if whole is not None else itinerary != () and not moves_otherwise(text),
+        halts=read_halts(reading.text) if one_path and task is not None and task.pattern in ("lawnmower", "square") else None,
     )
 
 

@@ -47,3 +47,13 @@ def test_a_skill_stands_twice_in_a_step_with_other_values_only() -> None:
     sector, lidar = SKILLS["GetSectorDistance"], SKILLS["GetGPSLocation"]
     assert repeatable(sector, []) and repeatable(sector, [{"bearing": 0}]) and not repeatable(sector, [{}])
     assert not repeatable(lidar, [{}])
+
+
+def test_a_hold_does_not_follow_itself_because_something_else_is_done_every_so_often() -> None:
+    hold = (HOLD, {"time": 90})
+    text = "Lines every 15 m over the box; behind the last one hold for 90 seconds."
+    assert spent(HOLD, [hold], text) == [{"time": 90}]
+    assert spent(HOLD, [hold], "Hold 90 seconds, three times.") == []
+    path = [hold, (GO, {"x": 1, "y": 2}), hold, (GO, {"x": 3, "y": 4})]
+    assert spent(HOLD, path, text) == [{"time": 90}]
+    assert spent(HOLD, path, "Grid; hold 90 seconds at every waypoint.") == []

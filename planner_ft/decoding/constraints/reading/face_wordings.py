@@ -98,10 +98,48 @@ LIES_ALONG = re.compile(
 PARTS = re.compile(
     r"[.;:]\s+|\s[-–—]\s|,?\s*(?:\band\s+)?\bthen\b|,?\s*\b(?:and\s+)?(?=(?:the |a )?second\b(?! (?:point|end|place|\w+ given)))|"
     r",?\s*\b(?:and\s+)?(?=the other (?:run|pass|leg|one)\b)|,?\s*\band\s+(?=(?:one|another) (?:run|pass|leg|back)\b)|"
-    r",?\s*\band\s+(?=(?:(?:straight|right|come|go|run|all the way|turn round and|make your way) )?(?:back|return\w*|reverse\w*)\b)",
+    r",?\s*\band\s+(?=(?:(?:straight|right|come|go|run|sail|all the way|turn round and|make your way) ){0,2}(?:back|return\w*|reverse\w*)\b)",
     re.IGNORECASE,
 )
 """Between the passes of a text."""
+SHIFT_PARTS = re.compile(
+    r",?\s*\b(?:and )?(?=(?:side-?step|step|move|shift|open|widen|go|come|edge|ease) (?:straight |directly |square |sideways )?(?:further )?(?:out|off|in|"
+    r"away)\b)|"
+    r",?\s*\band (?=(?:run|pass|sail|go|steam|drive|head|come|do|make)\b)",
+    re.IGNORECASE,
+)
+"""Between the passes of a text that speaks of a change of distance as well."""
+SHIFT = re.compile(
+    r"^\W*(?:and |then )*\d+(?:\.\d+)?(?:\s?(?:m|met(?:re|er)s?))? (?:further|farther) (?:out|off|away|in)\b|^\W*(?:(?:and|now|there|next|from there|"
+    r"at the end(?: of (?:it|the (?:run|pass)))?|on reaching the end),? )*(?:side-?step|step|mov|shift|go|come|edg|eas|open|widen|clos|stand|back|pull|"
+    r"drop|slid|haul|"
+    r"crab|increas\w+ (?:the )?(?:stand-?off|distance)|extend)\w*(?: (?:it|her|the boat|the stand-?off|the distance|straight|directly|sideways|further|"
+    r"over|across|square|out|off|away|in|closer|outwards?|"
+    rf"inwards?|to|at|right angles|by|another|due|{_WAY}(?:wards?)?))*[\s,]+(?=\d|half|double|twice)",
+    re.IGNORECASE,
+)
+"""A part of the text that only changes the distance between two passes: "step straight out to 10 m north of it"."""
+FURTHER = re.compile(r"^\s?(?:further|farther|more)\b", re.IGNORECASE)
+FURTHER_BEFORE = re.compile(r"\b(?:by|another|a further)\s+$", re.IGNORECASE)
+"""A length that is added to the distance so far."""
+DISTANCES = re.compile(
+    r"\b(?:at|stand-?offs? of|distances? of|passes:?|runs:?|off:?|side:?|side,)\s+(?:stand-?offs? of |distances? of )?(\d+(?:\.\d+)?(?:\s?(?:m|met(?:re|"
+    r"er)s?))?"
+    r"(?:(?:,| and| then|, and|, then| and then)(?: at)? \d+(?:\.\d+)?(?:\s?(?:m|met(?:re|er)s?)\b)?)+)(?<=[ms\d])(?=\s?(?:off|from|out|away|north|south|"
+    r"east|west|to the|clear of|[.,;:]|$|-))",
+    re.IGNORECASE,
+)
+"""The distances of several passes in one list: "passes at 5, 10 and 15 m"."""
+ALTERNATING = re.compile(
+    r"\b(?:alternat\w+|back and forth|to and fro|up and down|there and back|out and back|turn(?:ing)? (?:round )?at (?:each|the|either) ends?|"
+    r"each (?:\w+ )?(?:in the )?(?:opposite|other|"
+    r"reverse)|(?:and|then|second|other|next)(?: \w+){0,2} (?:straight )?back|in opposite directions?|opposite (?:way|direction)s?|reversing|"
+    r"(?:the )?other way)\b",
+    re.IGNORECASE,
+)
+SAME_WAY = re.compile(
+    rf"\b(?:both|each|all|every)\b[^.;]{{0,28}}?(?:\b{_WAY} (?:end )?to|{_WAY}bound|in the same direction|the same way|from the {_WAY})", re.IGNORECASE
+)
 EACH_RUN = re.compile(r"\b(?:for|on|at|in) (?:each|every|both) (?:of the )?(?:run|pass|leg)s?[^.;]*", re.IGNORECASE)
 """What is done on every pass."""
 PASS = _words(
@@ -144,6 +182,7 @@ GIVEN_ORDER = _words(
     r"stated|named|mentioned)|"
     r"(?:from|start\w*|begin\w*)(?: (?:at|from|with|abreast of|off|level with))? the (?:first|given|stated|named) (?:end|point|one|place)"
 )
+STARTS_AT = re.compile(r"\b(?:start\w*|begin\w*)(?: (?:at|from|with|abreast of|off|level with))+ $", re.IGNORECASE)
 OTHER_ORDER = _words(
     r"(?:from|start\w*|begin\w*)(?: (?:at|from|with|abreast of|off|level with))? the (?:second|last|far|other)(?:[- ](?:named|mentioned|"
     r"given))? (?:end|point|one|place)"
@@ -163,13 +202,16 @@ HAND = re.compile(
 )
 """The side of a line as one travels; the thing itself can be what is kept there."""
 OFF_BEHIND = re.compile(
-    rf"^\s?(?:off|out|away|clear of (?:it|the|that)|wide of|to (?:the )?{_WAY}|to (?:the |its )?(?:right|left|port|starboard)|from (?:it|the|that|its|"
+    rf"^\s?(?:off|out|away|(?:further|farther) (?:out|off|away)|clear of (?:it|the|that)|wide of|to (?:the )?{_WAY}|to (?:the |its )?(?:right|left|port|"
+    rf"starboard)|from (?:it|the|that|its|"
     rf"this)|(?:due |to the )?{_WAY} of|beside|distant|abreast|stand-?off|"
     r"on (?:its|the)|(?:in )?parallel|in front of)\b",
     re.IGNORECASE,
 )
 OFF_BEFORE = re.compile(
-    r"\b(?:at|stand-?off(?: distance)?(?: of)?|distance of|displaced(?: by)?|offset(?: by)?|standing|keeping)\s+(?:about |roughly |a |the )?$", re.IGNORECASE
+    r"\b(?:at|(?:out|off|away|in|closer|back) to|stand-?off(?: distance)?(?: of)?|distance of|displaced(?: by)?|offset(?: by)?|standing|"
+    r"keeping)\s+(?:about |roughly |a |the )?$",
+    re.IGNORECASE,
 )
 OFF_ALL = re.compile(
     r"^\s?(?:off|from|away from|clear of|clear|to|of clearance|of room|of)\s*(?:of |from )?(?:any|every|all|obst|other|traffic|vessels|boats|"
@@ -199,6 +241,7 @@ ELSEWHERE = re.compile(
 )
 """Words of another way beside the passes."""
 NOT_ELSEWHERE = _words(
-    r"twice that|both times|there and back again|back again|nothing but|not before|home port|before (?:each|the|you|it)[^.;,]{0,30}(?:camera|lens|"
+    r"(?:north|south|east|west)(?:wards?|bound)? again|twice that|both times|there and back again|back again|nothing but|not before|home port|"
+    r"before (?:each|the|you|it)[^.;,]{0,30}(?:camera|lens|"
     r"recording|sensor)"
 )

@@ -50,6 +50,8 @@ class _Run:
     """1 in the order of the line's ends, -1 the other way, 0 where the part does not say."""
     back: bool
     both: bool
+    shift: bool = False
+    """No pass: only the distance of those that follow."""
 
 
 def read_faces(record: dict[str, Any]) -> Path | None:
@@ -70,12 +72,21 @@ def _passes(text: str, parameters: dict[str, Any]) -> Path | None:
     rest = plain
     for start, end in line.spans:
         rest = rest[:start] + BLANK * (end - start) + rest[end:]
+    rest = _with_ends(rest, line.ends)
     said = " ".join(plain[start:end] for start, end in line.spans)
     if not line.told and (not _standoffs(rest) or not (_named_sides(rest) or f.HAND.search(rest))):
         return None
     if f.ELSEWHERE.search(f.NOT_ELSEWHERE.sub(" ", rest)) or r.EXPLICIT.search(rest):
         raise Uncertain
     return _walked(list(_runs(rest, line)), line, rest, said, parameters)
+
+
+def _with_ends(rest: str, ends: Ends) -> str:
+    """A text with words for the end of the line where a pass is said to start at its coordinates."""
+    for place in reversed(_places(rest)):
+        if place.point in ends and f.STARTS_AT.search(rest[: place.start]):
+            rest = rest[: place.start] + f"the {'first' if place.point == ends[0] else 'last'} end" + rest[place.end :]
+    return rest
 
 
 # ---------------------------------------------------------------- the line
@@ -119,7 +130,7 @@ def _between_ends(text: str) -> _Line | None:
 def _from_end(text: str) -> _Line | None:
     """A thing of which one end, the length and the direction are stated."""
     places = _places(text)
-    if len(places) != 1:
+    if len({place.point for place in places}) != 1:
         return None
     begin, end = f.sentence(text, places[0].start)
     said = text[begin:end]
@@ -182,9 +193,14 @@ def _bearings(said: str) -> Iterator[tuple[float, int]]:
 def _runs(rest: str, line: _Line) -> Iterator[_Run]:
     """The parts of the text that ask for a pass."""
     parts = f.PARTS.split(f.EACH_RUN.sub(" ", rest))
+    if any(f.SHIFT.match(part) for whole in parts for part in f.SHIFT_PARTS.split(whole)):
+        parts = [part for whole in parts for part in f.SHIFT_PARTS.split(whole)]
     numbered = sum(f.NUMBERED.match(part) is not None and bool(_standoffs(part)) for part in parts)
     for part in parts:
         if numbered and f.COUNT.search(part) and not _standoffs(part):
+            continue
+        if f.SHIFT.match(part) and _standoffs(part) and not _towards(part, line.ends):
+            yield _Run(part, 0, back=False, both=False, shift=True)
             continue
         towards, both = _towards(part, line.ends), f.BOTH_WAYS.search(part) is not None
         back = not both and f.BACK.search(part) is not None
@@ -198,7 +214,14 @@ def _walked(runs: list[_Run], line: _Line, rest: str, said: str, parameters: dic
     walked: list[Point] = []
     before, distance = 1, None
     counts = {f.COUNTED[match[1].lower()] for match in f.COUNT.finditer(rest)}
+    several = f.DISTANCES.search(rest)
+    if several:
+        return _several([float(value) for value in re.findall(r"\d+(?:\.\d+)?", several[1])], counts, line, rest, said, parameters)
+    shifts = [run for run in runs if run.shift]
     for number, run in enumerate(runs):
+        if run.shift:
+            distance = _distance(run.part, rest, distance, line, parameters)
+            continue
         if number and not run.towards and not run.back and not run.both:
             raise Uncertain
         towards = run.towards or (-before if run.back else before)
@@ -208,8 +231,22 @@ def _walked(runs: list[_Run], line: _Line, rest: str, said: str, parameters: dic
         for point in points + ([points[0]] if run.both else []):
             walked += [point] if not walked or walked[-1] != point else []
         before = -towards if run.both else towards
-    if not runs or len(walked) < 2 or (counts and counts != {len(runs) + sum(run.both for run in runs)}):
+    if not runs or len(walked) < 2 or (counts and counts != {len(runs) - len(shifts) + sum(run.both for run in runs)}):
         raise Uncertain
+    return tuple(walked)
+
+
+def _several(distances: list[float], counts: set[int], line: _Line, rest: str, said: str, parameters: dict[str, Any]) -> Path:
+    """Passes whose distances stand in one list, there and back in turn or all the same way."""
+    towards = _towards(f.ALTERNATING.sub(" ", f.SHIFT.sub(" ", rest)), line.ends)
+    alternating, same = f.ALTERNATING.search(rest) is not None, f.SAME_WAY.search(rest) is not None
+    others = {value for value, _start, _end in stated_sizes(rest, [])} - set(distances)
+    if not towards or alternating == same or counts - {len(distances)} or others:
+        raise Uncertain
+    walked: list[Point] = []
+    for number, distance in enumerate(distances):
+        ends = line.ends if (towards > 0) == (same or number % 2 == 0) else (line.ends[1], line.ends[0])
+        walked += _beside(ends, _side(rest, rest, said, parameters, line.ends), distance)
     return tuple(walked)
 
 
@@ -293,6 +330,8 @@ def _distance(part: str, rest: str, before: float | None, line: _Line, parameter
     sizes = {value for value, start, _end in stated_sizes(rest, []) if not w.OTHER_LENGTH.search(f.sentence_at(rest, start))}
     if len(here) > 1 or not sizes <= all_said:
         raise Uncertain
+    if here and before and any(f.FURTHER.match(part[end:]) or f.FURTHER_BEFORE.search(part[:start]) for _value, start, end in stated_lengths(part, [])):
+        return before + here.pop()
     if here:
         return here.pop()
     multiple = f.MULTIPLE.search(part)

@@ -15,15 +15,18 @@ from planner_ft.data.quantities import positions, quantities
 from planner_ft.data.stated import radio_digits
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.reading import wordings as w
-from planner_ft.decoding.constraints.reading.cues import read_cues
+from planner_ft.decoding.constraints.reading.cues import ANY, read_cues
 from planner_ft.decoding.constraints.reading.itinerary import without_fences
+from planner_ft.decoding.constraints.reading.lanes import read_lanes
 from planner_ft.decoding.constraints.reading.shapes import Place, named_sizes, stated_sizes, stated_ways
 from planner_ft.vocabulary import Task
 
 Point = g.Point
 Path = tuple[Point, ...]
 SHAPE = {
-    "lawnmower": re.compile(r"\b(?:grid|lawn-?mow\w*|mow\w*|lanes?|lines|legs|swaths?|strips?|rows|back and forth|block|area|patch)\b", re.IGNORECASE),
+    "lawnmower": re.compile(
+        r"\b(?:grid|lawn-?mow\w*|mow\w*|lanes?|lines|legs|swaths?|strips?|rows|back and forth|block|area|patch|transects|cover(?: it)?)\b", re.IGNORECASE
+    ),
     "square": re.compile(r"\b(?:squares?|corners?)\b", re.IGNORECASE),
 }
 """Words that speak of a task's own shape."""
@@ -36,12 +39,15 @@ OTHER_WAY = re.compile(
     re.IGNORECASE,
 )
 """Words for a way that is none of the two shapes, or for more than one of them."""
-CORNERS_ONLY = re.compile(r"\b(?:corners? (?:only|alone)|only (?:the )?(?:four )?corners|(?:four|4) corners)\b", re.IGNORECASE)
+CORNERS_ONLY = re.compile(r"\b(?:corners? (?:only|alone)|only (?:the )?(?:four )?corners)\b", re.IGNORECASE)
+FOUR_CORNERS = re.compile(r"\b(?:four|4) corners\b", re.IGNORECASE)
 CLOSED = re.compile(
     r"\bclos(?:e|es|ed|ing) (?:it|the|its|with)\b|\b(?:finish|end|back)\w* (?:at|on) (?:the |its )?(?:very )?(?:start|first|same|point)", re.IGNORECASE
 )
 HALF = re.compile(r"\bhalf (?:of )?(?:the |its |this )?(?:\w+ )?(?:square|round|ring|circuit)\b|\bhalf only\b", re.IGNORECASE)
 FULL = re.compile(r"\b(?:eight|standard)\b", re.IGNORECASE)
+MID_SIDES = re.compile(r"\b(?:mid-?sides?|middles?|between)\b", re.IGNORECASE)
+"""Words for the waypoints that are no corners."""
 CIRCLE = re.compile(r"\W{0,2}(?:circle|radius|ring|watch)\b", re.IGNORECASE)
 WITHIN_LANES = re.compile(r"(?:east|west|north|south)\W+to\W+(?:east|west|north|south)", re.IGNORECASE)
 
@@ -77,7 +83,7 @@ def _paths(text: str, places: list[Place], parameters: dict[str, Any], task: Tas
 
 
 def _grids(text: str, places: list[Place], parameters: dict[str, Any], own: Point | None, area: tuple[Point, Point] | None) -> Iterator[Path]:
-    cues, lengths = read_cues(text), stated_sizes(text, places)
+    lengths = stated_sizes(text, places)
     named: dict[str, float] = {}
     for name, value, used in named_sizes(text, lengths):
         named.setdefault(name, value)
@@ -90,10 +96,12 @@ def _grids(text: str, places: list[Place], parameters: dict[str, Any], own: Poin
         return
     counts = [int(quantity.said) for quantity in quantities(text) if quantity.unit is None and quantity.said in range(2, 25)]
     others = [value for value, _start, end in lengths if value not in (width, length) and not CIRCLE.match(text[end:])] if "spacing" not in named else []
-    for axis in cues.axes:
+    lanes_told = read_lanes(text, width, length)
+    axes, corners = ((lanes_told[1],), (lanes_told[0],)) if lanes_told else (read_cues(text).axes, ANY.corners)
+    for axis in axes:
         across = width if axis == "y" else length
         spacings = [*others, spacing] if isinstance(spacing, int | float) else others or [across / (count - 1) for count in counts]
-        for distance, corner in itertools.product(dict.fromkeys(spacings), cues.corners):
+        for distance, corner in itertools.product(dict.fromkeys(spacings), corners):
             lanes = g.lane_count(across, distance) if distance > 0 else None
             if lanes is not None and 2 <= lanes <= w.MOST_LANES:
                 yield tuple(g.lawnmower(own, width, length, distance, corner, axis))
@@ -107,9 +115,15 @@ def _squares(text: str, places: list[Place], parameters: dict[str, Any], own: Po
     radii = lengths or ([radius] if isinstance(radius, int | float) else [])
     for half_side, start, clockwise in itertools.product(dict.fromkeys(radii), cues.starts, cues.turns):
         square = tuple(g.survey_square(own, half_side, start, clockwise=clockwise))
-        if CORNERS_ONLY.search(text) and not FULL.search(text):
+        if _only_corners(text):
             yield square[::2]
         elif HALF.search(text):
             yield square[: len(square) // 2 + 1]
         else:
             yield (*square, square[0]) if CLOSED.search(text) else square
+
+
+def _only_corners(text: str) -> bool:
+    """Whether a square is run from corner to corner. "At the four corners and not at the mid-sides" says where something is done on the whole of it."""
+    said = CORNERS_ONLY.search(text) or (FOUR_CORNERS.search(text) and not MID_SIDES.search(text))
+    return bool(said) and not FULL.search(text)

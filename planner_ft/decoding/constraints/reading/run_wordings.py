@@ -161,7 +161,7 @@ _OWN_ADJECTIVE = (
 OWN = re.compile(
     rf"\b(?:the |its |her |our |my )?{_OWN_ADJECTIVE}(?P<noun>target|goal|cent(?:re|er)|start|position|point|berth|location|destination|beginning|coordinates)"
     r"(?: (?:of|in|for|from|on|to) (?:the |its |this )?(?:task|cable|track|run|order|survey|orbit|area|planned track|planned run|circle|"
-    r"begin \w+))?(?! (?:feature|id\b|mark|list|of\b|in frame|centred))\b(?!['’]s)",
+    r"begin \w+))?(?! (?:feature|id\b|mark|list|of\b|in frame|centred|cloud))\b(?!['’]s)",
     re.IGNORECASE,
 )
 """The task's own place, by its noun."""

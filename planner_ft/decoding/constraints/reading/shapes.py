@@ -88,6 +88,11 @@ def grid_path(text: str, places: list[Place], facts: Facts) -> list[Point]:
     centre = _centre(text, places, facts)
     width, length, spacing = _sizes(text, places, facts)
     along, corner = _along(text), _grid_corner(text)
+    # What is put together from all words must be the same (lanes imports from here).
+    from planner_ft.decoding.constraints.reading.lanes import read_lanes
+
+    if read_lanes(text, width, length) != (corner, along):
+        raise Uncertain
     lanes = g.lane_count(width if along == "y" else length, spacing) if spacing > 0 else None
     if lanes is None or not 2 <= lanes <= w.MOST_LANES:
         raise Uncertain

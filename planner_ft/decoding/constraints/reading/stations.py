@@ -13,7 +13,7 @@ from planner_ft.decoding.constraints.reading import run_wordings as r
 from planner_ft.decoding.constraints.reading import wordings as w
 from planner_ft.decoding.constraints.reading.itinerary import plain_text, reworded, without_fences
 from planner_ft.decoding.constraints.reading.shapes import Point, stated_lengths, stated_sizes
-from planner_ft.decoding.constraints.reading.tracks import EVERY, evenly
+from planner_ft.decoding.constraints.reading.tracks import evenly, is_step
 
 Path = tuple[Point, ...]
 
@@ -55,17 +55,26 @@ def read_stations(record: dict[str, Any]) -> Path | None:
         return None
     point = g.point(f.number(places[0]["a"] or places[0]["c"]), f.number(places[0]["b"] or places[0]["d"]))
     bearings = {float(match["deg"]) if match["deg"] else w.bearing_of(match["way"]) for match in f.BEARING.finditer(text)}
+    bearings |= {w.bearing_of(match[1]) for match in COURSE.finditer(text)} if not bearings else set()
     sizes = {start for _value, start, _end in stated_sizes(text, [])}
-    said = [(value, start) for value, start, _end in stated_lengths(text, []) if start in sizes or EVERY.search(text[:start])]
+    said = [(value, start) for value, start, end in stated_lengths(text, []) if start in sizes or is_step(text, start, end)]
     lengths = {value: start for value, start in said if not _of_something_else(text, start)}
+    steps = {value for value, start, end in stated_lengths(text, []) if is_step(text, start, end)}
     if len(bearings) != 1:
         return None
     (bearing,) = bearings
     if LYING.search(text[: places[0].start()]):
         return _from_here(text, point, bearing, lengths)
-    return _evenly(text, places[0], point, bearing, lengths, parameters)
+    return _evenly(text, places[0], point, bearing, lengths, parameters, list(steps))
 
 
+COURSE = re.compile(
+    r"\b(?:course|heading|bearing|steer\w*|going|runs?|running|direction)\s+(?:of |is |due |to the |towards? (?:the )?)?(north[ -]?(?:east|west)|"
+    r"south[ -]?(?:east|west)|north|south|east|west)"
+    r"(?:wards?)?\b(?![ -](?:north|south|east|west|side|face|end))",
+    re.IGNORECASE,
+)
+"""The course of a run by its compass word."""
 EVERY_LENGTH = re.compile(r"\b(?:way-?points? |stop\w* )?(?:every|each) (?=\d)", re.IGNORECASE)
 
 
@@ -90,9 +99,10 @@ def _from_here(text: str, here: Point, bearing: float, lengths: dict[float, int]
     return (end, here) if back else (end,)
 
 
-def _evenly(text: str, place: re.Match[str], start: Point, bearing: float, lengths: dict[float, int], parameters: dict[str, Any]) -> Path | None:
+def _evenly(
+    text: str, place: re.Match[str], start: Point, bearing: float, lengths: dict[float, int], parameters: dict[str, Any], every: list[float]
+) -> Path | None:
     """Stations from a start on, as far as the text or the task says."""
-    every = [value for value, at in lengths.items() if EVERY.search(text[:at])]
     if len(every) != 1 or not SET_OUT.search(text[: place.start()]) or NOT_FIRST.search(text) or BACK.search(text):
         return None
     rest, counts = set(lengths) - set(every), list(COUNT.finditer(text))

@@ -32,7 +32,8 @@ PART = re.compile(
     re.IGNORECASE,
 )
 UNORDERED = _words(
-    r"before|but|first(?=[.,;]?$)|twice|times|again|repeat\w*|laps?|half ?way|after(?! (?:that|this|which))|between(?! (?:the )?(?:lanes?|"
+    r"(?:far|other) end|wrong way|backwards|start\w* at (?:the|its) end|from (?:the |its )?end (?:back )?to|before|but|first(?=[.,;]?$)|twice|times|again|"
+    r"repeat\w*|laps?|half ?way|after(?! (?:that|this|which))|between(?! (?:the )?(?:lanes?|"
     r"lines?|tracks?))|(?:start|finish) (?:and|to)|vice|"
     r"(?:begins|starts) with|ends? with|one last|on the way (?:there )?(?:call|stop|visit|take|go)\w*|(?:last|final) one first|(?:first|last) half of the \d+|"
     r"middle of the line|the way you came|"
@@ -62,10 +63,10 @@ TURNED = re.compile(
 )
 THAT_BEARING = _words(r"(?:that|this|the same) (?:bearing|heading|course)")
 CLAUSE = re.compile(r"[.;,:]")
-ROW = re.compile(rf"[\[(]?{_PAIR}(?:\s*(?:,|;|and|,\s*and|to)?\s*{_PAIR}){{2,}}[\])]?")
+ROW = re.compile(rf"[\[(]?{_PAIR}(?:\s*(?:,|;|and|,\s*and|to)?\s*{_PAIR}){{2,}}[\])]?", re.IGNORECASE)
 BOX = re.compile(rf"{_PAIR}\s*to\s*{_PAIR}")
 FENCE = re.compile(
-    r"\b(?:\w*fence\w*|fecne|bound\w*|box|polygon|rectangle|limit\w*|inside|outside|within|zone|corners|perimeter|region|leav\w+|"
+    r"\b(?:\w*fence\w*|fecne|bound\w*|box|polygon|rectangle|limit\w*|inside|outside|within|zone|keep\w* (?:to|in|on)|corners|perimeter|region|leav\w+|"
     r"stray\w*)\b[^.;]{0,60}$",
     re.IGNORECASE,
 )
@@ -199,7 +200,7 @@ NO_DESTINATION = re.compile(
     re.IGNORECASE,
 )
 _OWN = r"(?:the |its )?(?:(?:task'?s?|given|planned|stated|target|goal|start(?:ing)?|last known) )*"
-_OWN_NOUN = r"(?:target|goal|cent(?:re|er)|start|position|point|berth|location|destination)"
+_OWN_NOUN = r"(?:target|goal|cent(?:re|er)|start|position|point(?! cloud)|berth|location|destination)"
 OWN = re.compile(rf"^{_OWN}{_OWN_NOUN}\b", re.IGNORECASE)
 TO_OWN = re.compile(
     rf"\bgo in\b|(?<!way )\b(?:to|at|for|reach|via) {_OWN}{_OWN_NOUN}\b(?! of the (?:task|side|edge|frame|picture)|"

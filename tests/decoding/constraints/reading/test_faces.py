@@ -71,6 +71,34 @@ def test_lines_by_ends_bearings_and_middles(prompt: str, path: Points) -> None:
 @pytest.mark.parametrize(
     ("prompt", "path"),
     [
+        (
+            "Pen wall on y = 5 from x = 0 to x = 20. Pass it 4 m to the north, west to east, then step out to 9 m north of it and come back.",
+            [(0, 9), (20, 9), (20, 14), (0, 14)],
+        ),
+        (
+            "East face on x = 10, from y = 0 to y = 40. Run northbound 4 m east of it, move out to 8 m and run southbound, move out to 12 m and run "
+            "northbound.",
+            [(14, 0), (14, 40), (18, 40), (18, 0), (22, 0), (22, 40)],
+        ),
+        (
+            "Mole from (0, 0) to (80, 0). Three passes on its north side at 5, 10 and 15 m, back and forth, from the west end.",
+            [(0, 5), (80, 5), (80, 10), (0, 10), (0, 15), (80, 15)],
+        ),
+        ("Wall on y = 0 from x = 0 to x = 50. Two passes on the north side, 6 m and 12 m off, each from west to east.", [(0, 6), (50, 6), (0, 12), (50, 12)]),
+        ("The mole runs from (0, 0) on bearing 090, 30 m long. Run along it 5 m off on the right as seen along 090, starting at (0, 0).", [(0, -5), (30, -5)]),
+        (
+            "The wall runs from (0, 0) for 40 m on 090. Pass it 3 m off on its south side in that direction, then 4 m further out and back.",
+            [(0, -3), (40, -3), (40, -7), (0, -7)],
+        ),
+    ],
+)
+def test_passes_at_several_distances(prompt: str, path: Points) -> None:
+    assert read_faces(record(prompt)) == tuple(path)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "path"),
+    [
         ("The jetty's north face runs from [0, 40] to [60, 40]. Make one pass along it, west to east, at the stand-off given.", [(0, 52), (60, 52)]),
         ("The wall lies on x = -200, from y = 0 to y = 90. Run northbound, 10 m off it on the west side.", [(-210, 0), (-210, 90)]),
         (

@@ -78,7 +78,7 @@ def test_a_square_lies_as_its_words_say(prompt: str, path: list[tuple[float, flo
 
 
 def test_a_beginning_that_is_not_read_leaves_every_corner() -> None:
-    facts = ground("BathymetryGridSurvey", "Lanes over the area, begin at the bottom left.", GRID)
+    facts = ground("BathymetryGridSurvey", "Lanes over the area, begin at the end by the sluice.", GRID)
     assert set(facts.following(())) == {g.lawnmower((120, 80), 40, 60, 10, corner)[0] for corner in g.CORNERS}
 
 
