@@ -19,6 +19,7 @@ UNITS: dict[str, tuple[str, float]] = {
     **dict.fromkeys(("nm", "nmi", "mile", "miles"), ("m", 1852.0)),
     **dict.fromkeys(("ft", "foot", "feet"), ("m", 0.3048)),
     **dict.fromkeys(("yd", "yds", "yard", "yards"), ("m", 0.9144)),
+    **dict.fromkeys(("inch", "inches"), ("m", 0.0254)),
     **dict.fromkeys(("fathom", "fathoms"), ("m", 1.8288)),
     **dict.fromkeys(("mps",), ("m/s", 1.0)),
     **dict.fromkeys(("mph",), ("m/s", 1609.344 / 3600)),
@@ -54,6 +55,8 @@ AND = ("and", "n", "&")
 BESIDE_UNIT = ("-", "of", "a", "an", "full", "whole", "good", "solid", "nautical")
 """Words that may stand between a number and its unit: "ten-minute", "half an hour", "a full hour"."""
 
+_MIXED = {"1/2": 0.5, "1/4": 0.25, "3/4": 0.75}
+
 _TOKEN = re.compile(
     r"\d{1,3},\d{3}(?=\s?(?:m|metres|meters|s|seconds)\b)|[1-9]/[2-9](?!\d)|\d*\.\d+|\d+|[a-z°]+(?:'[a-z]+)?|(?<![a-z])[-−–]|[-−–](?![a-z])|[^\s\w−–-]",
     re.IGNORECASE,
@@ -79,6 +82,8 @@ def number_at(tokens: list[Token], index: int) -> tuple[float, int]:
     word, following = word_at(tokens, index), word_at(tokens, index + 1)
     if word[:1].isdigit() or (word[:1] == "." and word[1:].isdigit()):
         above, _, below = word.replace(",", "").partition("/")
+        if word.isdigit() and following in _MIXED and unit_at(tokens, index + 2)[0]:
+            return float(word) + _MIXED[following], 2
         return _and_a_half(tokens, index, float(above) / float(below or 1), 1)
     if word in FRACTIONS:
         dozen = index + 1 + (following in ("a", "of"))
@@ -158,9 +163,16 @@ def _and_a_half(tokens: list[Token], index: int, value: float, used: int) -> tup
 
 
 def half_behind(tokens: list[Token], index: int) -> tuple[float, int]:
-    """What "and a half" adds when it stands at `index`, and its tokens; "and half" does as well."""
+    """What "and a half" adds when it stands at `index`, and its tokens; "and half" does as well, and so do "and three quarters", "and two thirds"."""
     if word_at(tokens, index) not in AND:
         return 0.0, 0
+    several, part = {"three": 3, "two": 2}.get(word_at(tokens, index + 1), 0), word_at(tokens, index + 2)
+    if several and part in ("quarters", "thirds", "quarter", "third") and several * PARTS[part] < 1:
+        # "And three quarters of a turn" is something else.
+        whole = word_at(tokens, index + 3) not in ("of", "turn", "turns", "circle", "circles") and (part.endswith("s") or unit_of(word_at(tokens, index + 3)))
+        return (several * PARTS[part], 3) if whole else (0.0, 0)
+    if word_at(tokens, index + 1) in _MIXED:
+        return _MIXED[word_at(tokens, index + 1)], 2
     place = index + 1 + (word_at(tokens, index + 1) in ("a", "one"))
     return (FRACTIONS[word_at(tokens, place)], place + 1 - index) if word_at(tokens, place) in FRACTIONS else (0.0, 0)
 

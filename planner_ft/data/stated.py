@@ -49,6 +49,7 @@ _SAID_SO = re.compile(
 _HYPHENED = re.compile(rf"\b({'|'.join([*_DIGITS, *_PRONOUNCED])})-(?=(?:{'|'.join([*_DIGITS, *_PRONOUNCED])})\b)", re.IGNORECASE)
 """A digit that a hyphen ties to the next: "one-eight-zero"."""
 CABLES = re.compile(r"[ -](?:of )?(?:an? )?cables?(?:[ -]lengths?)?\b", re.IGNORECASE)
+FOOT = 0.3048
 CABLE = 185.2
 """Metres in a cable, a tenth of a nautical mile."""
 POINTS = re.compile(
@@ -120,6 +121,7 @@ def _numbers(text: str, unit: str | None) -> Iterator[float]:
         yield from _durations(numbers)
         yield from _repeated(text, numbers)
     elif unit == "m":
+        yield from _lengths(numbers)
         yield from (quantity.value * CABLE for quantity in numbers if quantity.unit is None and CABLES.match(text, quantity.end))
     elif unit == "%":
         yield from (100 * quantity.value for quantity in numbers if quantity.unit is None and quantity.value < 1)
@@ -149,6 +151,14 @@ def _durations(numbers: tuple[Quantity, ...]) -> Iterator[float]:
             yield first.value + second.value
         elif first.unit == "s" and second.unit is None and gap <= 1 and first.said:
             yield first.value + second.value * first.value / first.said / 60
+
+
+def _lengths(numbers: tuple[Quantity, ...]) -> Iterator[float]:
+    """Sums of feet and inches: "2 feet 6 inches", "two foot six"."""
+    for first, second in itertools.pairwise(numbers):
+        feet = first.unit == "m" and first.said and abs(first.value / first.said - FOOT) < 1e-6 and second.start - first.end <= 5
+        if feet and 0 < second.said < 12 and (second.unit is None or abs(second.value / second.said - FOOT / 12) < 1e-6):
+            yield first.value + second.said * FOOT / 12
 
 
 def _repeated(text: str, numbers: tuple[Quantity, ...]) -> Iterator[float]:

@@ -40,6 +40,13 @@ from planner_ft.data.stated import states_number, states_position
         ("5 knots", [(5 * 1852 / 3600, "m/s")]),
         ("forty five, 20 percent", [(45, None), (20, "%")]),
         ("face 297 - record the radar", [(297, None)]),
+        ("a minute and three quarters", [(105, "s")]),
+        ("one and three quarter hours", [(6300, "s")]),
+        ("two hours and two thirds", [(9600, "s")]),
+        ("1 3/4 minutes", [(105, "s")]),
+        ("a minute and three quarters of a turn", [(60, "s"), (0.75, None)]),
+        ("a minute and three quarter turns", [(60, "s"), (0.75, None)]),
+        ("50 inches", [(1.27, "m")]),
         ("nothing to see", []),
     ],
 )

@@ -16,6 +16,8 @@ from planner_ft.decoding.constraints.grammar import SchemaValues, plan_grammar
 from planner_ft.decoding.constraints.grounded import GroundedValues
 from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, GroundedTaskValues
 from planner_ft.decoding.constraints.reading import LONGEST
+from planner_ft.decoding.constraints.reading.corrected import as_corrected
+from planner_ft.decoding.constraints.reading.sequence import agreed, read_sequence
 from planner_ft.decoding.constraints.reading.telegrams import in_small_letters
 from planner_ft.decoding.constraints.reading.turns import read_turns
 from planner_ft.decoding.constraints.routes import TaskScript
@@ -89,7 +91,10 @@ class Factory:
         turns = None if turns and ground.waypoints_alone else turns
         # Where waypoints cannot be told, any may be meant.
         held = ResolvedValues(FreeWaypoints(values), self.vocabulary) if ground.free else values
-        script = TaskScript(self.vocabulary, held, ground, prompt, turns, companions)
+        sequence = (
+            agreed(read_sequence(record, self.vocabulary), None if ground.free else ground.itinerary, self.vocabulary) if len(prompt) <= LONGEST else None
+        )
+        script = TaskScript(self.vocabulary, held, ground, prompt, turns, companions, None if ground.shaped else sequence)
         return Answer(self.tokens, script, limit, self._reserve, values.notes)
 
     def mending(self, record: dict[str, Any], answer: str) -> Factory | None:
@@ -137,5 +142,6 @@ class Factory:
 
 
 def _plainly_written(record: dict[str, Any]) -> dict[str, Any]:
-    """A task input whose prompt is not in capitals: everything that reads it gets it so."""
-    return {**record, "prompt": in_small_letters(str(record.get("prompt", "")))}
+    """A task input whose prompt is not in capitals, and says nothing that it takes back: everything that reads it gets it so."""
+    prompt = in_small_letters(str(record.get("prompt", "")))
+    return {**record, "prompt": as_corrected(prompt) if len(prompt) <= LONGEST else prompt}

@@ -166,3 +166,19 @@ class TurnValues(Narrowed):
 
     def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
         return super().needs(parameter, owner) or (owner == self._skill and parameter == self._skill.parameters[0])
+
+
+class MovementValues(Narrowed):
+    """The values of another strength, with these and no others for the parameters of a movement."""
+
+    def __init__(self, values: Values, skill: Skill, told: Mapping[str, float]) -> None:
+        super().__init__(values)
+        self._skill, self._told = skill, told
+
+    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
+        if owner != self._skill:
+            return super().parameter(grammar, parameter, owner, context)
+        return [(literal(written_number(self._told[parameter.name])), context)] if parameter.name in self._told else []
+
+    def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
+        return parameter.name in self._told if owner == self._skill else super().needs(parameter, owner)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import functools
 import json
-from collections.abc import Sequence
+from collections.abc import Sequence as Row
 from dataclasses import dataclass, field, replace
 
 from planner_ft.decoding.constraints import patterns
@@ -31,8 +31,9 @@ from planner_ft.decoding.constraints.grammar import (
     written_number,
 )
 from planner_ft.decoding.constraints.patterns import literal
+from planner_ft.decoding.constraints.reading.sequence import Movement, Sequence
 from planner_ft.decoding.constraints.reading.turns import Turn
-from planner_ft.decoding.constraints.repeats import ROTATING, Step, TurnValues, UnlikeValues, repeatable, spent
+from planner_ft.decoding.constraints.repeats import ROTATING, MovementValues, Step, TurnValues, UnlikeValues, repeatable, spent
 from planner_ft.decoding.constraints.waypoints import Ending, Ground, Path, Point
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.definition import Role
@@ -48,7 +49,7 @@ LIST_OPENS, NEXT_TEXT = '["', '","'
 class RouteValues(Narrowed):
     """The values of another strength, with these waypoints alone."""
 
-    def __init__(self, values: Values, points: Sequence[Point]) -> None:
+    def __init__(self, values: Values, points: Row[Point]) -> None:
         super().__init__(values)
         self._columns: dict[str, list[str]] = {}
         for x, y in points:
@@ -71,8 +72,9 @@ class TaskScript:
 
     A part ends where a name begins: tokenizers keep signs and letters apart. Parts that come again in another step are compiled once.
     `before` are the waypoints so far, `steps` the movements of the steps that are written; `turns` are the rotations of the whole plan where
-    they are certain. `chosen` is the skill whose name was written last, None where a name is to follow; `written` is the text of the step that is
-    being written, as far as its parts are matched, `beside` are the skills of the list that is being written, and `listed` the texts of a skill's own list.
+    they are certain, `sequence` are all movements where these are. `chosen` is the skill whose name was written last, None where a name is to follow;
+    `written` is the text of the step that is being written, as far as its parts are matched, `beside` are the skills of the list that is
+    being written, and `listed` the texts of a skill's own list.
     `could_end` says whether the answer could have ended behind the steps that are written; with `owes`, the model would have ended it there, although
     movements that are asked for are missing.
     """
@@ -83,6 +85,7 @@ class TaskScript:
     text: str = ""
     turns: tuple[Turn, ...] | None = None
     companions: Companions = field(default_factory=Companions)
+    sequence: Sequence | None = None
     before: Path = ()
     steps: tuple[Step, ...] = ()
     chosen: Skill | None = None
@@ -95,7 +98,7 @@ class TaskScript:
 
     def opening(self) -> str:
         grammar = Grammar()
-        return grammar.text(f"{sequence_opens(grammar, working=not self.ground.told)} ({literal(STEP_OPENS)} | {literal(CLOSES)})")
+        return grammar.text(f"{sequence_opens(grammar, working=not self.ground.told and self.sequence is None)} ({literal(STEP_OPENS)} | {literal(CLOSES)})")
 
     def following(self, text: str) -> tuple[str, Script] | None:
         if self.chosen is None and text in self.vocabulary.skill:
@@ -120,7 +123,9 @@ class TaskScript:
         return replace(self, ground=self.ground.shown(working)) if working else self
 
     def closing(self) -> Script:
-        return replace(self, ground=replace(self.ground, paths=(), itinerary=None, alone=False, shaped=False), turns=None, companions=Companions())
+        return replace(
+            self, ground=replace(self.ground, paths=(), itinerary=None, alone=False, shaped=False), turns=None, companions=Companions(), sequence=None
+        )
 
     def taken_back(self, text: str) -> tuple[str, str] | None:
         """A step that the model would begin with a movement which may not follow is not begun: the answer ends where it could."""
@@ -156,7 +161,7 @@ class TaskScript:
         """The movements that are asked for and not written, this one counted as written."""
         written = [movement, *(skill for skill, _parameters in self.steps)]
         asked = [skill for skill in self.vocabulary.skills_in_role("navigation") if skill.name in self.companions.asked and skill not in written]
-        return [] if self.ground.waypoints_alone else [skill for skill in asked if self._spoken(skill)]
+        return [] if self.ground.waypoints_alone or self.sequence is not None else [skill for skill in asked if self._spoken(skill)]
 
     def _behind_step(self, text: str) -> TaskScript:
         """The script behind a step, with its movement and its waypoint."""
@@ -192,6 +197,8 @@ class TaskScript:
         return Grammar().text(" | ".join(literal(patterns.quoted(skill.name)) for skill in offered or skills))
 
     def _offers(self, skill: Skill) -> bool:
+        if self.role == "navigation" and self.sequence is not None:
+            return self._told is not None and self._told.name == skill.name
         if skill.coordinates:
             return (self.ground.free or bool(self.ground.following(self.before))) and not self._halt_due(self.steps[-1][0] if self.steps else None, self.before)
         if self.role == "navigation" and self.ground.halts_here(self.before) is False:
@@ -217,6 +224,8 @@ class TaskScript:
 
     def _values_of(self, skill: Skill) -> Values:
         """What the parameters of a skill may be here: not again what it said before."""
+        if skill.role == "navigation" and self._told and self._told.name == skill.name:
+            return self.values if self._told.free else MovementValues(self.values, skill, self._told.values)
         if skill.motion in ROTATING and self._turn and self._turn[0] == skill.name:
             return TurnValues(self.values, skill, self._turn[1])
         if skill.role == "navigation":
@@ -233,6 +242,11 @@ class TaskScript:
         return self.companions.value(skill.name, self._movement[0].name, [earlier.name for earlier, _parameters in self.steps])
 
     @property
+    def _told(self) -> Movement | None:
+        """The movement of this step, where all are known."""
+        return self.sequence[len(self.steps)] if self.sequence is not None and len(self.steps) < len(self.sequence) else None
+
+    @property
     def _turned(self) -> int:
         """Rotations of the steps that are written."""
         return sum(skill.motion in ROTATING for skill, _parameters in self.steps)
@@ -247,7 +261,7 @@ class TaskScript:
         verdict = self.companions.runs(skill.name, movement.name, [earlier.name for earlier, _parameters in self.steps])
         return verdict if verdict is not True or skill_body(Grammar(), skill, self.values) is not None else None
 
-    def _listed(self, role: Role, movement: Skill, said: Sequence[Skill] = ()) -> tuple[bool, bool]:
+    def _listed(self, role: Role, movement: Skill, said: Row[Skill] = ()) -> tuple[bool, bool]:
         """Whether a list of skills beside a movement may go on, and whether it may end, behind those that were `said`."""
         skills = [(skill, self._runs(skill, movement)) for skill in self.vocabulary.skills_in_role(role)]
         missing = any(runs and skill not in said for skill, runs in skills)
@@ -294,7 +308,7 @@ class TaskScript:
         more = len(self.listed) + 1 < MOST_TEXTS and self.values.item(Grammar(), (*self.listed, "")) is not None
         return grammar.text(f"{text} ({literal(NEXT_TEXT[1:])} | {behind})" if more else f"{text} {behind}")
 
-    def _list(self, grammar: Grammar, role: Role, movement: Skill, ending: Ending, said: Sequence[Skill] = ()) -> str:
+    def _list(self, grammar: Grammar, role: Role, movement: Skill, ending: Ending, said: Row[Skill] = ()) -> str:
         """What may stand in the list of a role's skills behind those that were said: the next one, or what follows the list."""
         more, ends = self._listed(role, movement, said)
         options = [literal("," * bool(said) + SKILL_OPENS)] if more else []
@@ -311,7 +325,7 @@ class TaskScript:
     def _movements(self) -> list[tuple[Values, Ending]]:
         """What the parameters of the chosen movement may be, and whether the answer ends behind it."""
         assert self.chosen is not None
-        if not self.chosen.coordinates or self.ground.free:
+        if not self.chosen.coordinates or self.ground.free or self._told:
             return [(self._values_of(self.chosen), self._ending(self.chosen, self.before))]
         found: dict[Ending, list[Point]] = {}
         for point in self.ground.following(self.before):
@@ -331,6 +345,8 @@ class TaskScript:
 
     def _read_ending(self, movement: Skill, before: Path) -> Ending:
         """The same as far as paths and rotations tell: none is left half-way."""
+        if self.sequence is not None:
+            return "not yet" if len(self.steps) + 1 < len(self.sequence) else "must"
         if self._halt_due(movement, before):
             return "not yet"
         turned = self._turned + (movement.motion in ROTATING)

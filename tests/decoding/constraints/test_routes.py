@@ -13,6 +13,7 @@ from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.decoding.constraints.answer import Answer
 from planner_ft.decoding.constraints.companions import Companions
 from planner_ft.decoding.constraints.grammar import SchemaValues
+from planner_ft.decoding.constraints.reading.sequence import read_sequence
 from planner_ft.decoding.constraints.routes import TaskScript
 from planner_ft.decoding.constraints.tokens import allows, tokens_of
 from planner_ft.decoding.constraints.waypoints import read_ground
@@ -131,6 +132,23 @@ def test_a_movement_that_is_asked_for_may_come_where_the_model_wants_it(tokenize
     steps = [STEP % ("RotateToHeading", '{"heading":90}'), STEP % ("StationKeep", '{"time":20}'), STEP % ("RotateToHeading", '{"heading":180}')]
     for kept, admitted in ((steps, True), (steps[::2], False), (steps[1:], True)):
         script = TaskScript(VOCABULARY, SchemaValues(), read_ground(record, VOCABULARY), str(record["prompt"]), companions=companions)
+        answer = Answer(tokens_of(tokenizer, (tokenizer.eos_token_id,), None), script, 2048, 300)
+        tokens = ids(tokenizer, '{"skill_sequence":[' + ",".join(kept) + "]}")
+        assert (answer.admits(tokens) == len(tokens)) == admitted
+
+
+def test_a_row_of_movements_that_is_known_is_written_as_it_stands(tokenizer: Any) -> None:
+    record = {"task": "Transit", "parameters": {}, "prompt": "Hold for 20 s within 3 m, face 180, wait until steady, go to [30, 40]."}
+    sequence = read_sequence(record, VOCABULARY)
+    steps = [
+        STEP % ("StationKeep", '{"radius":3,"time":20}'),
+        STEP % ("RotateToHeading", '{"heading":180}'),
+        STEP % ("WaitForStability", "{}"),
+        STEP % ("GoToXY", '{"x":30,"y":40}'),
+    ]
+    other = [STEP % ("StationKeep", '{"time":20}'), *steps[1:]]
+    for kept, admitted in ((steps, True), (steps[:3], False), (steps[::-1], False), (other, False), ([*steps, steps[0]], False)):
+        script = TaskScript(VOCABULARY, SchemaValues(), read_ground(record, VOCABULARY), record["prompt"], sequence=sequence)
         answer = Answer(tokens_of(tokenizer, (tokenizer.eos_token_id,), None), script, 2048, 300)
         tokens = ids(tokenizer, '{"skill_sequence":[' + ",".join(kept) + "]}")
         assert (answer.admits(tokens) == len(tokens)) == admitted

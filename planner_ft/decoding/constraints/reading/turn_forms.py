@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from planner_ft.data.quantities import COMPASS, SHORT, quantities
-from planner_ft.data.stated import radio_digits
+from planner_ft.data.stated import POINT, radio_digits
 from planner_ft.decoding.constraints.reading import wordings as w
 
 
@@ -55,25 +55,79 @@ _IN_FRACTIONS = re.compile(
 """Several turns of a fraction of the whole."""
 
 
-def plain(text: str, parameters: dict[str, Any]) -> str:
-    """The text in one form, in small letters but for the tokens."""
+_POINT_IS = re.compile(
+    r"[,(]? ?\b(?:(?:a|one|each|the) )?points? (?:being|is|are|equals?|makes?|=|of) (?:11[.,]25|eleven and a quarter) ?(?:°|deg\w*)(?: each)?[),]?",
+    re.IGNORECASE,
+)
+"""What explains the unit."""
+_IN_POINTS = re.compile(
+    r"\b(?P<count>\d+(?:\.\d+)?|an?|one|two|three|four|five|six|seven|eight|nine|ten|twelve|sixteen)(?P<half> and a half)? points?"
+    r"(?= (?:\w+ )?(?:(?:on|to|towards) (?:the )?)?(?:port|starboard|left|right|(?:(?:counter|anti)-?)?clockwise)\b)(?! (?:on|off) the)",
+    re.IGNORECASE,
+)
+"""Turns in points of the compass: "two points to starboard"."""
+_CARDINAL = re.compile(
+    r"\b(?:(?:to |at )?each (?:one )?of |all (?:of )?)?(?:the )?(?:four |4 )?cardinal (?:points|directions|headings|bearings)(?: of the compass)?|"
+    r"\b(?:each (?:one )?of |all (?:of )?)?(?:the )?four (?:quarters|points) of the compass",
+    re.IGNORECASE,
+)
+_EIGHT_POINTS = re.compile(
+    r"\b(?:each (?:one )?of |all (?:of )?)?(?:the )?(?:eight|8) (?:(?:principal|main|compass) )+(?:points|directions|headings|bearings)(?: of the compass)?",
+    re.IGNORECASE,
+)
+_SIDE_WORD = r"(?:port|starboard|left|right|(?:(?:counter|anti)[- ]?)?clockwise)"
+_OF_A_TURN = re.compile(
+    r"(?<!every )(?<!each )(?<!the )(?<!this )(?<!that )(?<!second )(?<!first )(?<!last )\b(?:an? )?"
+    r"(?P<part>three[ -]quarters?|half|quarter|third|eighth|sixth)(?:[- ](?:of )?an?)?(?: full| whole)?[ -](?P<noun>turn|rotation|circle|revolution)\b"
+    rf"(?=(?: on the spot| in place| back| round)?,? (?:(?:to|towards) (?:the )?)?{_SIDE_WORD}\b)",
+    re.IGNORECASE,
+)
+"""A part of a turn with its side: "quarter turn to starboard"."""
+_PARTS_OF_TURN = {"half": 180, "third": 120, "quarter": 90, "sixth": 60, "eighth": 45}
+
+
+def _in_degrees(match: re.Match[str]) -> str:
+    """A part of a turn in degrees, with its noun where it is one."""
+    part = match["part"].lower()
+    return f"{_PARTS_OF_TURN.get(part, 270)} degrees" + (" turn" if match["noun"].lower() == "turn" else "")
+
+
+def _points(match: re.Match[str]) -> str:
+    """Points of the compass in degrees."""
+    count = match["count"].lower()
+    number = float(count) if count[0].isdigit() else max(quantities(count), key=lambda one: one.value).value if count not in ("a", "an") else 1.0
+    return f"{(number + 0.5 * bool(match['half'])) * POINT:g} degrees"
+
+
+def plain(text: str, parameters: dict[str, Any], *, measured: bool = False) -> str:
+    """The text in one form, in small letters but for the tokens; `measured`: lengths and times have their values, and places are those in brackets alone."""
     text = _MISSPELT_WORD.sub(lambda match: _MISSPELT.get(match[0], match[0]), text)
     for short, word in _SHORT.items():
         text = re.sub(rf"(?<![\w/])(?:{short})(?![\w/])", word, text, flags=re.IGNORECASE)
     text = w.LIST_MARK.sub(lambda mark: ";" + " " * (len(mark[0]) - 1), radio_digits(text))
     text = _PLACE.sub(" \x01 ", _ID.sub("ident", _ORDINAL.sub("nth", _IN_ORDER.sub("in order", _QUOTED.sub("quote", text)))))
     text = _ONE.sub(lambda match: f"{match[1]} it", text)
-    text = _TIMES_SIGN.sub(" times ", text)
+    text = _EIGHT_POINTS.sub("eight evenly spaced headings", _CARDINAL.sub("four evenly spaced headings", text))
+    text = _IN_POINTS.sub(_points, _POINT_IS.sub(" ", text))
+    text = _OF_A_TURN.sub(_in_degrees, _TIMES_SIGN.sub(" times ", text))
     text = _IN_FRACTIONS.sub(lambda match: f"{match[1]} {match[3]} of {_PART_OF_TURN[match[2].lower()]:g} degrees", text)
     text = re.sub(r"\b[Tt]wice\b", "2 times", re.sub(r"\b[Tt]hrice\b", "3 times", text))
     text = _LETTERS.sub(lambda match: COMPASS[SHORT.index(match[0])] if _is_direction(text[: match.start()]) else match[0], text)
     pieces, at = [], 0
     for quantity in quantities(text):
         pieces += [_words(text[at : quantity.start]), _token(quantity.unit, quantity.said, text[quantity.end :], text[quantity.start : quantity.end])]
+        if measured and quantity.unit in ("m", "s"):
+            pieces[-1] = f" {'L' if quantity.unit == 'm' else 'T'}{quantity.value:g} "
         at = quantity.end
     text = "".join([*pieces, _words(text[at:])])
-    text = _BARE_PAIR.sub(r"\1 P", _SIGN.sub(_signed, re.sub(r"\s+", " ", text)))
+    text = _SIGN.sub(_signed, re.sub(r"\s+", " ", text))
+    text = text if measured else _BARE_PAIR.sub(r"\1 P", text)
     return re.sub(r"\s+", " ", _own_values(text, parameters)) + " "
+
+
+def written_places(text: str) -> list[str]:
+    """What the tokens for places stand for, in their order (where the text is `measured`)."""
+    return [match[0] for match in _PLACE.finditer(_ID.sub("ident", _ORDINAL.sub("nth", _IN_ORDER.sub("in order", _QUOTED.sub("quote", text)))))]
 
 
 def _misspellings(words: str) -> dict[str, str]:
@@ -89,7 +143,7 @@ def _misspellings(words: str) -> dict[str, str]:
 
 _MISSPELT = _misspellings(
     "rotate rotating nudge degrees starboard clockwise anticlockwise heading headings bearing pivot swing towards sectors "
-    "nudging panning evenly steps twice radius nudges rotations"
+    "nudging panning evenly steps twice radius nudges rotations position station drift engines"
 ) | {
     "timmes": "times",
     "trun": "turn",
@@ -102,6 +156,11 @@ _MISSPELT = _misspellings(
     "wiht": "with",
     "whlie": "while",
     "roud": "round",
+    "hodl": "hold",
+    "hlod": "hold",
+    "hodling": "holding",
+    "wiat": "wait",
+    "kepe": "keep",
 }
 _SHORT = {
     r"ccw|acw|c/cw|a/cw": "anticlockwise",
@@ -255,6 +314,11 @@ COUNTED = compiled(
     r"N-?\d+(?:(?:\s*(?:,|and|to|or|-))+\s*N\d+)*|\bN\d+ (?=[a-z]+s\b)(?!times|degrees|headings|directions|steps|equal|pans|nudges|turns|rotations|"
     r"sectors|bearings|is\b|as\b|across\b|pass\b|views|parts|stops)"
 )
+
+
+def sign(side: str) -> int:
+    """-1 for a side to port and for counter-clockwise."""
+    return -1 if re.search(r"port|left|larboard|counter|anti", side) else 1
 
 
 def without(text: str, patterns: Iterable[re.Pattern[str]]) -> str:

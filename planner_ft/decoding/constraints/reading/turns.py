@@ -125,10 +125,6 @@ class _Uncertain(Exception):
     """A turn that cannot be told."""
 
 
-def _sign(side: str) -> int:
-    return -1 if re.search(r"port|left|larboard|counter|anti", side) else 1
-
-
 def _heading(value: float) -> Turn:
     if not 0 <= value <= 360:
         raise _Uncertain
@@ -213,7 +209,7 @@ def _nudge(angle: Angle) -> Found | None:
         return None
     if (side_behind and side_before and not counted) or (side and angle.signed):
         raise _Uncertain
-    value = angle.value * (_sign(side["side"]) if side else 1)
+    value = angle.value * (f.sign(side["side"]) if side else 1)
     end = angle.end + (side_behind.end() if side_behind else 0)
     count, used = _count(angle, counted, angle.behind[end - angle.end :])
     end += used
@@ -382,7 +378,7 @@ def _counted(text: str) -> Iterator[Found]:
         side = match["before"] or match["behind"] or match["last"] or ""
         if not step or width % step:
             raise _Uncertain
-        yield Found(match.start(), match.end(), ((NUDGE, _sign(side) * step),) * int(width // step))
+        yield Found(match.start(), match.end(), ((NUDGE, f.sign(side) * step),) * int(width // step))
     for match in _PARTS.finditer(text):
         yield _in_parts(match, text)
     text = _PARTS.sub(f.mask, text)
@@ -394,7 +390,7 @@ def _counted(text: str) -> Iterator[Found]:
             raise _Uncertain
         if len(sides) > 1 or int(match["count"]) < 2 or re.search("[DC][+-]?[0-9]", match["between"]):
             raise _Uncertain
-        value = (_sign(sides[0]) if sides else 1) * 360 / int(match["count"])
+        value = (f.sign(sides[0]) if sides else 1) * 360 / int(match["count"])
         yield Found(match.start(), match.end(), ((NUDGE, value),) * int(match["count"]))
     for match in _RANGE.finditer(text):
         yield _range(match, text)
@@ -415,13 +411,13 @@ def _in_parts(match: re.Match[str], text: str) -> Found:
     count, width = int(match["count"]), float(match["width"])
     if len(sides) > 1 or not 2 <= count <= MOST or not 0 < width <= 360 or _CURVED.search(text[begins:].partition(". ")[0].replace("sweep", "")):
         raise _Uncertain
-    turns = ((NUDGE, g.tidy((_sign(sides[0]) if sides else 1) * width / count)),) * count
+    turns = ((NUDGE, g.tidy((f.sign(sides[0]) if sides else 1) * width / count)),) * count
     return Found(match.start(), match.end() + (rest.end() if rest else 0), turns)
 
 
 def _range(match: re.Match[str], text: str) -> Found:
     first, last, step = float(match["a"][1:]), float(match["b"][1:]), float(match["step"][1:])
-    sides = {_sign(side) for side in re.findall(r"(?:(?:counter|anti)[- ]?)?clock-?wise", text)}
+    sides = {f.sign(side) for side in re.findall(r"(?:(?:counter|anti)[- ]?)?clock-?wise", text)}
     if len(sides) != 1 or not step:
         raise _Uncertain
     sign = sides.pop()
@@ -443,7 +439,7 @@ def _every(text: str) -> Iterator[Found]:
         if not start or len(sides) != 1 or not step or 360 % step or not re.search(r"round|full circle|compass", rest):
             raise _Uncertain
         first = float((start["v"] or start["w"] or start["u"])[1:])
-        turns = tuple((ROTATE, (first + _sign(sides[0]) * step * index) % 360) for index in range(int(360 // step)))
+        turns = tuple((ROTATE, (first + f.sign(sides[0]) * step * index) % 360) for index in range(int(360 // step)))
         yield Found(match.start(), match.end() + start.end(), turns)
 
 
@@ -464,7 +460,7 @@ def _sectors(text: str) -> Iterator[Found]:
     step = float(apart["step"] or apart["steps"]) if apart else 360 / count
     if apart and abs(step * count - 360) > 0.01 and not ways:
         raise _Uncertain
-    sign = _sign(ways[0][0]) if ways else 1
+    sign = f.sign(ways[0][0]) if ways else 1
     said = [(left + part.start(), left + part.end()) for part in (starts[0], *ways, *([apart] if apart else []))]
     spans = [match.span(), *said]
     turns = tuple((ROTATE, g.tidy((first + sign * step * index) % 360)) for index in range(count))
@@ -564,7 +560,7 @@ def _same_again(text: str, found: list[Found]) -> list[Found]:
         if last is None or len(last.turns) != 1 or last.turns[0][0] != NUDGE or any(match.start() <= one.start < match.end() for one in found):
             raise _Uncertain
         side = match["side"] or match["back"]
-        value = _sign(side) * abs(last.turns[0][1]) if side else -last.turns[0][1]
+        value = f.sign(side) * abs(last.turns[0][1]) if side else -last.turns[0][1]
         found = sorted([*found, Found(match.start(), match.end(), ((NUDGE, value),))], key=lambda one: one.start)
     return found
 

@@ -43,6 +43,9 @@ def nudges(*degrees: float) -> tuple[tuple[str, float], ...]:
         ("270, 180, 090: turn to each, a still every time.", (270, 180, 90)),
         ("Go to (3, 4), then turn to 200 and check the sector at 45 degrees.", (200,)),
         ("Turn to 090. Slices only while facing 090.", (90,)),
+        ("Turn to the four cardinal points, anticlockwise and beginning with west.", (270, 180, 90, 0)),
+        ("Look in all four cardinal directions clockwise from north.", (0, 90, 180, 270)),
+        ("Turn to each of the eight compass points clockwise from east.", (90, 135, 180, 225, 270, 315, 0, 45)),
     ],
 )
 def test_headings_are_read_in_order(prompt: str, degrees: tuple[float, ...]) -> None:
@@ -57,6 +60,9 @@ def test_headings_are_read_in_order(prompt: str, degrees: tuple[float, ...]) -> 
         ("Pan left by 30 degrees, then left by 30 degrees once more.", (-30, -30)),
         ("hold 10 s. yaw 30 left. yaw 60 right. yaw 30 left.", (-30, 60, -30)),
         ("Three nudges of 20 degrees to starboard.", (20, 20, 20)),
+        ("Quarter turn to port, then half a turn to starboard.", (-90, 180)),
+        ("Swing the bow three points to port.", (-33.75,)),
+        ("Two points to starboard on the spot (a point being 11.25 degrees), then one point to port.", (22.5, -11.25)),
         ("Pan 40 degrees to the left and back again by the same angle.", (-40, 40)),
         ("Nudge 5 degrees to port and as much to starboard.", (-5, 5)),
         ("Turn all the way round, anticlockwise, in 4 equal steps.", (-90, -90, -90, -90)),
