@@ -345,7 +345,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         rf"\w*record(?:s|ed|ing|ings|er|ers)?\b(?! {SENSED})(?! as (?:an? )?obs)|film\w*|(?<!\bof )(?<!\bbuffered )vide?o(?:s|ing|ed)?\b(?! "
         r"(?:buffer|"
         r"quality|frame|from the buffer|is (?:good|usable|sharp)))|(?<!\bof )(?<!\bgrade the )(?<!\bgrading the )footage|movies?\b|tap(?:e|ing|ed)\b|"
-        r"rec\b|mp4",
+        r"rec\b|mp4|\binto ['\"“](?! )",
         r"(?<!\bbuffer )(?<!\bbuffer on)(?:to|on|onto) (?:the )?(?:disk|disc|drive|file|storage|card|camera)\b|on tape|roll(?:ing|"
         r"s)? (?:the )?(?:tape|cam|video|film|rec)|file-? ?tags?|(?:the|with|under|with a|file|,|a|same) tags?\b|tagged|filed|writ(?:e|es|"
         r"ing)\b[^.;]{0,30}dis[ck]|clips?\b",

@@ -104,11 +104,15 @@ class _Leg:
     end: int
 
 
+_CABLES = re.compile(r"\b(?:\d+|an?|half|two|three|four|five|six|seven|eight|nine|ten) cables?\b(?! (?:runs?|starts?|lies|from))", re.IGNORECASE)
+"""Lengths that are not read here."""
+
+
 def read_legs(record: dict[str, Any], home: Point) -> Path | None:
     """Every waypoint of the answer in order, where the input is about such legs; None where it is not, or where something is not clear."""
     given, prompt = record.get("parameters"), str(record.get("prompt", ""))
     text = reworded(without_fences(plain_text(prompt))) if len(prompt) <= LONGEST else None
-    if not text:
+    if not text or _CABLES.search(text):
         return None
     text = r.QUOTED.sub(lambda quoted: " " * len(quoted[0]), text)
     places = [match for match in r.EXPLICIT.finditer(text) if match["a"] or match["c"]]

@@ -122,7 +122,7 @@ def read_step_scopes(text: str, names: Iterable[str], vocabulary: Vocabulary) ->
     scopes = {name: scope for name, found_places in placed.items() if (scope := _scope(found_places, row, limits)) is not None}
     if CLEARANCE in scopes:
         scopes[CLEARANCE] = replace(scopes[CLEARANCE], values=_values(text, said, clearances))
-    if [unit.steps for unit in counted.units] == [1]:
+    if [unit.steps for unit in counted.units] == [1] and not limits:
         # In the one step of a text everything runs: what it denies is all that is to be told.
         return StepReading({name: scope for name, scope in scopes.items() if not scope.runs})
     return StepReading(scopes, frozenset(asked & scopes.keys()))
