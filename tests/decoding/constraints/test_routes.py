@@ -70,7 +70,7 @@ def test_no_step_repeats_the_place_before_it_and_no_grid_is_left_half_way(tokeni
 
 def test_a_step_that_may_not_follow_gives_way_to_the_end(tokenizer: Any) -> None:
     record = {"task": "BathymetryGridSurvey", "parameters": {"center": [0, 0], "width": 20, "length": 40, "spacing": 20}}
-    record["prompt"] = "Run the grid, then hold for 20 s."
+    record["prompt"] = "Run the grid with a hold of 20 s somewhere."
     step = '{"navigation_skill":{"name":"GoToXY","parameters":{"x":%d,"y":%d}},"filter_skills":[],"perception_skills":[],"stop_conditions":[],'
     step += '"failure_modes":[],"expected_outputs":[]}'
     places = [step % place for place in ((-10, -20), (-10, 20), (10, 20), (10, -20))]
