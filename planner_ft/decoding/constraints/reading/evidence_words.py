@@ -379,7 +379,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"(?<!\bhold )(?<!\bstay )(?<!\bkeep )(?<!\bsit )(?<!\bstand )(?<!\blie )(?<!\blying )(?<!\bbe )(?<!\bremain )(?<!\bholding )"
         r"(?<!\bkeeping )(?<!\bstaying )"
         r"(?<!\band )(?<!\bis )still\b(?! (?:for|"
-        r"until|while|in|at|here|\d|and (?!a\b)))|(?:a|one|another|each|and a|geotagged) still\b|stills\b",
+        r"until|while|in|at|here|\d|and (?!a\b)))|(?:a|one|the|another|each|every|this|that|geotagged) still\b|stills\b",
         r"\w*photo\w*|pics?\b|pano\w*|imagery|imaging|geo-? ?(?:image|pic|frame|still|photo|shot)\w*|meta-?data|side-?car|jpe?gs?|shots?\b|"
         r"close-?ups?|geo-?ref\w+|"
         r"geo-? ?tagg?(?:ed|ing|s)?\b(?! qual)|shoot(?:s|ing)?\b(?! (?:a |some |the )?(?:video|footage|film))",

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from planner_ft.decoding.constraints.facts import WRITTEN_PAIR, Position, in_metres
+from planner_ft.decoding.constraints.reading.wordings import FENCE_BEHIND
 
 LEAST_CORNERS = 3
 _FENCED = re.compile(
@@ -20,7 +21,7 @@ _SEPARATOR = re.compile(r"[\s,;/|)\](\[–—-]{0,5}(?:and|then|to)?[\s,;/|(\[]{
 
 
 def fences(text: str) -> Iterator[list[Position]]:
-    """The lists of corners that stand behind words for a fence, in metres."""
+    """The lists of corners that stand behind or before words for a fence, in metres."""
     metres = in_metres(text)
     runs: list[list[re.Match[str]]] = []
     for match in WRITTEN_PAIR.finditer(text):
@@ -30,6 +31,6 @@ def fences(text: str) -> Iterator[list[Position]]:
             runs.append([match])
     for number, run in enumerate(runs):
         begins = max(text.rfind(". ", 0, run[0].start()) + 1, runs[number - 1][-1].end() if number else 0)
-        if len(run) >= LEAST_CORNERS and _FENCED.search(text[begins : run[0].start()]):
+        if len(run) >= LEAST_CORNERS and (_FENCED.search(text[begins : run[0].start()]) or FENCE_BEHIND.match(text[run[-1].end() :])):
             corners = [tuple(float(part.replace("−", "-").replace("–", "-")) for part in _NUMBER.findall(match.group())) for match in run]
             yield [metres.get(corner, corner) for corner in corners if len(corner) == 2]

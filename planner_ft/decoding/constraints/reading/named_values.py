@@ -31,7 +31,11 @@ DOUBT = re.compile(
     r"\b(?:instead|rather than|scratch|scrap|correction|misread|no wait|I mean|make that|not|never|don't|neither|wrong|belay|sorry|should read|disregard)\b",
     re.IGNORECASE,
 )
-SEVERAL = re.compile(r"\bfirst\b.*\b(?:second|other|last|next|latter)\b|\bformer\b.*\blatter\b|\brespectively\b|\bthe other\b", re.IGNORECASE | re.DOTALL)
+SEVERAL = re.compile(
+    r"\b(?:change|swap) (?:it|that|this|them)\b|\bwith it on\b|"
+    r"\bfirst\b.*\b(?:second|other|last|next|latter)\b|\bformer\b.*\blatter\b|\brespectively\b|\bthe other\b",
+    re.IGNORECASE | re.DOTALL,
+)
 """Words for several steps or values, each of which may have its own."""
 
 

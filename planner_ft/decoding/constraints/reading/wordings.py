@@ -71,8 +71,9 @@ FENCE = re.compile(
     re.IGNORECASE,
 )
 FENCE_BEHIND = re.compile(
-    r"^[\])]?\s*(?:[-–—,:]|is|are|as|mark\w*)?\s*(?:(?:these|the|those|as|is|are|which|that|of|corners?|points?) ){0,6}(?:\w*fence\w*|bound\w*|"
-    r"limits?|edges?)\b",
+    r"^[\])]?\s*[-–—,:]?\s*(?:(?:these|the|those|this|that|which|it|as|is|are|be|being|form\w*|mak\w+|mark\w*|of|a|an|your|our|her|my|its|must|shall|should|will|may|to|not|"
+    r"never|hard|outer|absolute|strict|virtual|area|box|polygon|square|rectangle|triangle|corners?|points?) ){0,8}(?:\w*fence\w*|bound\w*|limits?|edges?|"
+    r"cordon|left(?! (?:at|for|to|of|alone|turn|and))|crossed|exceeded)\b",
     re.IGNORECASE,
 )
 """A boundary that is named behind its corners."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from typing import Any
 
 import pytest
@@ -12,6 +13,7 @@ from planner_ft.decoding.constraints.companions import read_companions
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.reading.clearances import clearances
 from planner_ft.decoding.constraints.reading.fences import fences
+from planner_ft.decoding.constraints.reading.itinerary import without_fences
 from planner_ft.decoding.constraints.reading.told_values import CLEARANCE, FENCE, Told, read_told_values
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import load_vocabulary
@@ -53,12 +55,26 @@ def test_where_no_length_certainly_is_one_none_is_told(text: str) -> None:
         ("Go to (5, 5). Fence (0, 0), (9, 0), (9, 9) and (0, 9).", [[(0, 0), (9, 0), (9, 9), (0, 9)]]),
         ("Stay inside [[1, 2], [30, 2], [30, 40]], then go to (7, 7).", [[(1, 2), (30, 2), (30, 40)]]),
         ("Polygon of corners, in kilometres: (0, 0), (0.2, 0), (0.2, -0.1).", [[(0, 0), (200, 0), (200, -100)]]),
+        ("Turn to 40 and let (1, 1), (8, 1), (8, 8) be your limits.", [[(1, 1), (8, 1), (8, 8)]]),
         ("Visit (0, 0), (9, 0), (9, 9) in turn.", []),
         ("The box from (0, 0) to (40, 20).", []),
     ],
 )
 def test_a_fence_is_a_list_of_corners_behind_words_for_one(text: str, corners: list[list[tuple[float, float]]]) -> None:
     assert list(fences(text)) == corners
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Turn to 40, treating [1, 1], [8, 1], [8, 8] as a hard limit.",
+        "(1, 1), (8, 1), (8, 8) must not be left while you turn.",
+        "Turn. (1, 1), (8, 1), (8, 8) is the fence.",
+    ],
+)
+def test_corners_before_the_word_for_a_fence_are_no_waypoints(text: str) -> None:
+    assert not re.search(r"\d", without_fences(text).replace("40", ""))
+    assert re.search("9, 9", without_fences("Visit (0, 0), (9, 0), (9, 9) and hold within your limits."))
 
 
 def told(record: dict[str, Any]) -> Told:
