@@ -53,7 +53,8 @@ _CUE_BEHIND = re.compile(rf"^\s?(?:m|met(?:re|er)s?)?\s?(?:to the |due )?{_AXIS}
 
 
 _ANGLE_BEFORE = re.compile(r"\b(?:courses?|headings?|bearings?|hdg|azimuth|steering|steer)(?: of| is| to|:|=)? ?$", re.IGNORECASE)
-_DIGIT = re.compile(r" (?:one|two|three|four|five|six|seven|eight|nine|niner|zero|oh)\b", re.IGNORECASE)
+DIGIT_BEHIND = re.compile(r" (?:one|two|three|four|five|six|seven|eight|nine|niner|zero|oh)\b", re.IGNORECASE)
+"""What goes on behind a number whose digits are said one by one."""
 _ANGLE = re.compile(r"0\d\d")
 """Three figures with a leading nought."""
 _UNIT_LEFT_OUT = re.compile(r"(?: (?:more|at|here|there|on|and|then|in)\b|[.,;)]|$)(?! ?\d)", re.IGNORECASE)
@@ -128,7 +129,7 @@ def without_counts(text: str) -> str:
         word = text[quantity.start : quantity.end].lower()
         before, behind = _WORD_BEFORE.search(text[: quantity.start]), _WORD_BEHIND.match(text[quantity.end :])
         said_before = before[1].lower() if before else ""
-        stands = (word == "one" and said_before not in BEFORE_NUMBERS and not _DIGIT.match(text, quantity.end)) or (
+        stands = (word == "one" and said_before not in BEFORE_NUMBERS and not DIGIT_BEHIND.match(text, quantity.end)) or (
             word in FRACTIONS and not _AND_A.search(text[: quantity.start])
         )
         angle = _ANGLE.fullmatch(word) or _ANGLE_BEFORE.search(text[: quantity.start])

@@ -6,6 +6,7 @@ import re
 
 from planner_ft.data.quantities import quantities
 from planner_ft.data.stated import CABLES
+from planner_ft.decoding.constraints.facts import DIGIT_BEHIND
 
 _THINGS = (
     r"(?:everything|anything|everybody|anybody|every(?: \w+)? obstacle|any(?: \w+)? obstacles?|all(?: the)? obstacles|obstacles|(?:all )?traffic|"
@@ -39,8 +40,6 @@ _BOUND_BEHIND = re.compile(
 )
 """Words before and behind a length that is another thing's."""
 _WILL_DO = re.compile(r"^ (?:will do|is enough|are enough|is plenty|suffic\w+)", re.IGNORECASE)
-_DIGIT = re.compile(r" (?:one|two|three|four|five|six|seven|eight|nine|niner|zero)\b", re.IGNORECASE)
-"""What goes on behind a number whose digits are said one by one."""
 
 
 def clearances(text: str) -> set[float]:
@@ -52,7 +51,7 @@ def clearances(text: str) -> set[float]:
             return set()
         length = quantity.unit == "m" or (quantity.unit is None and _WILL_DO.match(behind))
         if _LED.search(before) or (length and _FOLLOWED.match(behind)):
-            if _DIGIT.match(behind) or quantity.unit not in ("m", None):
+            if DIGIT_BEHIND.match(behind) or quantity.unit not in ("m", None):
                 return set()
             certain.add(quantity.value)
         elif length and not _BOUND_BEFORE.search(before) and not _BOUND_BEHIND.match(behind):

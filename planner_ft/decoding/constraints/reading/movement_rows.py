@@ -122,7 +122,6 @@ _SEVERAL_TURNS = re.compile(
 )
 _SEVERAL_ARCS = re.compile(r"\b(?:times|twice|each|every|repeat\w*|arcs|turns|bends|alternat\w*)\b")
 _ONE_PLACE = re.compile(r"@$|\b(?:home|base|target|goal|berth|dock|centre|center|point|position|start\w*)$")
-_RUN = re.compile(r"\b(?:from there|then|and)\b[^.;]{0,40}\b\d+ ?(?:m|metres?|meters?|km|yards?)\b")
 _GRID = re.compile(r"\b(?:grid|lawn-?mow\w*|square|lanes|lines|transects?|cable|pipeline|track|sides|area|circle)\b")
 _ON_THE_WAY = re.compile(
     r"\b(?:(?:coming|running|going|heading|driving|steaming|sailing|moving|getting|motoring|closing) (?:in|out|over|up|down|back|there|on)?,? ?to @|"

@@ -319,14 +319,12 @@ NOUNS: dict[str, tuple[frozenset[str], frozenset[str]]] = {
 """Nouns of scopes, with the navigation skills that they mean and those that they may mean as well; none: any step."""
 MOVEMENT_KINDS = tuple(re.compile(pattern) for pattern in NOUNS)
 _NOUN = "(?:" + "|".join(NOUNS) + ")"
-_GENERIC = "(?:" + next(iter(NOUNS)) + ")"
 _KIND_NOUN = "(?:" + "|".join(pattern for pattern, (sure, maybe) in NOUNS.items() if sure or maybe) + ")"
 ORD = "(?:" + "|".join(ORDINAL) + ")"
 _ORDS = rf"{ORD}(?:(?:, (?:the )?{ORD})*,? (?:and|or) (?:(?:in|on|for|during) )?(?:the )?{ORD}(?! (?:is|goes|runs|has)\b))?"
 _CARDS = r"(?:one|two|three|four|five|six|seven|eight|[1-9])"
 _CARDLIST = rf"{_CARDS}(?:(?:, {_CARDS})*(?:,? and |\+| & |/){_CARDS})?"
 _PREP = r"(?:in|on|during|for|at|through|throughout|over|of|to|with|within)"
-_ADJ = r"(?:very |same |whole |entire |two |three |four )?"
 _THE = r"(?:the |this |that |its |these |those )"
 _END = (
     r"(?=\s*(?:$|[,.;:)(]|only\b|alone\b|and\b|but\b|not\b|as\b|too\b|then\b|please|is\b|are\b|goes|runs|has\b|keeps?\b|needs?\b|do\b|"

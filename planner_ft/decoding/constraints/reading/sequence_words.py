@@ -228,9 +228,6 @@ WITHIN = f.compiled(
     rf"an )?(?P<n>{L}))"
     rf"(?:(?: of)? (?:it|that (?:point|spot|place)|the (?:spot|point|place|berth)|there|here|of the (?:spot|point)))?"
 )
-FOR_ALL = f.compiled(
-    r"^ ?(?:for|in|on|of)? ?(?:both|all|each|either|every)(?: (?:of them|times?|turns?|arcs?|holds?|sweeps?|bends?|curves?|the (?:holds|arcs|turns)))?$"
-)
 WAIT = f.compiled(
     r"^(?:(?:wait|hold|pause|stay|remain|hang|rest|lie|stand by|let|give|stop)\b[^.;:]*?\b(?:until|till|for|to|so long until|time to|get|gets|come)\b[^.;:]*?"
     r"\b(?:stead\w*|stab\w*|settle\w*|calm\w*|quiet\w*|motion|still|pitch\w*|roll\w*|level)\b|"
