@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from planner_ft.decoding.constraints.reading import LONGEST
-from planner_ft.decoding.constraints.reading.asked import asked_movements
-from planner_ft.decoding.constraints.reading.evidence import required, spoken_of
-from planner_ft.decoding.constraints.reading.movements import spoken_movements
-from planner_ft.decoding.constraints.reading.own_sentences import read_own_sentences
-from planner_ft.decoding.constraints.reading.scopes import Scope, read_scopes
-from planner_ft.decoding.constraints.reading.step_scopes import StepScope, read_step_scopes
+from planner_ft.decoding.constraints.reading.scopes.own_sentences import read_own_sentences
+from planner_ft.decoding.constraints.reading.scopes.scopes import Scope, read_scopes
+from planner_ft.decoding.constraints.reading.scopes.step_scopes import StepScope, read_step_scopes
+from planner_ft.decoding.constraints.reading.skills.asked import asked_movements
+from planner_ft.decoding.constraints.reading.skills.evidence import required, spoken_of
+from planner_ft.decoding.constraints.reading.skills.movements import spoken_movements
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import STEP_KEYS
 

@@ -17,9 +17,9 @@ from planner_ft.decoding.constraints.grounded import GroundedValues
 from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, GroundedTaskValues
 from planner_ft.decoding.constraints.reading import LONGEST
 from planner_ft.decoding.constraints.reading.corrected import as_corrected
-from planner_ft.decoding.constraints.reading.sequence import agreed, read_sequence
+from planner_ft.decoding.constraints.reading.rows.sequence import agreed, read_sequence
+from planner_ft.decoding.constraints.reading.rows.turns import read_turns
 from planner_ft.decoding.constraints.reading.telegrams import in_small_letters
-from planner_ft.decoding.constraints.reading.turns import read_turns
 from planner_ft.decoding.constraints.routes import TaskScript
 from planner_ft.decoding.constraints.state import MissionScript, ResolvedValues, names_unresolved
 from planner_ft.decoding.constraints.tokens import Tokens, tokens_of

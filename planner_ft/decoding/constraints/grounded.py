@@ -24,7 +24,7 @@ from planner_ft.decoding.constraints.grammar import (
     written_number,
 )
 from planner_ft.decoding.constraints.patterns import literal, regex
-from planner_ft.decoding.constraints.reading.written_out import places_off_home
+from planner_ft.decoding.constraints.reading.paths.written_out import places_off_home
 from planner_ft.decoding.constraints.spans import Spans
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 

@@ -23,7 +23,7 @@ from planner_ft.decoding.constraints.grammar import (
     written_number,
 )
 from planner_ft.decoding.constraints.grounded import GroundedValues, one_of
-from planner_ft.decoding.constraints.reading.told_values import read_told_values
+from planner_ft.decoding.constraints.reading.values.told_values import read_told_values
 from planner_ft.decoding.constraints.spans import Spans
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary

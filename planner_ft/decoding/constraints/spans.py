@@ -16,7 +16,7 @@ from planner_ft.data.lexicon import corrections
 from planner_ft.decoding.constraints.budget import LONGEST_WORD
 from planner_ft.decoding.constraints.grammar import Grammar, none_of_texts
 from planner_ft.decoding.constraints.patterns import literal, quoted
-from planner_ft.decoding.constraints.reading.named_values import IDENTIFIER
+from planner_ft.decoding.constraints.reading.values.named_values import IDENTIFIER
 
 MOST_WORDS = 2000
 """Words of a command that spans are made of; compiling more takes longer than an answer."""

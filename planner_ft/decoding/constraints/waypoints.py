@@ -21,18 +21,18 @@ from planner_ft.data.task.working import SUM
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.grammar import MOST_STEPS
 from planner_ft.decoding.constraints.reading import LONGEST
-from planner_ft.decoding.constraints.reading.extents import extents
-from planner_ft.decoding.constraints.reading.faces import read_faces
-from planner_ft.decoding.constraints.reading.halts import Halts, halts_at, read_halts
-from planner_ft.decoding.constraints.reading.itinerary import moves_otherwise, read_itinerary, stays
-from planner_ft.decoding.constraints.reading.lanes import without_courses
-from planner_ft.decoding.constraints.reading.legs import read_legs
-from planner_ft.decoding.constraints.reading.one_shape import one_shape
-from planner_ft.decoding.constraints.reading.own_movement import own_movement
-from planner_ft.decoding.constraints.reading.runs import read_runs
-from planner_ft.decoding.constraints.reading.stations import read_stations
-from planner_ft.decoding.constraints.reading.tracks import read_cable
-from planner_ft.decoding.constraints.reading.written_out import written_out
+from planner_ft.decoding.constraints.reading.paths.extents import extents
+from planner_ft.decoding.constraints.reading.paths.faces import read_faces
+from planner_ft.decoding.constraints.reading.paths.halts import Halts, halts_at, read_halts
+from planner_ft.decoding.constraints.reading.paths.itinerary import moves_otherwise, read_itinerary, stays
+from planner_ft.decoding.constraints.reading.paths.lanes import without_courses
+from planner_ft.decoding.constraints.reading.paths.legs import read_legs
+from planner_ft.decoding.constraints.reading.paths.one_shape import one_shape
+from planner_ft.decoding.constraints.reading.paths.own_movement import own_movement
+from planner_ft.decoding.constraints.reading.paths.runs import read_runs
+from planner_ft.decoding.constraints.reading.paths.stations import read_stations
+from planner_ft.decoding.constraints.reading.paths.tracks import read_cable
+from planner_ft.decoding.constraints.reading.paths.written_out import written_out
 from planner_ft.vocabulary import Vocabulary
 
 Point = g.Point

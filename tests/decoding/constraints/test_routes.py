@@ -13,7 +13,7 @@ from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.decoding.constraints.answer import Answer
 from planner_ft.decoding.constraints.companions import Companions
 from planner_ft.decoding.constraints.grammar import SchemaValues
-from planner_ft.decoding.constraints.reading.sequence import read_sequence
+from planner_ft.decoding.constraints.reading.rows.sequence import read_sequence
 from planner_ft.decoding.constraints.routes import TaskScript
 from planner_ft.decoding.constraints.tokens import allows, tokens_of
 from planner_ft.decoding.constraints.waypoints import read_ground

@@ -1,0 +1,324 @@
+"""In which steps a filter or perception skill runs, told against the row of the text's movements.
+
+The text is cut into items at commas and conjunctions. A skill belongs to the scope of its item ("on the inner leg", "as long as she floats", "from that
+moment on"), else to the movement of its item, else to what its clause leaves no choice of. Words of denial ("no detector under way") say where it does not
+run. A plan that does not go by the row is told what holds for kinds of movement only.
+"""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+
+from planner_ft.data.quantities import quantities
+from planner_ft.decoding.constraints.reading.paths.itinerary import without_fences
+from planner_ft.decoding.constraints.reading.rows.movement_rows import Plain, Row, plain, row_of, unread_places
+from planner_ft.decoding.constraints.reading.scopes import scope_words as w
+from planner_ft.decoding.constraints.reading.scopes import step_scope_words as s
+from planner_ft.decoding.constraints.reading.scopes.own_sentences import SOMEWHERE
+from planner_ft.decoding.constraints.reading.scopes.skill_mentions import CLEARANCE, Mention, mentions_of, sentence_at
+from planner_ft.decoding.constraints.reading.scopes.step_meanings import EVERYWHERE, Anchor, Where, anchors_of, scopes_of
+from planner_ft.decoding.constraints.reading.skills.evidence import NEGATION, asks_for
+from planner_ft.vocabulary import Vocabulary
+
+
+@dataclass(frozen=True)
+class StepScope:
+    """The steps in which a skill runs and those in which it does not; of the others nothing is known unless it is `closed`."""
+
+    row: Row | None
+    runs: tuple[Where, ...] = ()
+    rests: tuple[Where, ...] = ()
+    closed: bool = False
+    values: tuple[tuple[Where, float], ...] = ()
+    """The values that a skill has in some steps, where they differ."""
+
+    def value(self, names: Sequence[str]) -> float | None:
+        """The value of the skill in the last of some steps; None where it is not told for this step."""
+        found = {value for where, value in self.values if where.holds(names, self.row)}
+        return found.pop() if len(found) == 1 else None
+
+    def allows(self, names: Sequence[str]) -> bool | None:
+        """Whether the skill must run (True) or must not (False) in the last of some steps; None: not known."""
+        rests = [where.holds(names, self.row) for where in self.rests]
+        if True in rests:
+            return False
+        runs = [where.holds(names, self.row) for where in self.runs]
+        if True in runs:
+            return None if None in rests else True
+        return None if None in runs or not self.closed else False
+
+
+@dataclass(frozen=True)
+class StepReading:
+    """What an input says of the steps of its skills; `asked` are those that it asks for beyond doubt in some of them."""
+
+    scopes: dict[str, StepScope] = field(default_factory=dict)
+    asked: frozenset[str] = frozenset()
+
+
+_REPEATED = re.compile(
+    r"\b(?:repeat\w*|back and forth|to and fro|alternat\w+|once more|over and over|each of (?:these|them|which)|in reverse|backwards|"
+    r"the other way round|scratch|"
+    r"correction|make that|no wait|sorry|i mean|rather not|instead)\b"
+)
+"""Words of texts whose movements are not told one after the other, or are taken back."""
+_PAUSED = re.compile(
+    r"\b(?:hold|stop|wait|pause|stay|halt|turn|pan|nudge|face|rotate)\w*\b[^.;]{0,50}\b(?:at|on|in|after|behind|between) (?:each|every|all|both|either)\b|"
+    r"\b(?:at|on|after|behind|between) (?:each|every|all|both) (?!turns?\b,? (?:get|have)|"
+    r"hold)[^.;]{0,40}\b(?<!the )(?<!each )(?<!every )(?<!in )(?:hold|stop|wait|pause|stay|halt|turn|pan|face)(?:s|ing|ping)?\b"
+)
+_ORDER = re.compile(
+    r"\bbut (?:first|before)|\bbefore (?:\w+ing\b|that|you|this|it|going|turning|the)|\bpreceded\b|\bfirst of all\b|\bafter (?:you|having|the)\b|"
+    r"\bprior to\b|(?<!not )(?<!no )\bearlier\b"
+)
+_STRUCTURE = re.compile(
+    r"\b(?:face|wall|side|quay|cable|pipe\w*|edge|breakwater|pontoon|hull|barge|jetty|line|structure|array|boom|pier|dam)\b[^.;@]{0,30}"
+    r"\b(?:runs?|goes|lies|extends|stretches|starts|begins|leaves|leads)\b[^.;]{0,20}@"
+)
+"""A structure's course, whose places are not gone to as they are told."""
+_LIKE_MOVEMENTS = ("LockHeading", "LogLidarSlice", "ObstacleAvoidance")
+"""Skills whose words could be those of movements."""
+_SENSOR_ONLY = re.compile(r"GetSeabedDepth|CheckLensClearness|GetGPSLocation|SetStreamRecording|DetectSonarFeature")
+_CLAUSE = re.compile(
+    r";|\s[-–—]\s|,?\s*\b(?:and |but )?(?:(?<!by )(?<!until )(?<!till )(?<!from )then(?=,? \w)|next(?=,)|after which|finally|lastly|subsequently)\b,?|\b\d\) "
+)
+_ITEM = re.compile(r"[,:()]|\b(?:and|but|while|with|without|plus|yet|so)\b")
+
+
+def read_step_scopes(text: str, names: Iterable[str], vocabulary: Vocabulary) -> StepReading:
+    """The steps of those of some filter and perception skills of which the text leaves no doubt."""
+    said = plain(text)
+    if not said.text or w.CHANGED.search(said.text) or " STOP " in text or text.endswith(" STOP"):
+        return StepReading()
+    found = list(scopes_of(said.text))
+    masked = [match.span() for name in _LIKE_MOVEMENTS for match in w.SKILL_WORDS[name].finditer(said.text)]
+    row: Row | None = row_of(said, [*(match.span() for kind, match in found if "@" not in match[0] or kind in ("upto", "beyond", "place")), *masked])
+    assert row is not None
+    counted = row
+    if _REPEATED.search(said.text) or _PAUSED.search(said.text) or _ORDER.search(said.text) or not row.units:
+        row = None
+    if row is not None and _unread_movement(said.text, row, _unresolved(found)):
+        row = None
+    if row is not None and (_STRUCTURE.search(said.text) or unread_places(said, row)):
+        row = None
+    anchors = anchors_of(said, found, counted, row is not None)
+    mentions = mentions_of(said.text, [name for name in names if name in w.SKILL_WORDS], anchors)
+    placed: dict[str, list[tuple[Mention, Where | None, bool]]] = {}
+    asked = set()
+    clearances: list[tuple[Where, tuple[int, int]]] = []
+    loose = _loose(said.text, mentions, anchors)
+    for mention, where, item in _placed(said.text, mentions, anchors, counted):
+        where = None if mention in loose else where
+        if mention.name == CLEARANCE and where is not None and not mention.denied:
+            clearances.append((where, item))
+        plainly = asks_for(said.text[slice(*item)], mention.name) or (mention.name == "BoundaryEnforcement" and without_fences(text) != text)
+        placed.setdefault(mention.name, []).append((mention, where, plainly))
+        if where is not None and not mention.denied and plainly and not NEGATION.search(_without(said.text, item, anchors)):
+            asked.add(mention.name)
+    limits = [(anchor, *sentence_at(said.text, anchor.start)) for anchor in anchors if anchor.is_scope and anchor.where != EVERYWHERE]
+    scopes = {name: scope for name, found_places in placed.items() if (scope := _scope(found_places, row, limits)) is not None}
+    if CLEARANCE in scopes:
+        scopes[CLEARANCE] = replace(scopes[CLEARANCE], values=_values(text, said, clearances))
+    if [unit.steps for unit in counted.units] == [1] and not limits:
+        # In the one step of a text everything runs: what it denies is all that is to be told.
+        return StepReading({name: scope for name, scope in scopes.items() if not scope.runs})
+    return StepReading(scopes, frozenset(asked & scopes.keys()))
+
+
+_ORDERED = re.compile(r"^\W*(?:and )?(?:first(?:ly)?|second(?:ly)?|third(?:ly)?|next|then|lastly|finally|after that|afterwards|from there|on arrival)\b,?")
+
+
+def _unresolved(found: Sequence[tuple[str, re.Match[str]]]) -> list[Anchor]:
+    """The scopes of a text before it is known what they mean."""
+    return [Anchor(match.start(), match.end(), True, None) for _kind, match in found]
+
+
+def _unread_movement(text: str, row: Row, scopes: Sequence[Anchor]) -> bool:
+    """Whether a sentence begins with a word of order and tells no movement that is read."""
+    if len(re.findall(r"\bengines? (?:off|stopped|on)\b", text)) > 1:
+        return True
+    return any(
+        _ORDERED.match(text[begin:end]) and not any(begin <= unit.start < end for unit in row.units) and not any(begin <= scope.start < end for scope in scopes)
+        for begin, end in _pieces(text, w.SENTENCE, 0, len(text), scopes)
+    )
+
+
+def _without(text: str, item: tuple[int, int], anchors: Sequence[Anchor]) -> str:
+    """An item without its scopes and movements."""
+    inside = [anchor for anchor in anchors if item[0] <= anchor.start < item[1]]
+    ends = [item[0], *(anchor.end for anchor in inside)]
+    return " ".join(text[begin:end] for begin, end in zip(ends, [*(anchor.start for anchor in inside), item[1]], strict=True))
+
+
+def _limited(mention: Mention, scopes: Sequence[tuple[Anchor, int, int]]) -> bool:
+    """Whether a scope stands in the sentence of words that deny a skill, or in words that are not read as one."""
+    return any(begin <= mention.start < end for _anchor, begin, end in scopes) or mention.bound
+
+
+def _values(text: str, said: Plain, items: Iterable[tuple[Where, tuple[int, int]]]) -> tuple[tuple[Where, float], ...]:
+    """The clearances of items, if each has one length and they differ."""
+    found: dict[tuple[int, int], tuple[Where, float]] = {}
+    for where, (begin, end) in items:
+        lengths = [quantity.value for quantity in quantities(text[said.origin[begin] : said.origin[end - 1] + 1]) if quantity.unit == "m"]
+        if len(lengths) != 1:
+            return ()
+        found[begin, end] = where, lengths[0]
+    return tuple(found.values()) if len({value for _where, value in found.values()}) > 1 else ()
+
+
+def _scope(places: Sequence[tuple[Mention, Where | None, bool]], row: Row | None, anchors: Sequence[tuple[Anchor, int, int]]) -> StepScope | None:
+    if any(where not in (None, EVERYWHERE) and not mention.denied for mention, where, _plainly in places):
+        # "Use the bow sounder" says nothing of where.
+        places = [place for place in places if place[1] not in (None, EVERYWHERE) or place[2] or not _SENSOR_ONLY.fullmatch(place[0].name)]
+    if all(mention.denied and not _limited(mention, anchors) for mention, _where, _plainly in places):
+        return StepScope(row, (), (EVERYWHERE,))
+    runs = tuple(dict.fromkeys(where for mention, where, _plainly in places if where and not mention.denied))
+    rests = tuple(dict.fromkeys(where for mention, where, _plainly in places if where and mention.denied))
+    unread = any(where is None for _mention, where, _plainly in places)
+    if not runs and not rests:
+        return None
+    if EVERYWHERE in runs and (unread or len(runs) > 1):
+        return None
+    return StepScope(row, runs, rests, closed=bool(runs) and not unread)
+
+
+def _pieces(text: str, pattern: re.Pattern[str], start: int, end: int, anchors: Sequence[Anchor]) -> list[tuple[int, int]]:
+    """The parts of a text between separators that stand in no anchor."""
+    pieces, begin = [], start
+    for match in pattern.finditer(text, start, end):
+        joins = any(anchor.end <= match.start() and not text[anchor.end : match.start()].strip() and anchor.is_scope for anchor in anchors) and any(
+            match.end() <= anchor.start and not text[match.end() : anchor.start].strip() and anchor.is_scope for anchor in anchors
+        )
+        if match.start() > begin and not joins and not any(anchor.start < match.end() and match.start() < anchor.end for anchor in anchors):
+            pieces.append((begin, match.start()))
+            begin = match.start() if match[0].strip().isalpha() else match.end()
+    return [*pieces, (begin, end)]
+
+
+def _placed(text: str, mentions: Sequence[Mention], anchors: Sequence[Anchor], row: Row) -> Iterator[tuple[Mention, Where | None, tuple[int, int]]]:
+    """Each mention of a skill with the steps that are meant, and its item."""
+    sentences = _pieces(text, w.SENTENCE, 0, len(text), anchors)
+    for first, last in sentences:
+        clauses = _pieces(text, _CLAUSE, first, last, anchors)
+        head: Anchor | None = None
+        for begin, end in clauses:
+            items = _pieces(text, _ITEM, begin, end, anchors)
+            inside = [anchor for anchor in anchors if begin <= anchor.start < end]
+            colon = text.find(":", begin, end)
+            if colon > 0 and inside and inside[0].is_scope and inside[0].end <= colon and not text[begin : inside[0].start].strip(" ,"):
+                head = inside[0]
+            for mention in mentions:
+                if begin <= mention.start < end:
+                    item = next((a, b) for a, b in items if a <= mention.start < b or b >= end)
+                    yield mention, _where(text, mention, item, (begin, end), (first, last), inside, anchors, head, row), item
+
+
+def _where(
+    text: str, mention: Mention, item: tuple[int, int], clause: tuple[int, int], sentence: tuple[int, int], inside: Sequence[Anchor],
+    anchors: Sequence[Anchor], head: Anchor | None, row: Row,
+) -> Where | None:  # fmt: skip
+    near = [anchor for anchor in inside if item[0] <= anchor.start < item[1] and (mention.denied or not anchor.denied)]
+    scopes = [anchor for anchor in near if anchor.is_scope]
+    if scopes and re.search(r"\b(?:already|even)\b", text[slice(*item)]):
+        return None
+    if scopes:
+        return scopes[0].where if len(scopes) == 1 else _joined(text, scopes)
+    rest = text[item[0] : item[1]]
+    for anchor in near:
+        rest = rest.replace(text[anchor.start : anchor.end], " ")
+    if s.UNREAD.search(rest):
+        return None
+    if near:
+        ahead = [anchor for anchor in near if anchor.end <= mention.start]
+        return ahead[-1].where if ahead else near[0].where if len(near) == 1 else None
+    if head is not None:
+        return head.where
+    usable = [anchor for anchor in inside if not anchor.denied]
+    colon = text.rfind(":", sentence[0], mention.start)
+    headed = [anchor for anchor in anchors if not anchor.is_scope and sentence[0] <= anchor.start < colon]
+    if len(headed) > 1:
+        return None
+    if headed and headed[0].start >= clause[0] and not any(colon < anchor.start < mention.start for anchor in anchors):
+        return headed[0].where
+    coming = next((anchor for anchor in usable if mention.end <= anchor.start), None)
+    if coming is not None and re.fullmatch(r"[^,;:]*\b(?:while|when|as|only) (?:(?:she|you|it) )?(?:is |are )?", text[mention.end : coming.start]):
+        return coming.where
+    if not usable:
+        return _own(text, sentence, anchors, row)
+    opening = usable[0].is_scope and not re.search(r"[a-z]{3,}", re.sub(r"\b(?:and|but|with|while|so)\b", "", text[clause[0] : usable[0].start]))
+    if opening:
+        ahead = [anchor for anchor in usable if anchor.is_scope and anchor.end <= mention.start]
+        between = [anchor for anchor in usable if not anchor.is_scope and ahead and ahead[-1].end <= anchor.start < mention.start]
+        if not ahead or between or s.UNREAD.search(text[ahead[-1].end : mention.start]):
+            return None
+        joined = [anchor for anchor in ahead if anchor is ahead[-1] or re.fullmatch(r",? ?(?:and|or|as well as) ?", text[anchor.end : ahead[-1].start])]
+        return _joined(text, joined) if len(joined) > 1 else ahead[-1].where
+    if len(usable) == 1:
+        only = usable[0]
+        if only.is_scope:
+            behind = text[mention.end : only.start]
+            return only.where if mention.end <= only.start and ("," not in behind or re.search(r"\band\b", behind)) else None
+        if only.start < mention.start:
+            return only.where
+        return only.where if re.match(r"\s*(?:with|while|keeping|staying|under|\w+ing)\b", text[clause[0] : clause[1]]) else None
+    behind_it = [anchor for anchor in usable if anchor.is_scope and mention.end <= anchor.start]
+    if behind_it and re.fullmatch(r"[^,;:]*,? ?(?:and |but |though )?", text[mention.end : behind_it[0].start]) and _closes(text, behind_it[0]):
+        return behind_it[0].where
+    ahead = [anchor for anchor in usable if anchor.end <= mention.start]
+    if ahead and ahead[-1].is_scope and re.search(r"(?:^|[,;:.]|\band|\bbut) ?(?:and |but )?$", text[: ahead[-1].start]):
+        return ahead[-1].where
+    if ahead and not ahead[-1].is_scope and "," not in text[ahead[-1].end : mention.start] and not any(anchor.is_scope for anchor in usable):
+        return ahead[-1].where if re.match(r"\s*(?:with|while|and|plus)\b", text[item[0] : item[1]]) else None
+    return None
+
+
+def _closes(text: str, scope: Anchor) -> bool:
+    """Whether a scope is the end of its clause, behind a comma or with "only"."""
+    return (
+        re.match(r"(?: only| alone)?(?=[.;]|$)", text[scope.end :]) is not None
+        and re.search(r", (?:and |but )?(?:only |just )?$|, $", text[: scope.start]) is not None
+    )
+
+
+def _loose(text: str, mentions: Sequence[Mention], anchors: Sequence[Anchor]) -> list[Mention]:
+    """The mentions that another scope behind them may go on about: "a pin in the first hold; another in the third"."""
+    found = [mention for mention in mentions if mention.name == "DetectObjects" and "sonar" in text[slice(*sentence_at(text, mention.start))]]
+    found += [mention for mention in mentions if mention.name == "LockHeading" and "swing" in text[max(0, mention.start - 25) : mention.end + 25]]
+    for number, anchor in enumerate(anchors):
+        if not anchor.is_scope or anchor.denied or anchor.kind == "thither":
+            continue
+        begin = max((match.end() for match in re.finditer(r"[.;:!?]\s", text[: anchor.start])), default=0)
+        end = next((match.start() for match in re.finditer(r"[.;!?](?=\s|$)", text[anchor.end :])), len(text) - anchor.end) + anchor.end
+        pointed = anchors[number + 1].kind in ("that", "then", "ordinal") if number + 1 < len(anchors) else False
+        moved = any(not other.is_scope and begin <= other.start < end for other in anchors)
+        behind = [mention for mention in mentions if anchor.end <= mention.start < end]
+        before = [mention for mention in mentions if mention.end <= anchor.start]
+        near = [mention for mention in before if mention.start >= begin]
+        later = any(other.is_scope and near and near[-1].end <= other.start < anchor.start and not other.denied for other in anchors)
+        if not behind and not pointed and not moved and before and (later or not near):
+            found.append(before[-1])
+        opens = [other for other in anchors if other.is_scope and begin <= other.start < end]
+        ends = opens[0].start >= end or not text[begin : opens[0].start].strip(" ,") if opens else False
+        if not behind and not moved and ends and len(opens) > 1 and opens[-1] is anchor and near:
+            found.extend(near)
+    return found
+
+
+def _joined(text: str, scopes: Sequence[Anchor]) -> Where | None:
+    """Several scopes of one item, if they are one phrase."""
+    for one, other in itertools.pairwise(scopes):
+        if not re.fullmatch(r",? ?(?:and|or|as well as|plus)? ?(?:also )?", text[one.end : other.start]):
+            return None
+    units = [anchor.where.units for anchor in scopes if anchor.where and anchor.where.units is not None]
+    return Where(frozenset().union(*units)) if len(units) == len(scopes) else None
+
+
+def _own(text: str, sentence: tuple[int, int], anchors: Sequence[Anchor], row: Row) -> Where | None:
+    """A sentence of its own, that names no steps."""
+    said = text[slice(*sentence)]
+    if any(sentence[0] <= anchor.start < sentence[1] for anchor in anchors) or SOMEWHERE.search(said) or s.UNREAD.search(said) or ":" in said:
+        return None
+    return EVERYWHERE if row.units and row.units[-1].start < sentence[0] else None

@@ -1,0 +1,119 @@
+"""In which steps filters and perception skills run, told against the row of the text's movements."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+from planner_ft.decoding.constraints.companions import read_companions
+from planner_ft.decoding.constraints.reading.rows.movement_rows import plain, row_of
+from planner_ft.decoding.constraints.reading.scopes.step_scopes import read_step_scopes
+from planner_ft.vocabulary import load_vocabulary
+
+VOCABULARY = load_vocabulary()
+NAMES = [skill.name for role in ("filter", "perception") for skill in VOCABULARY.skills_in_role(role)]
+GO, HOLD, FACE, NUDGE, ARC = "GoToXY", "StationKeep", "RotateToHeading", "NudgeYaw", "ArcTurn"
+DRIFT, VISUAL = "DriftWithCurrent", "VisualStationKeep"
+
+
+def verdicts(text: str, skill: str, navigation: list[str]) -> str:
+    """What is read for each step of a plan: + runs, - does not, ? not known."""
+    scope = read_step_scopes(text, NAMES, VOCABULARY).scopes.get(skill)
+    return "".join({True: "+", False: "-", None: "?"}[scope.allows(navigation[: index + 1]) if scope else None] for index in range(len(navigation)))
+
+
+@pytest.mark.parametrize(
+    ("text", "skill", "navigation", "steps"),
+    [
+        ("To [5, 9], to [5, 40], to [30, 40]. The second leg skirts rocks: on it, and on no other, 7 m of clearance.", "ObstacleAvoidance", [GO] * 3, "-+-"),
+        ("The outer leg to [50, 8] is open. On the inner leg, to [9, 8], have the bow locked and the depth logged.", "LockHeading", [GO, GO], "-+"),
+        ("The outer leg to [50, 8] is open. On the inner leg, to [9, 8], have the bow locked and the depth logged.", "GetSeabedDepth", [GO, GO], "-+"),
+        ("Steam to [0, 30], then drift for 20 minutes. As long as she drifts log the environment.", "LogEnvironmentState", [GO, DRIFT], "-+"),
+        ("Steam to [0, 30], then drift for 20 minutes. While adrift film with the mast camera; no filming under way.", "SetStreamRecording", [GO, DRIFT], "-+"),
+        ("Visit [4, 4], [4, 20] and [18, 20]. At the second of these take a GPS fix.", "GetGPSLocation", [GO] * 3, "-+-"),
+        ("wp1 [3, 3] wp2 [3, 9]. gps fix @ wp2 only.", "GetGPSLocation", [GO, GO], "-+"),
+        ("Go to [9, 9] with 12 m of clearance. There hold for a minute; the clearance no longer matters then.", "ObstacleAvoidance", [GO, HOLD], "+-"),
+        ("A buoy lies near the start [2, 7], so 9 m margin getting there. Then follow the cable for 60 m.", "ObstacleAvoidance", [GO, GO], "+-"),
+        ("Legs to [1, 0], [1, 9] and [8, 9]. Five metres of clearance on all legs but the last.", "ObstacleAvoidance", [GO] * 3, "++-"),
+        ("Go to [6, 6]. Keep buoy 3 in the picture there, and from that moment on track buoy 3.", "TrackObjects", [GO, VISUAL], "-+"),
+        ("Stop at [8, 1]; turn to 120; turn to 200. Both turns get a GPS fix, the second one a map marker too.", "GetGPSLocation", [GO, FACE, FACE], "-++"),
+        ("Stop at [8, 1]; turn to 120; turn to 200. Both turns get a GPS fix, the second one a map marker too.", "CreateMapMarker", [GO, FACE, FACE], "--+"),
+        ("Hold 30 s and take a fix meanwhile, pan 40 degrees to port, hold a minute and take a fix in it.", "GetGPSLocation", [HOLD, NUDGE, HOLD], "+-+"),
+        ("Go to [6, 6] and make a sweeping turn, 90 degrees to port at 12 m. For the turn, additionally, film.", "SetStreamRecording", [GO, ARC], "-+"),
+        ("Go to [7, 7], run to [9, 30] recording the bow camera, then hold, and in the hold drop a pin.", "SetStreamRecording", [GO, GO, HOLD], "-+-"),
+        ("First watch: hold 5 min and detect swimmers. Then shift to [5, 5]. Second watch: hold 5 min. No detector under way.", "DetectObjects",
+         [HOLD, GO, HOLD], "+--"),
+        ("Go to [3, 3], turn to 90, hold a minute. Soundings once the turn is over.", "GetSeabedDepth", [GO, FACE, HOLD], "--+"),
+        ("Go to [3, 3], turn to 90, hold a minute. Soundings in the last two steps.", "GetSeabedDepth", [GO, FACE, HOLD], "-++"),
+        ("Drive to [1, 2], [5, 2] and [5, 9] while filming with the bow camera, then hold.", "SetStreamRecording", [GO, GO, GO, HOLD], "+++-"),
+    ],
+)  # fmt: skip
+def test_scopes_of_many_wordings(text: str, skill: str, navigation: list[str], steps: str) -> None:
+    assert verdicts(text, skill, navigation) == steps
+
+
+@pytest.mark.parametrize(
+    ("text", "steps"),
+    [
+        ("Square survey of the pile at the target, clockwise from the middle of the north side. Corners: geotagged still. Mid-sides: GPS fix.", "-+-+"),
+        ("Survey square round the target. Geotagged stills at the corners only, none at the mid-sides.", "-+-+"),
+        ("Survey square round the target, starting at the north-west corner. Geotagged stills at the mid-sides only.", "-+-+"),
+    ],
+)
+def test_corners_and_mid_sides_are_every_other_waypoint(text: str, steps: str) -> None:
+    assert verdicts(text, "CaptureGeoSnapshot", [GO] * 4) == steps
+
+
+@pytest.mark.parametrize(
+    ("text", "skill"),
+    [
+        ("Go to [4, 4], then hold a minute, bow not locked.", "LockHeading"),
+        ("Don't record anything, the disk is full. Go to [4, 4], then hold a minute.", "SetStreamRecording"),
+        ("Go to [4, 4], then hold a minute. No stills either.", "CaptureGeoSnapshot"),
+    ],
+)
+def test_what_is_denied_runs_nowhere(text: str, skill: str) -> None:
+    assert verdicts(text, skill, [GO, HOLD]) == "--"
+
+
+@pytest.mark.parametrize(
+    ("text", "skill"),
+    [
+        ("Go to [4, 4], then hold a minute. Don't forget to take a GPS fix.", "GetGPSLocation"),
+        ("Go to [4, 4], then hold a minute. Never go within 3 m of other boats.", "ObstacleAvoidance"),
+        ("Go to [4, 4], then hold a minute. Never leave the box (0, 0), (9, 0), (9, 9), (0, 9).", "BoundaryEnforcement"),
+        ("Go to [4, 4], then hold a minute. Depth already on the leg.", "GetSeabedDepth"),
+        ("Before you hold a minute, go to [4, 4]. In the second part take a GPS fix.", "GetGPSLocation"),
+        ("Go to [4, 4], then to [9, 9], then hold. A fix on the first leg, and on the second leg as well.", "GetGPSLocation"),
+    ],
+)
+def test_what_is_in_doubt_is_not_ruled_out(text: str, skill: str) -> None:
+    assert "-" not in verdicts(text, skill, [GO, HOLD])
+
+
+def test_values_that_differ_between_steps() -> None:
+    text = "Leave 9 m clearance while coming in to [5, -2], and only 3 m for what follows: turn to 100, hold two minutes."
+    companions = read_companions({"prompt": text}, VOCABULARY)
+    plan = [GO, FACE, HOLD]
+    assert [companions.value("ObstacleAvoidance", name, plan[:index]) for index, name in enumerate(plan)] == [9, 3, 3]
+    assert companions.value("LockHeading", GO, []) is None
+    same = read_companions({"prompt": "Leave 9 m clearance while coming in to [5, -2], then hold."}, VOCABULARY)
+    assert same.value("ObstacleAvoidance", GO, []) is None
+
+
+def test_the_row_of_movements() -> None:
+    row = row_of(plain("Go to [1, 2], [3, 4] and [5, 6], follow the cable due north for 80 m, then hold two minutes."), ())
+    assert [unit.kind for unit in row.units] == [GO, GO, GO, GO, HOLD]
+    assert [unit.steps for unit in row.units] == [1, 1, 1, None, 1]
+    assert [row.unit([GO] * count) for count in (1, 2, 3, 4, 5)] == [0, 1, 2, 3, 3]
+    assert row.unit([GO, GO, GO, GO, GO, HOLD]) == 4
+    # A plan that goes another way is not told by it.
+    assert row.unit([HOLD]) is None
+
+
+def test_long_texts_are_read_at_once() -> None:
+    text = "Go to [10, 20] and on the second leg, not before, keep 5 m off everything and hold while she turns and drifts, in the hold only, " * 8
+    begun = time.perf_counter()
+    read_step_scopes(text[:1000], NAMES, VOCABULARY)
+    assert time.perf_counter() - begun < 1
