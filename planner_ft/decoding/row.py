@@ -116,7 +116,7 @@ class Row:
         elif whole := self._instead(best, logits):
             return self._end_as(whole)
         else:
-            token = self._best_allowed(logits)
+            token = self._best_allowed(best, logits)
         if self.choices is not None:
             self._remember(token, logits)
         self._add(token)
@@ -139,9 +139,10 @@ class Row:
     def _allows(self, token: int) -> bool:
         return self.constraint is None or self.constraint.admits([token]) == 1
 
-    def _best_allowed(self, logits: Tensor) -> int:
-        """The most probable token of those that the constraint allows, even where logits are infinite or no numbers."""
-        allowed = self._allowed(logits)
+    def _best_allowed(self, best: int, logits: Tensor) -> int:
+        """The most probable token of those that the constraint allows for the model's own choice `best`, even where logits are infinite or no numbers."""
+        akin = self.constraint.akin(best) if self.constraint is not None else []
+        allowed = torch.tensor(akin, device=logits.device) if akin else self._allowed(logits)
         return int(allowed[logits[allowed].argmax()])
 
     def _allowed(self, logits: Tensor) -> Tensor:

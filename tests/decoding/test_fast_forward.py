@@ -66,6 +66,9 @@ class Toy:
             ahead.accept(token)
         return len(tokens)
 
+    def akin(self, token: int) -> list[int]:
+        return []
+
     def instead(self, token: int) -> list[int] | None:
         return None
 

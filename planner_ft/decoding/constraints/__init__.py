@@ -44,6 +44,13 @@ class Constraint(Protocol):
     def admits(self, tokens: Sequence[int]) -> int:
         """How many of these tokens in a row are allowed from here. The state is unchanged."""
 
+    def akin(self, token: int) -> list[int]:
+        """The allowed tokens that spell most of what `token`, which is not allowed, would have spelt; empty where any allowed token will do.
+
+        A tokenizer that joins members of an object writes `[],"perception_skills":[{"name":"` as one token. Where no skill may follow, the model knows
+        `[],"perception_skills":[],"stop_conditions":["`, and nothing that comes behind the pieces of it.
+        """
+
     def instead(self, token: int) -> list[int] | None:
         """The whole answer to give, end token included, where the model would go on with `token`, which is not allowed; None to choose another token.
 

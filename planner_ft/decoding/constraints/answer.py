@@ -92,7 +92,8 @@ class Answer:
             return self._tokens.ends
         self._matcher.unsafe_compute_mask_ptr(self._mask.ctypes.data, self._mask.nbytes)
         if not self._hurried:
-            return self._mask
+            growing = self._tokens.growing(self._ids, self._matcher)
+            return self._tokens.mask_of(tuple(growing)) if growing else self._mask
         narrowed = self._closing.narrow(self._mask, bytes(self._matcher.compute_ff_bytes()))
         self.cut = self.cut or not np.array_equal(narrowed, self._mask)
         return narrowed
@@ -139,6 +140,9 @@ class Answer:
             if ahead.ended:
                 return count + 1 + ahead.admits(tokens[count + 1 :][:1])
         return len(tokens)
+
+    def akin(self, token: int) -> list[int]:
+        return [] if self._matcher is None or self._hurried else self._tokens.akin(token, self.mask())
 
     def instead(self, token: int) -> list[int] | None:
         if self._matcher is None or self._hurried:

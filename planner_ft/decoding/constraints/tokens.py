@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import itertools
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -106,10 +106,23 @@ class Tokens:
         if not certain:
             return []
         text = bytes(matcher.compute_ff_bytes())
+        return self._settled(self._within(self._spelling(before, text), certain), text, matcher)
+
+    def growing(self, before: list[int], matcher: LLMatcher) -> list[int]:
+        """The tokens that can follow `before` where a text must follow and longer tokens take it in whole: these, and the first that it is spelt with alone.
+
+        The engine allows a single token there, the first of its own spelling. Empty where there are no longer ones.
+        """
+        text = bytes(matcher.compute_ff_bytes())
+        longer = [token for token in self._longer(text) if matcher.validate_tokens([token]) == 1]
+        return [*longer, *self._spelling(before, text)[:1]] if longer else []
+
+    def _spelling(self, before: list[int], text: bytes) -> list[int]:
+        """The tokens of a text behind the tokens `before`; none where those are not spelt as the tokenizer would."""
         for context in (before[-CONTEXT:], before):
             ids = self.engine.tokenize_bytes(self.engine.decode_bytes(context) + text)
             if ids[: len(context)] == context:
-                return self._settled(self._within(ids[len(context) :], certain), text, matcher)
+                return ids[len(context) :]
         return []
 
     def _settled(self, ids: list[int], text: bytes, matcher: LLMatcher) -> list[int]:
@@ -131,6 +144,24 @@ class Tokens:
         if LEAST_GROWN <= len(text) < longest:
             for other in itertools.takewhile(lambda other: other.startswith(text), itertools.islice(self._sorted, bisect_right(self._sorted, text), None)):
                 yield known[other]
+
+    def akin(self, token: int, mask: Mask) -> list[int]:
+        """The allowed tokens that begin as `token` does for as long as any of them does; of two that begin with each other, the longer one.
+
+        None where they share fewer bytes than `LEAST_GROWN`, or no quotation mark among them: numbers and texts are not spelt for one another.
+        """
+        known = self._by_bytes[0]
+        text = self.bytes_of(token)
+        for length in range(len(text), LEAST_GROWN - 1, -1):
+            begun = text[:length]
+            if b'"' not in begun:
+                break
+            first, last = (bisect_left(self._sorted, edge) for edge in (begun, begun + b"\xff"))
+            found = [other for other in self._sorted[first:last] if allows(mask, known[other])]
+            # Sorted, what goes on from a token stands right behind it.
+            if ends := [other for other, longer in itertools.zip_longest(found, found[1:], fillvalue=b"") if not longer.startswith(other)]:
+                return [known[other] for other in ends]
+        return []
 
     @functools.cached_property
     def _sorted(self) -> list[bytes]:

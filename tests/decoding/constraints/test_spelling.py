@@ -1,0 +1,58 @@
+"""Masks allow the tokens that a tokenizer would write, and not the pieces of them that no model was trained on."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from planner_ft.data.task.sampler import sample_tasks
+from planner_ft.decoding.configurations import Strength
+from planner_ft.decoding.constraints.tokens import allows
+from planner_ft.prompts.text import answer_text
+from planner_ft.vocabulary import load_vocabulary
+
+from .conftest import answer_ids, make_factory
+
+TURNS = {"task": "HorizontalPanorama", "parameters": {}, "prompt": "Turn to 090, then to 180. Detect buoys on the second bearing only."}
+JOINED = '}},"filter_skills":[],"perception_skills":['
+"""How the embedded candidate's tokens for the end of a movement begin; a list of skills is opened or not within the token."""
+
+
+@pytest.mark.parametrize("strength", ["schema", "grounded"])
+def test_the_token_of_training_is_allowed_wherever_there_is_a_choice(tokenizer: Any, strength: Strength) -> None:
+    vocabulary = load_vocabulary()
+    factory = make_factory(tokenizer, "task", vocabulary, strength)
+    choices = 0
+    for record in sample_tasks(vocabulary, 7, 12, "train"):
+        ids = answer_ids(tokenizer, answer_text("task", record, vocabulary))
+        constraint = factory.start(record, 4096)
+        if constraint.admits(ids) < len(ids):
+            continue
+        for token in ids:
+            if not constraint.forced():
+                choices += 1
+                assert allows(constraint.mask(), token), (record["prompt"], tokenizer.decode([token]))
+            constraint.accept(token)
+    assert choices > 250
+
+
+def test_a_joined_token_is_taken_whole_where_what_the_model_would_write_is_ruled_out(embedded: Any) -> None:
+    """No skill may run beside the first turn: the list is opened and closed by one token, as in every text of training."""
+    spelt = {embedded.decode([token]): token for token in range(len(embedded))}
+    opens, closes = spelt[JOINED + '{"name":"'], spelt[JOINED + '],"stop_conditions":["']
+    constraint = make_factory(embedded, "task", load_vocabulary(), "grounded").start(TURNS, 2048)
+    begun = '{"skill_sequence":[{"navigation_skill":{"name":"RotateToHeading","parameters":{"heading":90'
+    for token in embedded.encode(begun, add_special_tokens=False):
+        constraint.accept(token)
+    assert constraint.admits([opens]) == 0 and constraint.akin(opens) == [closes]
+    pieces = [token for text, token in spelt.items() if JOINED.startswith(text) and allows(constraint.mask(), token)]
+    assert allows(constraint.mask(), closes) and len(pieces) <= 1
+
+
+def test_numbers_are_no_kin(embedded: Any) -> None:
+    constraint = make_factory(embedded, "task", load_vocabulary(), "grounded").start(TURNS, 2048)
+    for token in embedded.encode('{"skill_sequence":[{"navigation_skill":{"name":"RotateToHeading","parameters":{"heading":', add_special_tokens=False):
+        constraint.accept(token)
+    (seven,) = embedded.encode("7", add_special_tokens=False)
+    assert constraint.admits([seven]) == 0 and constraint.akin(seven) == []
