@@ -15,7 +15,7 @@ SOUNDS_VOWEL = re.compile(
     r"(?:[aeioåøöäéAEIO]|u(?!ni(?!d|n|m)|se|su|ti|ri|to|ro)|U(?![a-z]?[a-z]?i)|8|11(?!\d)|18(?!\d)|hour|honest|[FHLMNRSX](?:[A-Z0-9-]|\b(?!')))"
 )
 SOUNDS_CONSONANT = re.compile(r"(?:one\b|once\b|eu|Eu|one-|ROV|RIB|SAR|NATO|LED\b|USV|UAV)")
-ABBREVIATED = ("approx.", "no.", "nr.", "e.g.", "i.e.", "ca.", "vs.", "ref.", "dr.", "mr.", "ms.", "st.", "capt.", "...")
+ABBREVIATED = frozenset(("approx.", "no.", "nr.", "e.g.", "i.e.", "ca.", "vs.", "ref.", "dr.", "mr.", "ms.", "st.", "capt."))
 SENTENCE = re.compile(r"(^|[.!?]\s+|[.!?][\"”)]\s+|\n)([a-zåøöäé])(?=[\w'’-]*)")
 KEEP_SMALL = re.compile(r"[a-z]\)|[xy][=: ]?-?\d|x[=: ]|[a-z]\d")
 
@@ -90,7 +90,7 @@ def capitalised(text: str) -> str:
 
     def large(match: re.Match[str]) -> str:
         before = text[: match.end(1)].rstrip().lower()
-        if before.endswith(ABBREVIATED) or KEEP_SMALL.match(text, match.start(2)):
+        if before.endswith("...") or before.rpartition(" ")[2].lstrip("(") in ABBREVIATED or KEEP_SMALL.match(text, match.start(2)):
             return match[0]
         return match[1] + match[2].upper()
 
