@@ -24,6 +24,9 @@ from planner_ft.decoding.second_look import SecondLook
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.plans import Level
 
+MOST_BACK = 8
+"""Times that an answer goes back to a choice before."""
+
 
 @dataclass(frozen=True)
 class Query:
@@ -81,13 +84,19 @@ class Method:
     second_look: SecondLook | None = None
     mend: Callable[[dict[str, Any], Sequence[int]], ConstraintFactory | None] | None = None
 
-    def row(self, query: Query, limits: Limits, longest: int, begun: Sequence[int] = ()) -> Row:
-        """The beginning of an answer, its first tokens `begun`. Raises PlannerError when the constraint needs more room than `longest` tokens."""
+    def row(self, query: Query, limits: Limits, longest: int, begun: Sequence[int] = (), *, goes_back: bool = True) -> Row:
+        """The beginning of an answer, its first tokens `begun`; it `goes_back` where a choice proves wrong.
+
+        Raises PlannerError when the constraint needs more room than `longest` tokens.
+        """
         constraint = self.constraint.start(query.record, longest) if self.constraint else None
         drafter = Drafter(query.prompt, self.likeness, self.book) if self.drafting else None
         sampler = self.sampling.sampler(query.name, longest) if self.sampling else None
         remembers = self.second_look is not None and sampler is None
-        return Row(query.prompt, limits, longest, constraint, drafter, fast_forward=self.fast_forward, sampler=sampler, begun=begun, remembers=remembers)
+        return Row(
+            query.prompt, limits, longest, constraint, drafter,
+            fast_forward=self.fast_forward, sampler=sampler, begun=begun, remembers=remembers, goes_back=goes_back and sampler is None,
+        )  # fmt: skip
 
 
 PLAIN = Method(fast_forward=False, drafting=False)
@@ -119,7 +128,8 @@ def generate_unordered(
                 yield index, Generation((), "error", 0.0, str(error))
         try:
             for index, answer in _generate_batch(decoder, dict(rows), began):
-                looked = _look_again(decoder, queries[index], limits, method, rows[index], answer)
+                row, whole = _gone_back(decoder, queries[index], limits, method, rows[index], answer)
+                looked = _look_again(decoder, queries[index], limits, method, row, whole)
                 yield index, _mended(decoder, queries[index], limits, method, looked)
         except torch.OutOfMemoryError as error:
             raise PlannerError(
@@ -127,11 +137,23 @@ def generate_unordered(
             ) from error
 
 
-def _begin(decoder: Decoder, query: Query, limits: Limits, method: Method, begun: Sequence[int] = ()) -> Row:
+def _begin(decoder: Decoder, query: Query, limits: Limits, method: Method, begun: Sequence[int] = (), *, goes_back: bool = True) -> Row:
     room = limits.max_new_tokens if decoder.context is None else min(limits.max_new_tokens, decoder.context - len(query.prompt))
     if room < 1:
         raise PlannerError(f"the prompt of {len(query.prompt)} tokens leaves no room in the model's context of {decoder.context}")
-    return method.row(query, limits, room, begun)
+    return method.row(query, limits, room, begun, goes_back=goes_back)
+
+
+def _gone_back(decoder: Decoder, query: Query, limits: Limits, method: Method, row: Row, answer: Generation) -> tuple[Row, Generation]:
+    """The whole answer, where one was left in the middle because a choice before proved wrong, and its row; with the cost of every beginning."""
+    for left in range(MOST_BACK - 1, -1, -1):
+        if row.back is None:
+            break
+        row = _begin(decoder, query, limits, method, row.back, goes_back=left > 0)
+        ((_index, again),) = _generate_batch(decoder, {0: row}, time.perf_counter())
+        passes, seconds = answer.forward_passes + again.forward_passes, answer.seconds + again.seconds
+        answer = replace(again, seconds=seconds, forward_passes=passes, first_token_s=answer.first_token_s)
+    return row, answer
 
 
 def _look_again(decoder: Decoder, query: Query, limits: Limits, method: Method, row: Row, answer: Generation) -> Generation:
@@ -163,8 +185,10 @@ def _mended(decoder: Decoder, query: Query, limits: Limits, method: Method, answ
     constraint = method.mend(query.record, answer.ids)
     if constraint is None:
         return answer
-    row = _begin(decoder, query, limits, replace(method, constraint=constraint))
-    ((_index, again),) = _generate_batch(decoder, {0: row}, time.perf_counter())
+    method = replace(method, constraint=constraint)
+    row = _begin(decoder, query, limits, method)
+    ((_index, begun),) = _generate_batch(decoder, {0: row}, time.perf_counter())
+    _row, again = _gone_back(decoder, query, limits, method, row, begun)
     if again.finish_reason != "stop":
         return answer
     passes, seconds = answer.forward_passes + again.forward_passes, answer.seconds + again.seconds

@@ -41,7 +41,8 @@ class Row:
     `ids` is the answer so far; its last tokens, which the model has not been fed yet, are `pending`, and `draft` stands
     behind them. With `fast_forward`, tokens that the constraint forces join the answer without a choice by the model.
     Choices are the most probable tokens, or drawn by `sampler`. The answer begins with `begun`; with `remembers`, `choices`
-    keeps the model's choices behind it that had an alternative.
+    keeps the model's choices behind it that had an alternative. A row that `goes_back` is finished early where a choice before was wrong:
+    `back` is what the answer is to begin with instead.
     """
 
     def __init__(
@@ -56,6 +57,7 @@ class Row:
         sampler: Sampler | None = None,
         begun: Sequence[int] = (),
         remembers: bool = False,
+        goes_back: bool = False,
     ) -> None:
         self.end_ids = limits.end_ids
         self.longest = longest
@@ -67,6 +69,8 @@ class Row:
         self.pending = list(prompt)
         self.draft: list[int] = []
         self.finished: FinishReason | None = None
+        self.goes_back = goes_back
+        self.back: list[int] | None = None
         self.forward_passes = self.forced_tokens = self.drafted_tokens = 0
         self.choices: list[Choice] | None = [] if remembers else None
         for token in begun:
@@ -115,6 +119,9 @@ class Row:
             token = best
         elif whole := self._instead(best, logits):
             return self._end_as(whole)
+        elif begun := self._declined(best, logits):
+            self.back, self.finished = begun, "stop"
+            return []
         else:
             token = self._best_allowed(best, logits)
         if self.choices is not None:
@@ -126,9 +133,16 @@ class Row:
     def _instead(self, best: int, logits: Tensor) -> list[int] | None:
         """The answer to end with, where the model all but rules out what it would have to take for its own choice `best`."""
         whole = self.constraint.instead(best) if self.constraint is not None else None
-        if whole and float(torch.softmax(logits.float(), 0)[self._allowed(logits)].sum()) < LEAST_SUBSTITUTE:
-            return whole
-        return None
+        return whole if whole and self._no_substitute(logits) else None
+
+    def _declined(self, best: int, logits: Tensor) -> list[int] | None:
+        """What the answer is to begin with, where a list was opened for what the model means alone: `best`, which may not stand in it."""
+        begun = self.constraint.declined(best) if self.constraint is not None and self.goes_back else None
+        return begun if begun and self._no_substitute(logits) else None
+
+    def _no_substitute(self, logits: Tensor) -> bool:
+        """Whether the model all but rules out what is allowed."""
+        return float(torch.softmax(logits.float(), 0)[self._allowed(logits)].sum()) < LEAST_SUBSTITUTE
 
     def _end_as(self, ids: list[int]) -> list[int]:
         """End with this answer, for which the end of the one in the making was dropped; nothing is left to feed."""

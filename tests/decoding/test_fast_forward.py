@@ -69,6 +69,9 @@ class Toy:
     def akin(self, token: int) -> list[int]:
         return []
 
+    def declined(self, token: int) -> list[int] | None:
+        return None
+
     def instead(self, token: int) -> list[int] | None:
         return None
 
@@ -177,6 +180,23 @@ class Willing(Toy):
 
     def instead(self, token: int) -> list[int] | None:
         return [END] if token == 40 else None
+
+
+class Declining(Toy):
+    """The toy language, in which 11 was wrong where the model would go on with 40 behind it."""
+
+    def declined(self, token: int) -> list[int] | None:
+        return [10] if token == 40 else None
+
+
+@pytest.mark.parametrize(("share", "goes_back", "expected"), [(0.001, True, [10]), (0.1, True, None), (0.001, False, None)])
+def test_an_answer_is_begun_anew_where_a_choice_before_was_wrong(share: float, goes_back: bool, expected: list[int] | None) -> None:
+    row = Row([7, 8], LIMITS, 60, Declining(2), goes_back=goes_back)
+    _fed, count = row.feed(wide=True)
+    logits = torch.full((count, VOCABULARY), -30.0)
+    logits[-1, 40], logits[-1, 11] = 0.0, float(np.log(share))
+    row.choose(logits.argmax(-1).tolist(), logits)
+    assert row.back == expected and (row.finished == "stop") == (expected is not None)
 
 
 @pytest.mark.parametrize(("wanted", "share", "expected"), [(40, 0.001, [END]), (40, 0.1, [10, 11, 20, 21, 22]), (41, 0.001, [10, 11, 20, 21, 22])])

@@ -51,6 +51,10 @@ class Constraint(Protocol):
         `[],"perception_skills":[],"stop_conditions":["`, and nothing that comes behind the pieces of it.
         """
 
+    def declined(self, token: int) -> list[int] | None:
+        """The beginning of the answer in which a list is closed, where the model would go on in that list with `token`, which is not allowed, and need not
+        have; None to choose another token."""
+
     def instead(self, token: int) -> list[int] | None:
         """The whole answer to give, end token included, where the model would go on with `token`, which is not allowed; None to choose another token.
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from planner_ft.decoding.constraints import Mask
 from planner_ft.decoding.constraints.budget import Closing
+from planner_ft.decoding.constraints.grammar import SKILL_OPENS
 from planner_ft.decoding.constraints.tokens import Tokens, allows
 
 if TYPE_CHECKING:
@@ -37,6 +38,9 @@ class Script(Protocol):
     def pressed(self, text: str) -> Script | None:
         """Where `text`, which begins here, would end the answer too early: the script that goes on with what is still asked for."""
 
+    def declines(self, text: str) -> bool:
+        """Whether `text`, which begins here and may not follow, would be an item of a list that need not have gone on."""
+
     def asks(self, text: str) -> int | None:
         """The place in a text that must follow before which the model is asked for what it means all the same."""
 
@@ -49,6 +53,9 @@ class Plain:
 
     def pressed(self, text: str) -> Script | None:
         return None
+
+    def declines(self, text: str) -> bool:
+        return False
 
     def asks(self, text: str) -> int | None:
         return None
@@ -76,6 +83,7 @@ class Answer:
     def __init__(self, tokens: Tokens, script: Script, limit: int, reserve: int, notes: Sequence[str] = ()) -> None:
         self.notes = list(notes)
         self.cut = False
+        self._whole = script, limit
         self._tokens, self._script, self._left, self._reserve = tokens, script, limit, reserve
         self._matcher: LLMatcher | None = tokens.compile(script.opening())
         self._ids: list[int] = []
@@ -158,6 +166,19 @@ class Answer:
         kept = sum(end <= length for end in itertools.accumulate(map(len, pieces)))
         rest = b"".join(pieces[kept:])[: length - sum(map(len, pieces[:kept]))] + written
         return [*self._ids[:kept], *self._tokens.shortest(rest), self._tokens.end_ids[0]]
+
+    def declined(self, token: int) -> list[int] | None:
+        if self._matcher is None or self._hurried or not self._script.declines((self._text + self._tokens.bytes_of(token)).decode(errors="replace")):
+            return None
+        pieces = [self._tokens.bytes_of(one) for one in self._ids]
+        text = b"".join(pieces)[: sum(map(len, pieces)) - len(self._text)].removesuffix(SKILL_OPENS.encode())
+        closed = text.removesuffix(b",") + b"]"
+        kept = sum(end < len(closed) for end in itertools.accumulate(map(len, pieces)))
+        earlier = Answer(self._tokens, *self._whole, self._reserve, self.notes)
+        for one in self._ids[:kept]:
+            earlier.accept(one)
+        behind = earlier._matcher and self._tokens.begun_with(self._ids[:kept], closed[sum(map(len, pieces[:kept])) :], earlier._matcher)
+        return [*self._ids[:kept], *behind] if behind else None
 
     @property
     def _hurried(self) -> bool:

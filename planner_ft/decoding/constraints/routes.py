@@ -139,9 +139,16 @@ class TaskScript:
         end = self._step_end(text)
         return replace(self, owes=True) if end is not None and text[end:].startswith(CLOSES[0]) else None
 
+    def declines(self, text: str) -> bool:
+        """A skill that the model would name in a list, and which may not stand there, is no reason to name another one where the list could have ended."""
+        if self.chosen is not None or self.role == "navigation":
+            return False
+        _more, ends = self._listed(self.role, self._movement[0], [skill for skill, _parameters in self.beside])
+        return ends and any(patterns.quoted(skill.name).startswith(text) for skill in self.vocabulary.skills_in_role(self.role))
+
     def asks(self, text: str) -> int | None:
         """Before a name that may be a substitute, and behind a step where a movement is owed."""
-        return 0 if self.taken_back(text) else self._step_end(text)
+        return 0 if self.taken_back(text) or self.declines(text) else self._step_end(text)
 
     def _step_end(self, text: str) -> int | None:
         """Where the step ends in a text that goes on with it, if a movement is owed behind it."""
@@ -193,8 +200,8 @@ class TaskScript:
         said = {skill for skill, _parameters in self.beside}
         # What is insisted on comes first: a model that left it out would put it off.
         offered = [skill for skill in offered if skill.name in self.companions.insisted and skill not in said] or offered
-        # An answer never stands without a way on.
-        return Grammar().text(" | ".join(literal(patterns.quoted(skill.name)) for skill in offered or skills))
+        # An answer never stands without a way on: a skill comes twice rather than one that nobody asked for.
+        return Grammar().text(" | ".join(literal(patterns.quoted(skill.name)) for skill in offered or sorted(said, key=skills.index) or skills))
 
     def _offers(self, skill: Skill) -> bool:
         if self.role == "navigation" and self.sequence is not None:

@@ -114,8 +114,25 @@ class Tokens:
         The engine allows a single token there, the first of its own spelling. Empty where there are no longer ones.
         """
         text = bytes(matcher.compute_ff_bytes())
-        longer = [token for token in self._longer(text) if matcher.validate_tokens([token]) == 1]
+        longer = self._joined(text, matcher)
         return [*longer, *self._spelling(before, text)[:1]] if longer else []
+
+    def begun_with(self, before: list[int], text: bytes, matcher: LLMatcher) -> list[int]:
+        """The tokens behind `before` that a text is spelt with when it is gone on with: the last one may reach beyond it. Empty where it may not follow."""
+        pieces, ahead = self.shortest(text), matcher.deep_copy()
+        if ahead.validate_tokens(pieces) < len(pieces):
+            return []
+        ahead.consume_tokens(pieces)
+        whole = text + bytes(ahead.compute_ff_bytes())
+        if longer := self._joined(whole, matcher):
+            return longer[:1]
+        ids = self._spelling(before, whole)
+        ends = itertools.accumulate(len(self.bytes_of(token)) for token in ids)
+        return ids[: sum(end < len(text) for end in ends) + 1]
+
+    def _joined(self, text: bytes, matcher: LLMatcher) -> list[int]:
+        """The tokens that may follow, begin with a text and go on."""
+        return [token for token in self._longer(text) if matcher.validate_tokens([token]) == 1]
 
     def _spelling(self, before: list[int], text: bytes) -> list[int]:
         """The tokens of a text behind the tokens `before`; none where those are not spelt as the tokenizer would."""

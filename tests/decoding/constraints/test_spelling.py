@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -12,7 +13,7 @@ from planner_ft.decoding.constraints.tokens import allows
 from planner_ft.prompts.text import answer_text
 from planner_ft.vocabulary import load_vocabulary
 
-from .conftest import answer_ids, make_factory
+from .conftest import answer_ids, load, make_factory
 
 TURNS = {"task": "HorizontalPanorama", "parameters": {}, "prompt": "Turn to 090, then to 180. Detect buoys on the second bearing only."}
 JOINED = '}},"filter_skills":[],"perception_skills":['
@@ -56,3 +57,38 @@ def test_numbers_are_no_kin(embedded: Any) -> None:
         constraint.accept(token)
     (seven,) = embedded.encode("7", add_special_tokens=False)
     assert constraint.admits([seven]) == 0 and constraint.akin(seven) == []
+
+
+CREW = {
+    "task": "Transit",
+    "parameters": {},
+    "prompt": "Crew is on deck. Go to [55, 12], then turn to 090 and to 110. In each of the two turns log a lidar slice.",
+}
+
+
+def test_a_list_that_was_opened_for_a_skill_which_may_not_stand_in_it_is_closed(embedded: Any) -> None:
+    spelt = {embedded.decode([token]): token for token in range(len(embedded))}
+    constraint = make_factory(embedded, "task", load_vocabulary(), "grounded").start(CREW, 2048)
+    begun = embedded.encode('{"skill_sequence":[{"navigation_skill":{"name":"GoToXY","parameters":{"x":55,"y":12', add_special_tokens=False)
+    for token in [*begun, spelt[JOINED + '{"name":"']]:
+        constraint.accept(token)
+    (slices, watch, move) = (spelt[name] for name in ("LogLidarSlice", "DetectObjects", "GoToXY"))
+    assert constraint.forced() == [] and constraint.admits([watch]) == 1 and constraint.admits([slices]) == 0
+    assert constraint.declined(slices) == [*begun, spelt[JOINED + '],"stop_conditions":["']]
+    assert constraint.declined(move) is None
+
+
+@pytest.mark.parametrize("name", ["Llama-3.2-1B-Instruct", "Qwen2.5-3B"])
+def test_what_a_closed_list_begins_with_may_follow(name: str, standins: Path) -> None:
+    tokenizer = load(name, standins)
+    factory = make_factory(tokenizer, "task", load_vocabulary(), "grounded")
+    constraint, text = (
+        factory.start(CREW, 2048),
+        '{"skill_sequence":[{"navigation_skill":{"name":"GoToXY","parameters":{"x":55,"y":12}},"filter_skills":[],"perception_skills":[',
+    )
+    for token in tokenizer.encode(text + '{"name":"', add_special_tokens=False):
+        constraint.accept(token)
+    (first, *_rest) = tokenizer.encode("LogLidarSlice", add_special_tokens=False)
+    closed = constraint.declined(first)
+    assert closed and tokenizer.decode(closed).startswith(text + "]")
+    assert factory.start(CREW, 2048).admits(closed) == len(closed)
