@@ -31,8 +31,9 @@ from planner_ft.decoding.constraints.grammar import (
     written_number,
 )
 from planner_ft.decoding.constraints.patterns import literal
-from planner_ft.decoding.constraints.reading.rows.sequence import Movement, Sequence
-from planner_ft.decoding.constraints.reading.rows.turns import Turn
+from planner_ft.decoding.constraints.reading.rows.sequence import Sequence
+from planner_ft.decoding.constraints.reading.rows.sequence_clauses import Movement
+from planner_ft.decoding.constraints.reading.rows.turn_parts import Turn
 from planner_ft.decoding.constraints.repeats import ROTATING, MovementValues, Step, TurnValues, UnlikeValues, repeatable, spent
 from planner_ft.decoding.constraints.waypoints import Ending, Ground, Path, Point
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary

@@ -11,6 +11,10 @@ from planner_ft.data.quantities import positions
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.reading.rows import sequence_words as w
 from planner_ft.decoding.constraints.reading.rows import turn_forms as f
+from planner_ft.decoding.constraints.reading.rows.asides import without_asides
+from planner_ft.decoding.constraints.reading.rows.clock_times import with_durations
+from planner_ft.decoding.constraints.reading.rows.sequence_forms import in_plain_words
+from planner_ft.decoding.constraints.reading.rows.turn_wordings import explained
 
 
 @dataclass(frozen=True)
@@ -24,12 +28,15 @@ class Prepared:
 
 def prepare(prompt: str, parameters: Mapping[str, Any]) -> Prepared | None:
     """The text without what says nothing of movements; None where it cannot be read clause by clause."""
+    prompt = with_durations(prompt)
     text = _HESITATION.sub(" ", w.MOTION.sub("motion", f.plain(prompt, dict(parameters), measured=True)))
     stated = [_place(one) for one in f.written_places(prompt)]
     places = [place for place in stated if place is not None]
     if len(re.findall(r"\bP\b", text)) != len(places) or len(places) < len(stated):
         return None
     text = _placed(_BOUNDED.sub(" ", _HEADING_LOCKED.sub(" ", text)), places, parameters)
+    text = in_plain_words(explained(without_asides(text)), parameters)
+    text = _in_the_unit(text, prompt)
     text = w.TWO_TIMES.sub(_sum_of_times, _WITHOUT_MARK.sub(r"\1 ", _STOP_AND.sub("hold", text)))
     text = w.IN_VIEW.sub(" VISUAL ", w.ENGINES_OFF.sub(" ENGINES ", w.CLEARED.sub(" ", w.BUFFERED.sub(" ", text))))
     text = _OFF_FOR.sub(_drift, text)
@@ -63,6 +70,14 @@ def _placed(text: str, places: list[g.Point], parameters: Mapping[str, Any]) -> 
     return text
 
 
+def _in_the_unit(text: str, prompt: str) -> str:
+    """ "Six minutes at the lock, then hold for two": a time without its unit has the only one that the text names."""
+    named = [seconds for seconds, unit in _UNITS if unit.search(prompt)]
+    if len(named) != 1:
+        return text
+    return _NO_UNIT.sub(lambda match: f"{match['verb'] or ''} T{float(match['n'] or match['m']) * named[0]:g}", text)
+
+
 def _drift(match: re.Match[str]) -> str:
     """ "Engines off for ten minutes" is a drift, where none is spoken of before it."""
     drifting = w.DRIFTING.search(match.string[: match.start()].rpartition(". ")[2])
@@ -85,6 +100,16 @@ def _place(text: str) -> g.Point | None:
     return g.point(*found[-1]) if found else None
 
 
+_UNITS = (
+    (1, re.compile(r"(?:\d|\b)(?:s|secs?|seconds?)\b", re.IGNORECASE)),
+    (60, re.compile(r"(?:\d ?|\b)(?:mins?|minutes?)\b|\d ?m(?=[ ,.;](?:hold|station|there))", re.IGNORECASE)),
+    (3600, re.compile(r"(?:\d ?|\b)(?:h|hrs?|hours?)\b", re.IGNORECASE)),
+)
+_NO_UNIT = f.compiled(
+    r"\b(?P<verb>(?:hold|stay|wait|drift|float|remain|pause|loiter|keep station|hold position)(?: (?:there|here|position|station|still|adrift))*(?: for|"
+    r" another)?|another|"
+    r"a further) N(?P<n>[1-9]\d?)(?= (?:more|there|here|longer|then|and|within|in a|before)\b| ?[.,;:]| ?$)|(?<=\bthen )N(?P<m>[1-9]\d?)(?= at P\d)"
+)
 _OTHERWISE = f.compiled(
     r"\b(?:actually|too (?:much|far|long|little)|plenty|second thoughts?|instead|"
     r"series|strike|put in|(?:last|final) it first|make (?:that|it) (?:[a-z]+ )?[NTLDC][\d.]*|"
@@ -112,9 +137,12 @@ _WITHOUT_MARK = f.compiled(
 _STOP_AND = f.compiled(r"\b(?:stop|halt|pause|wait|finish|end) (?:and hold|(?:in|with) a hold)\b")
 _SPELT = f.compiled(r"\bx ?[=:]? ?N(?P<x>-?\d[\d.]*?)[ ,;]*(?:and )?y ?[=:]? ?N(?P<y>-?\d+(?:\.\d+)?)")
 _OWN_PLACE = (
-    r"(\b(?<!back )(?:go|drive|proceed|sail|head|run|transit|move|come|get|steam|approach|out|up|over|on|down|way|course|navigate)(?: (?:over|up|out|"
-    r"down|on))? (?:to|for|towards)) the "
-    r"(?:(?:task's|given|planned|stated|set) )*{}(?: (?:position|point|location|place))?(?! (?:of|point|is|for|and back|that|which|at|in|on|itself))\b"
+    r"((?:\b(?<!back )(?:go|drive|proceed|sail|head|run|transit|move|come|get|steam|approach|out|up|over|on|down|way|course|navigate|(?:bring|take|"
+    r"get) (?:her|yourself|"
+    r"it|the (?:boat|usv|vessel)))(?: (?:over|up|out|in|along|straight|down|on))?|(?:^ ?|[.;:,] |\bthen |\band |\bnext |\bfinally ))(?: ?to| for|"
+    r" towards)) the "
+    r"(?:(?:task's|given|planned|stated|set) )*{}(?: (?:position|point|location|place))?(?: of the (?:cable|pipeline|pipe|track|run|"
+    r"route)(?! track))?(?! (?:of|point|is|for|and back|that|which|at|in|on|itself))\b"
 )
 _OWN_PLACES = {"target_position": "target", "goal_position": "(?:goal|berth|docking|destination)", "start": "(?:start|starting)"}
 """The place of the task."""

@@ -23,7 +23,8 @@ _IN_FRAME = (
 IN_VIEW = f.compiled(
     rf"\b(?:keep(?:ing)?|hold(?:ing)?|have|having|get(?:ting)?|maintain(?:ing)?|put|bring) (?!station|position|your|the heading|the bow|arrived|"
     rf"reached|come|got|to|been|stopped|passed)"
-    rf"(?:(?! (?:read|what|then|go|turn|at|hold) )[^.;:,]){{1,60}}? {_IN_FRAME}(?: again| and (?:keep|hold) (?:it|her|him|them) (?:there|so)|"
+    rf"(?:(?! (?:read|what|then|go|turn|at|hold|while|as|when|whenever|if|until) )[^.;:,]){{1,60}}? {_IN_FRAME}(?: again| and (?:keep|hold) (?:it|her|him|"
+    rf"them) (?:there|so)|"
     rf" all the time| steadily)*\b|"
     rf"(?<![^.;:,] )\b(?!(?:keep|hold|have|get|put|bring|go|turn|with|while|as|when|and)\b)[a-z][a-z -]{{2,30}} (?:stays|is kept|is to stay|kept) "
     rf"(?:centred|centered|in (?:the )?(?:centre|center|middle) of {_FRAME})\b|"
@@ -44,7 +45,7 @@ CLEARED = f.compiled(
     rf"(?: (?:of|is|at least|to {_THINGS}|from {_THINGS}|obstacles))* {L}(?: (?:to|from|around|round) {_THINGS}(?: \w+)?)?|"
     rf"(?:\b(?:with|at|keep(?:ing)?|hold(?:ing)?|maintain(?:ing)?|observ(?:e|ing)|leav(?:e|ing)|stay(?:ing)?|by) )?(?:\b(?:a|an|the|at least|"
     rf"about) )*\b{L}[ -]?(?:of |in )?(?:(?:safety|obstacle|minimum|sea) )?"
-    rf"(?:clearances?|margins?|clear\b(?: (?:of|from) {_THINGS}(?: \w+)?)?|to spare|room|(?:away )?(?:from|off|to) {_THINGS}(?: \w+)?)"
+    rf"(?:clearances?|margins?|minimum distance|clear\b(?: (?:of|from) {_THINGS}(?: \w+)?)?|to spare|room|(?:away )?(?:from|off|to) {_THINGS}(?: \w+)?)"
 )
 """A clearance."""
 _PARTS = (
@@ -65,7 +66,9 @@ _GERUNDS = (
 )
 SCOPES = (
     f.compiled(
-        r"\b(?:the )?(?:whole|entire) (?:time|way|trip)\b|\ball (?:the time|along|the while|the way|through)\b|\bat all times\b|"
+        r"\b(?:the )?(?:whole|entire) (?:time|way|trip)\b|\ball (?:the time|along|the while|the way(?! round)|through)\b|"
+        rf"\bbefore (?:the|that) {_PARTS} (?=nothing\b|no\b|none\b)|"
+        r"\bat all times\b|"
         r"\bthroughout(?: both)?\b|\bboth times\b|"
         r"\b(?:and )?at no other times?\b|\b(?:and )?not (?:before|earlier|after|later|until then|sooner)(?: that)?\b|\b(?:in|on|for|during|throughout|"
         r"at) both\b(?! (?:turns|holds|legs|the|of))|"
@@ -75,7 +78,7 @@ SCOPES = (
         rf"\b(?:(?:but |and |not )?(?!on the spot\b|after th(?:at|is)\b)(?:in|on|during|for|at|over|throughout|with|of|between|along|after|"
         rf"through)(?: (?:in|on|during|only|just|at|for))? "
         rf"(?:the|this|that|these|those|each|every|both|all|either|its|any|one)|both|all|each|every|the (?=nth|first|second|last|N\d|two|"
-        rf"three))(?: {_WHICH})* {_PARTS}\b"
+        rf"three))(?: {_WHICH})* {_PARTS}\b(?! round\b)"
         r"(?: (?:only|alone|in))?"
     ),
     f.compiled(
@@ -168,7 +171,7 @@ _OBJECT = (
     r"slowly|gently|smartly|carefully|up|over|there|here|then|further|again|now|on)"
 )
 TURN_TO = f.compiled(
-    rf"^(?:{_TURN}(?: {_OBJECT})* (?:to face|to point|to|onto|on to|on|towards?|due|until facing)|{_TURN}(?: {_OBJECT})*(?= C\d)|(?:fac(?:e|ing)|"
+    rf"^(?:{_TURN}(?: (?:{_OBJECT}|{SIDE}))* (?:to face|to point|to|onto|on to|on|towards?|due|until facing)|{_TURN}(?: {_OBJECT})*(?= C\d)|(?:fac(?:e|ing)|"
     rf"look(?:ing)?)(?: (?:to|towards|due|the))*|"
     rf"(?:(?:the|her|its) )?(?:bow|nose)(?: (?:round|on|to|at|onto|towards|due))*|headings?(?: to| of)?|bearings?|steady (?:up )?on|adopt|take up|"
     rf"assume|a turn (?:to|onto))"
@@ -176,7 +179,8 @@ TURN_TO = f.compiled(
     r"(?: on the spot| in place| there| true)*"
 )
 LISTED_TO = f.compiled(
-    rf"^(?:(?:to|onto|on to|on|round to|due|on|back to|last) )*(?P<v>{V})(?! ?(?:{SIDE}|times|apart|each))(?: degrees| on the spot| last| there)*(?=$|"
+    rf"^(?:(?:to|onto|on to|on|round to|due|on|back to|last|the) )*(?P<v>{V})(?! ?(?:{SIDE}|times|apart|each))"
+    rf"(?: degrees| on the spot| last| there| in order| in turn| in (?:that|this) order)*(?=$|"
     rf" for T[\d.]+$)"
 )
 _NUDGE = (
@@ -202,7 +206,8 @@ ARC_VALUE = f.compiled(
 ARC_REST = f.compiled(
     r"^(?:[ ,:()-]|(?:as|X|make|do|run|take|follow|describe|perform|swing|come|go|turn|round|around|in|on|a|an|one|single|another|the|arc|arcs|arcing|"
     r"turn|turns|sweep|sweeping|"
-    r"sweeps|wide|curve|curving|bend|bends|wheel|away|of|at|with|through|by|for|to|radius|turning|gentle|long|big|slow|steady|out|there|about|s-bend|that|same|"
+    r"sweeps|wide|curve|curving|bend|bends|wheel|away|of|at|with|through|by|for|to|radius|turning|gentle|long|big|slow|steady|out|there|about|s-bend|that|"
+    r"same|further|also|again|this|time|all|more|second|next|last|full|"
     r"it)\b)*$"
 )
 HOLD = f.compiled(
@@ -339,7 +344,8 @@ BEFORE_THAT = f.compiled(r"^ ?(?:but )?before (?:you |she |it |the boat )?(?P<la
 AFTER_EACH = f.compiled(
     r"^ ?(?:and )?(?:(?:after|at|on|in|with|upon|following|behind|for) (?:each|every|all of(?: the)?|any|each of the)(?: (?:single|one of|of|N\d+|"
     r"nth))*(?: (?:the|these|those|them))?(?: (?:fraction|single|nudge|quarter|new))?"
-    r"(?: (?:turn|heading|bearing|direction|rotation|step|stop|pan|nudge|one|them|it|sector|swing|facing|point|position|of them))?|"
+    r"(?: (?:turn|heading|bearing|direction|rotation|step|stop|pan|nudge|one|them|it|sector|swing|facing|point|position|place|mark|waypoint|spot|station|"
+    r"buoy|berth|pot|of them))?|"
     r"(?:on|at|after) (?:reaching )?each)\b(?: you)?[ ,:]*(?P<rest>.+)$"
 )
 """What is done behind every turn."""

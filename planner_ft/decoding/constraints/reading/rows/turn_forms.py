@@ -11,6 +11,7 @@ from typing import Any
 from planner_ft.data.quantities import COMPASS, SHORT, quantities
 from planner_ft.data.stated import POINT, radio_digits
 from planner_ft.decoding.constraints.reading import wordings as w
+from planner_ft.decoding.constraints.reading.rows.clock_times import without_clock_times
 
 
 def compiled(pattern: str) -> re.Pattern[str]:
@@ -83,6 +84,13 @@ _OF_A_TURN = re.compile(
     re.IGNORECASE,
 )
 """A part of a turn with its side: "quarter turn to starboard"."""
+_PART_BEHIND = re.compile(
+    rf"(?P<side>\b{_SIDE_WORD}\b,? (?:(?:by|through|of|for|over) )?)(?:an? )?(?P<part>three[ -]quarters?|half|quarter|third|eighth|sixth) (?:of )?(?:an? |"
+    rf"one )?"
+    r"(?:full |whole |complete )?(?P<noun>turn|rotation|circle|revolution)\b",
+    re.IGNORECASE,
+)
+"""The same behind its side: "a sweeping turn to port, three quarters of a full circle"."""
 _PARTS_OF_TURN = {"half": 180, "third": 120, "quarter": 90, "sixth": 60, "eighth": 45}
 
 
@@ -101,6 +109,7 @@ def _points(match: re.Match[str]) -> str:
 
 def plain(text: str, parameters: dict[str, Any], *, measured: bool = False) -> str:
     """The text in one form, in small letters but for the tokens; `measured`: lengths and times have their values, and places are those in brackets alone."""
+    text = without_clock_times(text)
     text = _MISSPELT_WORD.sub(lambda match: _MISSPELT.get(match[0], match[0]), text)
     for short, word in _SHORT.items():
         text = re.sub(rf"(?<![\w/])(?:{short})(?![\w/])", word, text, flags=re.IGNORECASE)
@@ -109,6 +118,7 @@ def plain(text: str, parameters: dict[str, Any], *, measured: bool = False) -> s
     text = _ONE.sub(lambda match: f"{match[1]} it", text)
     text = _EIGHT_POINTS.sub("eight evenly spaced headings", _CARDINAL.sub("four evenly spaced headings", text))
     text = _IN_POINTS.sub(_points, _POINT_IS.sub(" ", text))
+    text = _PART_BEHIND.sub(lambda match: f"{match['side']}{_PARTS_OF_TURN.get(match['part'].lower(), 270)} degrees", text)
     text = _OF_A_TURN.sub(_in_degrees, _TIMES_SIGN.sub(" times ", text))
     text = _IN_FRACTIONS.sub(lambda match: f"{match[1]} {match[3]} of {_PART_OF_TURN[match[2].lower()]:g} degrees", text)
     text = re.sub(r"\b[Tt]wice\b", "2 times", re.sub(r"\b[Tt]hrice\b", "3 times", text))

@@ -7,19 +7,16 @@ left has to be told by the words on both sides of it. None where one cannot be, 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.reading import wordings as w
 from planner_ft.decoding.constraints.reading.rows import turn_forms as f
+from planner_ft.decoding.constraints.reading.rows.asides import without_asides
+from planner_ft.decoding.constraints.reading.rows.counted_turns import counted as counted_turns
+from planner_ft.decoding.constraints.reading.rows.turn_parts import CURVED, MOST, NUDGE, ROTATE, Found, Turn, Uncertain, blank, heading
+from planner_ft.decoding.constraints.reading.rows.turn_wordings import explained
 from planner_ft.vocabulary import Vocabulary
-
-Turn = tuple[str, float]
-ROTATE, NUDGE = "RotateToHeading", "NudgeYaw"
-MOST = 24
-
 
 # ---------------------------------------------------------------- headings and angles
 
@@ -111,26 +108,6 @@ _SAME_TO = f.compiled(
 )
 
 
-@dataclass(frozen=True)
-class Found:
-    """Rotations that the text from `start` to `end` gives; `side_note` when they are said in passing ("while facing ...")."""
-
-    start: int
-    end: int
-    turns: tuple[Turn, ...]
-    side_note: bool = False
-
-
-class _Uncertain(Exception):
-    """A turn that cannot be told."""
-
-
-def _heading(value: float) -> Turn:
-    if not 0 <= value <= 360:
-        raise _Uncertain
-    return ROTATE, value
-
-
 _NEXT = f.compiled(
     r"(?:(?:^|[.;,]|and) ?(?:and )?(?:then|next|finally|lastly|after that),?|\bsame again|\bthe same|\blikewise)(?: (?:to|onto|on to|round to|at|"
     r"on|facing|towards))? (?:due )?$"
@@ -163,9 +140,6 @@ def _turns_there(lead: str, before: str) -> bool:
     if not place or _TURNS_THERE.search(lead):
         return True
     return re.search(r"\bthen\b|[:]", before[place[-1].end() :] + lead) is not None
-
-
-_CURVED = f.compiled(r"~a|radius|circle|orbit|curve|bend|\bwide\b|round (?:it|the)\b|\bsweep")
 
 
 @dataclass(frozen=True)
@@ -208,7 +182,7 @@ def _nudge(angle: Angle) -> Found | None:
     if angle.token[0] == "C" or not (_sided(angle, side_behind, side_before) if side else _unsided(angle, by, counted)):
         return None
     if (side_behind and side_before and not counted) or (side and angle.signed):
-        raise _Uncertain
+        raise Uncertain
     value = angle.value * (f.sign(side["side"]) if side else 1)
     end = angle.end + (side_behind.end() if side_behind else 0)
     count, used = _count(angle, counted, angle.behind[end - angle.end :])
@@ -218,7 +192,7 @@ def _nudge(angle: Angle) -> Found | None:
         end += more.end() if more else 0
     first = min((match.start() for match in (side_before, by, counted) if match), default=len(angle.before))
     if abs(value) > 360 or not value or not 1 <= count <= MOST:
-        raise _Uncertain
+        raise Uncertain
     return Found(angle.start - len(angle.before) + first, end, ((NUDGE, value),) * count, _IN_PASSING.search(angle.before[:first]) is not None)
 
 
@@ -236,14 +210,14 @@ def _unsided(angle: Angle, by: re.Match[str] | None, counted: re.Match[str] | No
     """Whether an angle without a side is one to turn by: "swing the bow 40 degrees", "then minus 20 degrees"."""
     if by and by[0].startswith("yaw") and angle.before[: by.start()].strip(" ;:"):
         # The yaw on arrival at a place looks the same.
-        raise _Uncertain
+        raise Uncertain
     if angle.signed and angle.goes_on(NUDGE):
         return True
     if by and angle.value > 180 and not by[0].endswith(("by ", "through ")):
         # "Rotate 270 degrees" may as well be a heading.
-        raise _Uncertain
+        raise Uncertain
     if by and not _ENDS.match(angle.behind) and not re.match(r" ?(?:N\d+ times|each|at a time)\b", angle.behind):
-        raise _Uncertain
+        raise Uncertain
     if by:
         return not angle.bare or by[0].endswith("by ")
     return counted is not None and not angle.bare and not _HEAD_LEAD.search(angle.before)
@@ -256,7 +230,7 @@ def _count(angle: Angle, counted: re.Match[str] | None, rest: str) -> tuple[int,
     many = _OF_MANY.search(angle.before) or _EACH.match(rest)
     listed = counted and _LISTED_BEHIND.match(rest) and re.search(r", $", angle.before)
     if (counted and behind) or (many and not counted and not behind) or listed or _LOOSE_END.match(rest[used:]):
-        raise _Uncertain
+        raise Uncertain
     return int(counted[1] if counted else (behind[1] or behind[2]) if behind else 1), used
 
 
@@ -274,11 +248,11 @@ def _is_heading(angle: Angle) -> bool:
 
 
 def _read(text: str, *, orbits: bool) -> list[Found]:
-    """What each angle of the text means. Raises _Uncertain when one of them cannot be told."""
+    """What each angle of the text means. Raises Uncertain when one of them cannot be told."""
     found: list[Found] = []
     taken = 0
     if _WIDE.search(text):
-        raise _Uncertain
+        raise Uncertain
     for token in re.finditer(f.V, text):
         if token.start() < taken or (token[0][0] == "N" and _IS_COUNT.match(text, token.end())):
             continue
@@ -287,18 +261,18 @@ def _read(text: str, *, orbits: bool) -> list[Found]:
         angle = Angle(token[0], *token.span(), before, text[token.end() :], text[taken : token.start()], found[-1] if found else None)
         if nudge := _nudge(angle):
             in_place = _IN_PLACE.search(text[max(taken, nudge.start - 25) : nudge.end])
-            if (orbits or _CURVED.search(text[sentence:].partition(". ")[0])) and not in_place:
-                raise _Uncertain
+            if (orbits or CURVED.search(text[sentence:].partition(". ")[0])) and not in_place:
+                raise Uncertain
             found.append(nudge)
         elif _is_heading(angle):
             if found and found[-1].turns[-1][0] == NUDGE and _THAT_IS.match(angle.since):
-                raise _Uncertain
+                raise Uncertain
             start = max(text.rfind(mark, 0, token.start()) for mark in (". ", "; ")) + 1
             found = [*_listed(found, angle), _turn_to(angle, text[start : token.start()], text[taken : token.start()])]
         elif angle.bare and 0 < abs(angle.value) <= 12 and not _SIDE_BEHIND.match(angle.behind) and not (found and _SEPARATOR.match(angle.since)):
             continue
         else:
-            raise _Uncertain
+            raise Uncertain
         taken = found[-1].end
     return found
 
@@ -313,167 +287,11 @@ def _turn_to(angle: Angle, sentence: str, since: str) -> Found:
     """The rotation to the angle."""
     lead = _HEAD_LEAD.search(angle.before)
     if not lead:
-        return Found(angle.start, angle.end, (_heading(angle.value),))
+        return Found(angle.start, angle.end, (heading(angle.value),))
     words = len(lead[0])
     if not _turns_there(lead[0], sentence[: len(sentence) - words]):
-        raise _Uncertain
-    return Found(angle.start - words, angle.end, (_heading(angle.value),), _IN_PASSING.search(since[: len(since) - words]) is not None)
-
-
-# ---------------------------------------------------------------- headings that the text counts
-
-_START = f.compiled(
-    r"\b(?:from|start\w*(?: (?:at|with|from|in|on))?|beginn?\w*(?: (?:at|with|from|in|on))?|on from)(?: (?:the|due|heading|a heading of|bearing|"
-    r"facing))* (?P<v>[DNC]\d+(?:\.\d+)?)"
-    r"|(?P<w>[DNC]\d+(?:\.\d+)?) first\b"
-    r"|\bthe first (?:it|heading|bearing|of (?:them|these))(?: is| being| at| on| to| the| due| towards|,)* (?P<u>[DNC]\d+(?:\.\d+)?)"
-)
-_SECTORS = f.compiled(
-    r"\bN(?P<count>\d+) (?:(?:even|equal|evenly spaced|equally spaced|regular|sector|different|compass|equidistant|evenly-spaced) )*(?:headings|"
-    r"sectors|directions|bearings|views)\b(?! ?[,:-]? ?[DNC][\d.]+(?![\d.])(?! (?:apart|from|between)))"
-    r"|\bround in N(?P<steps>\d+) (?:equal|even) steps\b"
-    r"|\bdivide the (?:compass|horizon|circle) into N(?P<parts>\d+)\b"
-)
-_WAY_ROUND = f.compiled(r"(?:(?:counter|anti)[- ]?)?clock-?wise|\bto the (?:left|right)\b")
-_APART = f.compiled(r"\b(?:each )?D(?P<step>\d+(?:\.\d+)?) (?:apart|from (?:one to )?the next|between them)\b|\bin steps of D(?P<steps>\d+(?:\.\d+)?)")
-_ALL_ROUND = f.compiled(
-    r"\b(?:all (?:the way )?round|full circle|whole circle|round the (?:compass|horizon|clock)|evenly|equal\w*|even|compass|horizon|sectors|sector|"
-    r"right round|panorama|round in|clock-?wise)\b"
-)
-_RANGE = f.compiled(
-    rf"\bfrom (?:due )?(?P<a>{f.V})(?: (?:through|via) (?:due )?(?P<via>{f.V}))? (?:to|round to|"
-    rf"up to) (?:due )?(?P<b>{f.V})(?P<between>[^.;]*?)\b(?:in steps of|steps of|every) (?P<step>D\d+(?:\.\d+)?)(?: steps)?"
-)
-_EVERY = f.compiled(r"\bevery D(?P<step>\d+(?:\.\d+)?)")
-_FULL_TURN = f.compiled(
-    r"(?:(?P<ahead>"
-    + f.SIDE
-    + r")[ ,]*)?\b(?:full turn|full circle|full rotation|(?:all the way|right|once|completely|once all the way) round|a?round once|D360|"
-    r"one revolution|complete (?:turn|circle|rotation|revolution)|whole (?:turn|circle)|spin)\b"
-    r"(?P<between>[^.;]*?)\bin N(?P<count>\d+) (?:(?:equal|even|equally sized) )*(?:steps|parts|pans|turns|nudges|rotations|"
-    r"goes)\b(?: of D(?P<each>\d+(?:\.\d+)?)\b)?(?P<behind>[ ,]*(?:" + f.SIDE + r"))?"
-)
-_PARTS = f.compiled(
-    r"\b(?P<verb>(?:pan|turn|swing|rotat|nudg|yaw|sweep|scan|twist|pivot|spin|slew)(?:e|ing|ning|ting)?)\b(?P<lead>[^.;:~DNCPL]{0,40}?) "
-    r"D(?P<width>\d+(?:\.\d+)?),?(?P<behind>[^.;:~DNCPL]{0,30}?),? (?:in|divided into|split into|cut into) N(?P<count>\d+) "
-    r"(?:(?:equal|even|equally large|equal-sized|identical) (?:parts|steps|stages|portions|pieces|goes|nudges|pans|turns|rotations)|"
-    r"(?:parts|portions|pieces|stages))\b(?! of [DN])"
-)
-"""A whole angle that is turned in parts."""
-_LISTED_FIRST = f.compiled(
-    rf"(?:^|[.;] )(?P<list> ?(?:due )?{f.V}(?:(?: ?,| ?/| ?-| and| then)+ (?:due )?{f.V})+)(?: in that order)?[ :,-]*(?:turn to|face|look at|"
-    rf"point to|(?:with )?the bow on|turn onto) "
-    r"(?:each|them|all|these)\b(?: of (?:them|these))?(?: in (?:that|this) order)?"
-)
-_UNTIL_WIDTH = f.compiled(
-    rf"(?P<before>{f.SIDE})?[ ,]*(?:by |in steps of )?D(?P<step>\d+(?:\.\d+)?)(?: (?P<behind>{f.SIDE}))? at a time,?(?: (?P<last>{f.SIDE}))? "
-    r"until (?:you have covered )?D(?P<width>\d+(?:\.\d+)?)(?: (?:has been|have been|is|are) (?:covered|reached|scanned|done))?"
-)
-
-
-def _counted(text: str) -> Iterator[Found]:
-    """Rotations whose number the text gives instead of each one."""
-    for match in _UNTIL_WIDTH.finditer(text):
-        step, width = float(match["step"]), float(match["width"])
-        side = match["before"] or match["behind"] or match["last"] or ""
-        if not step or width % step:
-            raise _Uncertain
-        yield Found(match.start(), match.end(), ((NUDGE, f.sign(side) * step),) * int(width // step))
-    for match in _PARTS.finditer(text):
-        yield _in_parts(match, text)
-    text = _PARTS.sub(f.mask, text)
-    for match in _FULL_TURN.finditer(text):
-        sides = [side for side in (match["ahead"], *re.findall(f.SIDE, match["between"]), match["behind"]) if side]
-        if _START.search(text[match.end() :].partition(". ")[0]):
-            raise _Uncertain
-        if match["each"] and int(match["count"]) * float(match["each"]) != 360:
-            raise _Uncertain
-        if len(sides) > 1 or int(match["count"]) < 2 or re.search("[DC][+-]?[0-9]", match["between"]):
-            raise _Uncertain
-        value = (f.sign(sides[0]) if sides else 1) * 360 / int(match["count"])
-        yield Found(match.start(), match.end(), ((NUDGE, value),) * int(match["count"]))
-    for match in _RANGE.finditer(text):
-        yield _range(match, text)
-    for match in _LISTED_FIRST.finditer(text):
-        values = re.findall(f.V, match["list"])
-        yield Found(match.start("list"), match.end(), tuple(_heading(float(value[1:])) for value in values))
-    text = _FULL_TURN.sub(f.mask, _RANGE.sub(f.mask, text))
-    yield from _every(text)
-    yield from _sectors(text)
-
-
-def _in_parts(match: re.Match[str], text: str) -> Found:
-    """The parts of an angle: "pan left across 120 degrees in three equal parts"."""
-    begins = max(text.rfind(mark, 0, match.start()) for mark in (". ", "; ")) + 1
-    sides = re.findall(f.SIDE, f"{match['lead']} | {match['behind']}")
-    rest = re.match(rf"[ ,]*({f.SIDE})", text[match.end() :])
-    sides += [rest[1]] if rest else []
-    count, width = int(match["count"]), float(match["width"])
-    if len(sides) > 1 or not 2 <= count <= MOST or not 0 < width <= 360 or _CURVED.search(text[begins:].partition(". ")[0].replace("sweep", "")):
-        raise _Uncertain
-    turns = ((NUDGE, g.tidy((f.sign(sides[0]) if sides else 1) * width / count)),) * count
-    return Found(match.start(), match.end() + (rest.end() if rest else 0), turns)
-
-
-def _range(match: re.Match[str], text: str) -> Found:
-    first, last, step = float(match["a"][1:]), float(match["b"][1:]), float(match["step"][1:])
-    sides = {f.sign(side) for side in re.findall(r"(?:(?:counter|anti)[- ]?)?clock-?wise", text)}
-    if len(sides) != 1 or not step:
-        raise _Uncertain
-    sign = sides.pop()
-    extent = (sign * (last - first)) % 360
-    if extent % step or not extent:
-        raise _Uncertain
-    found = [(first + sign * step * index) % 360 for index in range(int(extent // step) + 1)]
-    if match["via"] and float(match["via"][1:]) not in found:
-        raise _Uncertain
-    return Found(match.start(), match.end(), tuple((ROTATE, value) for value in found))
-
-
-def _every(text: str) -> Iterator[Found]:
-    """Headings round the whole compass so many degrees apart: "on headings every 45 degrees, clockwise from north, right round"."""
-    for match in _EVERY.finditer(text):
-        rest = re.split(r"[.;] ", text[match.end() :])[0]
-        start, sides = _START.search(rest), re.findall(r"(?:(?:counter|anti)[- ]?)?clock-?wise", rest)
-        step = float(match["step"])
-        if not start or len(sides) != 1 or not step or 360 % step or not re.search(r"round|full circle|compass", rest):
-            raise _Uncertain
-        first = float((start["v"] or start["w"] or start["u"])[1:])
-        turns = tuple((ROTATE, (first + f.sign(sides[0]) * step * index) % 360) for index in range(int(360 // step)))
-        yield Found(match.start(), match.end() + start.end(), turns)
-
-
-def _sectors(text: str) -> Iterator[Found]:
-    """Headings evenly round the compass, or a stated angle apart, from the stated one on."""
-    found = [*_SECTORS.finditer(text)]
-    if not found:
-        return
-    match = found[0]
-    left = max(text.rfind(mark, 0, match.start()) for mark in (". ", "; ", "-1")) + 1
-    sentence = re.split(r"[.;] ", text[left:])[0]
-    starts, apart = [*_START.finditer(sentence)], _APART.search(sentence)
-    ways = [*_WAY_ROUND.finditer(sentence)]
-    count = int(match["count"] or match["parts"] or match["steps"])
-    if len(found) > 1 or len(starts) != 1 or len(ways) > 1 or not 2 <= count <= MOST or not (apart or _ALL_ROUND.search(sentence)):
-        raise _Uncertain
-    first = float((starts[0]["v"] or starts[0]["w"] or starts[0]["u"])[1:])
-    step = float(apart["step"] or apart["steps"]) if apart else 360 / count
-    if apart and abs(step * count - 360) > 0.01 and not ways:
-        raise _Uncertain
-    sign = f.sign(ways[0][0]) if ways else 1
-    said = [(left + part.start(), left + part.end()) for part in (starts[0], *ways, *([apart] if apart else []))]
-    spans = [match.span(), *said]
-    turns = tuple((ROTATE, g.tidy((first + sign * step * index) % 360)) for index in range(count))
-    start, end = min(span[0] for span in spans), max(span[1] for span in spans)
-    if re.search(f.V, _blank(text, spans)[start:end]):
-        raise _Uncertain
-    yield Found(start, end, turns)
-
-
-def _blank(text: str, spans: Iterable[tuple[int, int]]) -> str:
-    for start, end in spans:
-        text = text[:start] + "_" * (end - start) + text[end:]
-    return text
+        raise Uncertain
+    return Found(angle.start - words, angle.end, (heading(angle.value),), _IN_PASSING.search(since[: len(since) - words]) is not None)
 
 
 # ---------------------------------------------------------------- what makes a reading uncertain
@@ -490,7 +308,8 @@ _ONE_OR_MORE = f.compiled(
     r"\breturn(?:ing)?\b(?! (?:home|to (?:base|home|where|P|the (?!heading|bearing|first))))|"
     r"(?<!all )\btimes\b|"
     r"(?<!long )(?<!look )(?<!hold )(?<!wait )(?<!check )(?<!stay )(?<!measure )(?<!centred )(?<!still )(?<!home )(?<!record )\bagain\b|"
-    r"\b(?:repeat\w*|the same|same again|once more|as (?:much|far|many)|laps?|each way|both ways|either side|another|"
+    r"\bafter the [a-z0-9N]+ and (?:after )?the\b|\b(?:repeat\w*|the same|same again|once more|as (?:much|far|many)|laps?|each way|both ways|either side|"
+    r"another|"
     r"(?<!wait )(?<!hold )(?<!stay )likewise|ditto|back (?:by|"
     r"again)|"
     r"and back(?! (?:home|to|at|here|in))|swing back|turn back|rotate back|pan back|halves|cycle|(?<!along )(?<!on )(?<!at )that (?:heading|"
@@ -558,7 +377,7 @@ def _same_again(text: str, found: list[Found]) -> list[Found]:
     for match in _SAME_TO.finditer(text):
         last = next((one for one in reversed(found) if one.end <= match.start()), None)
         if last is None or len(last.turns) != 1 or last.turns[0][0] != NUDGE or any(match.start() <= one.start < match.end() for one in found):
-            raise _Uncertain
+            raise Uncertain
         side = match["side"] or match["back"]
         value = f.sign(side) * abs(last.turns[0][1]) if side else -last.turns[0][1]
         found = sorted([*found, Found(match.start(), match.end(), ((NUDGE, value),))], key=lambda one: one.start)
@@ -570,7 +389,7 @@ _EMPTY = f.compiled(
     r"headings?|bearings?|bow|nose|"
     r"degrees?|compass|port|starboard|left|right|(?:counter|anti)?-?clockwise|round|around|look|looking|lin(?:e|ed|ing) up|square up|aim\w*|"
     r"scan\w*|sweep\w*|sector\w*|"
-    r"direction\w*|angle\w*|point(?:ing)? |about|stern|again|times|same)\b|[DC]-?\d"
+    r"direction\w*|angle\w*|point(?:ing)? |about|stern|again|times|same|revolutions?)\b|[DC]-?\d"
 )
 _BARE = f.compiled(r"N-?\d+(?:\.\d+)?")
 _AROUND = f.compiled(r"\b(?:panorama|look all round|look round)\b")
@@ -591,18 +410,18 @@ def read_turns(record: dict[str, Any], vocabulary: Vocabulary) -> tuple[Turn, ..
     if not _EMPTY.search(text) and not any(not 0 < float(match[0][1:]) <= 12 for match in _BARE.finditer(text)):
         return ()
     orbits = str(record.get("task")) in ("PerformOrbit", "GlareFreeApproach") or ("radius" in text and "square" not in text)
-    text = _SAY_AGAIN.sub(r"\g<v>", text)
+    text = _SAY_AGAIN.sub(r"\g<v>", explained(without_asides(text)))
     if _TAKEN_BACK.search(text) or _PAIR_OR_TWO.search(text):
         return None
     try:
-        counted = sorted(_counted(text), key=lambda one: one.start)
-        text = f.without(_blank(text, ((one.start, one.end) for one in counted)), (f.COUNTED, f.ARC, f.SENSED, f.SIDES_OF_THINGS, f.YAW, f.RUN))
+        counted = sorted(counted_turns(text), key=lambda one: one.start)
+        text = f.without(blank(text, ((one.start, one.end) for one in counted)), (f.COUNTED, f.ARC, f.SENSED, f.SIDES_OF_THINGS, f.YAW, f.RUN))
         found = _same_again(text, sorted([*counted, *_read(text, orbits=orbits)], key=lambda one: one.start))
-    except _Uncertain:
+    except Uncertain:
         return None
     if any(one.turns[0][0] == ROTATE for one in counted):
         text = _AROUND.sub(f.mask, text)
-    rest = _blank(text, ((_from_verb(text, one.start), one.end) for one in found))
+    rest = blank(text, ((_from_verb(text, one.start), one.end) for one in found))
     if not found or _left_over(rest) or not _orderly(text, found):
         return None
     turns = tuple(turn for one in _without_notes(found) for turn in one.turns)

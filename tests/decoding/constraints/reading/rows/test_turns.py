@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 
 from planner_ft.data.task.sampler import sample_tasks
-from planner_ft.decoding.constraints.reading.rows.turns import NUDGE, ROTATE, read_turns
+from planner_ft.decoding.constraints.reading.rows.turn_parts import NUDGE, ROTATE
+from planner_ft.decoding.constraints.reading.rows.turns import read_turns
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()
