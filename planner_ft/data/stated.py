@@ -48,6 +48,8 @@ _SAID_SO = re.compile(
 """Digits as radio procedure has them pronounced, before another one or a unit: a tree is a tree elsewhere."""
 _HYPHENED = re.compile(rf"\b({'|'.join([*_DIGITS, *_PRONOUNCED])})-(?=(?:{'|'.join([*_DIGITS, *_PRONOUNCED])})\b)", re.IGNORECASE)
 """A digit that a hyphen ties to the next: "one-eight-zero"."""
+_PAIRED = re.compile(rf"(?<![\w-])({'|'.join([*_DIGITS, *_PRONOUNCED])})-({'|'.join([*_DIGITS, *_PRONOUNCED])})(?![\w-])", re.IGNORECASE)
+"""Two digits that a hyphen ties together, and no others: "minus three-zero"."""
 CABLES = re.compile(r"[ -](?:of )?(?:an? )?cables?(?:[ -]lengths?)?\b", re.IGNORECASE)
 FOOT = 0.3048
 CABLE = 185.2
@@ -101,8 +103,13 @@ def states_position(text: str, position: list[float]) -> bool:
 
 
 def unhyphened(text: str) -> str:
-    """A text with "one-eight-zero" in words apart."""
-    return _HYPHENED.sub(r"\1 ", text)
+    """A text with "one-eight-zero" in words apart, and "three-zero" in figures; "two-three" is a choice."""
+    return _HYPHENED.sub(r"\1 ", _PAIRED.sub(_two_digits, text))
+
+
+def _two_digits(match: re.Match[str]) -> str:
+    first, second = (int(_DIGITS[_PRONOUNCED.get(word.lower(), word.lower())]) for word in match.groups())
+    return match[0] if second == first + 1 or first == 0 else f"{first}{second}"
 
 
 def radio_digits(text: str) -> str:

@@ -8,6 +8,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.data.quantities import positions
+from planner_ft.decoding.constraints.reading.missions.homeward import no_way_home
+from planner_ft.document.against import forbidden
 from planner_ft.document.language import language
 from planner_ft.document.lost import lost_values
 from planner_ft.document.said import read_command
@@ -19,21 +21,6 @@ _PLACED = r"[\s,:]{0,2}(?:(?:at|around|about|near|by|on|centred on) )?"
 _SEARCH = re.compile(r"\b(?:find|finding|search\w*|locat\w*|look(?:ing)? (?:for|around)|hunt\w*|seek\w*|spot|detect\w*|sweep for|where)\b", re.IGNORECASE)
 _ANOTHER = re.compile(r"\b(?:another|other|second|also|both|two|one more|any|each|every|different|all)\b", re.IGNORECASE)
 _WORK = re.compile(r"\b(?:inspection|survey|report|panorama|check|self-test|time lapse|orbit|transit|berthing|docking|scan|sounding|soundings)$")
-_NO_RETURN = re.compile(
-    r"\b(?:do not|don'?t|needn'?t|need not|no need to|without|never|not to|won'?t|not|no) (?!forget)(?:\w+ ){0,2}?"
-    r"(?:return(?:ing)?|com(?:e|ing) (?:back|home)|go(?:ing)? (?:back|home)|RTB)\b(?! (?:until|before|till|between|without|to (?!home|base)))",
-    re.IGNORECASE,
-)
-
-_HOME_MEANT = re.compile(
-    r"\b(?:(?:leav\w+|left|depart\w*|quit\w*|away|off|out) (?:from |of )?|(?:near|close|far|furth)\w* (?:to|from) |(?:north|south|east|west)\w* (?:of|from) )"
-    r"(?:the |your |our )?(?:home|base|harbou?r|port)\b",
-    re.IGNORECASE,
-)
-"""Home as what something is told from: where the vehicle leaves, what a target is near to."""
-_HOME = re.compile(
-    r"\b(?:home\w*|hom|hme|base|back|return\w*|rt[bh]|come in|head in|in again|harbou?r|port|berth|shore|ashore|start\w*|origin|where)\b", re.IGNORECASE
-)
 _AGAIN = re.compile(
     r"\b(?:again|another|each|every|both|twice|two|three|thrice|times|likewise|repeat\w*|second|once more|too|also|same|as well|either|all|ditto"
     r"|before and after)\b",
@@ -69,6 +56,7 @@ def count_lacking(command: str, answer: str, vocabulary: Vocabulary) -> int | No
         _searched_again(command, tasks, vocabulary),
         _returned(command, tasks, vocabulary),
         _again(command, [task["title"] for task in tasks]),
+        forbidden(command, tasks, vocabulary),
     )
     return sum(1 for items in found for _item in items)
 
@@ -103,10 +91,8 @@ def _searched_again(command: str, tasks: Sequence[Mapping[str, Any]], vocabulary
 def _returned(command: str, tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Iterator[str]:
     """The way home, where the command rules it out or speaks of home in another sense alone ("before you leave home")."""
     last = tasks[-1]
-    if list(vocabulary.home) in last["parameters"].values() and last["title"] == vocabulary.transit:
-        elsewhere, count = _HOME_MEANT.subn(" ", command)
-        if _NO_RETURN.search(command) or (count and not _HOME.search(elsewhere)):
-            yield last["title"]
+    if list(vocabulary.home) in last["parameters"].values() and last["title"] == vocabulary.transit and no_way_home(command):
+        yield last["title"]
 
 
 def _again(command: str, titles: Sequence[str]) -> Iterator[str]:

@@ -11,6 +11,7 @@ from typing import Any
 
 from planner_ft.benchmark.metrics.values import is_number
 from planner_ft.data.quantities import Quantity, close, positions, quantities
+from planner_ft.decoding.constraints.reading.missions.offsets import read_offsets
 from planner_ft.document.clauses import Clause, read_clauses
 from planner_ft.document.language import language
 from planner_ft.document.said import Piece, Said, is_place
@@ -30,28 +31,38 @@ def lost_values(said: Said, tasks: Sequence[Mapping[str, Any]], texts: Iterable[
 
     What the command rules out, takes back or only tells of is no loss.
     """
-    held, places = _held(tasks, texts)
+    held, alone, places = _held(tasks, texts)
     wanted = Wanted(read_clauses(said.command, vocabulary), language(vocabulary).words["correction"])
+    home = (float(vocabulary.home[0]), float(vocabulary.home[1]))
     for piece in said.pieces:
-        for words, values in _stated(piece, wanted):
-            if not any(_among(value, held) for value in values):
+        offsets = [offset for offset in read_offsets(piece.text, home) if _near(offset.place, places)]
+        told = [(offset.start, offset.end) for offset in offsets]
+        for words, values, start in _stated(piece, wanted):
+            if not any(_among(value, held) for value in values) and not any(begin <= start < end for begin, end in told):
                 yield words
         for words, options in _stated_places(piece, wanted):
-            known = any(abs(x - a) <= 0.01 and abs(y - b) <= 0.01 for x, y in options for a, b in places)
-            if not known and not all(_among(part, held) for part in options[0]):
+            if any(offset.base in options for offset in offsets):
+                continue
+            known = any(_near(option, places) for option in options)
+            # In brackets it is a place as a whole, whatever its signs; else its numbers may stand apart.
+            written = f"[{words}]" in piece.text or f"({words})" in piece.text
+            apart = all(_among(part, held) for part in options[0])
+            if not known and not (apart and (not written or all(_among(part, alone) for part in options[0]) or _mirrored(options[0], places))):
                 yield words
 
 
-def _held(tasks: Sequence[Mapping[str, Any]], texts: Iterable[str]) -> tuple[list[float], list[tuple[float, float]]]:
-    """The numbers, sorted, and the places of tasks with their skills, and of texts."""
+def _held(tasks: Sequence[Mapping[str, Any]], texts: Iterable[str]) -> tuple[list[float], list[float], list[tuple[float, float]]]:
+    """The numbers of tasks with their skills, and of texts, sorted; those of them that are no coordinates of a task; and the places."""
     skills = (skill for task in tasks for step in task.get("skill_sequence") or () for _role, skill in step_skills(step))
     values = [value for owner in (*tasks, *skills) for value in owner["parameters"].values()]
     numbers = {float(number) for value in values for number in _flat(value)}
+    alone = {float(value) for value in values if is_number(value)}
     places = [(value[0], value[1]) for value in values if isinstance(value, list) and len(value) == 2 and all(map(is_number, value))]
     for text in texts:
-        numbers |= {number for quantity in quantities(text) for number in (quantity.value, quantity.said)}
+        said = {number for quantity in quantities(text) for number in (quantity.value, quantity.said)}
+        numbers, alone = numbers | said, alone | said
         places += [(x, y) for x, y, _start, _end in positions(text)]
-    return sorted(numbers), list(dict.fromkeys(places))
+    return sorted(numbers), sorted(alone), list(dict.fromkeys(places))
 
 
 def _flat(value: Any) -> Iterator[float]:
@@ -76,8 +87,16 @@ class Wanted:
         return clause is None or (not clause.corrected and (clause.excluded is None or place < clause.excluded))
 
 
-def _stated(piece: Piece, wanted: Wanted) -> Iterator[tuple[str, tuple[float, ...]]]:
-    """(words, the numbers that they can stand for) of the measures of a text. Counts, ids, parts and times of day are none."""
+def _mirrored(place: tuple[float, float], places: Iterable[tuple[float, float]]) -> bool:
+    return any(abs(place[0]) == abs(x) and abs(place[1]) == abs(y) for x, y in places)
+
+
+def _near(place: tuple[float, float], places: Iterable[tuple[float, float]]) -> bool:
+    return any(abs(place[0] - x) <= 0.01 and abs(place[1] - y) <= 0.01 for x, y in places)
+
+
+def _stated(piece: Piece, wanted: Wanted) -> Iterator[tuple[str, tuple[float, ...], int]]:
+    """(words, the numbers that they can stand for, where they begin) of the measures of a text. Counts, ids, parts and times of day are none."""
     found = quantities(piece.text)
     used: set[int] = set()
     for index, quantity in enumerate(found):
@@ -95,7 +114,7 @@ def _stated(piece: Piece, wanted: Wanted) -> Iterator[tuple[str, tuple[float, ..
             # "five minutes forty"
             values.append(quantity.value + following.value * quantity.value / quantity.said / 60)
             end = following.end
-        yield piece.text[quantity.start : end], tuple(values)
+        yield piece.text[quantity.start : end], tuple(values), quantity.start
 
 
 def _replaced(between: str, wanted: Wanted) -> bool:

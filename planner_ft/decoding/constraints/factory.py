@@ -13,7 +13,7 @@ from planner_ft.decoding.constraints.answer import Answer, Script, Whole
 from planner_ft.decoding.constraints.budget import Budget
 from planner_ft.decoding.constraints.companions import read_companions, to_insist_on
 from planner_ft.decoding.constraints.grammar import SchemaValues, plan_grammar
-from planner_ft.decoding.constraints.grounded import GroundedValues
+from planner_ft.decoding.constraints.grounded_mission import MissionValues
 from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, GroundedTaskValues
 from planner_ft.decoding.constraints.reading import LONGEST
 from planner_ft.decoding.constraints.reading.corrected import as_corrected
@@ -75,8 +75,8 @@ class Factory:
         if self.strength == "grounded" and self.level == "task":
             return self._grounded_task(record, limit)
         if self.strength == "grounded":
-            values = GroundedValues(str(record.get("prompt", "")), self.vocabulary)
-            return Answer(self.tokens, MissionScript(self.vocabulary, values), limit, self._reserve, values.notes)
+            values = MissionValues(str(record.get("prompt", "")), self.vocabulary)
+            return Answer(self.tokens, MissionScript(self.vocabulary, values, told=values.told), limit, self._reserve, values.notes)
         return Answer(self.tokens, self._script(record), limit, self._reserve)
 
     def _grounded_task(self, record: dict[str, Any], limit: int) -> Constraint:

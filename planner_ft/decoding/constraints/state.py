@@ -36,6 +36,7 @@ from planner_ft.decoding.constraints.grammar import (
     written,
     written_number,
 )
+from planner_ft.decoding.constraints.grounded_mission import Told, ToldValues
 from planner_ft.decoding.constraints.patterns import literal
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.progress import START, Progress, target_parameter
@@ -119,13 +120,14 @@ class MissionScript(Plain):
     """Grammars of a mission plan, made as it grows: the titles that may follow, then what stands behind the chosen title.
 
     They meet on both sides of a title, where letters follow signs and signs letters: tokenizers keep the two apart.
-    `chosen` is the task whose title was written last.
+    `chosen` is the task whose title was written last, `told` what the command leaves no choice about.
     """
 
     vocabulary: Vocabulary
     values: Values
     progress: Progress = START
     chosen: Task | None = None
+    told: Told | None = None
 
     def opening(self) -> str:
         grammar = Grammar()
@@ -158,6 +160,8 @@ class MissionScript(Plain):
         return self._tasks(offered, titles=True)
 
     def _possible(self, task: Task) -> bool:
+        if self.told and self.told.placed and task.title == self.vocabulary.locate:
+            return False
         needy = task.require_any or any(self._logical.needs(item, task) for item in task.parameters)
         return not needy or task_body(Grammar(), task, self._logical) is not None
 
@@ -170,7 +174,8 @@ class MissionScript(Plain):
 
     @property
     def _logical(self) -> LogicalValues:
-        return LogicalValues(self.values, self.vocabulary, self.progress)
+        values = ToldValues(self.values, self.told, self.progress.here) if self.told else self.values
+        return LogicalValues(values, self.vocabulary, self.progress)
 
 
 @functools.cache
