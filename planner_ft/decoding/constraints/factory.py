@@ -20,6 +20,7 @@ from planner_ft.decoding.constraints.reading.corrected import as_corrected
 from planner_ft.decoding.constraints.reading.rows.sequence import agreed, read_sequence
 from planner_ft.decoding.constraints.reading.rows.turns import read_turns
 from planner_ft.decoding.constraints.reading.telegrams import in_small_letters
+from planner_ft.decoding.constraints.reading.values.clocks import with_durations
 from planner_ft.decoding.constraints.routes import TaskScript
 from planner_ft.decoding.constraints.state import MissionScript, ResolvedValues, names_unresolved
 from planner_ft.decoding.constraints.tokens import Tokens, tokens_of
@@ -142,6 +143,6 @@ class Factory:
 
 
 def _plainly_written(record: dict[str, Any]) -> dict[str, Any]:
-    """A task input whose prompt is not in capitals, and says nothing that it takes back: everything that reads it gets it so."""
+    """A task input whose prompt is not in capitals, says nothing that it takes back and no times of day for durations: everything that reads it gets it so."""
     prompt = in_small_letters(str(record.get("prompt", "")))
-    return {**record, "prompt": as_corrected(prompt) if len(prompt) <= LONGEST else prompt}
+    return {**record, "prompt": with_durations(as_corrected(prompt)) if len(prompt) <= LONGEST else prompt}

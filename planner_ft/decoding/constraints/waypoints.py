@@ -21,6 +21,8 @@ from planner_ft.data.task.working import SUM
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.grammar import MOST_STEPS
 from planner_ft.decoding.constraints.reading import LONGEST
+from planner_ft.decoding.constraints.reading.paths.areas import areas
+from planner_ft.decoding.constraints.reading.paths.chains import read_chain
 from planner_ft.decoding.constraints.reading.paths.extents import extents
 from planner_ft.decoding.constraints.reading.paths.faces import read_faces
 from planner_ft.decoding.constraints.reading.paths.halts import Halts, halts_at, read_halts
@@ -30,6 +32,8 @@ from planner_ft.decoding.constraints.reading.paths.legs import read_legs
 from planner_ft.decoding.constraints.reading.paths.one_shape import one_shape
 from planner_ft.decoding.constraints.reading.paths.own_movement import own_movement
 from planner_ft.decoding.constraints.reading.paths.runs import read_runs
+from planner_ft.decoding.constraints.reading.paths.squares import read_squares
+from planner_ft.decoding.constraints.reading.paths.station_rows import read_station_rows
 from planner_ft.decoding.constraints.reading.paths.stations import read_stations
 from planner_ft.decoding.constraints.reading.paths.tracks import read_cable
 from planner_ft.decoding.constraints.reading.paths.written_out import written_out
@@ -185,11 +189,12 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     """The facts of a task input. Waypoints are free where its numbers cannot be read with certainty."""
     task = vocabulary.task.get(str(record.get("task")))
     prompt = written_out(str(record.get("prompt", "")), _tidy(vocabulary.home))
-    record = {**record, "prompt": extents(prompt) if task and task.pattern == "lawnmower" else prompt}
-    reading = read(record["prompt"], vocabulary)
     given = record.get("parameters")
     parameters = given if isinstance(given, dict) else {}
     home = _tidy(vocabulary.home)
+    prompt = extents(prompt) if task and task.pattern == "lawnmower" else prompt
+    record = {**record, "prompt": areas(prompt, task.pattern, parameters, home) if task else prompt}
+    reading = read(record["prompt"], vocabulary)
     own = [_tidy(value) for value in parameters.values() if _is_place(value)]
     stated = [_tidy(place) for place in reading.places if place != vocabulary.unresolved]
     places = tuple(dict.fromkeys((*own, *(place for place in stated if place != home), home)))
@@ -208,7 +213,16 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     whole = None if reading.numbers_free or task is None else own_movement(reading.text, parameters, own[0] if len(own) == 1 else None, task, vocabulary)
     itinerary, run = whole, None
     if whole is None and not reading.numbers_free:
-        run = read_legs(record, home) or read_faces(record) or read_stations(record) or read_cable(record)
+        run = (
+            read_chain(record, home)
+            or read_station_rows(record)
+            or read_legs(record, home)
+            or read_faces(record)
+            or read_stations(record)
+            or read_cable(record)
+        )
+        if run is None and task is not None and task.pattern == "square":
+            run = read_squares(record, own[0] if len(own) == 1 else None)
         itinerary = run or read_itinerary(record, vocabulary)
     itinerary = itinerary if itinerary is None or len(itinerary) <= MOST_STEPS else None
     found = tuple(dict.fromkeys(itertools.islice(paths, MOST_PATHS)))

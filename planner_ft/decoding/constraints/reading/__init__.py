@@ -1,4 +1,4 @@
-"""What a task input leaves no choice about, read from its words: waypoints, rotations, values, and the steps in which skills run.
+"""What an input leaves no choice about, read from its words: of a task input waypoints, rotations, values, and the steps in which skills run.
 
 Precision comes before coverage: what is read is enforced, and where a reading is not certain the model decides.
 
@@ -9,6 +9,7 @@ Precision comes before coverage: what is read is enforced, and where a reading i
     skills/                the skills and movements that a text can ask for, and those that it does ask for
     scopes/                the steps in which a filter or perception skill runs
     values/                names, clearances and fences that a text tells beyond doubt
+    missions/              values and places of a whole command
 """
 
 LONGEST = 1000

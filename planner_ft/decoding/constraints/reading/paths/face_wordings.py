@@ -157,6 +157,8 @@ BACK = _words(
     r"(?:straight |right )?back(?! (?:to )?home)|return\w*|reverse[sd]?|in reverse|opposite (?:way|direction|course)|other (?:way|"
     r"direction)(?: (?:a?round|about))?|reciprocal\w*"
 )
+BACK_SAME = re.compile(r"\bback(?: again)?,? (?:(?:by|along|on|over|in) )?the same (?:way|line|track|path|route)\b", re.IGNORECASE)
+"""Back where it came from, which is not the direction of the first pass."""
 DIRECTION = re.compile(
     rf"\b{_WAY}(?:ern|wards?)?[ -]to[ -](?P<to>{_WAY})(?:ern|wards?)?\b|\b(?P<way>{_WAY})[ -]?(?:bound|wards?|about)\b"
     rf"|\b(?:heading|going|running|run|pass|due|sail|steam|course|steer|head|go)\s+(?P<go>{_WAY})\b(?![ -](?:to|of|side|face|end|wall|edge)\b)",

@@ -202,7 +202,7 @@ def _runs(rest: str, line: _Line) -> Iterator[_Run]:
         if f.SHIFT.match(part) and _standoffs(part) and not _towards(part, line.ends):
             yield _Run(part, 0, back=False, both=False, shift=True)
             continue
-        towards, both = _towards(part, line.ends), f.BOTH_WAYS.search(part) is not None
+        towards, both = _towards(f.BACK_SAME.sub("back", part), line.ends), f.BOTH_WAYS.search(part) is not None
         back = not both and f.BACK.search(part) is not None
         passes = f.PASS.search(r.NO_MOVE.sub(" ", part)) is not None
         passes = passes or (numbered > 0 and f.NUMBERED.match(part) is not None)

@@ -24,6 +24,24 @@ Path = tuple[Point, ...]
 PLACED = re.compile(r"[\[(,;/=]|[xy]|east|west|north|south|minus|[-−]", re.IGNORECASE)
 """What two numbers that are a place have between or around them: "200 and 230" are headings as well."""
 
+NOT_BEFORE = re.compile(r",? (?:and )?not before(?: (?:that|it|then|this))?(?=[,.;]|$)", re.IGNORECASE)
+"""Words that only say since when something is done."""
+WAY_BACK = re.compile(r"\bway back\b(?! home)", re.IGNORECASE)
+BACK_TO = re.compile(r"\b(?:back|return\w*) (?:(?:as far as|up|down|only|over|out|on) )?(?:to )?(?:the [\w -]{1,20} at )?[\[(]", re.IGNORECASE)
+"""Back to a stated place, which the way back leads to."""
+NO_MOVEMENT = re.compile(
+    r"\b(?:mooring|moored) (?:dolphins?|buoys?|posts?|lines?|blocks?|ropes?|chains?|rings?|bollards?|boats?|vessels?|yachts?|ships?|barges?)\b|"
+    r"\bfollows (?:x|y|the line)\b|"
+    r"\b(?:lidar|laser|scanner|scan)[ -]sweeps?\b|\b(?:at|with|under|on) (?:an? |the )?(?:(?:scan|scanning|sweep|slice) )?angle(?: of)? "
+    r"\d+(?:\.\d+)?(?: ?deg(?:rees)?\b| ?°)?|"
+    r"\blook(?:s|ing)? for\b|\blook-?out\b|\bstands (?:on|at) [xy]\b|\bstand-?off\b|\bturning points?\b|"
+    r"\bsecond (?:leg|run|pass|lane|line|one|square|lap|round|way-?point|point)\b",
+    re.IGNORECASE,
+)
+"""Words of other movements in other senses."""
+FIRST_ONE = re.compile(r"\b(?:first|second|third|last|next|other|each|final) $", re.IGNORECASE)
+"""Before a one that is no number: "six headings, the first one 030"."""
+
 
 def read_itinerary(record: dict[str, Any], vocabulary: Vocabulary) -> Path | None:
     """Every waypoint of the answer in order, where the input leaves no choice; None where it does."""
@@ -63,7 +81,7 @@ def _figures(spoken: re.Match[str]) -> str:
 
 def reworded(text: str) -> str | None:
     """A text without notes and without a way home that is ruled out, with places for names of places; None where the names cannot be told."""
-    text = w.NOT_HOME.sub(_blanks, w.QUOTED.sub(_blanks, text))
+    text = NOT_BEFORE.sub(_blanks, w.NOT_HOME.sub(_blanks, w.QUOTED.sub(_blanks, text)))
     text = w.THEN_IN.sub(r"\1 go in", w.TO_BASE.sub("return to base", w.IN_LETTERS.sub(_direction, text)))
     places = {match["name"]: match["place"] for match in w.NAMED_PLACE.finditer(text)}
     rest = w.NAMED_PLACE.sub(_blanks, text)
@@ -87,7 +105,7 @@ def _direction(match: re.Match[str]) -> str:
 
 def unsettled(walked: Sequence[Point], text: str, home: Point) -> bool:
     """Whether a place may be visited twice only because the text says where something is done, or the way home is spoken of and not gone."""
-    if home not in walked and w.WAY_HOME.search(text):
+    if home not in walked and w.WAY_HOME.search(WAY_BACK.sub(" ", text) if BACK_TO.search(text) else text):
         return True
     return len(set(walked)) < len(walked) and w.SCOPE_CUE.search(text) is not None and not w.COMING_BACK.search(text)
 
@@ -104,7 +122,7 @@ def stays(record: dict[str, Any]) -> bool:
 
 def moves_otherwise(text: str) -> bool:
     """Whether a text may speak of a hold, a turn or another movement besides its waypoints."""
-    return w.STILL.search(w.LOCKED.sub(" ", text)) is not None
+    return w.STILL.search(NO_MOVEMENT.sub(" ", w.LOCKED.sub(" ", text))) is not None
 
 
 def _with_details(parts: list[str]) -> list[str]:
@@ -179,6 +197,8 @@ def _part(text: str, facts: Facts, walked: list[Point]) -> list[Point]:
 def _angles(text: str, start: int, end: int) -> bool:
     """Whether two numbers are headings."""
     bare = w.BARE_PAIR.fullmatch(text[start:end]) and not w.TO_BEFORE.search(text[:start]) and text[max(0, start - 1) : start] not in ("[", "(", "-", "−", "–")
+    if text[start : start + 4].lower() == "one " and FIRST_ONE.search(text[:start]):
+        return True
     return w.ANGLED.search(text[start : end + 8]) is not None or bool(bare and w.TURNING.search(text))
 
 

@@ -17,7 +17,7 @@ _WAY = r"(north|south|east|west)"
 _LANE = r"(?:lane|line|track|leg|run|strip|swath|transect|row|pass|one)"
 _EDGE = r"(?:edge|side|boundary|limit|border|margin)"
 _BEGIN = r"(?:start\w*|begin\w*|enter\w*|entr(?:y|ance)|from|first)"
-CORNER_SAID = re.compile(rf"{w.CORNER.pattern}(?: (?:corner|end|one))?", re.IGNORECASE)
+CORNER_SAID = re.compile(rf"(?:{w.CORNER.pattern})(?:[ -](?:hand )?(?:corner|end|one))?(?: first\b)?", re.IGNORECASE)
 FIRST_LANE = re.compile(
     rf"\bfirst (?:{_LANE} )?(?:(?:is|runs|lies|goes|being|should be|to be|down|up|along|on|at|with|by|comes) )*(?:the |its )?{_WAY}(?:ern(?:most)?|most)?\b"
     rf"(?: {_EDGE}| {_LANE}|\b(?=[.,;]))|"

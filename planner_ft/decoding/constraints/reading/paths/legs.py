@@ -37,8 +37,9 @@ NO_COURSE = re.compile(
 )
 """Before a bearing that nothing is run on."""
 PAIRED = re.compile(
-    r"[\s,:]*(?:(?:on|along|at|in|to|towards?|bearing|heading|course|direction|the|a|an|of|due|true|degrees|steer(?:ing)?|going|go|goes|run|runs|running|long|straight|dead|more|"
-    r"further|another|for|over|about|and|distance|length|it|from there|then|is|by|out|on the|goes on|continue|follow|following|same)[\s,]*)*",
+    r"[\s,:]*(?:(?:on|along|at|in|to|towards?|bearing|heading|course|direction|the|a|an|of|due|true|degrees|steer(?:ing)?|going|go|goes|run|runs|"
+    r"running|long|straight|dead|more|"
+    r"further|another|for|over|about|and|distance|length|it|from there|then|is|by|out|on the|in one|line|leg|goes on|continue|follow|following|same)[\s,]*)*",
     re.IGNORECASE,
 )
 """What may stand between the length of a leg and its bearing."""
@@ -104,7 +105,7 @@ class _Leg:
     end: int
 
 
-_CABLES = re.compile(r"\b(?:\d+|an?|half|two|three|four|five|six|seven|eight|nine|ten) cables?\b(?! (?:runs?|starts?|lies|from))", re.IGNORECASE)
+CABLES = re.compile(r"\b(?:\d+|an?|half|two|three|four|five|six|seven|eight|nine|ten) cables?\b(?! (?:runs?|starts?|lies|from))", re.IGNORECASE)
 """Lengths that are not read here."""
 
 
@@ -112,7 +113,7 @@ def read_legs(record: dict[str, Any], home: Point) -> Path | None:
     """Every waypoint of the answer in order, where the input is about such legs; None where it is not, or where something is not clear."""
     given, prompt = record.get("parameters"), str(record.get("prompt", ""))
     text = reworded(without_fences(plain_text(prompt))) if len(prompt) <= LONGEST else None
-    if not text or _CABLES.search(text):
+    if not text or CABLES.search(text):
         return None
     text = r.QUOTED.sub(lambda quoted: " " * len(quoted[0]), text)
     places = [match for match in r.EXPLICIT.finditer(text) if match["a"] or match["c"]]
@@ -123,7 +124,7 @@ def read_legs(record: dict[str, Any], home: Point) -> Path | None:
         # "... and finish at [3, 4]", where it began.
         begin = places[1].start() - len(FINISH_AT.search(bare[: places[1].start()])[0])  # type: ignore[index]
         bare, places = bare[:begin] + " to the start".ljust(places[1].end() - begin) + bare[places[1].end() :], places[:1]
-    legs = _legs(bare)
+    legs = paired_legs(bare)
     if not legs or any(TO_POINT.search(bare[: leg.start]) and LENGTH.match(bare[leg.start :]) for leg in legs):
         return None
     own = given.get("start") if isinstance(given, dict) else None
@@ -158,7 +159,7 @@ def _point(place: re.Match[str]) -> Point:
     return g.point(f.number(place["a"] or place["c"]), f.number(place["b"] or place["d"]))
 
 
-def _legs(bare: str) -> list[_Leg] | None:
+def paired_legs(bare: str) -> list[_Leg] | None:
     """The legs of a text, each made of the length and the bearing that stand together; None where they cannot be paired."""
     lengths = [
         (start, end, value, True) for value, start, end in stated_sizes(bare, []) if not f.OFF_BEHIND.match(bare[end:]) or r.WAY_BEHIND.match(bare[end:])
@@ -174,7 +175,7 @@ def _legs(bare: str) -> list[_Leg] | None:
         (start, end, value, is_length), *found = found
         if not found or found[0][3] == is_length or not PAIRED.fullmatch(bare[end : found[0][0]]):
             # A length of something else, or a bearing that nothing is run on.
-            if is_length and not w.OTHER_LENGTH.search(_sentence_rest(bare, end)):
+            if is_length and not w.OTHER_LENGTH.search(sentence_rest(bare, end)):
                 return None
             if not is_length and legs and found:
                 return None
@@ -184,7 +185,7 @@ def _legs(bare: str) -> list[_Leg] | None:
     return legs
 
 
-def _sentence_rest(text: str, at: int) -> str:
+def sentence_rest(text: str, at: int) -> str:
     return re.split(r"[.;,]\s", text[:at])[-1] + re.split(r"[.;,](?:\s|$)", text[at:])[0]
 
 
@@ -231,6 +232,6 @@ def _idle(rest: str, places: list[re.Match[str]], start: Point) -> bool:
     plain = r.NO_MOVE.sub(" ", ALL_OF_IT.sub(" ", rest.replace("§", " ")))
     if r.MOVE.search(plain) or r.ORDER.search(plain) or r.STOP.search(plain) or r.HOME.search(plain) or r.UNPLACED.search(rest):
         return False
-    return all(w.OTHER_LENGTH.search(_sentence_rest(rest, at)) for _value, at, _end in stated_sizes(rest, []) for at in [at]) and not any(
+    return all(w.OTHER_LENGTH.search(sentence_rest(rest, at)) for _value, at, _end in stated_sizes(rest, []) for at in [at]) and not any(
         r.WAY_BEHIND.match(rest[end:]) for _value, _at, end in stated_lengths(rest, [])
     )

@@ -27,7 +27,9 @@ SHAPE = {
     "lawnmower": re.compile(
         r"\b(?:grid|lawn-?mow\w*|mow\w*|lanes?|lines|legs|swaths?|strips?|rows|back and forth|block|area|patch|transects|cover(?: it)?)\b", re.IGNORECASE
     ),
-    "square": re.compile(r"\b(?:squares?|corners?)\b", re.IGNORECASE),
+    "square": re.compile(
+        r"\b(?:squares?|corners?|(?:middle|centre|center) of (?:the|its) (?:north|south|east|west)(?:ern)? side|mid-?sides?)\b", re.IGNORECASE
+    ),
 }
 """Words that speak of a task's own shape."""
 AREA = re.compile(r"\bcorners? (?:of (?:the|its) (?:box|area|block) )?(?:is|are|at)\b|\brectangle between\b|\b(?:from|between) [\[(]?[-−]?\d", re.IGNORECASE)
@@ -45,6 +47,12 @@ CLOSED = re.compile(
     r"\bclos(?:e|es|ed|ing) (?:it|the|its|with)\b|\b(?:finish|end|back)\w* (?:at|on) (?:the |its )?(?:very )?(?:start|first|same|point)", re.IGNORECASE
 )
 HALF = re.compile(r"\bhalf (?:of )?(?:the |its |this )?(?:\w+ )?(?:square|round|ring|circuit)\b|\bhalf only\b", re.IGNORECASE)
+MID_SIDES_ONLY = re.compile(
+    r"\b(?:only (?:the |its |at the )?(?:four |4 )?(?:mid-?sides?|mid-?side (?:points|waypoints)|middles of the (?:four )?sides)|mid-?sides? (?:points |"
+    r"waypoints )?(?:only|alone)|"
+    r"(?:four|4) mid-?sides? (?:points |waypoints )?(?:and |, )?(?:no|not the|without the|leaving out the) corners)\b",
+    re.IGNORECASE,
+)
 FULL = re.compile(r"\b(?:eight|standard)\b", re.IGNORECASE)
 MID_SIDES = re.compile(r"\b(?:mid-?sides?|middles?|between)\b", re.IGNORECASE)
 """Words for the waypoints that are no corners."""
@@ -115,8 +123,10 @@ def _squares(text: str, places: list[Place], parameters: dict[str, Any], own: Po
     radii = lengths or ([radius] if isinstance(radius, int | float) else [])
     for half_side, start, clockwise in itertools.product(dict.fromkeys(radii), cues.starts, cues.turns):
         square = tuple(g.survey_square(own, half_side, start, clockwise=clockwise))
-        if _only_corners(text):
+        if _only_corners(text) or (MID_SIDES_ONLY.search(text) and "-" not in start):
             yield square[::2]
+        elif MID_SIDES_ONLY.search(text):
+            yield square[1::2]
         elif HALF.search(text):
             yield square[: len(square) // 2 + 1]
         else:
@@ -126,4 +136,4 @@ def _squares(text: str, places: list[Place], parameters: dict[str, Any], own: Po
 def _only_corners(text: str) -> bool:
     """Whether a square is run from corner to corner. "At the four corners and not at the mid-sides" says where something is done on the whole of it."""
     said = CORNERS_ONLY.search(text) or (FOUR_CORNERS.search(text) and not MID_SIDES.search(text))
-    return bool(said) and not FULL.search(text)
+    return bool(said) and not FULL.search(text) and not MID_SIDES_ONLY.search(text)

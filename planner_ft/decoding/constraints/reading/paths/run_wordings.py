@@ -50,7 +50,7 @@ STOP = _words(
 ORDER = _words(
     r"but (?:first|before)|before (?:that|this|it|which|then|all|you (?:do|go)|anything|setting|leaving)|(?:that|this|it) comes? (?:first|last|"
     r"before)|"
-    r"(?<=\w )(?<!the )(?<!in )first(?=[.;]|$|, (?!then|and then))|but (?:call|go|visit|via|not (?:before|until|to)|only after)|twice|"
+    r"(?<=\w )(?<!the )(?<!in )first(?=[.;](?! then\b)|$|, (?!then|and then))|but (?:call|go|visit|via|not (?:before|until|to)|only after)|twice|"
     r"(?<!home )(?<!steady )(?<!settled )(?<!settle )(?<!centred )(?<!hold )(?<!free )again|repeat\w*|laps?|there and back|out and back(?! not)|"
     r"and back(?=[.,;]|$)|(?<!come )(?<!go )(?<!head )(?<!sail )(?<!run )(?<!brought )back(?=[.,;]|$)|on the way (?:there )?(?:call|stop|visit|take|go)\w*|"
     r"one first|one last|"
@@ -244,6 +244,7 @@ MOVE = re.compile(
 )
 """Words of a movement that leads somewhere."""
 NO_MOVE = _words(
+    r"(?:turn|hold|drift|rest|others?|it|that) goes without|(?:first|second|third|middle|last|final|next) leg (?:passes|crosses|goes past|runs past) [^.;,:]*|"
     r"(?:on|during|for|in|over|of|at) (?:the |each |every |both |all |either |any |this |that )?(?:[\w-]+ )?(?:legs?|runs?|pass|passes|drives?|"
     r"way|ways|transits?|moves?)(?: (?:home|out|back|in))?\b|"
     r"the (?:\w+ )?(?:leg|run|way|part|transit|passage|stretch|trip|pass|one|ones|drive|approach)s?(?: back)? (?:home|out|there|in)|"

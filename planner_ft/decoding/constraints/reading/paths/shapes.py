@@ -126,7 +126,7 @@ def named_sizes(text: str, lengths: list[tuple[float, int, int]]) -> Iterator[tu
     for quantity in quantities(text):
         bare = w.BARE_SIZE.match(text[quantity.end :]) if quantity.unit is None and quantity.value > 0 else None
         if bare:
-            yield "width" if bare["width"] else "length", g.tidy(quantity.value), {quantity.start}
+            yield "width" if bare["width"] else "length", g.tidy(quantity.value * _unit_before(text, quantity.start)), {quantity.start}
     spans = sorted((quantity.start, quantity.end, quantity.said) for quantity in quantities(text))
     for (start, end, first), (following, _end, second) in itertools.pairwise(spans):
         if w.BY.fullmatch(text[end:following]) or w.BY.fullmatch(re.sub(r"^\s?k?m\b|^\s?met(?:re|er)s?\b", "", text[end:following])):
@@ -137,6 +137,12 @@ def named_sizes(text: str, lengths: list[tuple[float, int, int]]) -> Iterator[tu
             elif len(values) == 1 and g.tidy(second) == values[0]:
                 yield "width", g.tidy(first), {start}
                 yield "length", values[0], {following}
+
+
+def _unit_before(text: str, at: int) -> float:
+    """Metres of the unit in which the length before is said: "three hundred feet wide, six hundred long"."""
+    before = [quantity for quantity in quantities(text) if quantity.unit == "m" and quantity.start < at and quantity.said]
+    return before[-1].value / before[-1].said if before else 1
 
 
 def _along(text: str) -> g.Axis:

@@ -107,10 +107,16 @@ def _evenly(
         return None
     rest, counts = set(lengths) - set(every), list(COUNT.finditer(text))
     own = next((value for name in ("max_dist", "length") if isinstance(value := parameters.get(name), int | float)), None)
-    if len(rest) > 1 or (rest and counts):
+    if len(rest) > 1:
         return None
-    if counts:
-        number = f.COUNTED.get(counts[0][1].lower()) or (int(counts[0][1]) if counts[0][1].isdigit() else 0)
+    if counts and not rest:
+        number = _count(counts[0])
         return evenly(start, bearing, every[0] * (number - 1), every[0]) if len(counts) == 1 and number > 1 else None
+    if counts and {_count(count) for count in counts} != {round(next(iter(rest)) / every[0]) + 1}:
+        return None
     length = rest.pop() if rest else own if r.OWN_LENGTH.search(text) else None
     return evenly(start, bearing, length, every[0]) if length else None
+
+
+def _count(said: re.Match[str]) -> int:
+    return f.COUNTED.get(said[1].lower()) or (int(said[1]) if said[1].isdigit() else 0)

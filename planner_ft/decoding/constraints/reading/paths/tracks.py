@@ -37,7 +37,10 @@ FIRST_FAR = re.compile(
 """The track begins at its far end."""
 TO_START = re.compile(r"\b(?:to|at|towards) (?:the |its |what \w+ \w+ \w+ the )?(?:\w+ )?(?:start|beginning)\b", re.IGNORECASE)
 BOTH_WAYS = re.compile(r"\b(?:both ways|there and back|out and back|and back(?: again)?(?= to the start| along|[.,;]|$))", re.IGNORECASE)
-BACK = re.compile(r"\bback (?:again )?(?:along it |along the cable |the same way )?to (?:the |its )?start", re.IGNORECASE)
+BACK = re.compile(
+    r"\b(?:back|return(?:ing)?) (?:again )?(?:along it |along the (?:cable|pipe\w*|track) |the same way |along the same line )?to (?:the |its )?start",
+    re.IGNORECASE,
+)
 BACK_AGAIN = re.compile(
     r"\b(?:back (?:to the start )?again|back to (?:the |its )?start again|wrong way|, but(?= \w+ \w+ \w+ \w+ you do it| backwards| the other way|"
     r" in reverse| from))",

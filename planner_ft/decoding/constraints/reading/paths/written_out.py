@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import re
 from collections.abc import Iterator
 
@@ -33,9 +34,48 @@ THERE = re.compile(
 """A place that is described first and gone to then."""
 
 
+_NUMBER = r"[-−–]?\d+(?:\.\d+)?"
+REDUNDANT = re.compile(
+    rf"(?P<one>[\[(]\s*(?P<a>{_NUMBER})\s*[,;/]\s*(?P<b>{_NUMBER})\s*[\])]),? (?:(?:straight|directly|due|exactly|running|to the|and runs|then|up|down|out) )*"
+    rf"(?P<way>{_WAY})(?:wards?|erly)? (?:(?:up|down|as far as|over|across|along it) )?to (?:the (?:other )?end (?:at )?)?"
+    rf"(?P<two>[\[(]\s*(?P<c>{_NUMBER})\s*[,;/]\s*(?P<d>{_NUMBER})\s*[\])])",
+    re.IGNORECASE,
+)
+"""A line between two places with the direction in which it goes: "from [0, 0] due north to [0, 80]"."""
+SHORT = re.compile(r"\bbrg\b\.?", re.IGNORECASE)
+CENTIMETRES = re.compile(r"\b(\d{3,6}) ?(?:cm|centimet(?:re|er)s)\b", re.IGNORECASE)
+PARTS = {"half a": 0.5, "a": 1, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9, "ten": 10}
+IN_CABLES = re.compile(
+    rf"\b(?P<count>half a|a|one|two|three|four|five|six|seven|eight|nine|ten|\d+(?:\.\d+)?) cables?(?P<half> and a half)?"
+    rf"(?= (?:(?:straight|directly|due|to the|further|farther) )*{_WAY}(?:wards?)?\b(?! (?:side|face|end))| (?:on|along) (?:bearing |course |heading |a "
+    rf")?(?:\d|{_WAY})| (?:wide|long|apart|across)\b)",
+    re.IGNORECASE,
+)
+"""A length in cables, with a word for a length or a direction behind it."""
+PLUS = re.compile(r"(?<=[\s,;(\[=/])\+(?=\d)")
+"""The sign of a coordinate that needs none."""
+
+
 def written_out(prompt: str, home: Point) -> str:
     """The prompt with coordinates for each place that is so many metres off home in one or two directions, behind the word that leads to it."""
+    prompt = SHORT.sub("bearing", CENTIMETRES.sub(lambda said: f"{int(said[1]) / 100:g} m", prompt))
+    prompt = REDUNDANT.sub(_between, IN_CABLES.sub(_in_metres, PLUS.sub("", prompt)))
     return THERE.sub(r"\g<mark>\g<go> to \g<place>", _in_coordinates(prompt, home))
+
+
+def _in_metres(cables: re.Match[str]) -> str:
+    """Cables (tenths of a nautical mile) as metres."""
+    said = cables["count"].lower()
+    count = PARTS[said] if said in PARTS else float(said)
+    return f"{g.tidy((count + 0.5 * bool(cables['half'])) * CABLE):g} m"
+
+
+def _between(ends: re.Match[str]) -> str:
+    """Two ends of a line without the direction from one to the other, where it agrees with them."""
+    (x, y), (to_x, to_y) = ((float(ends[axis].replace("−", "-").replace("–", "-")) for axis in pair) for pair in (("a", "b"), ("c", "d")))
+    bearing = w.bearing_of(ends["way"])
+    agrees = abs((math.degrees(math.atan2(to_x - x, to_y - y)) - bearing + 180) % 360 - 180) < 46
+    return f"{ends['one']} to {ends['two']}" if agrees else ends[0]
 
 
 def places_off_home(text: str, home: Point) -> list[Point]:

@@ -12,7 +12,6 @@ from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.reading.rows import sequence_words as w
 from planner_ft.decoding.constraints.reading.rows import turn_forms as f
 from planner_ft.decoding.constraints.reading.rows.asides import without_asides
-from planner_ft.decoding.constraints.reading.rows.clock_times import with_durations
 from planner_ft.decoding.constraints.reading.rows.sequence_forms import in_plain_words
 from planner_ft.decoding.constraints.reading.rows.turn_wordings import explained
 
@@ -28,7 +27,6 @@ class Prepared:
 
 def prepare(prompt: str, parameters: Mapping[str, Any]) -> Prepared | None:
     """The text without what says nothing of movements; None where it cannot be read clause by clause."""
-    prompt = with_durations(prompt)
     text = _HESITATION.sub(" ", w.MOTION.sub("motion", f.plain(prompt, dict(parameters), measured=True)))
     stated = [_place(one) for one in f.written_places(prompt)]
     places = [place for place in stated if place is not None]

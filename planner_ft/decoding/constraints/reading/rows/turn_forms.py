@@ -11,7 +11,7 @@ from typing import Any
 from planner_ft.data.quantities import COMPASS, SHORT, quantities
 from planner_ft.data.stated import POINT, radio_digits
 from planner_ft.decoding.constraints.reading import wordings as w
-from planner_ft.decoding.constraints.reading.rows.clock_times import without_clock_times
+from planner_ft.decoding.constraints.reading.values.clocks import without_clock_times
 
 
 def compiled(pattern: str) -> re.Pattern[str]:

@@ -6,7 +6,7 @@ import pytest
 
 from planner_ft.decoding.constraints.reading.rows import turn_forms as f
 from planner_ft.decoding.constraints.reading.rows.asides import without_asides
-from planner_ft.decoding.constraints.reading.rows.clock_times import with_durations, without_clock_times
+from planner_ft.decoding.constraints.reading.values.clocks import without_clock_times
 
 
 def left(prompt: str) -> str:
@@ -66,8 +66,5 @@ def test_what_may_be_an_order_stays(order: str) -> None:
 
 
 def test_times_of_day() -> None:
-    assert with_durations("It is 14:10 now. Hold until 14:52.") == "It is 14:10 now. Hold for 42 minutes."
-    assert with_durations("Time is now 23:50, stay till 00:20.") == "Time is now 23:50, stay for 30 minutes."
-    assert with_durations("Hold until 14:52.") == "Hold until 14:52."
     assert without_clock_times("Ferry at 09:15, lost since 1840.") == "Ferry at clocktime, lost since clocktime."
     assert without_clock_times("Turn to 090, then go to [1840, 5].") == "Turn to 090, then go to [1840, 5]."

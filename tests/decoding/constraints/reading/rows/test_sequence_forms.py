@@ -63,7 +63,6 @@ def test_drifts_and_waits(prompt: str, movements: str) -> None:
         ("Before you hold station for two minutes, turn to the south. Having held it, nudge her five degrees to port.", "to h 180; hold t 120; by a -5"),
         ("Base to boat. Wind's backing and the ferry leaves at 12:30. Go to [8, 8], hold two minutes. Out.", "go 8 8; hold t 120"),
         ("Stay where you are and watch from here for nine minutes.", "hold t 540"),
-        ("The time is 10:05. Keep station until 10:30.", "hold t 1500"),
     ],
 )
 def test_going_and_holding(prompt: str, movements: str) -> None:
