@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from planner_ft.decoding.constraints.reading import LONGEST
 from planner_ft.decoding.constraints.reading.scopes.own_sentences import read_own_sentences
+from planner_ft.decoding.constraints.reading.scopes.path_scopes import PathScope, read_path_scopes
 from planner_ft.decoding.constraints.reading.scopes.scopes import Scope, read_scopes
 from planner_ft.decoding.constraints.reading.scopes.step_scopes import StepScope, read_step_scopes
 from planner_ft.decoding.constraints.reading.skills.asked import asked_movements
@@ -17,6 +18,8 @@ from planner_ft.decoding.constraints.reading.skills.movements import spoken_move
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import STEP_KEYS
 
+Path = Sequence[tuple[float, float]]
+
 
 @dataclass(frozen=True)
 class Companions:
@@ -24,7 +27,7 @@ class Companions:
 
     `spoken` are those that it speaks of, `movements` the navigation skills likewise (None: that cannot be told); `asked` are those that it asks for
     beyond doubt, movements among them, `scopes` the steps in which some run. Those `insisted` on run in every step that does not rule them out.
-    `told` are the steps as the row of the text's movements tells them.
+    `told` are the steps as the row of the text's movements tells them, `on_path` those that places on a known path tell.
     """
 
     spoken: frozenset[str] | None = None
@@ -33,16 +36,27 @@ class Companions:
     scopes: Mapping[str, Scope] = field(default_factory=dict)
     insisted: frozenset[str] = frozenset()
     told: Mapping[str, StepScope] = field(default_factory=dict)
+    on_path: Mapping[str, PathScope] = field(default_factory=dict)
 
     @property
     def mentioned(self) -> frozenset[str]:
         """The skills that the input speaks of, movements among them, as far as that can be told."""
         return (self.spoken or frozenset()) | (self.movements or frozenset())
 
-    def runs(self, skill: str, movement: str, earlier: Sequence[str]) -> bool | None:
-        """Whether a skill must run (True) or must not (False) beside a movement, behind those `earlier`; None where the model decides."""
+    def along(self, text: str, paths: Sequence[Path], pattern: str) -> Companions:
+        """These with what a text says of places on the path of its task, that is one of some of one shape."""
+        found = read_path_scopes(text, self.spoken, paths, pattern) if self.spoken and len(text) <= LONGEST else {}
+        return replace(self, on_path=found) if found else self
+
+    def runs(self, skill: str, movement: str, earlier: Sequence[str], path: Path = ()) -> bool | None:
+        """Whether a skill must run (True) or must not (False) beside a movement, behind those `earlier`; None where the model decides.
+
+        `path` are the waypoints up to that of the movement, if it goes to one.
+        """
         if self.spoken is not None and skill not in self.spoken:
             return False
+        if path and skill in self.on_path:
+            return self.on_path[skill].allows(path)
         scope = self.scopes.get(skill)
         verdict = scope.allows(len(earlier), movement, None, earlier) if scope else None
         told = self.told[skill].allows([*earlier, movement]) if skill in self.told else None

@@ -87,6 +87,7 @@ class Factory:
         prompt = record["prompt"]
         companions = replace(read_companions(record, self.vocabulary), insisted=self.insisted)
         values, ground = GroundedTaskValues(record, self.vocabulary, companions.mentioned), read_ground(record, self.vocabulary)
+        companions = companions.along(prompt, ground.one_path, _pattern(record, self.vocabulary))
         turns = read_turns(record, self.vocabulary) if len(prompt) <= LONGEST else None
         # Where the readings contradict each other, neither is certain.
         turns = None if turns and ground.waypoints_alone else turns
@@ -140,6 +141,11 @@ class Factory:
         if self.level == "mission":
             return MissionScript(self.vocabulary, SchemaValues())
         return Whole(plan_grammar(self.level, self.vocabulary, ResolvedValues(SchemaValues(), self.vocabulary)))
+
+
+def _pattern(record: dict[str, Any], vocabulary: Vocabulary) -> str:
+    task = vocabulary.task.get(str(record.get("task")))
+    return task.pattern if task else ""
 
 
 def _plainly_written(record: dict[str, Any]) -> dict[str, Any]:

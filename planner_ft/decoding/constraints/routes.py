@@ -67,6 +67,9 @@ class RouteValues(Narrowed):
         return [(grammar.terminal(" | ".join(map(literal, ways))), context - {column})]
 
 
+NOWHERE: Point = (0.0, 0.0)
+
+
 @dataclass(frozen=True)
 class TaskScript:
     """The parts of an answer: the names that may follow, then what stands behind the chosen name, up to the next one.
@@ -199,6 +202,9 @@ class TaskScript:
         skills = self._owed(self.steps[-1][0]) if self.owes and self.role == "navigation" else self.vocabulary.skills_in_role(self.role)
         offered = [skill for skill in skills if self._offers(skill)]
         said = {skill for skill, _parameters in self.beside}
+        due = [skill for skill in offered if self.role != "navigation" and skill not in said and self._runs(skill, *self._movement)]
+        # Nothing takes the room of what must run.
+        offered = due if due and len(self.beside) + len(due) >= MOST_SKILLS else offered
         # What is insisted on comes first: a model that left it out would put it off.
         offered = [skill for skill in offered if skill.name in self.companions.insisted and skill not in said] or offered
         # An answer never stands without a way on: a skill comes twice rather than one that nobody asked for.
@@ -217,7 +223,7 @@ class TaskScript:
             return self._turn is not None and self._turn[0] == skill.name
         if self.role == "navigation" and not self._spoken(skill):
             return False
-        if self.role != "navigation" and self._runs(skill, self._movement[0]) is False:
+        if self.role != "navigation" and self._runs(skill, *self._movement) is False:
             return False
         uses = [parameters for used, parameters in self.beside if used == skill]
         if uses and self._told_value(skill) is not None:
@@ -264,14 +270,15 @@ class TaskScript:
         """The rotation that comes next; None where there is none, or where it is not known."""
         return self.turns[self._turned] if self.turns is not None and self._turned < len(self.turns) else None
 
-    def _runs(self, skill: Skill, movement: Skill) -> bool | None:
-        """Whether a skill must or must not run beside a movement in the step that is being written."""
-        verdict = self.companions.runs(skill.name, movement.name, [earlier.name for earlier, _parameters in self.steps])
+    def _runs(self, skill: Skill, movement: Skill, path: Path) -> bool | None:
+        """Whether a skill must or must not run beside a movement in the step that is being written, with the waypoints up to it."""
+        earlier = [name.name for name, _parameters in self.steps]
+        verdict = self.companions.runs(skill.name, movement.name, earlier, path if movement.coordinates else ())
         return verdict if verdict is not True or skill_body(Grammar(), skill, self.values) is not None else None
 
-    def _listed(self, role: Role, movement: Skill, said: Row[Skill] = ()) -> tuple[bool, bool]:
+    def _listed(self, role: Role, movement: Skill, path: Path, said: Row[Skill] = ()) -> tuple[bool, bool]:
         """Whether a list of skills beside a movement may go on, and whether it may end, behind those that were `said`."""
-        skills = [(skill, self._runs(skill, movement)) for skill in self.vocabulary.skills_in_role(role)]
+        skills = [(skill, self._runs(skill, movement, path)) for skill in self.vocabulary.skills_in_role(role)]
         missing = any(runs and skill not in said for skill, runs in skills)
         more = len(said) < MOST_SKILLS and any(
             runs is not False and (skill not in said or (skill.parameters and not self._single(skill, movement))) for skill, runs in skills
@@ -288,13 +295,13 @@ class TaskScript:
         grammar = Grammar()
         if self.role == "navigation":
             options = [
-                f"{self._body(grammar, values)} {literal(',' + FILTERS)} {self._list(grammar, 'filter', self.chosen, ending)}"
-                for values, ending in self._movements()
+                f"{self._body(grammar, values)} {literal(',' + FILTERS)} {self._list(grammar, 'filter', self.chosen, path, ending)}"
+                for values, path, ending in self._movements()
             ]
             return grammar.text(" | ".join(options))
         movement, before = self._movement
         ending, said = self._ending(movement, before), [*(skill for skill, _parameters in self.beside), self.chosen]
-        values, behind = self._values_of(self.chosen), self._list(grammar, self.role, movement, ending, said)
+        values, behind = self._values_of(self.chosen), self._list(grammar, self.role, movement, before, ending, said)
         if self._lists_texts and values.item(Grammar(), ()):
             only, opens = self.chosen.parameters[0], f'",{key("parameters")}{{'
             without = "" if values.needs(only, self.chosen) else f" | {literal(opens + '}}')} {behind}"
@@ -311,17 +318,19 @@ class TaskScript:
         assert self.chosen is not None
         grammar, (movement, before) = Grammar(), self._movement
         ending, said = self._ending(movement, before), [*(skill for skill, _parameters in self.beside), self.chosen]
-        behind = f"{literal(']}}')} {self._list(grammar, self.role, movement, ending, said)}"
+        behind = f"{literal(']}}')} {self._list(grammar, self.role, movement, before, ending, said)}"
         text = self.values.item(grammar, self.listed) or self.values.item(grammar, ())
         more = len(self.listed) + 1 < MOST_TEXTS and self.values.item(Grammar(), (*self.listed, "")) is not None
         return grammar.text(f"{text} ({literal(NEXT_TEXT[1:])} | {behind})" if more else f"{text} {behind}")
 
-    def _list(self, grammar: Grammar, role: Role, movement: Skill, ending: Ending, said: Row[Skill] = ()) -> str:
+    def _list(self, grammar: Grammar, role: Role, movement: Skill, path: Path, ending: Ending, said: Row[Skill] = ()) -> str:
         """What may stand in the list of a role's skills behind those that were said: the next one, or what follows the list."""
-        more, ends = self._listed(role, movement, said)
+        more, ends = self._listed(role, movement, path, said)
         options = [literal("," * bool(said) + SKILL_OPENS)] if more else []
         if ends or not more:
-            behind = self._list(grammar, "perception", movement, ending) if role == "filter" else f"{step_tail(grammar, self.values)} {self._ends(ending)}"
+            behind = (
+                self._list(grammar, "perception", movement, path, ending) if role == "filter" else f"{step_tail(grammar, self.values)} {self._ends(ending)}"
+            )
             options.append(f"{literal('],' + PERCEPTIONS if role == 'filter' else ']')} {behind}")
         return f"({' | '.join(options)})"
 
@@ -330,15 +339,19 @@ class TaskScript:
         body = skill_body(grammar, self.chosen, values) or skill_body(grammar, self.chosen, self.values)
         return body or str(skill_body(grammar, self.chosen, SchemaValues()))
 
-    def _movements(self) -> list[tuple[Values, Ending]]:
-        """What the parameters of the chosen movement may be, and whether the answer ends behind it."""
+    def _movements(self) -> list[tuple[Values, Path, Ending]]:
+        """What the parameters of the chosen movement may be, the waypoints with it where they tell what runs beside it, and whether the answer ends there."""
         assert self.chosen is not None
+        following = self.ground.following(self.before) if self.chosen.coordinates and not self.ground.free else []
         if not self.chosen.coordinates or self.ground.free or self._told:
-            return [(self._values_of(self.chosen), self._ending(self.chosen, self.before))]
-        found: dict[Ending, list[Point]] = {}
-        for point in self.ground.following(self.before):
-            found.setdefault(self._ending(self.chosen, (*self.before, point)), []).append(point)
-        return [(RouteValues(self.values, points), ending) for ending, points in found.items()] or [(self.values, "may")]
+            # Where waypoints are free, what runs beside one is told by its number alone.
+            path = (*self.before, following[0]) if len(following) == 1 else (*self.before, NOWHERE) if self.ground.free else ()
+            return [(self._values_of(self.chosen), path, self._ending(self.chosen, self.before))]
+        found: dict[tuple[Ending, Path], list[Point]] = {}
+        for point in following:
+            path = (*self.before, point)
+            found.setdefault((self._ending(self.chosen, path), path if self.companions.on_path else ()), []).append(point)
+        return [(RouteValues(self.values, points), path, ending) for (ending, path), points in found.items()] or [(self.values, (), "may")]
 
     @functools.cached_property
     def _movement(self) -> tuple[Skill, Path]:

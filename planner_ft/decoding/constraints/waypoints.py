@@ -146,6 +146,11 @@ class Ground:
         return self.itinerary is not None or self.shaped
 
     @property
+    def one_path(self) -> tuple[Path, ...]:
+        """The paths of which one has all waypoints of the plan; none where that is not known."""
+        return (self.itinerary,) if self.itinerary else self.paths if self.shaped and not self.apart else ()
+
+    @property
     def waypoints_alone(self) -> bool:
         """Whether every step goes to a waypoint."""
         return self.alone and (self.itinerary is not None or self.shaped)

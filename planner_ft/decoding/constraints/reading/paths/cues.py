@@ -27,6 +27,16 @@ FIRST_LANE = re.compile(
 LANE_END = re.compile(r"\b(?:start\w*|begin\w*|from)\b[^.;,]{0,15}?\b(?:its|the) (north|south|east|west)(?:ern)? end\b", re.IGNORECASE)
 """The end of it that is first."""
 
+APART = re.compile(
+    r"\b(?:at|on|along|for) (?:all )?(?:the )?(?:(?:three|four|eight|[348]) )?(?:(?:waypoints?|points?|middles?|corners?)(?: waypoints?|"
+    r" points?)? (?:of|on|along) )?"
+    r"(?:the |its |each |every |all )(?:(?:north|south|east|west)(?:ern)? )?(?:sides?|edges?)\b|(?<=metres )from the\b|(?<=yards )from the\b|"
+    r"(?<=feet )from the\b",
+    re.IGNORECASE,
+)
+"""Places of a square at which something is done, and lengths off something, in sentences that say nothing of where it begins."""
+BEGINS = re.compile(r"\b(?:start|begin|first|enter|entr|commenc|clockwise|from (?!the\b))", re.IGNORECASE)
+
 
 @dataclass(frozen=True)
 class Cues:
@@ -43,7 +53,7 @@ ANY = Cues(g.CORNERS, ("y", "x"), g.SQUARE_STARTS, (False, True))
 
 def read_cues(text: str) -> Cues:
     """What the words of an input leave possible."""
-    text = w.EXTENT.sub(r"\1", text)
+    text = w.EXTENT.sub(r"\1", _without_apart(text))
     along_x, along_y = w.LANES_X.search(text), w.LANES_Y.search(text)
     plain = w.LANES_Y.sub(" ", w.LANES_X.sub(" ", text))
     corners = tuple(dict.fromkeys(named_corner(match) for match in w.CORNER.finditer(plain)))
@@ -58,6 +68,11 @@ def read_cues(text: str) -> Cues:
         (*corners, *sides) or (ANY.starts if open_beginning else ("east",)),
         ANY.turns if REVERSED.search(text) else turns or (False,),
     )
+
+
+def _without_apart(text: str) -> str:
+    """A text without the places of a square that only say where something is done."""
+    return "".join(sentence if BEGINS.search(sentence) else APART.sub(" ", sentence) for sentence in re.split(r"(?<=[.;])(?=\s)", text))
 
 
 def _first_lane(text: str) -> tuple[g.Corner, ...]:

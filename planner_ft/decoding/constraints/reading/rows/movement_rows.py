@@ -113,13 +113,20 @@ def _put(text: str, origin: tuple[int, ...], parts: list[tuple[int, int, str]]) 
     return "".join([*made, text[end:]]), (*where, *origin[end:])
 
 
-_PLACES = re.compile(r",? ?(?:and |then |and then |to |finally |lastly |via |, ){0,3}@")
+_TO_PLACE = re.compile(r"@|\bthe (?:target|goal|start\w*) (?:position|point)\b")
+_PLACES = re.compile(rf",? ?(?:and |then |and then |to |finally |lastly |via |, ){{0,3}}(?:{_TO_PLACE.pattern})")
 """A place behind another one, to go to next."""
 _SEVERAL_TURNS = re.compile(
     r"\b(?:times|twice|each|every|steps of|in (?:\w+ ){0,3}(?:steps|stages|parts)|sectors|evenly|points|repeat\w*|headings|bearings|in turn|"
     r"one after the other|all round)\b|"
     r"(?:,|,? and|,? then|,? and then) (?:to )?(?:\d{1,3}|(?:north|south|east|west)[\w-]*)\b(?! ?(?:m|s|min\w*|sec\w*|met\w*|feet)\b)"
 )
+_NEXT_TURN = re.compile(
+    r"(?<=[\dth°])(?:°| degrees)?(?:,? and then|,? then|,? and|,)(?: to| on to| onto)? (?:due )?"
+    r"(?:\d{1,3}\b(?! ?(?:m|s|min\w*|sec\w*|met\w*|feet|hours?|percent|times|x)\b)(?!\.\d)|(?:north|south|east|west)(?:[ -]?(?:north|south|east|"
+    r"west))*\b(?! (?:of|side|end|corner)))"
+)
+"""A turn behind another one, told by its heading alone."""
 _SEVERAL_ARCS = re.compile(r"\b(?:times|twice|each|every|repeat\w*|arcs|turns|bends|alternat\w*)\b")
 _ONE_PLACE = re.compile(r"@$|\b(?:home|base|target|goal|berth|dock|centre|center|point|position|start\w*)$")
 _GRID = re.compile(r"\b(?:grid|lawn-?mow\w*|square|lanes|lines|transects?|cable|pipeline|track|sides|area|circle)\b")
@@ -138,6 +145,7 @@ _MORE = (
         re.compile(r"(?<!the )(?<!that )(?<!this )\b(?:an? |one |make |do |take |sail |another )*(?:wide |sweeping |arc )+(?:turn|arc|curve)\b[^.;,]{0,40}"),
     ),
     (w.GOTO, re.compile(r"\b(?:just|then|first|next|finally|lastly) @")),
+    (w.GOTO, re.compile(r"\b(?:as far as|up to|until you reach|until you are at) @")),
     (
         w.GOTO,
         re.compile(
@@ -159,7 +167,7 @@ _MORE = (
         w.GOTO,
         re.compile(
             r"\b(?:(?:stop|halt|finish|end|be|arrive|call) (?:at|in|by) |(?:out |off |over |down |up |back |on |home )?(?:towards?|"
-            r"to) (?:the [\w -]{1,25}[,:]? )?)@"
+            r"to) (?:the [\w' -]{1,25}[,:]? )?)@"
         ),
     ),
 )
@@ -167,7 +175,8 @@ _MORE = (
 
 _NO_WORDS = re.compile(
     r"\b(?:once|when|as soon as|after) (?:she|it|the boat|you|we) (?:is|has|are|lies|have) (?:\w+ ){0,2}(?:steady|stable|settled|still|calm|quiet|at rest)\b|"
-    r"\bcent(?:red|ered) (?:on|at|about|round|around)\b|\b(?:closer|nearer) (?:to|than)\b|\b(?:to|of|in|from|the|a|video|image) frame\b|\b(?:the|that|"
+    r"\b(?:relative|pose) to (?:home|base)\b|\bcent(?:red|ered) (?:on|at|about|round|around)\b|\b(?:closer|nearer) (?:to|than)\b|\b(?:to|of|in|"
+    r"from|the|a|video|image) frame\b|\b(?:the|(?<!after )that|"
     r"this|each|every|both|its) (?:turn|pan|nudge|drift|hold|swing|orbit)s?\b"
 )
 
@@ -191,9 +200,15 @@ def row_of(text: Plain, taken: Sequence[tuple[int, int]]) -> Row:
             found.append(Unit(w.GOTO, match.start(), match.start() + 1, place=text.places.get(match.start())))
     for kind, pattern in (*_MORE, *w.MOVEMENTS):
         for match in pattern.finditer(hidden):
-            if free(match.start(), match.end()):
-                found.append(Unit(kind, match.start(), match.end(), place=text.places.get(match.end() - 1)))
-    for match in re.finditer(r"@", text.text):
+            begins = match.start() + (max((verb.end() for verb in _KEEPS.finditer(match[0])), default=0) if kind == w.VISUAL else 0)
+            if free(begins, match.end()):
+                found.append(Unit(kind, begins, match.end(), place=text.places.get(match.end() - 1)))
+    for unit in [unit for unit in found if unit.kind == w.FACE]:
+        end = unit.end
+        while (more := _NEXT_TURN.match(text.text, end)) and free(more.start(), more.end()):
+            found.append(Unit(w.FACE, more.start(), more.end(), chained=True))
+            end = more.end()
+    for match in _TO_PLACE.finditer(text.text):
         if free(match.start(), match.end()) and any(unit.kind == w.GOTO and _PLACES.fullmatch(text.text, unit.end, match.end()) for unit in found):
             found.append(Unit(w.GOTO, match.start(), match.end(), place=text.places.get(match.start()), chained=True))
     found = _merged(text.text, sorted((unit for unit in found if not _NO_MOVEMENT.search(text.text[: unit.start])), key=lambda unit: unit.start))
@@ -218,11 +233,19 @@ _TIMED = re.compile(r"\d|\b(?:an?|one|two|three|four|five|six|seven|eight|nine|t
 _BEGINS = re.compile(r"\b(?:start|begin)\w*\b[^.;]*$|\bfrom (?:the start )?@$")
 
 
+_KEEPS = re.compile(r"(?:, |\band |\bthen )(?=(?:keep|hold|stay|cent(?:re|er)|frame|fix|follow)\b)")
+"""What stands before the words that keep a target in the picture, where an earlier verb was taken for theirs."""
+_WAITS = re.compile(r"(?:wait|stay|stop|hold)\w* (?:there|here)\b[^.;]*(?:until|till)?\b")
+
+
 def _merged(text: str, units: Sequence[Unit]) -> list[Unit]:
     """Units without those that go on about the one before: "cut the engines and float", "stop and hold for a minute", "start at @ and follow the cable"."""
     kept: list[Unit] = []
     for number, unit in enumerate(units):
         last = kept[-1] if kept else None
+        if last is not None and (last.kind, unit.kind) == (w.HOLD, w.WAIT) and _WAITS.match(text[last.start : unit.start + 5]):
+            kept[-1] = Unit(unit.kind, last.start, unit.end)
+            continue
         if last is not None and last.kind == unit.kind:
             between = text[last.end : unit.start]
             ends = units[number + 1].start if number + 1 < len(units) else len(text)
@@ -230,6 +253,7 @@ def _merged(text: str, units: Sequence[Unit]) -> list[Unit]:
             if unit.kind in (w.HOLD, w.DRIFT, w.WAIT, w.VISUAL) and not re.search(r"\b(?:then|again|more|another|second)\b", text[last.start : unit.end]):
                 untimed = not (_TIMED.search(text[last.start : unit.start]) and _TIMED.search(text[unit.start : ends].split(".")[0]))
                 one = one or untimed
+            one = one and not unit.chained
             if unit.kind == w.GOTO and not unit.place and "." not in between and _BEGINS.search(re.split(r"[.;]", text[: last.end])[-1]):
                 one = True
             if one:
@@ -249,7 +273,7 @@ def _merged(text: str, units: Sequence[Unit]) -> list[Unit]:
 
 def _single(text: str, unit: Unit, behind: int) -> bool:
     """Whether a movement is one step."""
-    said = text[unit.start : unit.end]
+    said = re.sub(r"^[\s,]*(?:(?:and|then|to|on) )*", "", text[unit.start : unit.end])
     rest = re.split(r"[.;]", text[unit.end : behind], maxsplit=1)[0]
     if unit.kind == w.GOTO:
         return _ONE_PLACE.search(said) is not None and not _GRID.search(said)
@@ -260,15 +284,17 @@ def _single(text: str, unit: Unit, behind: int) -> bool:
     return True
 
 
-def unread_places(text: Plain, row: Row) -> bool:
-    """Whether a text names places that no movement of its row goes to, and that are no centres."""
+def unread_places(text: Plain, row: Row, bounds: Sequence[tuple[int, int]] = ()) -> bool:
+    """Whether a text names places that no movement of its row goes to, and that are no centres nor stand in some `bounds`."""
     seen: set[tuple[float, float]] = set()
     for unit in row.units:
         if unit.place in seen and re.search(r"\b(?:from|between) @,? (?:and )?$", text.text[: unit.start]):
             return True
         seen |= {unit.place} if unit.place else set()
     return any(
-        not any(unit.start <= match.start() < unit.end for unit in row.units) and not _CENTRE.search(text.text[: match.start()])
+        not any(unit.start <= match.start() < unit.end for unit in row.units)
+        and not any(start <= match.start() < end for start, end in bounds)
+        and not _CENTRE.search(text.text[: match.start()])
         for match in re.finditer("@", text.text)
     )
 

@@ -114,7 +114,7 @@ SKILL_WORDS = {
 }
 """Words that speak of a skill. Better one too many: a skill that is spoken of elsewhere as well is held to less."""
 NEGATED = re.compile(
-    r"(?:\b(?:no|without|not|nor|neither|nothing|never mind|don't|do not|need no|stop\w*|leave|instead of|off|skip\w*|except|"
+    r"(?:\b(?:no|without|not|nor|neither|nothing|never mind|don't|do not|need no|stop\w*|leave|instead of|in place of|in lieu of|off|skip\w*|except|"
     r"rather than)(?: (?:a|an|any|the|that|this|be|run|take|keep|get|check|"
     r"further|other|more|second|map|geotagged|safety|heading|bow|gps|lidar|position|image|object|obstacle|need|use|log|do|measure|"
     r"record|confirm|verify))* ?)$"
@@ -183,7 +183,7 @@ MOVEMENTS: tuple[tuple[str, re.Pattern[str]], ...] = (
         rf"put(?:ting)?|spin(?:ning)?|swivel|fac(?:e|es|ing)|look|square up|line up|"
         rf"go|going|tak(?:e|ing) up|set(?:ting)? the heading|chang(?:e|ing) (?:the )?heading|aim)\s+{_LAG}"
         r"(?:to|on|onto|towards?|up|until|facing|in)?\s*(?:face |a heading of |heading |bearing |the headings? |due |on )*"
-        r"(?:\d{1,3}\b(?! ?(?:m|s|sec\w*|min\w*|metres?|meters?)\b)(?!\s?(?:°|degrees?)? (?:to |further to )?(?:left|right|port|"
+        r"(?:\d{1,3}\b(?! ?(?:m|s|sec\w*|min\w*|metres?|meters?)\b)(?!\s?(?:°|degrees?)? (?:to |further to )?(?:the |your |her )?(?:left|right|port|"
         r"starboard|clockwise|anti|counter|back))|"
         r"(?:north|south|east|west)\w*(?:-\w+)*)|\bbow to (?!the\b)|\bface (?:due|heading|one|two|three|zero|north|south|east|west|@)\b|\bturn to\b"
     )),
@@ -373,7 +373,8 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
     )),
     ("ordinal", re.compile(
         rf"\b(?:(?:only |just )?{_PREP} )?(?<!from )(?<!until )(?<!till )(?<!after )(?<!before )(?<!up to )(?:{_THE})(?!final approach|"
-        rf"last sweep|latest)(?P<ords>{_ORDS}) (?:of (?:the |these |those )?)?(?:\w+ )??(?P<noun>{_NOUN})\b(?! to (?:the )?{ORD}\b)"
+        rf"last sweep|latest)(?P<ords>{_ORDS}) (?:of (?:the |these |those )?)?(?:(?!(?:way)?points?\b|place|position|"
+        rf"corner)\w+ )??(?P<noun>{_NOUN})\b(?! to (?:the )?{ORD}\b)"
     )),
     ("ordinal", re.compile(rf"(?:^\W*|\b(?:only |just )?{_PREP} )(?!final approach|last sweep|latest)(?P<ords>{_ORDS}) (?P<noun>{_NOUN})\b")),
     ("ordinal", re.compile(rf"\b(?:only |just )?(?:in|on|during|for|at) (?:{_THE})(?P<ords>{_ORDS}){_END}")),
@@ -494,7 +495,7 @@ PERIOD = re.compile(
     r"(?<!cable )(?<!planned )(?<!given )(?<!the )\btrack(?:ing)? (?!the cable|from|to\b)(?=\w)"
 )
 """Words that `MANY` would take for movements."""
-COUNTED = re.compile(r"(?:steps?|parts?|stages?|legs?|lines?|headings?|through|first|last) (?:\d+, )*$", re.IGNORECASE)
+COUNTED = re.compile(r"(?:steps?|parts?|stages?|legs?|lines?|headings?|bearings|through|first|last|face|facing|turn to|bow to) (?:\d+, )*$", re.IGNORECASE)
 """What stands before numbers that are no place."""
 GOES_ON = re.compile(r" (?:and|or) (?:at|near|from|until|till|after|before|on (?!board)|in|\w+ing)\b")
 """A second place for what runs in a scope, that was not read as one."""

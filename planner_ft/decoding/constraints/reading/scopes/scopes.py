@@ -93,6 +93,7 @@ class Scope:
 
 
 EVERYWHERE = Part()
+_STARTED = re.compile(r"\bstart(?:ing)? (?:point|position|at|from)\b.*\bleg (?:1|one)\b")
 _RETURN = dict(w.SCOPES)["return"]
 _TOLD = ("range", "but", "middle", "return")
 """Scopes that only the movements of the text tell."""
@@ -172,7 +173,9 @@ def read_scopes(text: str, vocabulary: Vocabulary) -> dict[str, Scope]:
                 found.setdefault(name, []).append((None, "unread"))
         latest = {mark.value for mark in clause.of("skill")} or latest
         before += len(clause.of("move"))
-    return {name: scope for name, places in found.items() if (scope := _scope(places, reading)) is not None}
+    scopes = {name: scope for name, places in found.items() if (scope := _scope(places, reading)) is not None}
+    # Legs that are numbered behind a start point are not the first steps.
+    return {name: scope for name, scope in scopes.items() if "numbered" not in scope.source or not _STARTED.search(plain)}
 
 
 def _reading(plain: str, clauses: Sequence[Clause], counted: bool) -> Reading:
@@ -385,6 +388,9 @@ def _settled(mark: Mark, before: int, clause: Clause, reading: Reading) -> Part 
         return None
     if part.sure or part.maybe:
         return part if part.which is not None else _of_kind(part, mark.value, word, reading)
+    if part.which is None and mark.value == "all" and (w.COUNTS.keys() & set(word.split())) and reading.script:
+        # "For both moves" where three things are done.
+        return part if len(reading.script) in {w.COUNTS[name] for name in word.split() if name in w.COUNTS} else None
     if part.which is None or w.STEP.search(word):
         return part
     # "the second part" is a movement, and "in the second" may go on about holds spoken of before.
@@ -563,7 +569,9 @@ def _governor(clause: Clause, skill: Mark, groups: list[list[Mark]], moved: Sequ
         if not moved:
             return group
         if group[0] is clause.marks[0] and len(moved) == 1 and group[0].part is not EVERYWHERE:
-            return group
+            # "At each corner drift with the logger on" is about what is done there.
+            part = group[0].part
+            return None if part and w.HOLD in part.maybe and moved[0].value not in (w.GOTO, w.HOLD) else group
         return group if not between and group[0].part is not EVERYWHERE else None
     if moved:
         return None

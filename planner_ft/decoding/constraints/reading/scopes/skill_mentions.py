@@ -26,7 +26,8 @@ class Mention:
 
 
 _DENIED_BEFORE = re.compile(
-    r"\b(?:no|not|without|never|nor|neither|don't|do not|needn't|need not|no need (?:to|for|of)|nothing to|stop|skip|forget|leave out|lift\w*|instead of)"
+    r"\b(?:no|not|without|never|nor|neither|don't|do not|needn't|need not|no need (?:to|for|of)|nothing to|stop|skip|forget|leave out|lift\w*|"
+    r"instead of|in place of|in lieu of|rather than)"
     r"(?: (?!closer|nearer|less|leav|later|out|beyond|cross|stray|exceed|only|before|lose|losing)[\w-]+){0,2} ?$"
 )
 _DENIED_TWICE = re.compile(
@@ -36,7 +37,8 @@ _DENIED_BEHIND = re.compile(
     r"^(?![^.;,]{0,40}\bnot (?:only|before|less))[^.;,@]{0,40}\b(?:no longer|does not|do not|is not|are not|isn't|aren't|doesn't|don't|needn't|need not)\b|"
     r"^,? ?(?:(?:is|are|has|does|do|can|may|need|shall|should|will|must|being) )?(?:not\b(?! (?:only|before|less))|no longer\b|no more\b|n't|"
     r"unnecessary|off\b(?! \w)|free\b|lifted|"
-    r"needless|dropped|released|idle|over\b(?= ?[.,;]|$)|not\b|isn't|aren't|doesn't|don't|needn't)"
+    r"nothing\b|none\b|finished\b|stopped\b|ended\b|over by\b|rests?\b|sleeps?\b|needless|dropped|released|idle|over\b(?= ?[.,;]|$)|not\b|isn't|"
+    r"aren't|doesn't|don't|needn't)"
 )
 _DENIED_WITHIN = re.compile(r"\b(?:not (?!to leave|leave|within)|unlocked|free\b|n't)")
 _CLEAR_OF = re.compile(r"\d ?(?:m|metres?|meters?|feet|ft|yards?)\b[^.;,]{0,12}\b(?:from|off|of|to|clear of|away from) (?:everything|anything|"
@@ -48,7 +50,11 @@ _NOT_LEFT = re.compile(
     r"\bnot (?:to )?be (?:left|crossed|exceeded|passed|violated|broken|overstepped|forgotten|skipped|omitted)\b|\bnot (?:to )?(?:leave|cross|exceed)\b"
 )
 """What a limit rules out, and no limit that is."""
+_TITLE = re.compile(r"^ (?:(?:grid|survey|lawn\w*|track|chart|map)\b)")
+"""Words behind one for a skill that are what the task is called: "a depth grid"."""
 _ANOTHER = re.compile(
+    r"\b(?:\d[\d.]*|two|three|four|five|six|seven|eight|nine|ten|twelve|fifteen|twenty|thirty)(?: ?(?:m|metres?|meters?|feet|yards?))? "
+    r"(?:(?:is|are|will be) (?:plenty|enough|sufficient)|will do|suffices?)\b|"
     r"\b(?:with|only|just|and|but|then) (?:only |just |at least )?(?:\d[\d.]*|two|three|four|five|six|seven|eight|nine|ten|twelve|fifteen|twenty|"
     r"thirty) ?(?:m|metres?|meters?|feet|yards?)"
     r"(?=[.,;]|$| (?:for|on|in|during|while|from there|at the|then|when|as|afterwards|thereafter|there)\b)"
@@ -73,6 +79,8 @@ def mentions_of(text: str, names: Sequence[str], anchors: Sequence[Anchor]) -> l
             matches += [match.span() for match in _ANOTHER.finditer(text) if match.start() > first]
         for start, end in sorted(matches):
             inner = text[start:end].strip()
+            if name == "GetSeabedDepth" and _TITLE.match(text[end:]):
+                continue
             if any(anchor.start <= start and start + len(inner) <= anchor.end for anchor in anchors):
                 continue
             if any(start < stop and begin < end for begin, stop in spans):

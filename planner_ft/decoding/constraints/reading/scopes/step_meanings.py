@@ -54,12 +54,21 @@ _DENIED_SCOPE = re.compile(
 )
 
 
+_MOVES = re.compile(
+    r"\b(?:on|back|out|over) $|\b(?:go|goes|come|comes|move|pass|head|sail|proceed|drive|steam|motor|follow|track|continue|carry|return|"
+    r"run (?:along|on|up|out|back|past|down|straight|in|it))\b[^.;,@]*$"
+)
+"""Words for a movement that a place behind them is the end of."""
+
+
 def scopes_of(text: str) -> Iterator[tuple[str, re.Match[str]]]:
     """The scopes of a text, none over another."""
     taken: list[tuple[int, int]] = []
     found = []
     for kind, pattern in s.SCOPES:
         for match in pattern.finditer(text):
+            if kind == "upto" and re.match("up|as", match[0]) and _MOVES.search(text[: match.start()]):
+                continue
             if all(match.end() <= start or end <= match.start() for start, end in taken):
                 taken.append(match.span())
                 found.append((kind, match))
@@ -139,6 +148,9 @@ def _of(row: Row, kinds: frozenset[str]) -> list[int]:
 
 def _all_of(row: Row, kinds: frozenset[str]) -> Where | None:
     units = _of(row, kinds)
+    if kinds == {s.HOLD} and row.of(frozenset({s.HOLD})) and row.of(frozenset({s.VISUAL})):
+        # One that keeps a target in the picture may be meant as well.
+        return None
     meant = frozenset(row.units[index].kind for index in units) if kinds == {s.HOLD} else kinds
     return Where(frozenset(units), meant or kinds) if units else None
 
@@ -156,18 +168,28 @@ def _resolved(kind: str, match: re.Match[str], row: Row, before: Sequence[Anchor
         number = next((value for word, value in w.BARE_COUNTS.items() if word in match[0]), None)
         topic = last.units if last and last.units and len(last.units) > 1 else frozenset(range(count))
         return Where(topic, EVERYWHERE.kinds if len(topic) == count else None) if number in (len(topic), None) and (number or count > 1) else None
+    if kind == "ordered":
+        begins = max(said.text.rfind(sign, 0, match.start()) for sign in ".;!?")
+        told = frozenset(index for index in passed if row.units[index].start > begins)
+        return Where(told) if len(told) > 1 else None
     if kind == "corner":
         return _corner(said.text, groups.get("corner") is not None)
     if kind in ("that", "then"):
         return _pointed(match, row, last, passed, kind)
     if kind == "all":
         kinds = _kinds(groups["noun"] or "")
+        said_number = next((value for word, value in w.COUNTS.items() if word in match[0].split()), None)
+        if kinds == s.ANY and said_number not in (None, count) and row.units:
+            # "Both moves" where three things are done: those that go somewhere, if they are as many.
+            goes = row.of(frozenset({s.GOTO}))
+            return Where(frozenset(goes)) if (groups["noun"] or "").startswith("move") and len(goes) == said_number else None
         if kinds == s.ANY:
             return EVERYWHERE
         number = next((value for word, value in w.COUNTS.items() if word in match[0].split()), None)
         return _all_of(row, kinds) if number in (None, len(_of(row, kinds))) or not all(unit.single for unit in row.units) else None
     if kind == "while":
         name = next(name.rstrip("2") for name, value in groups.items() if value)
+        name = "hold" if name == "wait" and not row.of(s.GERUNDS[name]) else name
         where = _all_of(row, s.GERUNDS[name])
         if name == "goto" and where and (len({row.units[index].single for index in where.units or ()}) > 1 or row.of(frozenset({s.ARC}))):
             return None
@@ -200,6 +222,8 @@ def _resolved(kind: str, match: re.Match[str], row: Row, before: Sequence[Anchor
         return Where(frozenset(range(first_one[0], count))) if len(first_one) == 1 else None
     if kind == "rest":
         ahead = frozenset(range(max(passed) + 1, count)) if passed else frozenset()
+        if not ahead and before and before[-1].kind == "beyond":
+            return last
         return Where(ahead) if ahead else None
     if kind == "numbered":
         return _cards(match, row)
@@ -284,7 +308,9 @@ def _numbered(row: Row, noun: str, ords: str | None, among: Sequence[int] | None
     places = list(among) if among is not None else _of(row, _kinds(noun))
     if ords is None:
         return places if len(places) == 1 else []
-    numbers = [w.ORDINAL[word] for word in re.findall(rf"\b{w.ORD}\b", ords)]
+    if "middle" in ords and (len(places) % 2 == 0 or len(places) < 3):
+        return []
+    numbers = [len(places) // 2 if word == "middle" else w.ORDINAL[word] for word in re.findall(rf"\b(?:{w.ORD}|middle)\b", ords)]
     if any(not row.units[index].single for index in places) or any(not -len(places) <= number < len(places) for number in numbers):
         return []
     return [places[number] for number in numbers]
@@ -292,10 +318,16 @@ def _numbered(row: Row, noun: str, ords: str | None, among: Sequence[int] | None
 
 def _ordinal(match: re.Match[str], row: Row, last: Where | None, passed: Sequence[int]) -> Where | None:
     noun, ords = match["noun"], match["ords"]
+    if noun is not None and not noun.startswith(("one", "of ")) and _kinds(noun) == s.ANY and any(unit.chained and unit.kind == s.FACE for unit in row.units):
+        # "The first part" may be all turns of a list.
+        return None
     if noun is None or noun.startswith(("one", "of ")):
         # The second of what was spoken of: several at once, else all movements if they are of one kind.
         among = sorted(last.units) if last and last.units and len(last.units) > 1 else list(range(len(row.units)))
-        if len({row.units[index].kind for index in among}) > 1 and not {row.units[index].kind for index in among} <= s.TURNS:
+        number = next((value for word, value in w.COUNTS.items() if noun and word in noun.split()), None)
+        if number == len(row.units):
+            among = list(range(number))
+        elif len({row.units[index].kind for index in among}) > 1 and not {row.units[index].kind for index in among} <= s.TURNS:
             return None
         if noun is None and len(among) < 2:
             return None

@@ -20,11 +20,12 @@ NOUNS: tuple[tuple[str, frozenset[str]], ...] = (
     (r"turns?|rotations?|headings?|bearings?|swings?|directions?", TURNS),
     (r"waits?|settling", frozenset({WAIT})),
     (r"visual holds?|stares?", frozenset({VISUAL})),
-    (r"steps?|parts?|stages?|phases?|sections?|ones?|moves?|movements?|manoeuvres?|positions?|places?|of (?:these|them|those)", ANY),
+    (r"steps?|parts?|stages?|phases?|sections?|ones?|moves?|movements?|manoeuvres?|positions?|places?|of (?:these|them|those)(?: (?:two|three|"
+    r"four|five))?", ANY),
 )  # fmt: skip
 """Nouns of scopes with the movements that they mean."""
 _NOUN = "(?:" + "|".join(pattern for pattern, _kinds in NOUNS) + ")"
-_ORD = w.ORD
+_ORD = rf"(?:{w.ORD}|middle)"
 _ORDS = rf"{_ORD}(?:(?:, (?:the )?{_ORD})*,? (?:and|or) (?:(?:in|on|for|during) )?(?:the )?{_ORD})?"
 _PREP = r"(?:in|on|during|for|at|through|throughout|within|over|along|round)"
 _CARD = r"(?:one|two|three|four|five|six|seven|eight|[1-9])"
@@ -40,7 +41,7 @@ _GERUNDS = (
     ("turn", r"turn(?:ing|s)?|rotat(?:ing|es?)|swing(?:ing|s)?|pivot(?:ing|s)?|com(?:ing|es) round"),
     ("nudge", r"panning|nudging"),
     ("goto", r"under way|on the move|moving|sailing|driving|running|in transit|transiting|travelling|steaming|en route|motoring"),
-    ("wait", r"settling|waiting for (?:stability|her to settle)|(?:the boat|she) settles"),
+    ("wait", r"settling|waits?(?= ?[,.;]|$)|waiting(?= ?[,.;]|$)|waiting for (?:stability|her to settle)|(?:the boat|she) settles"),
 )  # fmt: skip
 GERUNDS = {"hold": frozenset({HOLD, VISUAL}), "drift": frozenset({DRIFT}), "arc": frozenset({ARC}), "turn": TURNS, "nudge": frozenset({NUDGE}),
            "goto": frozenset({GOTO}), "wait": frozenset({WAIT})}  # fmt: skip
@@ -62,7 +63,17 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
     ("since", re.compile(
         rf"\b(?:from|starting with) the (?P<ords>{_ORD}) (?P<noun>{_NOUN}) on(?:wards?)?\b|\bfrom the (?P<noun2>{_NOUN}) on(?:wards?)?\b"
     )),
-    ("upto", re.compile(r"\b(?:up to|as far as|until|till) @(?: and no (?:further|farther|longer))?")),
+    ("beyond", re.compile(
+        r"\b(?:once|when|after|as soon as|the moment|from the moment) (?:you |she |it |we )?(?:have |has |is |are )?(?:reached|reach|passed|past|"
+        r"left|at|arrived at) @|"
+        r"\b(?:once|when|as soon as|the moment) @ (?:is|has been|lies) (?:reached|passed|behind|astern)(?: (?:of )?(?:you|her|us))?"
+    )),
+    ("upto", re.compile(
+        r"\b(?:until|till|before) (?:you |she |it |we )(?:have |has |is |are )?(?:reached|reach|reaches|at|pass|passed) @|\b(?:until|till|"
+        r"before) @ (?:is|has been) (?:reached|passed)|"
+        r"\b(?:up to|as far as|until|till) @(?: and no (?:further|farther|longer))?"
+    )),
+    ("ordered", re.compile(r"\bin (?:that|this|the given|the stated) order\b")),
     ("onwards", re.compile(
         r"\bfrom (?:that|this|the) (?:moment|point|time|instant|place|spot)(?: on(?:wards?)?)?\b|\bfrom (?:then|there|here|now) on(?:wards?)?\b|"
         r"\bas of then\b"
@@ -84,7 +95,8 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
         rf"\d)\w+[ -])??(?P<noun>{_NOUN}))?\b(?: only| alone)?"
         r"(?(noun)|(?=[.,;:]|$| (?:only|alone|and|but|is|gets?|has|needs?|goes|runs|in addition|also|too|with|without)\b))"
     )),
-    ("ordinal", re.compile(rf"(?:^|(?<=[.;:] ))(?P<ords>{_ORD}) (?P<noun>{_NOUN})(?=:|,| only| alone)")),
+    ("ordinal", re.compile(rf"(?:^|(?<=[.;:] ))(?P<ords>{_ORD}) (?P<noun>{_NOUN})(?=:|,| (?:only|alone|with|without|has|gets|needs|under|is|"
+    rf"passes|runs|goes)\b)")),
     ("outer", re.compile(rf"\b(?:{_PREP} |only )?the (?P<side>outer|inner) (?P<noun>{_NOUN})\b(?!,? (?:to|towards) )")),
     ("that", re.compile(
         rf"\b{_LIMIT}{_PREP} (?:this|that|these|those) (?:last |final |very |same )?(?P<noun>{_NOUN})\b|\b(?:this|that) (?P<noun2>{_NOUN})(?= (?:is|"
@@ -96,7 +108,7 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
     ("all", re.compile(
         rf"\b(?:{_PREP} |with )?(?:all|both|each|every|either)(?: of)?(?: (?:the|its|these|those))?(?: (?:two|three|four|five|six|seven|eight|nine|"
         rf"ten|\d))?(?: of)? (?P<noun>{_NOUN})\b"
-        r"(?!(?: \w+)? (?:but|except|bar|save|apart))"
+        r"(?!(?: \w+)? (?:but|except|bar|save|apart)| (?:in which|where|when|that|which)\b)"
     )),
     ("everywhere", re.compile(
         r"\b(?:throughout(?! the (?!whole|task|mission|plan))|all along(?! the)|(?:for |during )?the (?:whole|entire|full) (?:time|way|mission|task|"
@@ -127,10 +139,11 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
                           r"midpoints)))\b(?! of)(?: only| alone)?")),
     ("while", re.compile(
         rf"\b{_LIMIT}(?:while|when|whilst|as long as|for as long as|so long as|as(?= she| you| it))(?: only)? ?{_DO}(?:{_GERUND})\b{_BEHIND}|"
-        r"(?<=, )(?:(?P<hold2>holding|on station)|(?P<drift2>drifting|floating|adrift|afloat)|(?P<turn2>turning))(?=[,.;]|$)|\b(?P<goto2>under way|"
+        r"(?<=, )(?:(?P<hold2>holding|on station)|(?P<drift2>drifting|floating|adrift|afloat)|(?P<turn2>turning))(?=[,.;]|$)|\b(?P<goto2>under ?way|"
         r"on the move)\b"
     )),
-    ("then", re.compile(r"\b(?:by )?then(?=[.;]|$)|(?:^|(?<=[,;] )|(?<=and )|(?<=[.;:] ))there\b(?! (?:is|are|'s|was|will|should|may|must|and|you))")),
+    ("then", re.compile(r"\b(?<!until )(?<!till )(?<!before )(?:by )?then(?=[.;]|$)|(?:^|(?<=[,;] )|(?<=and )|(?<=[.;:] ))there\b(?! (?:is|are|"
+    r"'s|was|will|should|may|must|and|you))")),
     ("kind", re.compile(
         rf"(?:(?<=\bonce )|(?<=\bafter )|(?<=\buntil )|(?<=\btill ))the (?P<noun>{_NOUN})\b(?= (?:is|has been) (?:over|done|finished|through|complete))"
     )),
@@ -145,7 +158,8 @@ UNREAD = re.compile(
     r"half (?:the|way)|"
     r"only|alone|just|except|bar|save for|apart from|other than|but not|bits?|\w+ward\b|(?:in|on|during|for|at|along|over|throughout) (?:the |"
     r"its )(?:[\w-]+ ){0,2}(?:" + "|".join(pattern for pattern, _kinds in NOUNS) + r")\b|"
-    r"in case|whenever|wherever|every \d|now and then|the (?:others?|former)|likewise|ditto|same|elsewhere|where|at the (?:start|beginning|end)|"
+    r"in case|each time|every time|whenever|wherever|every \d|now and then|the (?:others?|former)|likewise|ditto|same|elsewhere|where|"
+    r"at the (?:start|beginning|end)|"
     r"at (?:its|each|either) end|"
     r"(?:at|in) the (?:berth|dock|goal|target|destination|place|spot|quay|home))\b"
 )

@@ -94,6 +94,9 @@ def read_step_scopes(text: str, names: Iterable[str], vocabulary: Vocabulary) ->
     if not said.text or w.CHANGED.search(said.text) or " STOP " in text or text.endswith(" STOP"):
         return StepReading()
     found = list(scopes_of(said.text))
+    once = [place for place in said.places.values() if list(said.places.values()).count(place) == 1]
+    # "As far as @ no care is needed": a place that nothing else leads to is gone to.
+    found = [(kind, match) for kind, match in found if not (_FREELY.match(said.text[match.start() :]) and said.places.get(match.end() - 1) in once)]
     masked = [match.span() for name in _LIKE_MOVEMENTS for match in w.SKILL_WORDS[name].finditer(said.text)]
     row: Row | None = row_of(said, [*(match.span() for kind, match in found if "@" not in match[0] or kind in ("upto", "beyond", "place")), *masked])
     assert row is not None
@@ -102,7 +105,8 @@ def read_step_scopes(text: str, names: Iterable[str], vocabulary: Vocabulary) ->
         row = None
     if row is not None and _unread_movement(said.text, row, _unresolved(found)):
         row = None
-    if row is not None and (_STRUCTURE.search(said.text) or unread_places(said, row)):
+    bounds = [match.span() for kind, match in found if kind in ("upto", "beyond")]
+    if row is not None and (_STRUCTURE.search(said.text) or unread_places(said, row, bounds) or _unread_leg(said.text, row)):
         row = None
     anchors = anchors_of(said, found, counted, row is not None)
     mentions = mentions_of(said.text, [name for name in names if name in w.SKILL_WORDS], anchors)
@@ -128,6 +132,15 @@ def read_step_scopes(text: str, names: Iterable[str], vocabulary: Vocabulary) ->
     return StepReading(scopes, frozenset(asked & scopes.keys()))
 
 
+_FREELY = re.compile(r"(?:up to|as far as) @ (?:you|she|we|it)\b[^.;,]{0,20}\b(?:no|not|nothing|without|freely|needn't)\b")
+"""What stands at the beginning of a way on which nothing runs."""
+_NOTHING = re.compile(r"^[,:]? ?(?:\w+ ){0,2}(?:nothing|none|without|no\b|not\b)")
+"""What follows a scope in which nothing runs."""
+_LEG = re.compile(
+    r"\b\d[\d.]* ?(?:m|metres?|meters?|km|yards?|feet)\b(?: further| more| out)? (?:on (?:an? )?(?:the )?(?:bearing|course|heading)|due|"
+    r"(?:to the |further )?(?:north|south|east|west)\w*)\b"
+)
+"""A leg by its length and bearing, that is a movement."""
 _ORDERED = re.compile(r"^\W*(?:and )?(?:first(?:ly)?|second(?:ly)?|third(?:ly)?|next|then|lastly|finally|after that|afterwards|from there|on arrival)\b,?")
 
 
@@ -144,6 +157,11 @@ def _unread_movement(text: str, row: Row, scopes: Sequence[Anchor]) -> bool:
         _ORDERED.match(text[begin:end]) and not any(begin <= unit.start < end for unit in row.units) and not any(begin <= scope.start < end for scope in scopes)
         for begin, end in _pieces(text, w.SENTENCE, 0, len(text), scopes)
     )
+
+
+def _unread_leg(text: str, row: Row) -> bool:
+    """Whether a text tells a leg that is no movement of its row."""
+    return any(not any(unit.start <= match.end() and match.start() <= unit.end + 1 for unit in row.units) for match in _LEG.finditer(text))
 
 
 def _without(text: str, item: tuple[int, int], anchors: Sequence[Anchor]) -> str:
@@ -292,11 +310,14 @@ def _loose(text: str, mentions: Sequence[Mention], anchors: Sequence[Anchor]) ->
             continue
         begin = max((match.end() for match in re.finditer(r"[.;:!?]\s", text[: anchor.start])), default=0)
         end = next((match.start() for match in re.finditer(r"[.;!?](?=\s|$)", text[anchor.end :])), len(text) - anchor.end) + anchor.end
-        pointed = anchors[number + 1].kind in ("that", "then", "ordinal") if number + 1 < len(anchors) else False
+        following = anchors[number + 1] if number + 1 < len(anchors) else None
+        pointed = following is not None and following.kind in ("that", "then", "ordinal") and not _NOTHING.match(text[following.end :])
         moved = any(not other.is_scope and begin <= other.start < end for other in anchors)
         behind = [mention for mention in mentions if anchor.end <= mention.start < end]
         before = [mention for mention in mentions if mention.end <= anchor.start]
         near = [mention for mention in before if mention.start >= begin]
+        if _NOTHING.match(text[anchor.end : end]):
+            continue
         later = any(other.is_scope and near and near[-1].end <= other.start < anchor.start and not other.denied for other in anchors)
         if not behind and not pointed and not moved and before and (later or not near):
             found.append(before[-1])

@@ -89,7 +89,8 @@ ASKED: dict[str, tuple[str, ...]] = {
         r"how far [a-z0-9' -]{3,40} (?:is|lies|stands) from the (?:cent(?:re|er)|middle) of the (?:frame|picture|image)\b",
     ),
     "GetSectorDistance": (
-        r"(?:minimum|shortest|smallest|least) (?:lidar |laser )?(?:distance|range|return)\b(?! (?:to|of|from)\b)|sector distances?\b|"
+        r"(?<!metres )(?<!meters )(?<!\dm )(?<!\d m )(?<!feet )(?<!yards )(?:minimum|shortest|smallest|least) (?:lidar |laser )?(?:distance|"
+        r"range|return)\b(?! (?:to|of|from)\b)|sector distances?\b|"
         r"clos(?:est|set) (?:lidar |laser )?return\b",
     ),
     "DistanceToObstacle": (
@@ -142,6 +143,7 @@ ASKED: dict[str, tuple[str, ...]] = {
     ),
     "LogLidarSlice": (
         r"(?:tak|log|sav|stor|record|writ)(?:e|ing|es|s) (?:an? |the |down )?(?:2d )?(?:lidar |laser )?(?:slice|sweep|profile)s?\b|2d (?:lidar )?profile\b|"
+        r"(?:lidar |laser )(?:slice|sweep|profile)s? (?:gets?|is|are|to be|is to be|being) (?:logged|saved|taken|recorded)\b|logged lidar slice\b|"
         r"lidar slices? (?:at|on|in|saved|logged)\b(?<!check lidar slice at)(?<!query lidar slice at)(?<!the lidar slice at)(?<!lidar slice on)",
     ),
     "LogEnvironmentState": (

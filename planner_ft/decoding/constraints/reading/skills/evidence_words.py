@@ -61,6 +61,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"slewing|veering)",
     ),
     "ObstacleAvoidance": (
+        rf"{SIZE} (?:minimum|safe) (?:distance|separation)|minimum (?:distance|separation)(?:,| of| is)? {SIZE}",
         r"giv\w+ way\b",
         r"\w*margins?\b|marg\b|clr\b|oa\b|\w*avoid\w*|collision|collid\w+|anti-?coll\w+|evad\w+|evasi\w+|dodg\w+|proximity|skirt\w*|bump\w*|hit\b|"
         r"hitting|touch(?!down)\w*|safety",

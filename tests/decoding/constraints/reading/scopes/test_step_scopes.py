@@ -14,7 +14,7 @@ from planner_ft.vocabulary import load_vocabulary
 VOCABULARY = load_vocabulary()
 NAMES = [skill.name for role in ("filter", "perception") for skill in VOCABULARY.skills_in_role(role)]
 GO, HOLD, FACE, NUDGE, ARC = "GoToXY", "StationKeep", "RotateToHeading", "NudgeYaw", "ArcTurn"
-DRIFT, VISUAL = "DriftWithCurrent", "VisualStationKeep"
+DRIFT, VISUAL, WAIT = "DriftWithCurrent", "VisualStationKeep", "WaitForStability"
 
 
 def verdicts(text: str, skill: str, navigation: list[str]) -> str:
@@ -47,6 +47,29 @@ def verdicts(text: str, skill: str, navigation: list[str]) -> str:
         ("Go to [3, 3], turn to 90, hold a minute. Soundings once the turn is over.", "GetSeabedDepth", [GO, FACE, HOLD], "--+"),
         ("Go to [3, 3], turn to 90, hold a minute. Soundings in the last two steps.", "GetSeabedDepth", [GO, FACE, HOLD], "-++"),
         ("Drive to [1, 2], [5, 2] and [5, 9] while filming with the bow camera, then hold.", "SetStreamRecording", [GO, GO, GO, HOLD], "+++-"),
+        ("Go to [3, 3], turn to 120, shift to [3, 9]. A margin of 5 m holds for both moves; the turn has none.", "ObstacleAvoidance", [GO, FACE, GO], "+-+"),
+        ("Face south, face west, face north, in that order, with the object detector on boats.", "DetectObjects", [FACE] * 3, "+++"),
+        ("Go to [3, 3] and turn to 040, to 080 and to 120. Each of the three turns gets a logged lidar slice.", "LogLidarSlice", [GO, FACE, FACE, FACE],
+         "-+++"),
+        ("Face south, then west, then north. Geotagged stills on the first and the last bearing.", "CaptureGeoSnapshot", [FACE] * 3, "+-+"),
+        ("Go [9, 0], [9, 40], [30, 40]. Middle leg passes the moorings: obstacle clearance 20 metres there. First leg, nothing.", "ObstacleAvoidance",
+         [GO] * 3, "-+-"),
+        ("Go [9, 0], [9, 40], [30, 40]. Final leg with the bow locked. First leg, nothing.", "LockHeading", [GO] * 3, "--+"),
+        ("Go out to the raft at [60, 5], stay there five minutes, then come back as far as [9, 9]. Take a GPS fix only on the way back.", "GetGPSLocation",
+         [GO, HOLD, GO], "--+"),
+        ("As far as [20, 0] you need no special care. From there to the nets at [60, 5] keep six metres of clearance.", "ObstacleAvoidance", [GO, GO], "-+"),
+        ("Enter via [9, 0], go on to [9, 30], and hold there a minute. Once you have reached [9, 0], and for all the rest, take GPS fixes.", "GetGPSLocation",
+         [GO, GO, HOLD], "-++"),
+        ("Hold a minute with the object detector on rafts. Then turn to 75. Then a second hold, with a GPS fix in place of the detector.", "DetectObjects",
+         [HOLD, FACE, HOLD], "+--"),
+        ("Drive to [5, 2], there wait until the rolling has settled, with the bow locked as long as you wait. Next keep the fender centred.", "LockHeading",
+         [GO, WAIT, VISUAL], "-+-"),
+        ("Go to [5, 2], turn to 30 and keep the anode in the picture. Pixel offset to the anode during the last of these three only.", "CalculateVisualOffset",
+         [GO, FACE, VISUAL], "--+"),
+        ("Hold two minutes and record nothing while you do. Afterwards face south, and for that turn record the bow camera.", "SetStreamRecording",
+         [HOLD, FACE], "-+"),
+        ("From [5, 5], where you are, 60 m on bearing 000; with that leg done, go to [9, 90], bow locked for that leg alone.", "LockHeading", [GO, GO], "??"),
+        ("Hold a minute, turn to 90 and keep the anode in the picture. Take a GPS fix in every hold.", "GetGPSLocation", [HOLD, FACE, VISUAL], "???"),
     ],
 )  # fmt: skip
 def test_scopes_of_many_wordings(text: str, skill: str, navigation: list[str], steps: str) -> None:
