@@ -147,7 +147,7 @@ class TaskScript:
         """A skill that the model would name in a list, and which may not stand there, is no reason to name another one where the list could have ended."""
         if self.chosen is not None or self.role == "navigation":
             return False
-        _more, ends = self._listed(self.role, self._movement[0], [skill for skill, _parameters in self.beside])
+        _more, ends = self._listed(self.role, *self._movement, [skill for skill, _parameters in self.beside])
         return ends and any(patterns.quoted(skill.name).startswith(text) for skill in self.vocabulary.skills_in_role(self.role))
 
     def asks(self, text: str) -> int | None:
