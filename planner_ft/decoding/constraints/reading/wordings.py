@@ -45,6 +45,10 @@ UNORDERED = _words(
 UNSURE = re.compile(
     r"\b(?:same|that) [xy]\b|\b(?:displaced|shifted) (?:by )?\d|\bshift (?:the|that|it)\b|\bstand-?off (?:of )?\d|\b(?:given|planned|stated|set) maximum\b|"
     r"\b(?:headings|bearings) on the spot\b|\borbit(?:ing)? (?:the|that|it)\b|[\])\d] (?:last|first|in the middle)(?=[,.;])|\(-?\d[\d.]*;|\[[\[(]-?\d|"
+    r"\bthe [xy] of\b|\ben route to\b|\bpass(?:ing)? by [xX\[(\d]|\b(?:each|every) time\b|\bhalf (?:as|that) (?:far|way|distance)\b|\bouter lanes\b|"
+    r"\b(?:just|only) the \w+(?:-\w+)? (?:side|half|edge) of\b|\bon the other side\b|\babeam\b|\bby (?:its |the )?(?:north|south|east|west)\w* side\b|"
+    r"\bcable off\b|"
+    r"\d ?(?:m|met(?:re|er)s?) (?:north|south|east|west)\w* and \d[\d.]* ?(?:m|met(?:re|er)s?) (?:north|south|east|west)\w* of the\b|"
     r"\bdestination is\b|\bfrom the cent(?:re|er)\b|\bof it:|\b(?:one|two|three) sides\b|\b[A-D]-[A-D]\b|"
     r"\b(?:north|south|east|west)[a-z-]* of (?:x ?=? ?)?[\[(]?-?\d[^.;]{1,20}? (?:at|by) (?!\()(?:\d|[a-z]+ (?:metres?|meters?|yards|feet)\b)",
     re.IGNORECASE,
