@@ -52,6 +52,7 @@ ROUND = re.compile(r"\b(?:square|round|around|about|circle|ring|circuit|perimete
 UNKNOWN = re.compile(r"\b(?:zig-?zag|spiral|triang\w+|hexagon\w*|pentagon\w*|octagon\w*|figure|ellip\w+|oval|diamond|half ?way|midpoint|mirror\w*)\b", re.I)
 """Shapes whose waypoints are not derived here."""
 LOOSE = re.compile(
+    r"\d ?(?:m|met(?:re|er)s?) beyond (?:it|that)\b|\bdegrees to the (?:left|right) of (?:the|that)\b|\btwo (?:north|south|east|west)[\w-]* lines\b|"
     r"\bway-?points? (?:every|each)\b|\bevery \d+(?:\.\d+)? ?(?:°|deg\w*)|\beach \d+ ?(?:°|deg\w*)|\bpart of (?:a|the) (?:ring|circle|square|round)\b|"
     r"\bo['’]clock of\b|\bhops?\b|\bstairs?\b|"
     r"\bdog[- ]?leg|\bmiddle of the line\b|half of the \d|\breciprocal\b|\b(?:stop\w*|stations?|halt\w*) every\b|\b(?:round|along) the edge\b|"

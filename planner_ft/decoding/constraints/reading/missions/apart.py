@@ -43,15 +43,18 @@ def read_apart(text: str) -> Given:
 
 def lists_of_numbers(text: str) -> Iterator[tuple[Quantity, ...]]:
     """Numbers that stand in a row, the last with a unit, which is that of all: "2, 4 and 6 minutes"."""
-    numbers = quantities(text)
-    row: list[Quantity] = []
-    for one, two in itertools.pairwise(numbers):
-        row = row or [one]
-        joined = _LISTED.fullmatch(text[one.end : two.start]) is not None and one.unit in (None, two.unit) and one.said > 0
-        row = [*row, two] if joined else []
-        if len(row) > 1 and two.unit is not None:
-            factor = two.value / two.said if two.said else 1.0
-            yield tuple(Quantity(number.said * factor, two.unit, number.start, number.end, number.said) if number.unit is None else number for number in row)
+    rows: list[list[Quantity]] = []
+    for number in quantities(text):
+        last = rows[-1][-1] if rows else None
+        if last and _LISTED.fullmatch(text[last.end : number.start]) and last.unit in (None, number.unit) and last.said > 0:
+            rows[-1].append(number)
+        else:
+            rows.append([number])
+    for row in rows:
+        last = row[-1]
+        if len(row) > 1 and last.unit is not None:
+            factor = last.value / last.said if last.said else 1.0
+            yield tuple(Quantity(one.said * factor, last.unit, one.start, one.end, one.said) if one.unit is None else one for one in row)
 
 
 def _in_order(text: str, blank: str, places: list[tuple[Point, int, int]]) -> Iterator[tuple[Point, str, frozenset[float]]]:

@@ -20,7 +20,11 @@ _KINDS = {
     ),
     "orbit": re.compile(
         r"\b(?:orbit\w*|circl\w+|(?:go|goes|going|once|way|ride|sail|run|full|lap|half) a?round|laps?|loops?|circumnavigat\w*|arcs?)\b", re.IGNORECASE),
-    "square": re.compile(r"\b(?:survey\w*|inspect\w*|examin\w*|look (?:at|over)|look \w+ over)\b", re.IGNORECASE),
+    "square": re.compile(
+        r"\b(?:survey\w*|inspect\w*|examin\w*|assess\w*|apprais\w*|stud(?:y|ies)|size up|eyeball|check \w+ (?:out|over)|go over|look (?:at|over)|"
+        r"look \w+ over)\b",
+        re.IGNORECASE,
+    ),
     "visual": re.compile(r"\b(?:dock|docking|berth|berthing|moor|mooring up|bring (?:you|her|it) in)\b"
                          r"(?=.*\b(?:camera|visual\w*|sight|mark\w*|lens|optic\w*)\b)"
                          r"|\b(?:camera|visual\w*)\b.*\b(?:dock|docking|berth|berthing|approach)\b", re.IGNORECASE),

@@ -42,6 +42,9 @@ NO_MOVEMENT = re.compile(
 FIRST_ONE = re.compile(r"\b(?:first|second|third|last|next|other|each|final) $", re.IGNORECASE)
 """Before a one that is no number: "six headings, the first one 030"."""
 
+OWN_NAMED = re.compile(r"\b(?:target|goal|berth) (?:coordinates|position)\b", re.IGNORECASE)
+"""The place of the task's own parameters."""
+
 
 def read_itinerary(record: dict[str, Any], vocabulary: Vocabulary) -> Path | None:
     """Every waypoint of the answer in order, where the input leaves no choice; None where it does."""
@@ -60,6 +63,8 @@ def read_itinerary(record: dict[str, Any], vocabulary: Vocabulary) -> Path | Non
             walked += found
             shaped += [found] if _shapes(part) else []
     except Uncertain:
+        return None
+    if facts.own and facts.own not in walked and OWN_NAMED.search(text):
         return None
     # "Mow the area after that, lanes north-south" speaks of one grid.
     if any(one == two for one, two in itertools.pairwise(shaped)):

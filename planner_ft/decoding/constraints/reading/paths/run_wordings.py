@@ -31,6 +31,7 @@ SIGNED = re.compile(r"\b(?:minus|negative)\b|(?:^|[\s,(])[-−–]\d", re.IGNORE
 
 # Text that is not read
 STOP = _words(
+    r"two (?:north|south|east|west)[\w-]* lines|degrees to the (?:left|right) of (?:the|that)|"
     r"zig-?zag|spiral|triang\w+|hexagon\w*|pentagon\w*|octagon\w*|figure|ellip\w+|oval|diamond|ring|lawn-?mow\w*|grids?|lanes?|mow\w*|"
     r"boustrophedon|"
     r"spacing|mapped|apart|wide|\d ?m by|met(?:re|er)s? by|creeping|sector search|expanding|rectangle(?! from {4,})|mirror\w*|squares?|"

@@ -189,6 +189,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"infra-?red\b(?! (?:cam\w*|stream|feed|view|clips?|images?|videos?|picture|files?|search)\b)|\bir (?:figures|values|readings?|data|numbers)",
     ),
     "LocateHotspot": (
+        r"(?:infrared|thermal|heat|temperature) (?:maximum|peak)|"
         r"\w*hot-? ?spots?\w*|hott\w+|(?<!\bhow )hot\b|warmer\b|warmest|(?<!\bhow )warm\b|heat\b(?! of)|heated|overheat\w*|burn(?:s|ing|er)?\b|"
         r"glow\w*|scorch\w*|peaks?\b|maxima\b",
         r"(?:highest|greatest|max\w*|peak|top) (?:[a-z]+ )?(?:temp\w*|heat|thermal)|thermal (?:peak|max\w*|anomal\w*|search|source|signature|"
@@ -346,7 +347,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         rf"\w*record(?:s|ed|ing|ings|er|ers)?\b(?! {SENSED})(?! as (?:an? )?obs)|film\w*|(?<!\bof )(?<!\bbuffered )vide?o(?:s|ing|ed)?\b(?! "
         r"(?:buffer|"
         r"quality|frame|from the buffer|is (?:good|usable|sharp)))|(?<!\bof )(?<!\bgrade the )(?<!\bgrading the )footage|movies?\b|tap(?:e|ing|ed)\b|"
-        r"rec\b|mp4|\binto ['\"“](?! )",
+        r"rec\b|mp4|\binto ['\"“](?! )|(?:file|with the file|new file) (?:name|called|named) |(?:running|on), file \w|file the [\w ]+ as |keep it rolling",
         r"(?<!\bbuffer )(?<!\bbuffer on)(?:to|on|onto) (?:the )?(?:disk|disc|drive|file|storage|card|camera)\b|on tape|roll(?:ing|"
         r"s)? (?:the )?(?:tape|cam|video|film|rec)|file-? ?tags?|(?:the|with|under|with a|file|,|a|same) tags?\b|tagged|filed|writ(?:e|es|"
         r"ing)\b[^.;]{0,30}dis[ck]|clips?\b",
@@ -413,6 +414,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"towards)|(?:position|place|placing|pos)\b[^.;,]{0,12} (?:against|as against)|in relation to|seen from (?:the|its)",
     ),
     "VerifyGeotagQuality": (
+        r"(?:scatter|spread|jitter|wander)\w* (?:of|in|on) (?:the |its |your )?(?:gps|gnss|fix)|"
         r"\w*accura\w*|acc\b|precis\w*|[hp]?dop\b|exact(?!ly)\w*|trust\w*|reliab\w*|geo-? ?tags?\b(?! (?:still|snap|pic|pho|im))|"
         r"geo-? ?tag\w* (?:qual|check|verif|valid|are|is|good)\w*|horizontal(?:ly)?\b|cep\b",
         r"(?:gps|gnss|fix(?:es)?|satellite\w*)\b(?: (?!and\b|while\b)[\w,-]+){0,5} (?:quality|errors?|good|better|below|under|within|less|"
