@@ -48,9 +48,9 @@ def corrections(word: str, most: int = 6) -> tuple[str, ...]:
 
 
 def _misspelt(word: str, limit: int) -> Iterator[tuple[int, int, str]]:
-    """(edits, -frequency, known word) of the known words that `limit` edits make of `word`."""
+    """(edits, -frequency, known word) of the known words of three letters or more that `limit` edits make of `word`."""
     letters = _letters(word)
-    for length in range(len(word) - limit, len(word) + limit + 1):
+    for length in range(max(3, len(word) - limit), len(word) + limit + 1):
         for candidate, others in _by_length().get(length, ()):
             # Every edit changes two letters of the sets at most.
             if (letters ^ others).bit_count() <= 2 * limit:
