@@ -48,7 +48,7 @@ class Generation:
 
     `finish_reason`: "stop" (an end-of-turn token), "length" (cut at the limit) or "error" (`error` says why).
     `first_token_s` is the time from the batch's begin until its first tokens were known. `forward_passes` are those that the answer
-    took part in, those of a second look included. Of its tokens, `forced_tokens` left no choice and `drafted_tokens` were drafted
+    took part in, those of a second look and of going back included. Of its tokens, `forced_tokens` left no choice and `drafted_tokens` were drafted
     rightly. `notes` and `cut` are the constraint's (see `constraints`), `alternatives` the answers that a second look weighed against it.
     """
 
@@ -165,7 +165,7 @@ def _look_again(decoder: Decoder, query: Query, limits: Limits, method: Method, 
     rows, chosen = [(row, 0.0)], 0
     for _round in range(look.rounds):
         beginnings = look.beginnings(*rows[chosen])
-        others = [_begin(decoder, query, limits, method, beginning.ids) for beginning in beginnings]
+        others = [_begin(decoder, query, limits, method, beginning.ids, goes_back=False) for beginning in beginnings]
         for _index, _answer in _generate_batch(decoder, {index: other for index, other in enumerate(others) if not other.finished}, began):
             pass
         passes += max((other.forward_passes for other in others), default=0)

@@ -16,7 +16,7 @@ from planner_ft.decoding.limits import Limits
 from planner_ft.decoding.sampling import Sampler
 
 LEAST_SUBSTITUTE = 0.02
-"""Below this share of the probability, what is allowed is no substitute for the model's own choice where the answer could have ended instead."""
+"""Below this share of the probability, what is allowed is no substitute for the model's own choice where the answer or a list could have ended instead."""
 
 FinishReason = Literal["stop", "length", "error"]
 

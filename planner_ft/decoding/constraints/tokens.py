@@ -165,7 +165,7 @@ class Tokens:
     def akin(self, token: int, mask: Mask) -> list[int]:
         """The allowed tokens that begin as `token` does for as long as any of them does; of two that begin with each other, the longer one.
 
-        None where they share fewer bytes than `LEAST_GROWN`, or no quotation mark among them: numbers and texts are not spelt for one another.
+        Empty where they share fewer bytes than `LEAST_GROWN`, or no quotation mark among them: numbers and texts are not spelt for one another.
         """
         known = self._by_bytes[0]
         text = self.bytes_of(token)
