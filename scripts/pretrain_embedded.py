@@ -40,14 +40,14 @@ def tokenizer_of(work: Path, arguments: argparse.Namespace) -> Any:
     return PreTrainedTokenizerFast.from_pretrained(folder)
 
 
-def make_shard(job: tuple[Path, Path, Path | None, int, int, float, int, float]) -> dict[str, int]:
+def make_shard(job: tuple[Path, Path, Path | None, int, int, float, int, float, float]) -> dict[str, int]:
     """Write one shard of the corpus (worker process)."""
     from transformers import PreTrainedTokenizerFast
 
     from planner_ft.pretraining.corpus import encode_shard
     from planner_ft.pretraining.emphasis import Emphasis
 
-    path, tokenizer, emphasis, seed, count, share, longest, drill_share = job
+    path, tokenizer, emphasis, seed, count, share, longest, drill_share, unfamiliar_share = job
     return encode_shard(
         path,
         PreTrainedTokenizerFast.from_pretrained(tokenizer),
@@ -58,6 +58,7 @@ def make_shard(job: tuple[Path, Path, Path | None, int, int, float, int, float])
         longest=longest,
         emphasis=Emphasis.load(emphasis) if emphasis else None,
         drill_share=drill_share,
+        unfamiliar_share=unfamiliar_share,
     )
 
 
@@ -89,7 +90,7 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
     """The corpus as shard files, those that are missing written first."""
     paths = [work / "corpus" / f"shard-{index:03d}.npz" for index in range(arguments.shards)]
     emphasis = emphasis_of(work, arguments, settings)
-    drawn = arguments.shard_samples, arguments.mission_share, settings.longest, arguments.drill_share
+    drawn = arguments.shard_samples, arguments.mission_share, settings.longest, arguments.drill_share, arguments.unfamiliar_share
     jobs = [(path, work / "tokenizer", emphasis, arguments.corpus_seed + index, *drawn) for index, path in enumerate(paths) if not path.is_file()]
     commit = source_commit()["commit"]
     with ProcessPoolExecutor(2) as pool:
@@ -156,6 +157,7 @@ def main() -> None:
     parser.add_argument("--shard-samples", type=int, default=12_000)
     parser.add_argument("--mission-share", type=float, default=0.6)
     parser.add_argument("--drill-share", type=float, default=0.0, help="samples of sums alone, the beginnings of task answers, per sample of the corpus")
+    parser.add_argument("--unfamiliar-share", type=float, default=0.0, help="samples whose targets go by words that the generators do not have")
     parser.add_argument("--hard-share", type=float, default=1.0, help="share of the drawn tokens that is kept, those hard for --init first")
     parser.add_argument("--scored-samples", type=int, default=8000, help="samples whose losses tell hard from easy")
     parser.add_argument("--corpus-seed", type=int, default=1000)

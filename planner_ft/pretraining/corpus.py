@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from random import Random
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from planner_ft.data.task.handed_down import handed_down_tasks
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.task.working import working_of
 from planner_ft.pretraining.emphasis import Emphasis, Encoded
+from planner_ft.pretraining.unfamiliar import with_unfamiliar_words
 from planner_ft.prompts.render import render_sample
 from planner_ft.prompts.text import answer_text, user_text
 from planner_ft.support.files import atomic_writer
@@ -52,16 +54,19 @@ class Rows:
     tokens: int
 
 
-def stream(vocabulary: Vocabulary, seed: int, mission_share: float) -> Iterator[tuple[Level, dict[str, Any]]]:
-    """Endless mixed samples of both levels; some of the task inputs are those that a Mission Agent hands down."""
+def stream(vocabulary: Vocabulary, seed: int, mission_share: float, unfamiliar_share: float = 0.0) -> Iterator[tuple[Level, dict[str, Any]]]:
+    """Endless mixed samples of both levels; some of the task inputs are those that a Mission Agent hands down.
+
+    With a probability of `unfamiliar_share` a sample's target gets a name that the generators do not know, where it has one that can be changed.
+    """
     missions, tasks = sample_missions(seed), sample_tasks(vocabulary, seed, None, "train")
     handed_down = handed_down_tasks(vocabulary, seed + HANDED_DOWN_SEED)
-    draw = np.random.default_rng(seed)
+    draw, words = np.random.default_rng(seed), Random(f"{seed} unfamiliar")
     while True:
-        if draw.random() < mission_share:
-            yield "mission", next(missions)
-        else:
-            yield "task", next(handed_down if draw.random() < HANDED_DOWN else tasks)
+        level: Level = "mission" if draw.random() < mission_share else "task"
+        record = next(missions if level == "mission" else handed_down if draw.random() < HANDED_DOWN else tasks)
+        changed = with_unfamiliar_words(record, vocabulary, words) if words.random() < unfamiliar_share else None
+        yield level, changed or record
 
 
 def tokenizer_texts(vocabulary: Vocabulary, seed: int, count: int, mission_share: float) -> Iterator[str]:
@@ -73,9 +78,11 @@ def tokenizer_texts(vocabulary: Vocabulary, seed: int, count: int, mission_share
         yield answer_text(level, record, vocabulary)
 
 
-def encoded(tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, seed: int, mission_share: float, longest: int) -> Iterator[Encoded | None]:
+def encoded(
+    tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, seed: int, mission_share: float, longest: int, unfamiliar_share: float = 0.0
+) -> Iterator[Encoded | None]:
     """Endless rendered samples; None stands for one of more than `longest` tokens."""
-    for level, record in stream(vocabulary, seed, mission_share):
+    for level, record in stream(vocabulary, seed, mission_share, unfamiliar_share):
         yield _encoded(tokenizer, vocabulary, level, record, longest)
 
 
@@ -114,6 +121,7 @@ def encode_shard(
     longest: int,
     emphasis: Emphasis | None = None,
     drill_share: float = 0.0,
+    unfamiliar_share: float = 0.0,
 ) -> dict[str, int]:
     """Write `count` tokenised samples as one .npz file; return counts.
 
@@ -125,7 +133,8 @@ def encode_shard(
     prompts: list[int] = []
     left_out = passed_over = drilled = 0
     practice = drills(tokenizer, vocabulary, seed=seed, longest=longest)
-    for sample in encoded(tokenizer, vocabulary, seed=seed, mission_share=mission_share, longest=longest):
+    drawn = encoded(tokenizer, vocabulary, seed=seed, mission_share=mission_share, longest=longest, unfamiliar_share=unfamiliar_share)
+    for sample in drawn:
         if sample is None:
             left_out += 1
         elif emphasis is not None and draw.random() >= emphasis.probability(sample):

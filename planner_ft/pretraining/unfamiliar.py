@@ -1,0 +1,132 @@
+"""Samples whose targets go by words that the generators' lists do not have, so that copying is learnt and not the lists.
+
+A model that has met every word of its targets many times writes those, and stumbles where an operator's word is none of them: it
+misspells it, or goes on with a piece of another text. Here a word that the input and the plan share, one of those that things are called
+or a name, is replaced in both.
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import planner_ft.data
+from planner_ft.data.mission.synthetic.names import NAME_ENDINGS, place_name, pseudo_word
+from planner_ft.vocabulary import Vocabulary
+
+_WORD = re.compile(r"(?<![\w-])[^\W\d_]{4,}(?![\w-])")
+_STAYING = """
+above aerial altimeter area back below bottom camera centre circular compass corner cross current detector deep east eastern edge face forward front
+gauge high hole home inboard infrared inner inspection laser left level line little long longer lower magnetic mark marker meter metre middle mobile near
+north northern number open outboard outer over part point port radar rear rectangular report right round safe second section sensor shallow shore side
+single small sound south southern square starboard stern stop stream surface swell tall temporary third three tide time upper video water west western
+wide wind yellow
+"""
+"""Words of places, directions, kinds and devices: they say what is to be done, and stay."""
+_PREFIXES = ("inter", "sub", "over", "under", "hydro", "electro", "aero", "mono", "multi", "semi", "cross", "fore", "out", "up", "trans", "photo")
+_SUFFIXES = ("er", "or", "ing", "ory", "ette", "ment", "age", "ler", "ock", "ard", "ling", "ship", "work", "house", "stone", "way", "let", "ine", "ite")
+_ACCENTS = {
+    "a": "àáâãäåæăą", "c": "çčć", "d": "đð", "e": "èéêëęě", "g": "ğ", "i": "ìíîïı", "l": "ł", "n": "ñńň", "o": "òóôõöøőœ", "r": "ř", "s": "šśşß",
+    "t": "țþ", "u": "ùúûüűů", "y": "ýÿ", "z": "žźż",
+}  # fmt: skip
+
+
+def with_unfamiliar_words(record: dict[str, Any], vocabulary: Vocabulary, rng: Random) -> dict[str, Any] | None:
+    """`record`, of either level, with one or two words of its targets replaced wherever they stand; None where it has none to replace."""
+    words = _shared_words(record, vocabulary)
+    if not words:
+        return None
+    rng.shuffle(words)
+    changed = record
+    for word in words[: 1 if rng.random() < 0.7 else 2]:
+        # "Trawlers" at the beginning of a sentence is the same word.
+        text = unfamiliar_word(word, rng)
+        forms = {word + end: text + end for end in ("", "s")}
+        forms |= {form[0].upper() + form[1:]: other[0].upper() + other[1:] for form, other in forms.items()}
+        pattern = re.compile(rf"(?<!\w)({'|'.join(map(re.escape, forms))})(?!\w)")
+        changed = _replaced(changed, pattern, forms)
+    return changed
+
+
+def unfamiliar_word(word: str, rng: Random) -> str:
+    """Another word, made up or of a foreign spelling, that can stand where `word` does: a name for a name, "an" stays "an"."""
+    for _ in range(50):
+        found = _name(rng) if word[0].isupper() else _noun(rng)
+        if (found[0].lower() in "aeio") == (word[0].lower() in "aeio") and found[0].isascii() and not found.lower().startswith(("u", "eu", "one", "hon")):
+            return found
+    return word
+
+
+def _name(rng: Random) -> str:
+    name = place_name(rng) if rng.random() < 0.5 else pseudo_word(rng, NAME_ENDINGS).capitalize()
+    return _accented(name, rng) if rng.random() < 0.35 else name
+
+
+def _noun(rng: Random) -> str:
+    things, roll = _things(), rng.random()
+    if roll < 0.35:
+        return rng.choice(things)
+    if roll < 0.5:
+        return rng.choice(things) + rng.choice(things)
+    if roll < 0.65:
+        return rng.choice(_PREFIXES) + rng.choice(things) + (rng.choice(_SUFFIXES) if rng.random() < 0.4 else "")
+    word = pseudo_word(rng) if roll < 0.85 else rng.choice(things) + rng.choice(_SUFFIXES)
+    return _accented(word, rng) if rng.random() < 0.25 else word
+
+
+def _accented(word: str, rng: Random) -> str:
+    """`word` with one or two letters, not the first, that English does not have."""
+    letters = list(word)
+    places = [index for index, letter in enumerate(letters) if index and letter in _ACCENTS]
+    for index in rng.sample(places, min(len(places), rng.choice((1, 1, 1, 2)))):
+        letters[index] = rng.choice(_ACCENTS[letters[index]])
+    return "".join(letters)
+
+
+@functools.cache
+def _things() -> tuple[str, ...]:
+    words = (Path(planner_ft.data.__file__).parent / "things.txt").read_text(encoding="utf-8").split()
+    return tuple(dict.fromkeys(word for word in words if len(word) > 3 and word not in _STAYING.split() and not word.startswith(("u", "eu", "one", "hon"))))
+
+
+def _shared_words(record: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
+    """The words that stand in a told parameter of the plan and in the prompt, and that mean a thing or are a name; in the order of the plan."""
+    meant, things, prompt = _vocabulary_words(vocabulary), frozenset(_things()), set(_WORD.findall(record["prompt"]))
+    found = dict.fromkeys(word for text in _told(record["expected"]) for word in _WORD.findall(text))
+    return [word for word in found if word in prompt and word.lower() not in meant and (word in things or (word[0].isupper() and not word.isupper()))]
+
+
+@functools.cache
+def _vocabulary_words(vocabulary: Vocabulary) -> frozenset[str]:
+    """The words that the names of tasks and skills are made of, in lower case."""
+    names = [task.title for task in vocabulary.tasks] + [skill.name for skill in vocabulary.skills]
+    return frozenset(_STAYING.split()) | {part.lower() for name in names for part in re.findall(r"[A-Z]+(?![a-z])|[A-Z][a-z]+", name)}
+
+
+def _told(expected: dict[str, Any]) -> Iterator[str]:
+    for entry in expected.get("tasks", ()):
+        yield from _strings(entry["parameters"])
+    for step in expected.get("skill_sequence", ()):
+        for call in (step["navigation_skill"], *step["filter_skills"], *step["perception_skills"]):
+            yield from _strings(call["parameters"])
+
+
+def _strings(value: Any) -> Iterator[str]:
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict | list):
+        for item in value.values() if isinstance(value, dict) else value:
+            yield from _strings(item)
+
+
+def _replaced(value: Any, pattern: re.Pattern[str], forms: dict[str, str]) -> Any:
+    """`value` with the words replaced in its strings; names of tasks and skills have no such word."""
+    if isinstance(value, str):
+        return pattern.sub(lambda match: forms[match[0]], value)
+    if isinstance(value, dict):
+        return {key: _replaced(item, pattern, forms) for key, item in value.items()}
+    return [_replaced(item, pattern, forms) for item in value] if isinstance(value, list) else value
