@@ -27,7 +27,7 @@ from planner_ft.decoding.configurations import STRENGTHS, Configuration, Strengt
 from planner_ft.decoding.constraints import Constraint
 from planner_ft.decoding.engine import Engine, Speed, decoding_threads
 from planner_ft.decoding.generate import Query
-from planner_ft.support.files import iterate_jsonl, write_json
+from planner_ft.support.files import read_jsonl, write_json
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -184,7 +184,7 @@ def records(level: Level, vocabulary: Vocabulary, count: int, seed: int) -> list
     """Curated commands, or sampled tasks."""
     if level == "task":
         return list(sample_tasks(vocabulary, seed, count, "validation"))
-    return [record for _line, record, _problem in iterate_jsonl(COMMANDS)][:count]
+    return read_jsonl(COMMANDS)[:count]
 
 
 def table(rows: list[Figures]) -> str:

@@ -23,7 +23,7 @@ def detokenize(self: Any, tokens: list[int], special: bool = False) -> bytes:
     for token in tokens:
         size = llama_cpp.llama_token_to_piece(self.vocab, llama_cpp.llama_token(token), buffer, LONGEST, 0, special)
         assert 0 <= size <= LONGEST, f"token {token} is longer than {LONGEST} bytes"
-        pieces.append(bytes(buffer[:size]))
+        pieces.append(buffer.raw[:size])
     return b"".join(pieces)
 
 

@@ -48,7 +48,7 @@ def main() -> None:
     measure("mission, curated", "mission", curated)
     measure("mission, synthetic", "mission", list(sample_missions(5, 1000)))
     for split in ("train", "test", "test_unseen"):
-        measure(f"task, sampled, {split}", "task", list(itertools.islice(sample_tasks(USV, 3, None, split), 400)))  # type: ignore[arg-type]
+        measure(f"task, sampled, {split}", "task", list(itertools.islice(sample_tasks(USV, 3, None, split), 400)))
 
 
 if __name__ == "__main__":

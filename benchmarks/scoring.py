@@ -23,7 +23,7 @@ from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.scoring import score_sample
 from planner_ft.benchmark.summary import summarise
 from planner_ft.data.task.sampler import sample_tasks
-from planner_ft.support.files import iterate_jsonl, write_jsonl
+from planner_ft.support.files import read_jsonl, write_jsonl
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level, check_level, list_key, named_entries
 
@@ -90,7 +90,7 @@ def records(level: Level, count: int, data: Path | None, vocabulary: Vocabulary)
     """`count` records: sampled tasks, or those of a file, over and over under new ids."""
     if data is None and level == "task":
         return list(sample_tasks(vocabulary, 1, count, "train"))
-    given = [record for _number, record, _problem in iterate_jsonl(data or Path(f"data/{level}/train.jsonl"))]
+    given = read_jsonl(data or Path(f"data/{level}/train.jsonl"))
     return [{**given[index % len(given)], "id": f"s{index}"} for index in range(count)]
 
 

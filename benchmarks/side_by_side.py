@@ -49,6 +49,7 @@ def ratios(ours: list[Turn], theirs: list[Turn]) -> dict[str, float]:
 
     def ratio(seconds: str) -> float:
         pairs = zip(ours, theirs, strict=True)
-        return statistics.median((one.work / getattr(one, seconds)) / (other.work / getattr(other, seconds)) for one, other in pairs)
+        rates = [(one.work / getattr(one, seconds)) / (other.work / getattr(other, seconds)) for one, other in pairs]
+        return float(statistics.median(rates))
 
     return {"by_clock": ratio("seconds"), "by_cpu": ratio("cpu_seconds")}
