@@ -223,7 +223,7 @@ def _slot_words(draw: Draw, template: Template, slot: Slot, seen: dict[str, str]
         key = f"{name} {slot.mode}"
         if key not in seen:
             seen[key] = _value_words(rng, slot, draw.values[name], before)
-            if _may_be_bare(parts, index, seen) and rng.random() < BARE_SHARE:
+            if _may_be_bare(draw, parts, index, seen) and rng.random() < BARE_SHARE:
                 seen[key] = METRES.sub("", seen[key])
         return seen[key]
     if slot.base == "P":
@@ -233,10 +233,12 @@ def _slot_words(draw: Draw, template: Template, slot: Slot, seen: dict[str, str]
     return spoken_identity(draw.targets[name]) if slot.base == "ID" else draw.texts[name]
 
 
-def _may_be_bare(parts: list[str | Slot], index: int, told: dict[str, str]) -> bool:
-    """Whether a number is one of "80 by 50", which people often say without units: the first, or the second after a bare first."""
+def _may_be_bare(draw: Draw, parts: list[str | Slot], index: int, told: dict[str, str]) -> bool:
+    """Whether a number is one of "80 by 50", which people often say without units: the first of two in metres, or the second after a bare first."""
     if _is_size(parts, index) and parts[index + 1 : index + 2] in JOINTS and _is_size(parts, index + 2):
-        return True
+        second = parts[index + 2]
+        # "20 by 80 ft" says that the 20 are feet.
+        return isinstance(second, Slot) and METRES.search(draw.values[second.name].text) is not None
     if not (_is_size(parts, index - 2) and parts[index - 1 : index] in JOINTS and _is_size(parts, index)):
         return False
     first = parts[index - 2]

@@ -145,3 +145,10 @@ def test_the_check_names_file_and_line(tmp_path, capsys):
     assert main([str(path), "--show", "2"]) == 0
     assert capsys.readouterr().out.count("Come home.\n") == 2
     assert main([str(tmp_path / "none.txt")]) == 2
+
+
+def test_a_size_without_a_unit_stands_before_metres() -> None:
+    texts = [text for text, _ in draws("Sound {width} by {length} at {P1}. => BathymetryGridSurvey P1 width length", 300)]
+    bare = [text for text in texts if re.match(r"Sound \d[\d.]* by", text)]
+    assert len(bare) > 50
+    assert [text for text in bare if re.search(r"(ft|feet|foot|yards?|yd|km|kilomet\w+|fathoms?|cables?) at ", text)] == []
