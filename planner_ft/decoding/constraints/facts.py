@@ -57,6 +57,11 @@ DIGIT_BEHIND = re.compile(r" (?:one|two|three|four|five|six|seven|eight|nine|nin
 """What goes on behind a number whose digits are said one by one."""
 _ANGLE = re.compile(r"0\d\d")
 """Three figures with a leading nought."""
+_A_SECOND_ONE = re.compile(
+    r"a second (?:minutes?|hours?|half|holds?|times?|ones?|turns?|legs?|pass|runs?|drifts?|arcs?|nudges?|fix|still|pin|round|lap|look|stop|wait|stay)\b",
+    re.IGNORECASE,
+)
+"""What is no duration of one second."""
 _UNIT_LEFT_OUT = re.compile(r"(?: (?:more|at|here|there|on|and|then|in)\b|[.,;)]|$)(?! ?\d)", re.IGNORECASE)
 """What stands behind a number whose unit was said before: "ten minutes here and five there"."""
 
@@ -133,7 +138,8 @@ def without_counts(text: str) -> str:
             word in FRACTIONS and not _AND_A.search(text[: quantity.start])
         )
         angle = _ANGLE.fullmatch(word) or _ANGLE_BEFORE.search(text[: quantity.start])
-        if quantity.unit is None and not CABLES.match(text, quantity.end) and (stands or angle or (behind is not None and _is_thing(behind[1].lower()))):
+        no_measure = stands or angle or (behind is not None and _is_thing(behind[1].lower()))
+        if _A_SECOND_ONE.match(text, quantity.start) or (quantity.unit is None and not CABLES.match(text, quantity.end) and no_measure):
             pieces.append(text[end : quantity.start])
             end = quantity.end
     return ";".join([*pieces, text[end:]])

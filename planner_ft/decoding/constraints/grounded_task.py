@@ -23,6 +23,7 @@ from planner_ft.decoding.constraints.grammar import (
     written_number,
 )
 from planner_ft.decoding.constraints.grounded import GroundedValues, one_of
+from planner_ft.decoding.constraints.reading.values.clearances import margins_only
 from planner_ft.decoding.constraints.reading.values.told_values import read_told_values
 from planner_ft.decoding.constraints.spans import Spans
 from planner_ft.support.files import compact_json
@@ -46,6 +47,8 @@ class GroundedTaskValues(GroundedValues):
         super().__init__(prompt, vocabulary)
         self._told = read_told_values(self._reading, mentioned, vocabulary)
         self._own = list(own_numbers(record, vocabulary))
+        own = {number for number, _unit in self._own}
+        self._margins = sorted(value for value in margins_only(prompt) if value not in own)
         self._texts = list(own_texts(record))
         self._spans = Spans([prompt, *self._texts], named=True)
         self._reciprocal = RECIPROCAL.search(prompt) is not None
@@ -56,6 +59,9 @@ class GroundedTaskValues(GroundedValues):
         symbol = one_of(grammar, sorted(self._told.values.get((owner.name, parameter.name), ()))) if isinstance(owner, Skill) else None
         if symbol:
             return [(symbol, context | IDENTIFIED)]
+        if isinstance(owner, Skill) and owner.role == "navigation" and parameter.name == "radius" and self._margins:
+            symbol = self.number(grammar, parameter, self._margins)
+            return [(symbol, context)] if symbol else super().parameter(grammar, parameter, owner, context)
         if parameter.type == "polygon":
             position = self.position(grammar, ())
             return [(corners(grammar, position), context)] if position else []

@@ -38,7 +38,9 @@ STANDING = re.compile(
     r"(?<!that )(?<!the )(?<!this )(?<!these )(?<!each )(?<!every )\b(?:hold|wait|stay|remain|drift|float|keep station)(?:s|ing)?\b", re.IGNORECASE
 )
 """Verbs for a step that goes nowhere."""
-AGAIN = re.compile(r"\b(?:(?<!say )again|once more|another|back|return\w*|same|likewise|ditto|each|twice|as before|between|either)\b", re.IGNORECASE)
+AGAIN = re.compile(
+    r"\b(?:(?<!say )again|once more|another|a (?:second|third|further)|back|return\w*|same|likewise|ditto|each|twice|as before|between|either)\b", re.IGNORECASE
+)
 """Words that can ask for a step a second time."""
 TIMES = re.compile(
     r"\s?(?:\w+ )?(?:times|x|turns?|circles?|pans?|nudges?|holds?|arcs?|steps?|stops?|sweeps?|waits?|drifts?|legs?|passes|bearings?|headings?)\b", re.IGNORECASE

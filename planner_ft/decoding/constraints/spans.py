@@ -12,7 +12,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from planner_ft.data.lexicon import corrections
+from planner_ft.data.lexicon import corrections, is_known
+from planner_ft.data.words import edit_distance
 from planner_ft.decoding.constraints.budget import LONGEST_WORD
 from planner_ft.decoding.constraints.grammar import Grammar, none_of_texts
 from planner_ft.decoding.constraints.patterns import literal, quoted
@@ -150,9 +151,11 @@ class Spans:
 
     def _read(self, text: str) -> None:
         first, matches, run = len(self._pieces), list(_PIECE.finditer(text)), 0
+        misspelt = [match.group() for match in matches if _misspelt(match.group())] if self._named else []
         for match in matches:
             word = match.group()
-            forms = self._forms(word) if len(quoted(word).encode()) <= LONGEST_WORD // 2 else ()
+            right = _put_right(word) if len(misspelt) > 2 and text[match.start() - 1 : match.start()] not in (*QUOTES, "_", "-") else ""
+            forms = (quoted(right),) if right else self._forms(word) if len(quoted(word).encode()) <= LONGEST_WORD // 2 else ()
             # In "camera A" and "cam_a" the letter is a name.
             named = word == "A" or text[match.start() - 1 : match.start()] in ("_", "-", ".")
             run = 0 if named or word.lower() not in UNENDING else run + 1
@@ -190,6 +193,19 @@ class Spans:
         if self.loose:
             forms += [single for form in list(forms) for single in _singular(form)]
         return tuple(dict.fromkeys(quoted(form) for form in forms))
+
+
+def _misspelt(word: str) -> bool:
+    """Whether a word in small letters is in no list and near to a known one."""
+    return len(word) > 3 and word.isascii() and word.islower() and not is_known(word) and bool(corrections(word))
+
+
+def _put_right(word: str) -> str:
+    """The one known word that a long word in small letters is a letter away from, as in a text that is full of such words; empty if there is none."""
+    if len(word) < 6 or not _misspelt(word):
+        return ""
+    near = [candidate for candidate in corrections(word) if edit_distance(word, candidate, 1) <= 1]
+    return near[0] if len(near) == 1 else ""
 
 
 def _written_gaps(gap: str, before: str) -> list[str]:

@@ -21,6 +21,7 @@ TURN, NUDGE, HOLD, GO = (SKILLS[name] for name in ("RotateToHeading", "NudgeYaw"
         ("Turn to zero nine zero and hold.", 90, 1),
         ("Nudge 5 degrees to port and once more.", -5, 2),
         ("Come to port 40 degrees at a time until the width is covered.", -40, UNBOUNDED),
+        ("Hold for one minute. Then hold a second minute.", 60, 2),
         ("Hold.", None, 1),
     ],
 )

@@ -49,7 +49,7 @@ CLOSED = re.compile(
 HALF = re.compile(r"\bhalf (?:of )?(?:the |its |this )?(?:\w+ )?(?:square|round|ring|circuit)\b|\bhalf only\b", re.IGNORECASE)
 MID_SIDES_ONLY = re.compile(
     r"\b(?:only (?:the |its |at the )?(?:four |4 )?(?:mid-?sides?|mid-?side (?:points|waypoints)|middles of the (?:four )?sides)|mid-?sides? (?:points |"
-    r"waypoints )?(?:only|alone)|"
+    r"waypoints )?(?:only|alone)(?=\W*(?:$|[.,;:)]))|"
     r"(?:four|4) mid-?sides? (?:points |waypoints )?(?:and |, )?(?:no|not the|without the|leaving out the) corners)\b",
     re.IGNORECASE,
 )

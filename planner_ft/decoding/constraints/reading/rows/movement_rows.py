@@ -136,6 +136,13 @@ _ON_THE_WAY = re.compile(
     r"approaching @|between (?:@|there|here) and @)"
 )
 """Words for the way to a place, that do not ask for a movement beside another one to it."""
+_THROUGH = re.compile(r"\b(?:through|via|by way of) @$")
+_ONWARDS = re.compile(
+    r"\b(?:from (?:there|here)(?: on(?:wards?)?)?,?|(?:on|during|for) the (?:final |last )?(?:run|leg|approach|stretch)(?: in)?) "
+    r"(?P<leg>to the (?:target|goal) (?:position|point))\b"
+)
+_OWN_PLACE = re.compile(r"\b(?:target|goal) (?:position|point)\b")
+"""A leg to the task's own place, told by where it begins."""
 _GETTING_THERE = re.compile(r"@,? (?:so |and |with |but )?[^.;@]{0,40}\b(?:getting|going|coming|heading|driving|on the way) (?:there|in)\b")
 
 
@@ -145,6 +152,7 @@ _MORE = (
         re.compile(r"(?<!the )(?<!that )(?<!this )\b(?:an? |one |make |do |take |sail |another )*(?:wide |sweeping |arc )+(?:turn|arc|curve)\b[^.;,]{0,40}"),
     ),
     (w.GOTO, re.compile(r"\b(?:just|then|first|next|finally|lastly) @")),
+    (w.GOTO, re.compile(r"\b(?:follow|track|trac|zig-?zag|weav|thread|work|run|com|go)\w* [^.;,@]{0,40}\b(?:through|via|by way of) @")),
     (w.GOTO, re.compile(r"\b(?:as far as|up to|until you reach|until you are at) @")),
     (
         w.GOTO,
@@ -198,6 +206,9 @@ def row_of(text: Plain, taken: Sequence[tuple[int, int]]) -> Row:
     for match in _GETTING_THERE.finditer(text.text):
         if free(match.start(), match.start() + 1):
             found.append(Unit(w.GOTO, match.start(), match.start() + 1, place=text.places.get(match.start())))
+    for match in _ONWARDS.finditer(text.text):
+        if free(*match.span("leg")) and len(_OWN_PLACE.findall(text.text)) == 1:
+            found.append(Unit(w.GOTO, *match.span("leg")))
     for kind, pattern in (*_MORE, *w.MOVEMENTS):
         for match in pattern.finditer(hidden):
             begins = match.start() + (max((verb.end() for verb in _KEEPS.finditer(match[0])), default=0) if kind == w.VISUAL else 0)
@@ -275,6 +286,8 @@ def _single(text: str, unit: Unit, behind: int) -> bool:
     """Whether a movement is one step."""
     said = re.sub(r"^[\s,]*(?:(?:and|then|to|on) )*", "", text[unit.start : unit.end])
     rest = re.split(r"[.;]", text[unit.end : behind], maxsplit=1)[0]
+    if unit.kind == w.GOTO and _THROUGH.search(said):
+        return True
     if unit.kind == w.GOTO:
         return _ONE_PLACE.search(said) is not None and not _GRID.search(said)
     if unit.kind == w.ARC:

@@ -16,7 +16,7 @@ from planner_ft.vocabulary import Vocabulary
 
 SOMEWHERE = re.compile(
     rf"\b(?:{w.ORD}|one|two|three|both|each|every|either|[a-f]|steps?|parts?|stages?|legs?|runs?|turns?|holds?|halts?|stops?|stays?|drifts?|arcs?|ways?|waits?|"
-    r"pauses?|lanes?|ends?|corners?|points?|waypoints?|places?|headings?|bearings?|spots?|squares?|grids?|sweeps?|pans?|nudges?|moves?|"
+    r"pauses?|lanes?|ends?|corners?|points?|waypoints?|places?|headings?|bearings?|spots?|squares?|grids?|circles?|rings?|loops?|orbits?|circuits?|sweeps?|pans?|nudges?|moves?|"
     r"out|back|home|there|then|here|once|twice|times|again|only|alone|just|rest|others?|when(?:ever)?|while|during|until|till|before|after|where(?:ver)?|as|"
     r"if|else|yet|but|except|same|arriv\w+|reach\w*|moving|turning|holding|still|it|them|that|this|those|these|nothing|none|neither|last|end\w*|"
     r"what|matter\w*|in (?!the (?:image|picture|frame|water|camera|video|point)|cent(?:re|er)))\b"

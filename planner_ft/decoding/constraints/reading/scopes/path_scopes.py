@@ -83,6 +83,7 @@ _GRID: tuple[tuple[str, str], ...] = (
 """Places of a grid."""
 _START = r"(?:the |its )?(?:start(?:ing)?(?: (?:point|waypoint|position|end))?|(?:first|start) (?:waypoint|point|end|lane|position|station|corner)|beginning)"
 _WAY = r"(?:way|run|leg|transit|approach|passage|trip|drive|transfer|ride)"
+_POINT = r"(?:point|waypoint|position|end|station)"
 _ANY: tuple[tuple[str, str], ...] = (
     ("start", rf"\b(?:on|during|for|in) the {_WAY} (?:out |over |up |in )?(?:to|towards) {_START}\b"),
     (
@@ -95,6 +96,15 @@ _ANY: tuple[tuple[str, str], ...] = (
     ("start", rf"\b(?:until|till|before) (?:you|she|it) (?:reach|reaches|have reached|has reached|are at|is at) {_START}\b"),
     ("beyond", rf"\b(?:from|beyond|past|after|starting (?:at|from)) {_START}(?: on(?:wards?|(?=[,.;]|$))| to the (?:very )?end\b|(?=,))"),
     ("beyond", rf"\bonce (?:{_START} (?:is|has been) (?:reached|passed)|(?:you|she) (?:have|has|are|is) (?:reached|passed|at|past) {_START})\b"),
+    ("first", rf"\b(?:at|on) (?:the |its )?(?:very )?(?:(?:start(?:ing)?|first) {_POINT}|first one|start)\b(?! (?:of|to)\b)"),
+    ("final", rf"\b(?:at|on) (?:the |its )?(?:very )?(?:(?:end|last|final|finishing) {_POINT}|(?:last|final) one)\b(?! (?:of|to)\b)"),
+    ("home", r"\b(?:on|during|for|in) the (?:(?:way|run|leg|trip|drive|passage) (?:back )?home|way back|(?:homeward|return) (?:leg|run|trip|way))\b(?! to)"),
+    (
+        "shape",
+        r"\b(?:on|along|over|during|for|in|throughout) (?:the |its )(?:whole |entire |full )?(?:(?:survey )?square|grid|lanes|survey|transects|circuit)\b"
+        r"(?: itself| proper)?(?:,? (?:including|and) (?:its|the) (?:closing|last|final) (?:point|leg|waypoint))?(?: only| alone)?"
+        r"(?! (?:of|at|from|about|around|round|over|with|to|as)\b)",
+    ),
     ("between", r"\bfrom (?:the moment (?:you are at |you leave )?)?@ (?:to|until(?: you reach)?|till(?: you reach)?|up to) @"),
     ("between", r"\bbetween @ and @"),
     ("second", r"\b(?:on|in|over|during|for) (?:that|this) (?:run|leg|pass|line|track|stretch|cable|course)\b(?! (?:to|back|home))(?: only| alone| itself)?"),
@@ -198,12 +208,35 @@ def _placed(text: str, begin: int, end: int, mentions: Sequence[Mention], spots:
         return
     if len(positive) == 1:
         for mention in mentions:
-            yield mention, positive[0].holds
+            yield mention, _less(positive[0].holds, [spot.holds for spot in spots if spot.ruled_out])
+        return
+    if len(positive) == 2 and _JOINT.fullmatch(text[positive[0].end : positive[1].start]):
+        for mention in mentions:
+            near = "," not in text[mention.end : positive[0].start] + text[positive[1].end : mention.start]
+            yield mention, _either(positive[0].holds, positive[1].holds) if near else None
         return
     parts = _parts(text, begin, end, positive)
     for mention in mentions:
         own = next((spot for (first, last), spot in parts if first <= mention.start < last), None)
         yield mention, own.holds if own else None
+
+
+_JOINT = re.compile(r",? (?:and|or|as well as|and also|and again) ")
+
+
+def _either(one: Holds, other: Holds) -> Holds:
+    """What holds at one of two places: "both at the start point and at the end point"."""
+
+    def holds(path: Path) -> bool | None:
+        found = one(path), other(path)
+        return True if True in found else None if None in found else False
+
+    return holds
+
+
+def _less(where: Holds, barred: Sequence[Holds]) -> Holds:
+    """A place without others: "on the northbound run, not on the way to its start"."""
+    return (lambda path: False if any(one(path) for one in barred) else where(path)) if barred else where
 
 
 def _but(spots: Sequence[Holds]) -> Holds:
@@ -234,12 +267,14 @@ def _spots(said: Plain, paths: Sequence[Path], pattern: str) -> Iterator[Spot]:
     spots: list[Spot] = []
     tables = (_SQUARE if pattern == "square" else _GRID if pattern == "lawnmower" else ()), _ANY
     for kind, words in (*tables[0], *tables[1]):
+        if kind == "second" and pattern in ("square", "lawnmower"):
+            continue
         for match in re.finditer(words, text):
             if any(match.start() < end and start < match.end() for start, end in found):
                 continue
             found.append(match.span())
             before = text[: match.start()]
-            if kind in ("mid", "side", "corner", "corners", "mids") and _BEGINS.search(re.split(r"[.;]", before)[-1]):
+            if kind in ("mid", "side", "corner", "corners", "mids", "first", "final") and _BEGINS.search(re.split(r"[.;]", before)[-1]):
                 continue
             holds = _holds(kind, match, said, paths)
             if holds is not None:
@@ -262,6 +297,14 @@ def _holds(kind: str, match: re.Match[str], said: Plain, paths: Sequence[Path]) 
         started = re.search(r"\bstart(?:ing)? (?:point|position|at|from)\b.*\bleg 1\b[:=,.]? ", said.text)
         wanted = frozenset(map(int, re.findall(r"\d", groups["cards"] or "")))
         return _numbers(wanted) if started and (not count or max(wanted) < count) else None
+    if kind in ("home", "shape"):
+        # The way home is the one that the text asks for, behind all others.
+        going = _GOES_HOME.search(said.text) and not _NOT_ALL.search(said.text[slice(*sentence_at(said.text, match.start()))])
+        return (lambda path: _is_home(path) == (kind == "home")) if going else None
+    if kind == "first":
+        return _numbers(frozenset({0}))
+    if kind == "final" and not paths:
+        return lambda path: None if len(path) > 1 else False
     if not paths:
         # A run has one leg behind its start.
         alone = kind == "second" and not re.search(r"\b(?:back|return|legs|runs|passes|twice|again|second)\b|\bleg \d", said.text)
@@ -275,7 +318,7 @@ def _holds(kind: str, match: re.Match[str], said: Plain, paths: Sequence[Path]) 
         return _numbers(wanted) if count % 2 == 0 and max(wanted) < count else None
     if kind == "second":
         return _numbers(frozenset({1})) if count == 2 else None
-    if kind == "last":
+    if kind in ("last", "final"):
         return _numbers(frozenset({count - 1}))
     if kind == "between":
         signs = [match.start() + sign.start() for sign in re.finditer("@", match[0])]
@@ -289,12 +332,31 @@ def _holds(kind: str, match: re.Match[str], said: Plain, paths: Sequence[Path]) 
     sentence = said.text[begin:end]
     way = {"north": (0, 1), "south": (0, -1), "east": (1, 0), "west": (-1, 0)}[groups.get("way") or groups.get("way2") or ""]
     # "Run it northbound" is a movement.
-    both = re.search(r"\b(?:northbound|northwards?)\b.*\bsouth|\bsouth\w*\b.*\bnorth|\beast\w*\b.*\bwest|\bwest\w*\b.*\beast", sentence)
-    return _bound(way) if both and not _DONE.search(sentence) else None
+    both = re.search(r"\bnorth\w*\b.*\bsouthbound|\bsouth\w*\b.*\bnorthbound|\beast\w*\b.*\bwestbound|\bwest\w*\b.*\beastbound", said.text) or re.search(
+        r"\b(?:northbound|northwards?)\b.*\bsouth|\bsouth\w*\b.*\bnorth|\beast\w*\b.*\bwest|\bwest\w*\b.*\beast", sentence
+    )
+    return _bound(way) if both and not _DONE.search(_BOUND_WAY.sub(" ", sentence)) else None
+
+
+_GOES_HOME = re.compile(
+    r"\b(?:come|head|go|return|run|back|sail|steam|motor|drive)\w*(?: (?:straight|back|directly|on|over|in|then|for)){0,2} (?:home|(?:to )?base)\b"
+)
+_NOT_ALL = re.compile(r"\b(?:between|hops|turns|across|hold\w*|stop\w*|half|first|second|third|except|but)\b")
+"""Words by which a sentence about a grid or square is about a part of it."""
+_HOME = (0.0, 0.0)
+
+
+def _is_home(path: Path) -> bool:
+    """Whether the last of several waypoints is where the vehicle started."""
+    return len(path) > 1 and (float(path[-1][0]), float(path[-1][1])) == _HOME
 
 
 def _numbers(wanted: frozenset[int]) -> Holds:
     return lambda path: len(path) - 1 in wanted
+
+
+_BOUND_WAY = re.compile(r"\b(?:north|south|east|west)bound (?:run|leg|pass|lane)s?\b|\bon the way to (?:its|the) start\b")
+"""Words for a way that no movement is asked for by."""
 
 
 def _bound(way: tuple[int, int]) -> Holds:

@@ -122,6 +122,7 @@ NEGATED = re.compile(
 FREE = re.compile(r"\bfree\b|unlocked")
 CHANGED = re.compile(
     r"\b(?:i|we) (?:said|asked|told|wanted|wrote)\b|\bmake (?:that|it) (?:the|both|all|one|two)\b|\bcorrection\b|\bno, (?:while|on|in|at|during|the|only)\b|"
+    r"\btake (?:that|it) back\b|\b(?:two|three|four|five|six|[2-6]) (?:stops|halts|pauses|waits) of\b|"
     r"\bas (?:at|on|in) (?:the )?(?:@|\d|first|second)|\bnothing of the sort|\b(?:arriving|waiting|leaving),|\bi mean\b|\brather not\b"
 )
 """Words of texts that take a scope back, give it by what was said of another step, or by single words."""
@@ -139,8 +140,8 @@ _NO_NOUN = "".join(
     rf"(?<!{word} )" for word in ["the", "that", "this", "each", "every", "both", "first", "second", "third", "last", "two", "all", "in", "during"]
 )
 _TIME = (
-    r"(?:\d[\d.]*|an?|one|two|three|four|five|six|seven|eight|nine|ten|half|twelve|fifteen|twenty|thirty|forty|fifty|sixty|ninety|"
-    r"the (?:given|planned|set|whole|full|next)|as long)[\w ,.-]{0,25}?(?<![a-z])(?:seconds?|minutes?|hours?|sec|min|s|h|duration|time|"
+    r"(?:\d[\d.]*|an?|another|one|two|three|four|five|six|seven|eight|nine|ten|half|twelve|fifteen|twenty|thirty|forty|fifty|sixty|ninety|"
+    r"the (?:given|planned|set|whole|full|next)|the(?= duration\b)|as long)[\w ,.-]{0,25}?(?<![a-z])(?:seconds?|minutes?|hours?|sec|min|s|h|duration|time|"
     r"half a minute|quarter of an hour)\b(?! of (?:video|the|footage|buffer))"
 )
 _BOAT = r"(?:the |a |an |her |him |it |you |your |yourself |boat |vessel |vehicle |usv |craft |she |as if anchored )*"
@@ -185,7 +186,8 @@ MOVEMENTS: tuple[tuple[str, re.Pattern[str]], ...] = (
         r"(?:to|on|onto|towards?|up|until|facing|in)?\s*(?:face |a heading of |heading |bearing |the headings? |due |on )*"
         r"(?:\d{1,3}\b(?! ?(?:m|s|sec\w*|min\w*|metres?|meters?)\b)(?!\s?(?:°|degrees?)? (?:to |further to )?(?:the |your |her )?(?:left|right|port|"
         r"starboard|clockwise|anti|counter|back))|"
-        r"(?:north|south|east|west)\w*(?:-\w+)*)|\bbow to (?!the\b)|\bface (?:due|heading|one|two|three|zero|north|south|east|west|@)\b|\bturn to\b"
+        r"(?:north|south|east|west)\w*(?:-\w+)*)|\bbow to (?!(?:the|its|her|your|this)\b)|"
+        r"\bface (?:due|heading|one|two|three|zero|north|south|east|west|@)\b|\bturn to\b"
     )),
     (NUDGE, re.compile(
         rf"\b(?:(?:nudg|pan|twist|eas)(?:e|s|es|ning|ing)?\b(?! (?:of|on arrival))|yaw(?:ing)? (?=by\b|[^.;,]{{0,20}}(?:left|right|port|"
@@ -211,7 +213,7 @@ MOVEMENTS: tuple[tuple[str, re.Pattern[str]], ...] = (
         r"continu\w+|carry\w*|mak\w+|get\w*|bring\w*|tak\w+|set|navigat\w+|reach\w*|leav\w+|position\w*|clos\w+|back|out|up|on|over|"
         r"pass\w*|visit\w*|start|begin|stop short)"
         r"(?: (?:on|over|in|out|up|back|off|straight|directly|way|your|course|for|to|the|a|boat|vessel|vehicle|usv|craft|her|it|"
-        r"yourself|point|waypoint|position|at|via|first|down|again|short|pair|towards|parallel)){0,7} @)"
+        r"yourself|point|waypoint|position|at|via|through|past|first|down|again|short|pair|towards|parallel)){0,7} @)"
         r"|\b(?:to|for|via|into) @|^\W*@|(?<=[,:;] )@|"
         r"\b(?:go|going|head\w*|come|coming|return\w*|back|sail\w*|driv\w+|run|then|steer\w*|transit\w*|(?<!out )and|finally|lastly|to|"
         r"at) (?:back |straight |over |to |directly |its |her )*(?:home|base)\b|^\W*home\b|, home\b|"
@@ -328,7 +330,7 @@ _PREP = r"(?:in|on|during|for|at|through|throughout|over|of|to|with|within)"
 _THE = r"(?:the |this |that |its |these |those )"
 _END = (
     r"(?=\s*(?:$|[,.;:)(]|only\b|alone\b|and\b|but\b|not\b|as\b|too\b|then\b|please|is\b|are\b|goes|runs|has\b|keeps?\b|needs?\b|do\b|"
-    r"may\b|just\b|you\b|i\b))"
+    r"may\b|just\b|you\b|i\b|tnx\b|thx\b|thanks\b|pls\b|over\b(?=\W*$)))"
 )
 SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
     ("except", re.compile(
@@ -499,5 +501,7 @@ COUNTED = re.compile(r"(?:steps?|parts?|stages?|legs?|lines?|headings?|bearings|
 """What stands before numbers that are no place."""
 GOES_ON = re.compile(r" (?:and|or) (?:at|near|from|until|till|after|before|on (?!board)|in|\w+ing)\b")
 """A second place for what runs in a scope, that was not read as one."""
+TO_OWN_PLACE = re.compile(r" to the (?:target|goal) (?:position|point)\b")
+"""What makes a movement of "the final run", where none is told beside it."""
 HEADER = re.compile(r"^[^:]{0,60}:")
 TWO_STEPS = re.compile(r"^\W*(?:(?:in )?(?:two|three|four|five|six|both|\d)) (?:steps?|parts?|stages?|legs?|phases?)\W*$")

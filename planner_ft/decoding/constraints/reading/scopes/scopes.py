@@ -376,7 +376,7 @@ def _settled(mark: Mark, before: int, clause: Clause, reading: Reading) -> Part 
     part, word = mark.part, clause.text[mark.start : mark.end].strip()
     if mark.value in _TOLD or (mark.value == "several" and part is None):
         return None if w.GOES_ON.match(clause.text[mark.end :]) else _told(mark, reading, clause)
-    if w.GOES_ON.match(clause.text[mark.end :]):
+    if w.GOES_ON.match(clause.text[mark.end :]) or (mark.value == "ordinal" and w.TO_OWN_PLACE.match(clause.text[mark.end :])):
         return None
     if mark.value == "that" and len(clause.of("move")) > 1:
         return None

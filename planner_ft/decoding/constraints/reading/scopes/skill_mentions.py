@@ -91,7 +91,7 @@ def mentions_of(text: str, names: Sequence[str], anchors: Sequence[Anchor]) -> l
             denied = (
                 not _DENIED_TWICE.search(text[begins:start])
                 and not _NOT_LEFT.search(behind)
-                and not re.search(r"outside|leav|within|closer|nearer|less", text[start:end])
+                and not re.search(r"outside|leav|within|closer|nearer|less|swing", text[start:end])
                 and bool(_DENIED_BEFORE.search(text[begins:start]) or _DENIED_BEHIND.search(behind) or _DENIED_WITHIN.search(text[start:end]))
             )
             first, last = sentence_at(text, start)

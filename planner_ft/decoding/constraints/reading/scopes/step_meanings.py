@@ -84,6 +84,8 @@ def anchors_of(said: Plain, found: Sequence[tuple[str, re.Match[str]]], row: Row
         before = sorted((anchor for anchor in anchors if anchor.end <= match.start() and not anchor.denied), key=lambda anchor: anchor.start)
         clause = re.split(r"[.;:!?]", said.text[: match.start()])[-1]
         where = _resolved(kind, match, row, before, said) if counted or kind in _BY_KIND else None
+        if kind == "everywhere" and where is None and counted and {unit.kind for unit in row.units} == {s.GOTO}:
+            where = EVERYWHERE
         where = _bounded(where, said.text[: match.start()], said.text[match.end() :], len(row.units))
         if where is not None and where.units and where.kinds is None:
             kinds = frozenset(row.units[index].kind for index in where.units)
@@ -168,6 +170,9 @@ def _resolved(kind: str, match: re.Match[str], row: Row, before: Sequence[Anchor
         number = next((value for word, value in w.BARE_COUNTS.items() if word in match[0]), None)
         topic = last.units if last and last.units and len(last.units) > 1 else frozenset(range(count))
         return Where(topic, EVERYWHERE.kinds if len(topic) == count else None) if number in (len(topic), None) and (number or count > 1) else None
+    if kind == "each":
+        several = sorted(last.units) if last and last.units and len(last.units) > 1 else list(range(count))
+        return Where(frozenset(several)) if len(several) > 1 and len({row.units[index].kind for index in several}) == 1 else None
     if kind == "ordered":
         begins = max(said.text.rfind(sign, 0, match.start()) for sign in ".;!?")
         told = frozenset(index for index in passed if row.units[index].start > begins)
@@ -216,6 +221,9 @@ def _resolved(kind: str, match: re.Match[str], row: Row, before: Sequence[Anchor
         return Where(frozenset(range(at[0] + 1, count))) if len(at) == 1 and at[0] + 1 < count else None
     if kind == "onwards":
         first = max(last.units) if last and last.units else None
+        if first is not None and first + 1 < count and "there" in match[0] and row.units[first].kind == s.GOTO and row.units[first].place:
+            # What begins at a place is not on the way to it.
+            first += 1
         return Where(frozenset(range(first, count))) if first is not None else None
     if kind == "since":
         first_one = _numbered(row, groups.get("noun") or groups.get("noun2") or "", groups.get("ords"))
@@ -228,7 +236,8 @@ def _resolved(kind: str, match: re.Match[str], row: Row, before: Sequence[Anchor
     if kind == "numbered":
         return _cards(match, row)
     if kind == "ordinal":
-        return _ordinal(match, row, last, passed)
+        again = _again(match, row, before[-1], said.text) if before else None
+        return again or _ordinal(match, row, None if groups["noun"] is None and before and before[-1].kind == "several" else last, passed)
     if kind == "several":
         places, many = _of(row, _kinds(groups["noun"] or "")), w.COUNTS[groups["count"] or ""]
         fits = len(places) > many and all(row.units[index].single for index in places)
@@ -293,6 +302,8 @@ def _one_kind(match: re.Match[str], noun: str, row: Row, last: Where | None) -> 
     """ "In the hold": the only one, or all holds where several are meant."""
     kinds = _kinds(noun)
     units = _of(row, kinds)
+    if not units and noun.endswith("s") and kinds in ({s.DRIFT}, {s.ARC}):
+        return Where(kinds=kinds)
     if not units or kinds == s.ANY or (re.match("lane|transect", noun) and len({row.units[index].single for index in units}) > 1):
         return None
     if len(units) == 1 or noun.endswith("s"):
@@ -314,6 +325,15 @@ def _numbered(row: Row, noun: str, ords: str | None, among: Sequence[int] | None
     if any(not row.units[index].single for index in places) or any(not -len(places) <= number < len(places) for number in numbers):
         return []
     return [places[number] for number in numbers]
+
+
+def _again(match: re.Match[str], row: Row, last: Anchor, text: str) -> Where | None:
+    """ "In the first hold ...; in the second ...": the noun that was said before."""
+    noun = re.search(rf" ({s.NOUN})(?: only| alone)?$", text[last.start : last.end])
+    if match["noun"] is not None or last.kind != "ordinal" or noun is None or not noun[1].isalpha() or noun[1].startswith("one"):
+        return None
+    places = _numbered(row, noun[1], match["ords"])
+    return Where(frozenset(places)) if places else None
 
 
 def _ordinal(match: re.Match[str], row: Row, last: Where | None, passed: Sequence[int]) -> Where | None:

@@ -24,14 +24,14 @@ NOUNS: tuple[tuple[str, frozenset[str]], ...] = (
     r"four|five))?", ANY),
 )  # fmt: skip
 """Nouns of scopes with the movements that they mean."""
-_NOUN = "(?:" + "|".join(pattern for pattern, _kinds in NOUNS) + ")"
+NOUN = "(?:" + "|".join(pattern for pattern, _kinds in NOUNS) + ")"
 _ORD = rf"(?:{w.ORD}|middle)"
 _ORDS = rf"{_ORD}(?:(?:, (?:the )?{_ORD})*,? (?:and|or) (?:(?:in|on|for|during) )?(?:the )?{_ORD})?"
 _PREP = r"(?:in|on|during|for|at|through|throughout|within|over|along|round)"
 _CARD = r"(?:one|two|three|four|five|six|seven|eight|[1-9])"
 _CARDS = rf"{_CARD}(?:(?:, {_CARD})*(?:,? and |\+| & |/){_CARD})?"
 _LIMIT = r"(?:only |just |but |solely )?"
-_DO = r"(?:(?:she|you|it|we|the boat|the vessel|the usv) (?:is |are |'s )?)?"
+_DO = r"(?:(?:she|you|it|we|the boat|the vessel|the usv)(?: is| are|'s|'re)? )?"
 _GERUNDS = (
     ("hold", r"hold(?:ing|s)?|on station|station[- ]keeping|keep(?:ing|s)? (?:station|position)|stopped|stationary|at rest|stay(?:ing|s) (?:put|"
     r"there)|waiting there|"
@@ -51,17 +51,23 @@ _OFF = r"(?! (?:of|to|from|that|which|is|are|goes|it|between|@|in|out|home|back)
 
 SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
     ("but", re.compile(
-        rf"\b(?:{_PREP} )?(?:all|every|each|both|any)(?: of)?(?: the| these| those| them| its)?(?: (?:two|three|four|five|six|\d))?(?: (?P<all>{_NOUN}))?,? "
-        rf"(?:but|except|bar|save|apart from|other than)(?: for)?(?: {_PREP})? (?:the )?(?:(?P<ords>{_ORDS})(?: (?P<noun>{_NOUN}))?|(?P<cards>{_CARDS}))\b"
+        rf"\b(?:{_PREP} )?(?:all|every|each|both|any)(?: of)?(?: the| these| those| them| its)?(?: (?:two|three|four|five|six|\d))?(?: (?P<all>{NOUN}))?,? "
+        rf"(?:but|except|bar|save|apart from|other than)(?: for)?(?: {_PREP})? (?:the )?(?:(?P<ords>{_ORDS})(?: (?P<noun>{NOUN}))?|(?P<cards>{_CARDS}))\b"
     )),
     ("except", re.compile(
-        rf"\b(?:every(?:where|thing)|throughout|always|all the (?:time|way)|the whole (?:time|way)|at all times),? (?:but|except|save|bar|apart from|"
+        rf"\b(?:every(?:where|thing)|throughout|always|all the (?:time|way)|the whole (?:time|way)|at all times|"
+        rf"(?:{_PREP} )?(?:every|each) (?:single )?(?:step|part|stage|phase|movement)|{_PREP} all (?:the |its )?(?:steps|parts|stages|phases|movements)),? "
+        rf"(?:but|except|save|bar|apart from|"
         rf"other than|"
-        rf"only not|just not|not)(?: for)?(?: {_PREP})? (?:while |when )?(?:the (?:(?P<ords>{_ORDS}) )?(?P<noun>{_NOUN})\b|{_DO}(?:{_GERUND})\b){_OFF}"
+        rf"only not|just not|not)(?: for)?(?: {_PREP})? (?:while |when )?(?:the (?:(?P<ords>{_ORDS}) )?(?P<noun>{NOUN})\b|{_DO}(?:{_GERUND})\b){_OFF}"
+    )),
+    ("except", re.compile(
+        rf"(?:^|(?<=[.;:,] )|(?<=\w ))(?:but )?(?:except|save|apart from|other than)(?: for)?(?: {_PREP})? (?:while |when )?"
+        rf"(?:the (?:(?P<ords>{_ORDS}) )?(?P<noun>{NOUN})\b|{_DO}(?:{_GERUND})\b){_OFF}"
     )),
     ("beyond", re.compile(rf"\bfrom (?:@|the (?P<ords>{_ORD}) (?P<noun>waypoint|point|place|position)|the (?P<noun2>waypoint|point)) on(?:wards?)?\b")),
     ("since", re.compile(
-        rf"\b(?:from|starting with) the (?P<ords>{_ORD}) (?P<noun>{_NOUN}) on(?:wards?)?\b|\bfrom the (?P<noun2>{_NOUN}) on(?:wards?)?\b"
+        rf"\b(?:from|starting with) the (?P<ords>{_ORD}) (?P<noun>{NOUN}) on(?:wards?)?\b|\bfrom the (?P<noun2>{NOUN}) on(?:wards?)?\b"
     )),
     ("beyond", re.compile(
         r"\b(?:once|when|after|as soon as|the moment|from the moment) (?:you |she |it |we )?(?:have |has |is |are )?(?:reached|reach|passed|past|"
@@ -89,17 +95,21 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
         rf"positions?) ?#?(?P<cards>{_CARDS})\b(?: only| alone)?"
         r"(?! ?(?:m|metres?|degrees?|°|s|min\w*|sec\w*)\b)(?!,? ?@)(?!:? @)(?! ?(?:to|-|–|through) ?\d)"
     )),
-    ("several", re.compile(rf"\b{_LIMIT}{_PREP} the (?P<side>first|last|final) (?P<count>two|three|four|five|[2-5]) (?P<noun>{_NOUN})\b(?: only| alone)?")),
+    ("several", re.compile(
+        rf"\b{_LIMIT}(?:on the (?:way|run|leg|passage)s? (?:out )?to|{_PREP}) the (?P<side>first|last|final) (?P<count>two|three|four|five|[2-5]) "
+        rf"(?P<noun>{NOUN})\b(?: only| alone)?"
+    )),
     ("ordinal", re.compile(
         rf"\b{_LIMIT}(?:(?:{_PREP}|only|just) )?(?:the |this |that |its )(?:very )?(?P<ords>{_ORDS})(?:[ -](?:(?!two|three|four|five|six|"
-        rf"\d)\w+[ -])??(?P<noun>{_NOUN}))?\b(?: only| alone)?"
-        r"(?(noun)|(?=[.,;:]|$| (?:only|alone|and|but|is|gets?|has|needs?|goes|runs|in addition|also|too|with|without)\b))"
+        rf"\d)\w+[ -])??(?P<noun>{NOUN}))?\b(?: only| alone)?"
+        r"(?(noun)|(?=[.,;:]|$| (?:only|alone|and|but|is|gets?|has|needs?|goes|runs|in addition|also|too|with|without|"
+        r"no|take|drop|log|read|check|measure|record|save|mark|pin)\b))"
     )),
-    ("ordinal", re.compile(rf"(?:^|(?<=[.;:] ))(?P<ords>{_ORD}) (?P<noun>{_NOUN})(?=:|,| (?:only|alone|with|without|has|gets|needs|under|is|"
+    ("ordinal", re.compile(rf"(?:^|(?<=[.;:] ))(?P<ords>{_ORD}) (?P<noun>{NOUN})(?=:|,| (?:only|alone|with|without|has|gets|needs|under|is|"
     rf"passes|runs|goes)\b)")),
-    ("outer", re.compile(rf"\b(?:{_PREP} |only )?the (?P<side>outer|inner) (?P<noun>{_NOUN})\b(?!,? (?:to|towards) )")),
+    ("outer", re.compile(rf"\b(?:{_PREP} |only )?the (?P<side>outer|inner) (?P<noun>{NOUN})\b(?!,? (?:to|towards) )")),
     ("that", re.compile(
-        rf"\b{_LIMIT}{_PREP} (?:this|that|these|those) (?:last |final |very |same )?(?P<noun>{_NOUN})\b|\b(?:this|that) (?P<noun2>{_NOUN})(?= (?:is|"
+        rf"\b{_LIMIT}{_PREP} (?:this|that|these|those) (?:last |final |very |same )?(?P<noun>{NOUN})\b|\b(?:this|that) (?P<noun2>{NOUN})(?= (?:is|"
         rf"has|gets|runs|needs|shall|must|should))\b|"
         r"\b(?:in|on|during|for) (?:it|that|this|them)\b(?! ?(?:same|case|time|purpose|reason|way|price|respect|[a-z]+ [a-z]+\b(?<! only)))|"
         r"\bmeanwhile\b|\bin the meantime\b|"
@@ -107,7 +117,7 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
     )),
     ("all", re.compile(
         rf"\b(?:{_PREP} |with )?(?:all|both|each|every|either)(?: of)?(?: (?:the|its|these|those))?(?: (?:two|three|four|five|six|seven|eight|nine|"
-        rf"ten|\d))?(?: of)? (?P<noun>{_NOUN})\b"
+        rf"ten|\d))?(?: of)? (?P<noun>{NOUN})\b"
         r"(?!(?: \w+)? (?:but|except|bar|save|apart)| (?:in which|where|when|that|which)\b)"
     )),
     ("everywhere", re.compile(
@@ -119,6 +129,7 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
     )),
     ("both", re.compile(r"\b(?:(?:in|on|for|during|at|with) )?(?:both|all (?:two|three|four|five|six)|both times|every time|each time)(?=[.,;:]|$|"
     r" only| please| and )")),
+    ("each", re.compile(r"\b(?:on|at|in|for|during) (?:each|every one)(?: one| of (?:them|these|those))?(?=[.,;:]|$| only| please)")),
     ("back", re.compile(
         r"\b(?:on|during|for|in) (?:the|its|your) (?:way (?:back|home|in again)|(?:return|homeward) (?:leg|run|trip|way)|(?:leg|run|trip|"
         r"drive) (?:back|home))\b(?! to)|\b(?:coming|going|heading|sailing) "
@@ -138,17 +149,18 @@ SCOPES: tuple[tuple[str, re.Pattern[str]], ...] = (
                           r"(?:middles?|centres?|midpoints?) of (?:the|each|every|a) (?:sides?|edges?)|side (?:middles|centres|"
                           r"midpoints)))\b(?! of)(?: only| alone)?")),
     ("while", re.compile(
-        rf"\b{_LIMIT}(?:while|when|whilst|as long as|for as long as|so long as|as(?= she| you| it))(?: only)? ?{_DO}(?:{_GERUND})\b{_BEHIND}|"
+        rf"\b{_LIMIT}(?:while|when|whilst|as long as|for as long as|so long as|as(?= she| you| it)|"
+        rf"once(?= (?:she|you|it|we)(?: is| are|'s|'re) \w+ing\b))(?: only)? ?{_DO}(?:{_GERUND})\b{_BEHIND}|"
         r"(?<=, )(?:(?P<hold2>holding|on station)|(?P<drift2>drifting|floating|adrift|afloat)|(?P<turn2>turning))(?=[,.;]|$)|\b(?P<goto2>under ?way|"
         r"on the move)\b"
     )),
     ("then", re.compile(r"\b(?<!until )(?<!till )(?<!before )(?:by )?then(?=[.;]|$)|(?:^|(?<=[,;] )|(?<=and )|(?<=[.;:] ))there\b(?! (?:is|are|"
     r"'s|was|will|should|may|must|and|you))")),
     ("kind", re.compile(
-        rf"(?:(?<=\bonce )|(?<=\bafter )|(?<=\buntil )|(?<=\btill ))the (?P<noun>{_NOUN})\b(?= (?:is|has been) (?:over|done|finished|through|complete))"
+        rf"(?:(?<=\bonce )|(?<=\bafter )|(?<=\buntil )|(?<=\btill ))the (?P<noun>{NOUN})\b(?= (?:is|has been) (?:over|done|finished|through|complete))"
     )),
     ("kind", re.compile(
-        rf"\b{_LIMIT}(?:{_PREP}|only|just) (?:the |its |your )(?:actual |whole |entire |two |three |four )?(?P<noun>{_NOUN})\b(?: (?:itself|proper|"
+        rf"\b{_LIMIT}(?:{_PREP}|only|just) (?:the |its |your )(?:actual |whole |entire |two |three |four )?(?P<noun>{NOUN})\b(?: (?:itself|proper|"
         rf"alone|only))?{_OFF}"
     )),
 )  # fmt: skip

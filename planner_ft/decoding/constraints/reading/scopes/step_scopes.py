@@ -97,11 +97,12 @@ def read_step_scopes(text: str, names: Iterable[str], vocabulary: Vocabulary) ->
     once = [place for place in said.places.values() if list(said.places.values()).count(place) == 1]
     # "As far as @ no care is needed": a place that nothing else leads to is gone to.
     found = [(kind, match) for kind, match in found if not (_FREELY.match(said.text[match.start() :]) and said.places.get(match.end() - 1) in once)]
+    found = _scopes_only(said, found)
     masked = [match.span() for name in _LIKE_MOVEMENTS for match in w.SKILL_WORDS[name].finditer(said.text)]
     row: Row | None = row_of(said, [*(match.span() for kind, match in found if "@" not in match[0] or kind in ("upto", "beyond", "place")), *masked])
     assert row is not None
     counted = row
-    if _REPEATED.search(said.text) or _PAUSED.search(said.text) or _ORDER.search(said.text) or not row.units:
+    if _repeated(said.text, row, found) or _PAUSED.search(said.text) or _ORDER.search(said.text) or not row.units:
         row = None
     if row is not None and _unread_movement(said.text, row, _unresolved(found)):
         row = None
@@ -120,7 +121,7 @@ def read_step_scopes(text: str, names: Iterable[str], vocabulary: Vocabulary) ->
             clearances.append((where, item))
         plainly = asks_for(said.text[slice(*item)], mention.name) or (mention.name == "BoundaryEnforcement" and without_fences(text) != text)
         placed.setdefault(mention.name, []).append((mention, where, plainly))
-        if where is not None and not mention.denied and plainly and not NEGATION.search(_without(said.text, item, anchors)):
+        if where is not None and not mention.denied and plainly and not NEGATION.search(_without(said.text, item, anchors, mentions)):
             asked.add(mention.name)
     limits = [(anchor, *sentence_at(said.text, anchor.start)) for anchor in anchors if anchor.is_scope and anchor.where != EVERYWHERE]
     scopes = {name: scope for name, found_places in placed.items() if (scope := _scope(found_places, row, limits)) is not None}
@@ -130,6 +131,32 @@ def read_step_scopes(text: str, names: Iterable[str], vocabulary: Vocabulary) ->
         # In the one step of a text everything runs: what it denies is all that is to be told.
         return StepReading({name: scope for name, scope in scopes.items() if not scope.runs})
     return StepReading(scopes, frozenset(asked & scopes.keys()))
+
+
+def _scopes_only(said: Plain, found: Sequence[tuple[str, re.Match[str]]]) -> list[tuple[str, re.Match[str]]]:
+    """The scopes of a text without words of order before a movement ("after that hold on") and places that nothing else leads to ("as far as @")."""
+    row = row_of(said, [match.span() for kind, match in found if "@" not in match[0] or kind in ("upto", "beyond", "place")])
+    places = list(said.places.values())
+
+    def leads(kind: str, match: re.Match[str]) -> bool:
+        if kind == "rest":
+            begins = re.search(r"(?:^|[.;] |\band |, )$", said.text[: match.start()]) is not None
+            return begins and any(unit.start - match.end() in (1, 2) and not unit.chained for unit in row.units)
+        if kind == "upto" and re.match("as far|up to", match[0]):
+            place = said.places.get(match.start() + match[0].find("@"))
+            return places.count(place) == 1 and not any(unit.kind == w.GOTO and unit.start < match.start() for unit in row.units) if place else False
+        return False
+
+    return [(kind, match) for kind, match in found if not leads(kind, match)]
+
+
+def _repeated(text: str, row: Row, found: Sequence[tuple[str, re.Match[str]]]) -> bool:
+    """Whether movements are repeated or taken back. "At the third no sonar, drop a pin instead" is about skills."""
+    for match in _REPEATED.finditer(text):
+        begin, end = sentence_at(text, match.start())
+        if match[0] != "instead" or any(begin <= unit.start < end for unit in row.units) or not any(begin <= scope.start() < end for _kind, scope in found):
+            return True
+    return False
 
 
 _FREELY = re.compile(r"(?:up to|as far as) @ (?:you|she|we|it)\b[^.;,]{0,20}\b(?:no|not|nothing|without|freely|needn't)\b")
@@ -164,11 +191,17 @@ def _unread_leg(text: str, row: Row) -> bool:
     return any(not any(unit.start <= match.end() and match.start() <= unit.end + 1 for unit in row.units) for match in _LEG.finditer(text))
 
 
-def _without(text: str, item: tuple[int, int], anchors: Sequence[Anchor]) -> str:
-    """An item without its scopes and movements."""
-    inside = [anchor for anchor in anchors if item[0] <= anchor.start < item[1]]
-    ends = [item[0], *(anchor.end for anchor in inside)]
-    return " ".join(text[begin:end] for begin, end in zip(ends, [*(anchor.start for anchor in inside), item[1]], strict=True))
+def _without(text: str, item: tuple[int, int], anchors: Sequence[Anchor], mentions: Sequence[Mention]) -> str:
+    """An item without its scopes and movements, what it denies of other skills ("no recording") and "instead" at its end."""
+    inside = [(anchor.start, anchor.end) for anchor in anchors if item[0] <= anchor.start < item[1]]
+    for mention in mentions:
+        refused = re.search(r"\b(?:no|without) (?:\w+ )?$", text[item[0] : mention.start]) if mention.denied and item[0] <= mention.start < item[1] else None
+        if refused and not any(item[0] + refused.start() < end and start < mention.end for start, end in inside):
+            inside.append((item[0] + refused.start(), mention.end))
+    inside.sort()
+    ends = [item[0], *(end for _start, end in inside)]
+    left = " ".join(text[begin:end] for begin, end in zip(ends, [*(start for start, _end in inside), item[1]], strict=True))
+    return re.sub(r"\binstead\W*$", " ", left)
 
 
 def _limited(mention: Mention, scopes: Sequence[tuple[Anchor, int, int]]) -> bool:
@@ -203,13 +236,23 @@ def _scope(places: Sequence[tuple[Mention, Where | None, bool]], row: Row | None
     return StepScope(row, runs, rests, closed=bool(runs) and not unread)
 
 
+_GOES_ON = re.compile(
+    r" (?:drop|take|log|read|check|measure|record|save|mark|pin|run|detect|track|note|get|keep|enter|register|switch|a|an|the|seabed|gps|no|nothing|only "
+    r"(?:take|log|read|drop))\b"
+)
+"""What is done in a scope that it stands behind."""
+
+
 def _pieces(text: str, pattern: re.Pattern[str], start: int, end: int, anchors: Sequence[Anchor]) -> list[tuple[int, int]]:
     """The parts of a text between separators that stand in no anchor."""
     pieces, begin = [], start
     for match in pattern.finditer(text, start, end):
-        joins = any(anchor.end <= match.start() and not text[anchor.end : match.start()].strip() and anchor.is_scope for anchor in anchors) and any(
-            match.end() <= anchor.start and not text[match.end() : anchor.start].strip() and anchor.is_scope for anchor in anchors
-        )
+        before = next((anchor for anchor in anchors if anchor.is_scope and anchor.end <= match.start() and not text[anchor.end : match.start()].strip()), None)
+        behind = next((anchor for anchor in anchors if anchor.is_scope and match.end() <= anchor.start and not text[match.end() : anchor.start].strip()), None)
+        joins = before is not None and behind is not None and ";" not in match[0]
+        if before and behind and re.search(r"[a-z]", text[begin : before.start]) and _GOES_ON.match(text[behind.end :]):
+            # "A fix at the first point and at the last drop a pin."
+            joins = False
         if match.start() > begin and not joins and not any(anchor.start < match.end() and match.start() < anchor.end for anchor in anchors):
             pieces.append((begin, match.start()))
             begin = match.start() if match[0].strip().isalpha() else match.end()
@@ -261,6 +304,10 @@ def _where(
         return None
     if headed and headed[0].start >= clause[0] and not any(colon < anchor.start < mention.start for anchor in anchors):
         return headed[0].where
+    left_out = [anchor for anchor in usable if anchor.kind == "except" and mention.end <= anchor.start]
+    if left_out and len([anchor for anchor in usable if anchor.is_scope]) == 1 and not s.UNREAD.search(text[mention.end : left_out[0].start]):
+        between = any(mention.end <= anchor.start < left_out[0].start for anchor in usable)
+        return left_out[0].where if not between and re.search(r"[a-z]", text[left_out[0].end : clause[1]]) is None else None
     coming = next((anchor for anchor in usable if mention.end <= anchor.start), None)
     if coming is not None and re.fullmatch(r"[^,;:]*\b(?:while|when|as|only) (?:(?:she|you|it) )?(?:is |are )?", text[mention.end : coming.start]):
         return coming.where
@@ -269,8 +316,11 @@ def _where(
     opening = usable[0].is_scope and not re.search(r"[a-z]{3,}", re.sub(r"\b(?:and|but|with|while|so)\b", "", text[clause[0] : usable[0].start]))
     if opening:
         ahead = [anchor for anchor in usable if anchor.is_scope and anchor.end <= mention.start]
-        between = [anchor for anchor in usable if not anchor.is_scope and ahead and ahead[-1].end <= anchor.start < mention.start]
-        if not ahead or between or s.UNREAD.search(text[ahead[-1].end : mention.start]):
+        moved = [anchor for anchor in usable if not anchor.is_scope and ahead and ahead[-1].end <= anchor.start < mention.start]
+        if moved and ahead[-1].kind == "onwards" and moved[0].start - ahead[-1].end <= 2:
+            # "From there on to the goal position no margin is needed."
+            del moved[0]
+        if not ahead or moved or s.UNREAD.search(text[ahead[-1].end : mention.start]):
             return None
         joined = [anchor for anchor in ahead if anchor is ahead[-1] or re.fullmatch(r",? ?(?:and|or|as well as) ?", text[anchor.end : ahead[-1].start])]
         return _joined(text, joined) if len(joined) > 1 else ahead[-1].where
@@ -294,10 +344,10 @@ def _where(
 
 
 def _closes(text: str, scope: Anchor) -> bool:
-    """Whether a scope is the end of its clause, behind a comma or with "only"."""
-    return (
-        re.match(r"(?: only| alone)?(?=[.;]|$)", text[scope.end :]) is not None
-        and re.search(r", (?:and |but )?(?:only |just )?$|, $", text[: scope.start]) is not None
+    """Whether a scope is the end of its clause, behind a comma, with "only" or for all of it."""
+    whole = scope.kind in ("all", "everywhere") and re.fullmatch(r"all (?:the|along).*|throughout|the whole (?:way|time)", text[scope.start : scope.end])
+    return re.match(r"(?: only| alone)?(?=[.;]|$)", text[scope.end :]) is not None and (
+        whole is not None or re.search(r", (?:and |but )?(?:only |just )?$|, $", text[: scope.start]) is not None
     )
 
 
@@ -318,20 +368,27 @@ def _loose(text: str, mentions: Sequence[Mention], anchors: Sequence[Anchor]) ->
         near = [mention for mention in before if mention.start >= begin]
         if _NOTHING.match(text[anchor.end : end]):
             continue
-        later = any(other.is_scope and near and near[-1].end <= other.start < anchor.start and not other.denied for other in anchors)
+        later = any(
+            other.is_scope and near and near[-1].end <= other.start < anchor.start and not other.denied and not _JOINT.fullmatch(text[other.end : anchor.start])
+            for other in anchors
+        )
         if not behind and not pointed and not moved and before and (later or not near):
             found.append(before[-1])
         opens = [other for other in anchors if other.is_scope and begin <= other.start < end]
-        ends = opens[0].start >= end or not text[begin : opens[0].start].strip(" ,") if opens else False
+        ends = opens[0].kind != "except" and (opens[0].start >= end or not text[begin : opens[0].start].strip(" ,")) if opens else False
         if not behind and not moved and ends and len(opens) > 1 and opens[-1] is anchor and near:
             found.extend(near)
     return found
 
 
+_JOINT = re.compile(r",? ?(?:and|or|as well as|plus)? ?(?:also )?")
+"""What stands between two scopes of one phrase."""
+
+
 def _joined(text: str, scopes: Sequence[Anchor]) -> Where | None:
     """Several scopes of one item, if they are one phrase."""
     for one, other in itertools.pairwise(scopes):
-        if not re.fullmatch(r",? ?(?:and|or|as well as|plus)? ?(?:also )?", text[one.end : other.start]):
+        if not _JOINT.fullmatch(text[one.end : other.start]):
             return None
     units = [anchor.where.units for anchor in scopes if anchor.where and anchor.where.units is not None]
     return Where(frozenset().union(*units)) if len(units) == len(scopes) else None

@@ -117,7 +117,10 @@ def _speaks(text: str, name: str) -> bool:
         return any(not (_ruled_out(text, match) or _ROW.match(match.group())) for match in _spoken(name).finditer(text))
     if name == "DetectSonarFeature":
         return any(not _only_recorded(text, match) and not _ruled_out(text, match) for match in _spoken(name).finditer(text))
-    if any(not (_ruled_out(text, match) or _measured_otherwise(text, match) or _a_place(text, match)) for match in _spoken(name).finditer(text)):
+    if any(
+        not (_ruled_out(text, match) or _measured_otherwise(text, match) or _a_place(text, match) or _a_remark(text, match, name))
+        for match in _spoken(name).finditer(text)
+    ):
         return True
     return name == "DetectObjects" and any(not _sought_otherwise(text, match) for match in _SEEKING.finditer(text))
 
@@ -134,6 +137,17 @@ def _sought_otherwise(text: str, match: re.Match[str]) -> bool:
     """Whether a verb of seeking is about something that another skill finds."""
     behind, before = text[match.end() :].lstrip(), re.split(r"[.;,:]", text[: match.start()])[-1]
     return bool(_SOUGHT_OTHERWISE.search(behind) or _BY_SONAR_BEHIND.search(behind) or _BY_SONAR_BEFORE.search(before))
+
+
+def _a_remark(text: str, match: re.Match[str], name: str) -> bool:
+    """Whether a match is in a remark: the sun on the lens, what some people want."""
+    remarks = {"CheckLensClearness": _DAZZLED, "DetectObjects": _WISHED}.get(name)
+    if remarks is None:
+        return False
+    last = match.end() - 1
+    begin = max((end.end() for end in _SENTENCE_END.finditer(text[:last])), default=0)
+    sentence = _SENTENCE_END.split(text[begin:], maxsplit=1)[0]
+    return any(begin + found.start() <= last < begin + found.end() for found in remarks.finditer(sentence)) and not _LOOKED_AT.search(sentence)
 
 
 def _measured_otherwise(text: str, match: re.Match[str]) -> bool:
@@ -252,6 +266,18 @@ _PLACE_BEFORE, _PLACE_BEHIND, _OF_SHOT = (re.compile(pattern) for pattern in (c.
 _MEASUREMENT = re.compile(r"measur\w*|readings?")
 _NEGATED_TWICE = re.compile(r"\b(?:no|not|never|neither|none|nor|don't|nothing)\b.*\bwithout\b")
 _MEASURED_OTHERWISE = re.compile(c.MEASURED_OTHERWISE)
+_SENTENCE_END = re.compile(r"[.!?;](?=\s|$)")
+_DAZZLED = re.compile(
+    r"\b(?:sun\w*|glare|moon\w*|(?:low |bright )light)\b[^.;,]{0,40}\b(?:lens|glass|camera)\b|"
+    r"\b(?:lens|glass|camera)\b[^.;,]{0,20}\b(?:sun|glare)\b"
+)
+_WISHED = re.compile(
+    r"\b(?:[a-z-]+ ){0,3}"
+    r"(?:people|crew|divers?|swimmers?|guys|folks?|owners?|skippers?|fishermen|surveyors?|scientists?)(?: now| also| still| only| just| here)* "
+    r"(?:want|need|ask|say|said|told|tell|think|would like|like to|prefer|insist|expect|complain|require|pay|request)(?:s|ed)?\b[^.;]{0,40}"
+)
+"""What the sun does to a picture, and what people are said to want: nothing to look for."""
+_LOOKED_AT = re.compile(r"\b(?:check|drops?|droplets?|clean|clear|wip\w+|wet|detect\w*|look|watch|search|spot|lookout|salt|spray)\b")
 _CLAUSE_END = re.compile(r"[.;,:!?\n]|\b(?:and|while|then)\b")
 _ROW = re.compile(r"[\[(x\d]|corners")
 """Points in a row, which are no fence unless one is spoken of."""

@@ -42,6 +42,19 @@ _BOUND_BEHIND = re.compile(
 _WILL_DO = re.compile(r"^ (?:will do|is enough|are enough|is plenty|suffic\w+)", re.IGNORECASE)
 
 
+def margins_only(text: str) -> set[float]:
+    """The lengths that are clearances beyond doubt and said once: they are no radius."""
+    found = quantities(text)
+    said = [quantity.value for quantity in found]
+    return {
+        quantity.value
+        for quantity in found
+        if quantity.unit == "m" and said.count(quantity.value) == 1 and not _BOUND_BEHIND.match(text[quantity.end :])
+        if _LED.search(text[: quantity.start])
+        or (_FOLLOWED.match(text[quantity.end :]) and text[quantity.end : quantity.end + 1] != "," and not _BOUND_BEFORE.search(text[: quantity.start]))
+    }
+
+
 def clearances(text: str) -> set[float]:
     """The lengths that are clearances beyond doubt, with those that may be; nothing where no length is one."""
     certain, possible = set(), set()

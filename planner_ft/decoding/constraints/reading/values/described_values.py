@@ -89,6 +89,7 @@ _PATTERNS: dict[tuple[str, str], tuple[str, ...]] = {
     ),
     ("CreateMapMarker", "label"): (
         rf"\blabel(?:led)?(?: as| is|:|,)? {_NAME}{_CLAUSE}",
+        rf"\b(?:pin|mark)(?:ning|ing)? (?:the |this |that |its )(?:spot|place|position|point|location)(?: on the map)? as {_NAME}{_CLAUSE}",
         rf"(?:marker|pin) (?:named|called|labelled) {_NAME}(?:{_CLAUSE}|(?= and {_VERB}\b))",
     ),
     ("RegisterObservation", "observation"): (rf"\bregister(?:ing)? {_NAME} as (?:the|an) observation\b",),

@@ -69,6 +69,7 @@ def test_a_grid_lies_as_its_words_say(prompt: str, parameters: dict[str, Any], p
         ("The usual survey square at the radius given; a photo at all eight points.", g.survey_square((100, 50), 20)),
         ("Survey square round the target, clockwise. Video on.", g.survey_square((100, 50), 20, clockwise=True)),
         ("Corners only: south-west, then anticlockwise round the target, 8 m margin.", g.survey_square((100, 50), 20, "south-west")[::2]),
+        ("Survey square round the target. Stills at the four corners; at the mid-sides only read the depth.", g.survey_square((100, 50), 20)),
         ("Take her round the square and close it.", [*g.survey_square((100, 50), 20), g.survey_square((100, 50), 20)[0]]),
         ("A square of 30 m, please, from the middle of the north side.", g.survey_square((100, 50), 30, "north")),
     ],

@@ -71,6 +71,42 @@ def test_runs_and_the_way_to_their_start(text: str, skill: str, steps: str, know
     assert verdicts(text, skill, RUN, "line", known=known) == steps
 
 
+@pytest.mark.parametrize(
+    ("text", "skill", "steps"),
+    [
+        ("Run along the wall. Log the lidar slice both at the start point and at the end point.", "LogLidarSlice", "++"),
+        ("Run along the wall. Take a GPS fix at the end point only.", "GetGPSLocation", "-+"),
+        ("Run along the wall. At the start point log the environment, at the very last one drop a pin.", "LogEnvironmentState", "+-"),
+        ("Run along the wall. At the start point log the environment, at the very last one drop a pin.", "CreateMapMarker", "-+"),
+        ("Run along the wall. At the end point hold for a minute and take a GPS fix.", "GetGPSLocation", "??"),
+    ],
+)
+def test_ends_of_a_run(text: str, skill: str, steps: str) -> None:
+    assert verdicts(text, skill, RUN, "line") == steps
+    unknown = verdicts(text, skill, RUN, "line", known=False)
+    assert all(found in (step, "?") for found, step in zip(unknown, steps, strict=True))
+
+
+@pytest.mark.parametrize(
+    ("text", "skill", "steps"),
+    [
+        ("Mow the grid and then head home. Seabed depth on the lanes, nothing on the way home; 6 m of clearance.", "GetSeabedDepth", "++++++-"),
+        ("Mow the grid and then head home. Take a GPS fix on the way home only.", "GetGPSLocation", "------+"),
+        ("Mow the grid and then go back home. A GPS fix on the grid including the last point, not on the way home.", "GetGPSLocation", "++++++-"),
+        ("Mow the grid. Seabed depth on the lanes.", "GetSeabedDepth", "???????"),
+        ("Mow the grid and then head home. Seabed depth on the lanes, not on the hops between them.", "GetSeabedDepth", "???????"),
+    ],
+)
+def test_the_way_home_behind_a_path(text: str, skill: str, steps: str) -> None:
+    assert verdicts(text, skill, (*GRID, g.point(0, 0)), "lawnmower", known=False) == steps
+
+
+def test_runs_both_ways() -> None:
+    text = "Two runs: northbound 9 m off, then southbound 18 m off. On the northbound run itself, not on the way to its start, check whether the wall is flat."
+    path = (g.point(9, 0), g.point(9, 50), g.point(18, 50), g.point(18, 0))
+    assert verdicts(text, "CheckPlanarity", path, "pass") == "-+--"
+
+
 def test_legs_that_are_numbered_behind_a_start_point() -> None:
     text = "Start point [0, 0]. Leg 1: 50 m on bearing 000. Leg 2: 30 m on bearing 090. Log the environment on leg 2, seabed depth on legs 1 and 2."
     path = (g.point(0, 0), g.point(0, 50), g.point(30, 50))

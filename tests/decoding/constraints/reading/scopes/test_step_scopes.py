@@ -115,6 +115,58 @@ def test_what_is_in_doubt_is_not_ruled_out(text: str, skill: str) -> None:
     assert "-" not in verdicts(text, skill, [GO, HOLD])
 
 
+@pytest.mark.parametrize(
+    ("text", "skill", "navigation", "steps"),
+    [
+        ("Proceed to [8, 3], then hold for the duration. Lidar slice only in the hold, a GPS fix both on the way and during the hold.", "GetGPSLocation",
+         [GO, HOLD], "++"),
+        ("Proceed to [8, 3], then hold for the duration. Lidar slice only in the hold, a GPS fix both on the way and during the hold.", "LogLidarSlice",
+         [GO, HOLD], "-+"),
+        ("Settle until she lies still, go to [6, 6], keep the hatch centred. Except during the wait, keep a margin of 4 m.", "ObstacleAvoidance",
+         [WAIT, GO, VISUAL], "-++"),
+        ("Go to [6, 6], turn to 80 and hold a minute. Log the environment, except while turning.", "LogEnvironmentState", [GO, FACE, HOLD], "+-+"),
+        ("Go to [6, 6], turn to 80 and hold a minute. Take a GPS fix in every step, except during the hold.", "GetGPSLocation", [GO, FACE, HOLD], "++-"),
+        ("Follow the pipeline through [5, 5], [9, 9] and [30, 30]. Seabed depth on the way to the first two points; at the third no depth, drop a pin instead.",
+         "GetSeabedDepth", [GO] * 3, "++-"),
+        ("Follow the pipeline through [5, 5], [9, 9] and [30, 30]. Seabed depth on the way to the first two points; at the third no depth, drop a pin instead.",
+         "CreateMapMarker", [GO] * 3, "--+"),
+        ("Barges ahead: keep a 9 m margin as far as [40, 2]. From there on to the goal position the margin is not needed.", "ObstacleAvoidance",
+         [GO, GO], "+-"),
+        ("Zigzag up the channel through [0, 9], [9, 20] and [0, 30] in that order, recording the bow camera for weed and wrack all the way.",
+         "SetStreamRecording", [GO] * 3, "+++"),
+        ("Go to [3, 1], then turn to 210. Read the text on the sign once you're turning.", "OCRScanning", [GO, FACE], "-+"),
+        ("Turn to 10, 50 and 90. Take a GPS fix on each.", "GetGPSLocation", [FACE] * 3, "+++"),
+        ("Go to [4, 4], hold a minute, go to [9, 4], hold a minute. A GPS fix in the first hold; in the second read the seabed depth.", "GetSeabedDepth",
+         [GO, HOLD, GO, HOLD], "---+"),
+        ("Call at [1, 1], [4, 4] and [9, 9]. Seabed depth at the first two points, at the last drop a pin.", "CreateMapMarker", [GO] * 3, "--+"),
+        ("Run up to [1, 9] with 9 m clearance, and on the final run to the goal position log the environment.", "LogEnvironmentState", [GO, GO], "-+"),
+        ("Two drifts, one at [0, 5], the other at [9, 5]. The box [-9, -9], [20, -9], [20, 20], [-9, 20] holds for the drifts, not for the runs between.",
+         "BoundaryEnforcement", [GO, DRIFT, GO, DRIFT], "-+-+"),
+    ],
+)  # fmt: skip
+def test_several_scopes_of_one_text(text: str, skill: str, navigation: list[str], steps: str) -> None:
+    assert verdicts(text, skill, navigation) == steps
+
+
+@pytest.mark.parametrize(
+    ("text", "skill", "navigation", "steps"),
+    [
+        ("nudge 8 deg port then keep red buoy centred then hold 2 min no recording 5 m clearance all the time tnx", "ObstacleAvoidance", [NUDGE, VISUAL, HOLD],
+         "+++"),
+        ("Go to [5, 1], then hold for the duration with the bow locked.", "LockHeading", [GO, HOLD], "-+"),
+        ("Hold for ten minutes and don't let the bow swing.", "LockHeading", [HOLD], "?"),
+        ("Go to [5, 1]. Pin the bow to its present heading.", "LockHeading", [GO], "?"),
+        ("Three stops of 90 seconds, at [5, 1], [9, 1] and [9, 9]. Log the environment in all of them except the last.", "LogEnvironmentState",
+         [GO, HOLD, GO, HOLD], "????"),
+    ],
+)  # fmt: skip
+def test_what_all_readers_make_of_it(text: str, skill: str, navigation: list[str], steps: str) -> None:
+    companions = read_companions({"prompt": text}, VOCABULARY)
+    assert skill in (companions.spoken or ())
+    found = [companions.runs(skill, name, navigation[:index]) for index, name in enumerate(navigation)]
+    assert "".join({True: "+", False: "-", None: "?"}[verdict] for verdict in found) == steps
+
+
 def test_values_that_differ_between_steps() -> None:
     text = "Leave 9 m clearance while coming in to [5, -2], and only 3 m for what follows: turn to 100, hold two minutes."
     companions = read_companions({"prompt": text}, VOCABULARY)

@@ -218,3 +218,19 @@ def test_what_one_need_not_bother_with_is_not_spoken_of() -> None:
 
 def test_what_others_do_is_not_required() -> None:
     assert not required("They are taking soundings close by. Hold for a minute.", VOCABULARY)
+
+
+@pytest.mark.parametrize(
+    ("text", "skill", "spoken"),
+    [
+        ("Sun is right on the lens. Nudge 10 degrees to port.", "CheckLensClearness", False),
+        ("The low sun shines straight into the camera lens, so turn to 120.", "CheckLensClearness", False),
+        ("Sun on the lens again; check the lens while you hold for a minute.", "CheckLensClearness", True),
+        ("The harbour people now want a longer drift. Float for ten minutes.", "DetectObjects", False),
+        ("Divers need the depth. Hold for a minute and take soundings.", "DetectObjects", False),
+        ("The crew ask for a watch on swimmers. Look out for swimmers while holding.", "DetectObjects", True),
+        ("Hold for a minute and detect divers.", "DetectObjects", True),
+    ],
+)
+def test_what_a_remark_mentions_is_not_asked_for(text: str, skill: str, spoken: bool) -> None:
+    assert (skill in (spoken_of(text, VOCABULARY) or ())) is spoken

@@ -29,6 +29,7 @@ VOCABULARY = load_vocabulary()
         ("Write the hydrophone to disk under the tag low_water.", "SetStreamRecording", "sensor_id", "hydrophone"),
         ("Take a geotagged still there, note cleat 3 bent.", "CaptureGeoSnapshot", "note", "cleat 3 bent"),
         ("In the hold drop a marker named berth free and log the environment.", "CreateMapMarker", "label", "berth free"),
+        ("Hold here with the detector on and pin the spot as likely wreck.", "CreateMapMarker", "label", "likely wreck"),
         ("GO TO 10, 20 STOP SWITCH TO MAST CAMERA STOP REGARDS", "SelectActiveStream", "stream_id", "mast camera"),
         ("FERRY RAMP STAYS IN CENTRE OF FRAME STOP THANKS", "VisualStationKeep", "target_id", "ferry ramp"),
     ],

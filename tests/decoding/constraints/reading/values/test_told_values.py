@@ -12,7 +12,7 @@ from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.decoding.constraints.companions import read_companions
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.reading.paths.itinerary import without_fences
-from planner_ft.decoding.constraints.reading.values.clearances import clearances
+from planner_ft.decoding.constraints.reading.values.clearances import clearances, margins_only
 from planner_ft.decoding.constraints.reading.values.fences import fences
 from planner_ft.decoding.constraints.reading.values.told_values import CLEARANCE, FENCE, Told, read_told_values
 from planner_ft.support.files import compact_json
@@ -34,6 +34,19 @@ VOCABULARY = load_vocabulary()
 )
 def test_a_length_is_a_clearance_by_the_words_beside_it(text: str, values: set[float]) -> None:
     assert sorted(clearances(text)) == pytest.approx(sorted(values))
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("One arc turn to port, thirty yards radius, with sixty feet of clearance on everything.", {18.288}),
+        ("An arc to starboard, radius 25 m, margin 6 m, and another one of 40 m with a margin of 6 m.", set()),
+        ("Two arcs, radius 25 m, safety margin 6 m; the outer one has a radius of 40 m and a margin of 12 m.", {6, 12}),
+        ("Hold within 6 m.", set()),
+    ],
+)
+def test_a_length_that_can_only_be_a_clearance(text: str, values: set[float]) -> None:
+    assert sorted(margins_only(text)) == pytest.approx(sorted(values))
 
 
 @pytest.mark.parametrize(
