@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from planner_ft.data.lexicon import known_words
+from planner_ft.data.task.geometry import point
 from planner_ft.decoding.configurations import Strength
 from planner_ft.decoding.constraints import Constraint
 from planner_ft.decoding.constraints.answer import Answer, Script, Whole
@@ -17,14 +18,17 @@ from planner_ft.decoding.constraints.grounded_mission import MissionValues
 from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, GroundedTaskValues
 from planner_ft.decoding.constraints.reading import LONGEST
 from planner_ft.decoding.constraints.reading.corrected import as_corrected
-from planner_ft.decoding.constraints.reading.rows.sequence import agreed, read_sequence
+from planner_ft.decoding.constraints.reading.paths.chains import chain_in_places
+from planner_ft.decoding.constraints.reading.rows.sequence import Sequence, agreed, read_sequence
 from planner_ft.decoding.constraints.reading.rows.turns import read_turns
 from planner_ft.decoding.constraints.reading.telegrams import in_small_letters
+from planner_ft.decoding.constraints.reading.told_otherwise import told_plainly
 from planner_ft.decoding.constraints.reading.values.clocks import with_durations
+from planner_ft.decoding.constraints.reading.values.own_values import in_figures
 from planner_ft.decoding.constraints.routes import TaskScript
 from planner_ft.decoding.constraints.state import MissionScript, ResolvedValues, names_unresolved
 from planner_ft.decoding.constraints.tokens import Tokens, tokens_of
-from planner_ft.decoding.constraints.waypoints import read_ground
+from planner_ft.decoding.constraints.waypoints import Ground, read_ground
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -93,11 +97,18 @@ class Factory:
         turns = None if turns and ground.waypoints_alone else turns
         # Where waypoints cannot be told, any may be meant.
         held = ResolvedValues(FreeWaypoints(values), self.vocabulary) if ground.free else values
-        sequence = (
-            agreed(read_sequence(record, self.vocabulary), None if ground.free else ground.itinerary, self.vocabulary) if len(prompt) <= LONGEST else None
-        )
+        sequence = self._sequence(record, ground) if len(prompt) <= LONGEST else None
         script = TaskScript(self.vocabulary, held, ground, prompt, turns, companions, None if ground.shaped else sequence)
         return Answer(self.tokens, script, limit, self._reserve, values.notes)
+
+    def _sequence(self, record: dict[str, Any], ground: Ground) -> Sequence | None:
+        """All movements, also where legs that add up to known waypoints stand among them."""
+        itinerary = None if ground.free else ground.itinerary
+        found = read_sequence(record, self.vocabulary)
+        if found is None and itinerary:
+            placed = chain_in_places(record, point(*self.vocabulary.home))
+            found = read_sequence({**record, "prompt": placed}, self.vocabulary) if placed else None
+        return agreed(found, itinerary, self.vocabulary)
 
     def mending(self, record: dict[str, Any], answer: str) -> Factory | None:
         """What an answer is to be written again with, because it leaves out what its input asks for beyond doubt; None where it need not be."""
@@ -149,6 +160,13 @@ def _pattern(record: dict[str, Any], vocabulary: Vocabulary) -> str:
 
 
 def _plainly_written(record: dict[str, Any]) -> dict[str, Any]:
-    """A task input whose prompt is not in capitals, says nothing that it takes back and no times of day for durations: everything that reads it gets it so."""
+    """A task input whose prompt is not in capitals, says nothing that it takes back, no times of day for durations and nothing by way of something else.
+
+    Everything that reads it gets it so.
+    """
     prompt = in_small_letters(str(record.get("prompt", "")))
-    return {**record, "prompt": with_durations(as_corrected(prompt)) if len(prompt) <= LONGEST else prompt}
+    if len(prompt) > LONGEST:
+        return {**record, "prompt": prompt}
+    given = record.get("parameters")
+    parameters = given if isinstance(given, dict) else {}
+    return {**record, "prompt": told_plainly(in_figures(with_durations(as_corrected(prompt)), parameters), parameters)}

@@ -25,12 +25,14 @@ from planner_ft.decoding.constraints.reading.paths.areas import areas
 from planner_ft.decoding.constraints.reading.paths.chains import read_chain
 from planner_ft.decoding.constraints.reading.paths.extents import extents
 from planner_ft.decoding.constraints.reading.paths.faces import read_faces
+from planner_ft.decoding.constraints.reading.paths.halfway import read_halfway, with_own_places
 from planner_ft.decoding.constraints.reading.paths.halts import Halts, halts_at, read_halts
 from planner_ft.decoding.constraints.reading.paths.itinerary import moves_otherwise, read_itinerary, stays
 from planner_ft.decoding.constraints.reading.paths.lanes import without_courses
 from planner_ft.decoding.constraints.reading.paths.legs import read_legs
 from planner_ft.decoding.constraints.reading.paths.one_shape import one_shape
 from planner_ft.decoding.constraints.reading.paths.own_movement import own_movement
+from planner_ft.decoding.constraints.reading.paths.parts_of_shapes import read_part
 from planner_ft.decoding.constraints.reading.paths.runs import read_runs
 from planner_ft.decoding.constraints.reading.paths.squares import read_squares
 from planner_ft.decoding.constraints.reading.paths.station_rows import read_station_rows
@@ -219,14 +221,9 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     whole = None if reading.numbers_free or task is None else own_movement(reading.text, parameters, own[0] if len(own) == 1 else None, task, vocabulary)
     itinerary, run = whole, None
     if whole is None and not reading.numbers_free:
-        run = (
-            read_chain(record, home)
-            or read_station_rows(record)
-            or read_legs(record, home)
-            or read_faces(record)
-            or read_stations(record)
-            or read_cable(record)
-        )
+        run = (read_part(record, task, own[0] if len(own) == 1 else None, home) if task else None) or _straight(record, home)
+        placed = None if run else with_own_places(record)
+        run = (read_halfway(placed) or read_chain(placed, home) or read_station_rows(placed)) if placed else run
         if run is None and task is not None and task.pattern == "square":
             run = read_squares(record, own[0] if len(own) == 1 else None)
         itinerary = run or read_itinerary(record, vocabulary)
@@ -366,6 +363,19 @@ def _numbers(parameters: dict[str, Any]) -> Iterator[float]:
 
 def _is_place(value: Any) -> bool:
     return isinstance(value, list) and len(value) == 2 and all(isinstance(item, int | float) for item in value)
+
+
+def _straight(record: dict[str, Any], home: Point) -> Path | None:
+    """Every waypoint of an input that is about a straight way: a chain of legs, a row of stations, passes beside a face, a cable track."""
+    return (
+        read_halfway(record)
+        or read_chain(record, home)
+        or read_station_rows(record)
+        or read_legs(record, home)
+        or read_faces(record)
+        or read_stations(record)
+        or read_cable(record)
+    )
 
 
 def _tidy(place: Any) -> Point:

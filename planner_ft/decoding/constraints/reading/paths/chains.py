@@ -19,6 +19,7 @@ from planner_ft.decoding.constraints.reading.paths import legs as l
 from planner_ft.decoding.constraints.reading.paths import run_wordings as r
 from planner_ft.decoding.constraints.reading.paths.itinerary import plain_text, reworded, without_fences
 from planner_ft.decoding.constraints.reading.paths.shapes import Point, stated_lengths, stated_sizes
+from planner_ft.decoding.constraints.reading.paths.written_out import IN_CABLES, in_metres
 
 Path = tuple[Point, ...]
 Kind = Literal["place", "leg", "origin", "begin", "retrace", "half", "home"]
@@ -253,6 +254,33 @@ class _Way:
 
 def read_chain(record: dict[str, Any], home: Point) -> Path | None:
     """Every waypoint of the answer in order, where the input is such a chain; None where it is not, or where something is not clear."""
+    chain = _read(record, home)
+    return chain[0] if chain else None
+
+
+def chain_in_places(record: dict[str, Any], home: Point) -> str | None:
+    """The text of such a chain with the place of each leg in its stead; None where a part of it leads to more than one place, or to none."""
+    chain = _read({**record, "prompt": IN_CABLES.sub(in_metres, str(record.get("prompt", "")))}, home)
+    if chain is None:
+        return None
+    path, text, events = chain
+    led = [event for event in events if not event.lying]
+    if len(led) != len(path) or any(event.lying and event.point != home for event in events) or all(event.kind == "place" for event in led):
+        return None
+    for event, (x, y) in reversed([*zip(led, path, strict=True)]):
+        before = LEAD_IN.search(text[max(0, event.start - 60) : event.start])
+        start = event.start - len(before[0]) if before else event.start
+        stop = re.search(r"[.;:]\s[^.;:]*$", text[start : event.start])
+        start += len(text[start : event.start]) - len(stop[0]) + 2 if stop else 0
+        joined = ", then " if text[:start].strip() and text[:start].rstrip()[-1] not in ".;:!" else " "
+        text = f"{text[:start].rstrip(' ,')}{joined}go to ({x:g}, {y:g}){text[event.end :]}"
+    for event in events:
+        text = f"{text[: event.start]}{re.sub(r'^[ ,]*(?:then )?', '', text[event.end :])}" if event.lying else text
+    return text.strip()
+
+
+def _read(record: dict[str, Any], home: Point) -> tuple[Path, str, list[_Event]] | None:
+    """The waypoints of a chain, its text and what leads from one to the next."""
     given, prompt = record.get("parameters"), str(record.get("prompt", ""))
     text = reworded(without_fences(plain_text(prompt))) if len(prompt) <= LONGEST else None
     if not text or l.CABLES.search(text):
@@ -280,7 +308,7 @@ def read_chain(record: dict[str, Any], home: Point) -> Path | None:
     way = _Way(home)
     if not all(way.go(event) for event in events):
         return None
-    return tuple(way.path) or None
+    return (tuple(way.path), text, events) if way.path else None
 
 
 def _blank(match: re.Match[str]) -> str:

@@ -14,7 +14,10 @@ from planner_ft.decoding.constraints.reading import wordings as w
 from planner_ft.decoding.constraints.reading.paths.shapes import named_corner
 
 BEGINNING = re.compile(
-    r"\b(?:(?<!you )start\w*|begin\w*|first|enter\w*|entr\w+|from the|opposite|other|far|near|upper|lower|top|bottom|left|right)\b", re.IGNORECASE
+    r"\b(?:(?<!you )start\w*|begin\w*|first|enter\w*|entr\w+|from the (?!(?:[\w'’-]+ ){0,2}(?:camera|cam|sensor|stream|imu|sounder|lidar|feed|lens|video|"
+    r"buffer|"
+    r"target|mast|pile|wreck|buoy)\b)|opposite|other|far|near|upper|lower|top|bottom|left|right)\b",
+    re.IGNORECASE,
 )
 REVERSED = re.compile(r"\b(?:other way|reverse\w*|opposite|either way)\b", re.IGNORECASE)
 FIRST_LANE = re.compile(

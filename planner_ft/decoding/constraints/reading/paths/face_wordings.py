@@ -95,13 +95,45 @@ LIES_ALONG = re.compile(
 """A line that lies along an axis."""
 
 # The passes
+TO_BEGINNING = re.compile(
+    r"\b(?:go|head|proceed|steam|motor|sail|drive|get|come|move|transit)(?: (?:first|straight|over|out|up|round|down))* to (?:the |its "
+    rf")?(?P<end>{_WAY})(?:ern(?:most)?|most)? (?:end|corner|tip)"
+    r"(?: (?:of (?:it|the [\w-]+)|first))?,?(?: and| and then| then| and from there| from there)? (?=(?:run|follow|pass|go|sail|steam|drive|move|creep|"
+    r"track|work|motor|cruise|continue|proceed)\b"
+    rf"(?: (?:it|along|beside|parallel|the|face|wall|all|way|slowly|steadily|straight))*(?: to (?:the |its )?(?:{_WAY}(?:ern)?|other|far) (?:end|corner|"
+    r"tip)| (?:its|the) (?:whole|full) length))",
+    re.IGNORECASE,
+)
+"""The way to the end at which the pass begins."""
+APPROACH = re.compile(
+    r"\b(?:(?:not |nor )?(?:on|during|in|for|with) )?(?:the |its )?(?:approach|way|run-in|run|transit|trip|passage|leg)(?: (?:out|over|up|in))? to "
+    rf"(?:(?:the |its )?(?:{_WAY}(?:ern)? )?(?:end|corner|start\w*"
+    r"(?: point)?|beginning|line)|it)\b(?: (?:included|excluded|as well|too|alone|only))?",
+    re.IGNORECASE,
+)
+"""The way to a pass, on which something is done or not done."""
+ON_PASS = re.compile(
+    rf"\b(?:on|during|for|in) (?:the |that )?(?:{_WAY}[ -]?(?:bound|wards?|going)|first|second|outer|inner|last|return) (?:run|pass|leg|one)(?: (?:itself|"
+    r"only|alone))*|"
+    rf"\b(?:nothing|none|no \w+) (?:on|during|for) the (?:{_WAY}[ -]?(?:bound|wards?|going)|first|second|outer|inner|return|other|last|way)(?: (?:run|pass|"
+    r"leg|one|back|out))?",
+    re.IGNORECASE,
+)
+"""Words for one of the passes, on which something is done."""
 PARTS = re.compile(
-    r"[.;:]\s+|\s[-–—]\s|,?\s*(?:\band\s+)?\bthen\b|,?\s*\b(?:and\s+)?(?=(?:the |a )?second\b(?! (?:point|end|place|\w+ given)))|"
+    rf"[.;:]\s+|\s[-–—]\s|,\s*(?:and )?(?={_WAY}bound (?:at|\d|off|over|on)\b)|,?\s*(?:\band\s+)?\bthen\b|"
+    r",?\s*\b(?:and\s+)?(?=(?:the |a )?second\b(?! (?:point|end|place|\w+ given)))|"
     r",?\s*\b(?:and\s+)?(?=the other (?:run|pass|leg|one)\b)|,?\s*\band\s+(?=(?:one|another) (?:run|pass|leg|back)\b)|"
     r",?\s*\band\s+(?=(?:(?:straight|right|come|go|run|sail|all the way|turn round and|make your way) ){0,2}(?:back|return\w*|reverse\w*)\b)",
     re.IGNORECASE,
 )
 """Between the passes of a text."""
+THERE_AND_BACK = re.compile(r"\bthere and back(?: again)?\b(?! to)|(?<!further )(?<!farther )(?<!m )(?<!metres )\bout and back\b(?! to)", re.IGNORECASE)
+ONLY_KEEPS = re.compile(
+    r"^\W*(?:(?:keep|stay|hold|remain|stand)\w* )?(?:at )?(?:about )?\d+(?:\.\d+)? ?(?:m|met(?:re|er)s?) (?:off|away|clear|from|out)\b[^.;:]{0,40}$",
+    re.IGNORECASE,
+)
+"""A part that only says how far off the passes are."""
 SHIFT_PARTS = re.compile(
     r",?\s*\b(?:and )?(?=(?:side-?step|step|move|shift|open|widen|go|come|edge|ease) (?:straight |directly |square |sideways )?(?:further )?(?:out|off|in|"
     r"away)\b)|"

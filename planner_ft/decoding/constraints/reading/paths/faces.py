@@ -66,6 +66,7 @@ def read_faces(record: dict[str, Any]) -> Path | None:
 
 def _passes(text: str, parameters: dict[str, Any]) -> Path | None:
     plain = r.QUOTED.sub(lambda quoted: " " * len(quoted[0]), text)
+    plain = f.TO_BEGINNING.sub(r"from the \g<end> end ", f.ON_PASS.sub(_noted, f.APPROACH.sub(_noted, plain)))
     line = _on_axes(plain) or _about_middle(plain, parameters) or _from_end(plain) or _between_ends(plain)
     if line is None:
         return None
@@ -79,6 +80,13 @@ def _passes(text: str, parameters: dict[str, Any]) -> Path | None:
     if f.ELSEWHERE.search(f.NOT_ELSEWHERE.sub(" ", rest)) or r.EXPLICIT.search(rest):
         raise Uncertain
     return _walked(list(_runs(rest, line)), line, rest, said, parameters)
+
+
+def _noted(match: re.Match[str]) -> str:
+    """Nothing for words that say where something is done; those that begin a pass stay."""
+    begins = re.search(r"^(?:on|during|for|in) .*(?:run|pass|leg|one)$", match[0], re.IGNORECASE) is not None
+    led = re.match(r"[,:]? (?:keep|stay|at|with|run|go|from|\d)", match.string[match.end() :], re.IGNORECASE) is not None
+    return match[0] if begins and led else " " * len(match[0])
 
 
 def _with_ends(rest: str, ends: Ends) -> str:
@@ -192,7 +200,8 @@ def _bearings(said: str) -> Iterator[tuple[float, int]]:
 
 def _runs(rest: str, line: _Line) -> Iterator[_Run]:
     """The parts of the text that ask for a pass."""
-    parts = f.PARTS.split(f.EACH_RUN.sub(" ", rest))
+    parts = f.PARTS.split(f.THERE_AND_BACK.sub("both ways", f.EACH_RUN.sub(" ", rest)))
+    several = len(set(_standoffs(rest))) > 1
     if any(f.SHIFT.match(part) for whole in parts for part in f.SHIFT_PARTS.split(whole)):
         parts = [part for whole in parts for part in f.SHIFT_PARTS.split(whole)]
     numbered = sum(f.NUMBERED.match(part) is not None and bool(_standoffs(part)) for part in parts)
@@ -201,6 +210,10 @@ def _runs(rest: str, line: _Line) -> Iterator[_Run]:
             continue
         if f.SHIFT.match(part) and _standoffs(part) and not _towards(part, line.ends):
             yield _Run(part, 0, back=False, both=False, shift=True)
+            continue
+        if f.ONLY_KEEPS.match(part) and len(parts) > 1 and not _towards(part, line.ends) and any(_towards(other, line.ends) for other in parts):
+            continue
+        if several and f.COUNT.search(part) and not _standoffs(part) and not _towards(part, line.ends):
             continue
         towards, both = _towards(f.BACK_SAME.sub("back", part), line.ends), f.BOTH_WAYS.search(part) is not None
         back = not both and f.BACK.search(part) is not None

@@ -101,6 +101,8 @@ NO_BEGINNING = re.compile(
     re.IGNORECASE,
 )
 """Clauses that are not about where the grid begins."""
+FROM_CORNER = re.compile(r"\bfrom (?:the |its )?;{6,}(?: corner)?", re.IGNORECASE)
+"""A beginning that was understood: the corner is masked."""
 COURSES = re.compile(
     r"\b(?:(?:on|along|steer(?:ing)?) )?(?:an? |the )?(?:heading|course|bearing|direction)(?: of| is)?(?: due)? (?:\d{1,3}|(?:north|south)[ -]?(?:east|"
     r"west)|north|south|east|west)\b"
@@ -185,7 +187,7 @@ def _other(axis: g.Axis) -> g.Axis:
 
 def _open(text: str) -> bool:
     """Whether what is left of the text may tell a beginning."""
-    clauses = CLAUSE.split(NO_BEGINNING.sub(" ", text))
+    clauses = CLAUSE.split(NO_BEGINNING.sub(" ", FROM_CORNER.sub(_mask, text)))
     return (
         any(BEGINNING.search(clause) and PLACED.search(clause) for clause in clauses)
         or re.search(r"\b(?:opposite|other way|reverse\w*|either way|diagonal\w*)\b", text, re.I) is not None

@@ -27,7 +27,7 @@ _UNITS = r"(?!\.?\d)(?! ?(?:k?m\b|met|s\b|sec|min|%|kn|km|feet|foot|ft|yards?|yd
 BEARING = re.compile(
     rf"(?<![\d.,-])(?<![-−–])(?:(?P<deg>\d{{3}}|(?<=on )\d{{1,2}}|(?<=heading )\d{{1,2}}|(?<=bearing )\d{{1,2}}|(?<=course )\d{{1,2}}|"
     rf"(?<= of )\d{{1,2}}(?= ?(?:deg|°)))"
-    rf"{_UNITS}(?: ?(?:degrees|deg\b|°))?|\b(?P<way>{_WAY})(?:wards?|erly)?\b(?![ -](?:side|face|edge|end|wall|corner|of\b|quay|lane|line)))",
+    rf"{_UNITS}(?: ?(?:degrees|deg\b|°))?|\b(?P<way>{_WAY})(?:wards?|erly)?\b(?![ -](?:side|face|edge|end|wall|corner|of\b|quay|lane|line|east|west)))",
     re.IGNORECASE,
 )
 NO_COURSE = re.compile(

@@ -53,6 +53,8 @@ MID_SIDES_ONLY = re.compile(
     r"(?:four|4) mid-?sides? (?:points |waypoints )?(?:and |, )?(?:no|not the|without the|leaving out the) corners)\b",
     re.IGNORECASE,
 )
+AT_CORNERS = re.compile(r"\bat (?:the |all |its |each of the )?(?:four )?corners\b", re.IGNORECASE)
+"""Something is done at the corners: they are run."""
 FULL = re.compile(r"\b(?:eight|standard)\b", re.IGNORECASE)
 MID_SIDES = re.compile(r"\b(?:mid-?sides?|middles?|between)\b", re.IGNORECASE)
 """Words for the waypoints that are no corners."""
@@ -123,9 +125,10 @@ def _squares(text: str, places: list[Place], parameters: dict[str, Any], own: Po
     radii = lengths or ([radius] if isinstance(radius, int | float) else [])
     for half_side, start, clockwise in itertools.product(dict.fromkeys(radii), cues.starts, cues.turns):
         square = tuple(g.survey_square(own, half_side, start, clockwise=clockwise))
-        if _only_corners(text) or (MID_SIDES_ONLY.search(text) and "-" not in start):
+        mid_sides = MID_SIDES_ONLY.search(text) and not AT_CORNERS.search(text)
+        if _only_corners(text) or (mid_sides and "-" not in start):
             yield square[::2]
-        elif MID_SIDES_ONLY.search(text):
+        elif mid_sides:
             yield square[1::2]
         elif HALF.search(text):
             yield square[: len(square) // 2 + 1]

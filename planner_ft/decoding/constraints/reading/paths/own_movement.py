@@ -43,8 +43,10 @@ NAME = re.compile(r"\b[A-Z]+\d*-\d+(?:-\d+)?\b")
 HOME = re.compile(r"\b(?:home|base|start\w*)\b", re.IGNORECASE)
 AREA = re.compile(r"\b(?:depths?|bathymetr\w+|sounding\w*|seabed|sea floor|bottom|grid|lawn-?mower|lines|lanes)\b", re.IGNORECASE)
 OTHERWISE = re.compile(
-    r"\b(?:clock-?wise|counter\w*|anti\w*|corners?|sides?|mid-?\w*|half|edge|turn\w*|rotat\w*|arc|north\w*|south\w*|east\w*|west\w*|zig\w*|spiral\w*|twice|times|"
-    r"start\w*|begin\w*|points?|waypoints?|steps?|legs?|stop\w*|hold\w*|stay\w*|wait\w*|before|face|facing|passes|between|while|and|then|bow|offset|"
+    r"\b(?:clock-?wise|counter\w*|anti\w*|corners?|sides?|mid-?\w*|half|edge|turn\w*|rotat\w*|arc|north\w*|south\w*|east\w*|west\w*|zig\w*|spiral\w*|twice|"
+    r"times|"
+    r"first|last|only|just|except|start\w*|begin\w*|points?|waypoints?|steps?|legs?|stop\w*|hold\w*|stay\w*|wait\w*|before|face|facing|passes|between|while|"
+    r"and|then|bow|offset|"
     r"nudg\w*|pan)\b",
     re.IGNORECASE,
 )

@@ -59,11 +59,11 @@ PLUS = re.compile(r"(?<=[\s,;(\[=/])\+(?=\d)")
 def written_out(prompt: str, home: Point) -> str:
     """The prompt with coordinates for each place that is so many metres off home in one or two directions, behind the word that leads to it."""
     prompt = SHORT.sub("bearing", CENTIMETRES.sub(lambda said: f"{int(said[1]) / 100:g} m", prompt))
-    prompt = REDUNDANT.sub(_between, IN_CABLES.sub(_in_metres, PLUS.sub("", prompt)))
+    prompt = REDUNDANT.sub(_between, IN_CABLES.sub(in_metres, PLUS.sub("", prompt)))
     return THERE.sub(r"\g<mark>\g<go> to \g<place>", _in_coordinates(prompt, home))
 
 
-def _in_metres(cables: re.Match[str]) -> str:
+def in_metres(cables: re.Match[str]) -> str:
     """Cables (tenths of a nautical mile) as metres."""
     said = cables["count"].lower()
     count = PARTS[said] if said in PARTS else float(said)

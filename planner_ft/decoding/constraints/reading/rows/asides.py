@@ -74,7 +74,19 @@ _PURPOSE = f.compiled(
     r"(?=[,.;:]| to |$)"
 )
 """What a movement is good for, or what goes on meanwhile."""
+_TITLED = f.compiled(
+    r"^ ?(?:(?:[a-z'-]+ ){0,3}(?:compass|gyro|imu|sensor|camera|thruster|handling|steering|shakedown|acceptance|sea|helm|manoeuvring|crew|training|"
+    r"calibration|morning|evening|routine) )?"
+    r"(?:swing|shakedown|checks?|tests?|trials?|drills?|calibration|exercise|practice|routine|run-through|warm-up|demonstration|demo)"
+    r"(?: (?:after|before|for|in|of|at) (?:the |our |a )?[a-z'-]+(?: [a-z'-]+)?)? ?: "
+)
+"""What a task is called, before its movements."""
+_WIDE_ONE = f.compiled(
+    r"\b(?:on|during|in|for) the (?:whole|full|half|wide|long|short)[- ](?:width )?(?:swing|turn|pan|sweep|nudge|rotation)(?: only| alone)?\b"
+)
+"""Words for one of the turns, in which something is done."""
 _COURTESY = f.compiled(
+    r"\bsorry (?:for|about) (?:the|my|this|that|being)(?: [a-z'-]+){1,4}(?=[.,;!]| and\b)|"
     r",? ?\b(?:if you please|if you (?:would|will|don't mind|can|like)|will you|would you|won't you|please|pls|plz|kindly|thanks|thank you(?: very much)?|thx|"
     r"cheers|asap|as soon as (?:you can|possible)|for me|mate|my dear|good (?:morning|evening|day)|right away|(?<!things )at once|with care|"
     r"nice and (?:slow|easy|gently))\b,?(?! (?:mind|mean))"
@@ -84,7 +96,7 @@ _SAID_AGAIN = f.compiled(r"\b(?P<said>[a-z]+(?: [a-z]+){0,5})[,.;:-]* (?:i )?say
 
 def without_asides(text: str) -> str:
     """The text without what says nothing of the vehicle's movements."""
-    text = _SAID_AGAIN.sub(r"\g<said>", text)
+    text = _WIDE_ONE.sub(" ", _TITLED.sub(" ", _SAID_AGAIN.sub(r"\g<said>", text)))
     text = _COURTESY.sub(" ", _PURPOSE.sub(" ", text))
     return re.sub(r"\s+", " ", "".join(part if part[:1] in ".;:!?," or not _is_aside(part) else " " for part in _PARTS.findall(text)))
 

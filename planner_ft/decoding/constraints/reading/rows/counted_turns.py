@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.reading.rows import turn_forms as f
+from planner_ft.decoding.constraints.reading.rows.ranged_turns import ranged
 from planner_ft.decoding.constraints.reading.rows.turn_parts import CURVED, MOST, NUDGE, ROTATE, Found, Uncertain, blank, heading
 
 _START = f.compiled(
@@ -82,6 +83,9 @@ def counted(text: str) -> Iterator[Found]:
             raise Uncertain
         value = (f.sign(sides[0]) if sides else 1) * 360 / int(match["count"])
         yield Found(match.start(), match.end(), ((NUDGE, value),) * int(match["count"]))
+    ranges = [*ranged(text)]
+    yield from ranges
+    text = blank(text, [(found.start, found.end) for found in ranges])
     for match in _RANGE.finditer(text):
         yield _range(match, text)
     for match in _LISTED_FIRST.finditer(text):

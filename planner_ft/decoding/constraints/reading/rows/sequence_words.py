@@ -33,7 +33,7 @@ IN_VIEW = f.compiled(
 """A target kept in the picture."""
 ENGINES_OFF = f.compiled(
     r"\b(?:with )?(?:the |your |her )?(?:engines?|motors?|propulsion|thrusters?|power|screws|propellers?|props) (?:are |is |being )?(?:off|stopped|cut|"
-    r"out|shut down|idle)\b|"
+    r"out(?! (?:to|for|towards|from|past|as far)\b)|shut down|idle)\b|"
     r"\b(?:cut|kill|stop|switch off|shut off|shut down|turn off|out of|without|no) (?:the |your |her |all )?(?:engines?|motors?|propulsion|thrusters?|"
     r"power|propellers?|screws|props)"
     r"(?: off| down)?\b"
@@ -66,6 +66,9 @@ _GERUNDS = (
 )
 SCOPES = (
     f.compiled(
+        r"\b(?:but |and )?(?:not )?(?:for|on|during|in) the (?:runs?|legs?|ways?|transits?|passages?|trips?) (?:in )?between(?: (?:them|the (?:two|three|"
+        r"drifts|holds|stations|stops|points)))?\b|"
+        r"\b(?:in|on|during|for) (?:all|both) (?:N\d+|of them)(?= _|[ .,;:]|$)|"
         r"\b(?:the )?(?:whole|entire) (?:time|way|trip)\b|\ball (?:the time|along|the while|the way(?! round)|through)\b|"
         rf"\bbefore (?:the|that) {_PARTS} (?=nothing\b|no\b|none\b)|"
         r"\bat all times\b|"

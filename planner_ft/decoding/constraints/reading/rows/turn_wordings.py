@@ -6,12 +6,18 @@ import re
 
 from planner_ft.decoding.constraints.reading.rows import turn_forms as f
 
+_OF_THAT = r"(?: (?:of|to) (?:that|it|this)(?: (?:one|it|heading|bearing|course|direction))?\b)?"
 _RECIPROCAL = f.compiled(
     rf"\b(?:the |its )?(?:reciprocal|opposite|contrary)(?: (?:heading|bearing|course|direction))? (?:of|to) (?:the )?(?:heading |bearing |"
     rf"course )?(?P<v>{f.V})|"
     rf"(?P<first>{f.V})(?P<between> ?,? ?(?:and|then|and then|to|,)(?: (?:onto|on|to))?) (?:its|the) (?:reciprocal|opposite)(?: (?:heading|bearing|course|"
-    rf"direction))?\b"
+    rf"direction))?\b{_OF_THAT}"
 )
+_RECIPROCAL_OF_THAT = f.compiled(
+    r"\b(?:the |its )?(?:reciprocal|opposite)(?: (?:heading|bearing|course|direction))? (?:of|to) (?:that|this)(?: (?:one|it|heading|bearing|course|"
+    r"direction))?\b"
+)
+"""The reciprocal of the heading that was said last, with other movements between."""
 _ITSELF = f.compiled(rf"(?P<v>{f.V}) (?:itself|exactly|precisely|sharp|dead|even)\b")
 _THROUGH = f.compiled(
     rf"\b(?P<verb>(?:bring|come|swing|turn|rotate|pivot|swivel|slew)(?: (?:her|it|the (?:bow|boat|nose)|round|about|head|bow))*) (?:through|past|via|"
@@ -38,7 +44,7 @@ def explained(text: str) -> str:
     """The text with what refers to another rotation written out."""
     text = _THROUGH.sub(r"\g<verb> \g<to> ", _ITSELF.sub(r"\g<v>", text))
     text = _A_TIME.sub(lambda match: f"{match['verb']} {match['side']} {match['step'] or match['other']} N{match['count'] or match['often']} times", text)
-    text = _RECIPROCAL.sub(_opposite, text)
+    text = _of_that(_RECIPROCAL.sub(_opposite, text))
     if _SAME_SIDE.search(text) or _OTHER_SIDE.search(text):
         text = _sided(text)
     return text
@@ -51,6 +57,17 @@ def _opposite(match: re.Match[str]) -> str:
         return match[0]
     other = f"{token[0] if token[0] != 'D' else 'N'}{(float(token[1:]) + 180) % 360:g}"
     return other if match["v"] else f"{match['first']}{match['between']} {other}"
+
+
+def _of_that(text: str) -> str:
+    """The text with the other side of the heading that was said last in place of "the reciprocal of that"."""
+    while match := _RECIPROCAL_OF_THAT.search(text):
+        said = [*re.finditer(f.V, text[: match.start()])]
+        if not said or said[-1][0][1] in "+-" or re.search(rf"{f.SIDE}", text[said[-1].end() : match.start()]):
+            break
+        token = said[-1][0]
+        text = f"{text[: match.start()]}{token[0] if token[0] != 'D' else 'N'}{(float(token[1:]) + 180) % 360:g}{text[match.end() :]}"
+    return text
 
 
 def _sided(text: str) -> str:

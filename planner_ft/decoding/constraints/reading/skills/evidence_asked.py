@@ -62,7 +62,7 @@ ASKED: dict[str, tuple[str, ...]] = {
     ),
     "TrackObjects": (
         r"tracker (?:follows|stays on|keeps|holds|locked on|has to follow|is to follow|must follow)\b|track object\b|object tracking\b",
-        r"(?:keep|hold|maintain)(?:ing|s)? the (?:identity|track) of\b|tracking of (?:the )?(?:object|target|contact)\b",
+        r"(?:keep|hold|maintain)(?:ing|s)? the (?:identity|track) of\b(?! (?:our|your|the|her|its) positions?\b)|tracking of (?:the )?(?:object|target|contact)\b",
     ),
     "OCRScanning": (
         r"(?:with|by) (?:the )?(?:text (?:scanner|reader)|ocr)\b|text reading\b|ocr (?:covers|takes|in|for|over)\b|extract(?:ing)? the text\b",
@@ -118,7 +118,7 @@ ASKED: dict[str, tuple[str, ...]] = {
     ),
     "GetGPSLocation": (
         r"(?:gps (?:fix(?:es)?|position)|satellite position)\b(?! (?:acc|qual|err))|position fix(?:es)?\b|(?:log|fix|note)(?:ging|"
-        r"ing)? (?:your|our|the) position\b|"
+        r"ing)? (?:your|our|the) position\b(?! (?:relative|against|with respect|in relation))|"
         r"coordinates from the gps\b|(?:take|get|with) (?:a )?fix(?:es)?\b",
     ),
     "SelectActiveStream": (

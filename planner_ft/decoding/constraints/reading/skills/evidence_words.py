@@ -88,7 +88,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"(?:keep|stay|pass|leav|hold|maintain|mind|bewar|miss|steer|heed|let|go\w* round|clear)\w*(?: (?!rang|measur|log|monitor|record|read|"
         r"watch|look)[\w,-]+){0,7} (?:obstacles?|obstructions?|hazards?|traffic|"
         r"(?:every|any)thing(?! (?:else|on|running))|other (?:boats|vessels|craft|traffic))",
-        rf"buffer zone|buffer distance|buffer of (?:at least )?{SIZE}|sea-?room|elbow ?room|keep-?out|no-?go|in (?:the|your|our|its) way\b|"
+        rf"bubble\b|buffer zone|buffer distance|buffer of (?:at least )?{SIZE}|sea-?room|elbow ?room|keep-?out|no-?go|in (?:the|your|our|its) way\b|"
         r"in (?:the|your) path",
     ),
     "BoundaryEnforcement": (
@@ -118,6 +118,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"limit|confine)|(?:area|region|square|block) (?:of |with |from |between |is )?(?:the )?(?:corners )?[\[(]",
         r"(?:leav|stay|keep|remain|permit|allow|assign|restrict|designat|operat|confin|limit|bound|restrain|contain)\w* (?:(?!while|and|rang|"
         r"measur|log|search|look)[a-z]+ ){0,3}(?:area|region|square|patch|field|block|basin|harbou?r|corridor|waters)\b",
+        r"(?:do not|don't|not|never|must not|mustn't|may not|without) (?:go|going|get|getting|come|drift|drifting|wander) out (?:of|from)\b",
         r"(?:do not|don't|not to|never|must not|mustn't|may not|without) (?:[a-z]+ ){0,2}(?:leav(?:e|ing)(?! (?:the )?(?:station|frame|picture|"
         r"centre))|cross\w*|exit\w*|stray\w*|depart\w*)",
         r"corners\b(?:\W+(?:at|are|is|the|being|points?|coordinates|of|its|with))*\W+[\[(x=-]*-?\d",
@@ -179,7 +180,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"(?:hot|warm|fever)\b",
         r"therm[a-z]*\b(?! (?:cam\w*|stream|feed|view|clips?|images?|videos?|picture|files?|search)\b)|thermo\w*",
         r"(?:with|by|through|using|on|in|from|via|under) (?:the )?(?:thermal|infra-?red|ir)\b(?! (?:cam|stream|feed|view))",
-        r"(?<!\bhighest )\w*temper\w*|temps?\b|heat (?:of|in|on|levels?|readings?)|heat-? ?(?:map|stat)\w*|pyro\w*|cold\w*|cool\b|hotness|warmth",
+        r"(?<!\bhighest )\w*temper\w*|temps?\b|heat (?:of|in|on|levels?|readings?|figures?|values?|numbers?|data)|\bir (?:stays|on|off|runs?|running)\b|heat-? ?(?:map|stat)\w*|pyro\w*|cold\w*|cool\b|hotness|warmth",
         r"(?:how|is|are|too|get|gets|getting|runs?|running) (?:hot|warm|cold|cool)\b|how (?:hot|warm|cold|cool)\b",
         r"(?<!\bdepth )(?<!\bdistance )(?<!\bhorizon )(?<!\bpose )(?<!\bgps )(?<!\bposition )(?<!\bsector )(?<!\bobstacle )readings?\b(?! "
         r"(?:the |out |off |any |"
@@ -302,7 +303,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"sea ?-?line\b",
         r"\w*horizon(?!tal)\w*|tilt\w*|inclin\w*|(?:how|is|are|be|lies?|lying|stays?|sits?) level\b|levelness|heel(?:s|ing|ed)?\b|list(?:s|"
         r"ing)? to (?:port|starboard)|(?:any|her|much|angle of) list\b|skew\w*|slant\w*|imu\w*|gyro\w*|ahrs\w*|mru\w*|inertial\w*",
-        r"sky-?line\w*|lean(?:s|ed|ing)?\b|upright|(?:even|level) keel|lopsided|crooked|(?:sit|lie|rid|stand|float|lying)\w* (?:straight|level|"
+        r"sky-?line\w*|lean(?:s|ed|ing)?\b|upright|(?:even|level) keel|(?:are|is) (?:we|she|it|the (?:boat|vessel)) level\b|lopsided|crooked|(?:sit|lie|rid|stand|float|lying)\w* (?:straight|level|"
         r"even|true)\b|(?:a|any|her|the|what) list\b(?! of)|out of level|off (?:the )?(?:level|horizontal)|(?:from|how far from) level",
     ),
     "GetGPSLocation": (
@@ -320,7 +321,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"recorded) by (?:its |the )?position|(?:log|record|keep|save|store|note|gps|plot)(?:s|ging|ing|ed)? (?:of )?(?:the |a |your |"
         r"our )?(?:[a-z]+ )?tracks?\b(?! of)|tracks? (?:is |are )?(?:logged|recorded)",
         r"breadcrumb\w*|lat/?lon\w*|lat\b|lon\b|latitude|longitude|wgs\w*",
-        r"(?:track|trace|log|record|note|history|list|plot\w*|trac\w*|learn\w*|sav\w*|ask\w*|keep\w*|writ\w*) (?:of |down |out |"
+        r"(?:keep\w*|hold\w*) (?:the |a )?track of (?:our|your|the|her) positions?\b|(?:track|trace|log|record|note|history|list|plot\w*|trac\w*|learn\w*|sav\w*|ask\w*|keep\w*|writ\w*) (?:of |down |out |"
         r"up )?(?:exactly |precisely )?where (?:you|we|she|i|the boat)|lat(?:itude)? and lon\w*|(?:what|which) (?:spot|place|point) (?:you|we|"
         r"she) ",
     ),
