@@ -4,51 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import pairwise
 from typing import Any
 
 from planner_ft.data.quantities import positions
 from planner_ft.data.rules import DOCKING
 from planner_ft.decoding.constraints.reading.missions.apart import SENTENCE
+from planner_ft.decoding.constraints.reading.missions.orders import ONLY_THEN, asked, read_orders, sentences
 from planner_ft.decoding.constraints.reading.missions.searches import MOVES, SEARCH, THERE
+from planner_ft.decoding.constraints.reading.missions.spoken import SAYS
 from planner_ft.vocabulary import Vocabulary
 
-_SAYS = {
-    title: re.compile(rf"\b(?:{words})", re.IGNORECASE)
-    for title, words in {
-        "Diagnostics": r"self-?(?:test|check)|diagnostic|(?:sensor|health|system)s? (?:health )?(?:check|test)|check(?:ed|ing)? (?:\w+ ){0,2}?"
-        r"(?:sensor|camera|lens|gps)|(?:sensors?|cameras?|lens|gps)\b(?: \w+){0,4} (?:checked|tested)",
-        "AutoGenerateReportSummary": r"report|summar|writ(?:e|ten|ing) (?:\w+ ){0,2}?up\b|write-up",
-        "SmartDataHarvest": r"upload|send|sent\b|transmit|beam",
-        "BoatLandingClearanceSweep": r"(?:lidar|sweep|swept|scan\w*|clearance)\b[^.;,]{0,40}\blanding|landing\b[^.;,]{0,30}\b(?:sweep|swept|scan|clearance)",
-        "PerformOrbit": r"orbit|circl|(?:go|going|once|lap|way) a?round\b|\blaps?\b",
-        "SurveyTarget": r"inspect|survey(?! of the depth| the depth| for depth)",
-        "BathymetryGridSurvey": r"depths?\b|sounding|bathymetr|seabed|lawnmower",
-        "HorizontalPanorama": r"panorama|panos?\b",
-        "DriftAudit": r"drift(?! log| data| record)",
-        "KeepStation": r"keep(?:ing)? station|hold(?:ing)?\b|station.?keeping|stay(?:ing)?\b|loiter",
-        "ThermalHotspotLocalizer": r"hott?est|hot ?-?spot",
-        "ThermalTimeLapse": r"thermal (?:series|readings?|time)|time.?lapse|temperature series",
-        "SubseaCableTrack": r"track\w*\b[^.;,]{0,20}\bcable|cable (?:track|run|is tracked|has been tracked)",
-        "DockingApproach": r"dock(?:ing|ed)?\b|berth(?:ing|ed)\b|alongside|moor(?:ed|ing up)?\b",
-        "FeatureStare": r"film|footage|steady video|stare",
-        "GlareFreeApproach": r"glare|reflection",
-        "FollowTarget": r"follow(?:ing)? (?:the|contact|that|it|her)|shadow|tail\b|escort",
-        "SearchAndDetect": r"find\b(?! the (?:hot|warm))|found\b|look(?:ing)? for|search|locat",
-    }.items()
-}
-"""Words that certainly speak of a task."""
 _TOLD_BY_LACK = {"GlareFreeApproach", "SearchAndDetect"}
 """What is asked for by what there is not to be: "without glare"."""
 _DONE_ONCE = {"Diagnostics", "AutoGenerateReportSummary"}
-_DATA = re.compile(r"\b(?:upload|send|sent|transmit|beam)", re.IGNORECASE)
-_ONLY_THEN = re.compile(
-    r"\b(?:but |though |and |however )?(?:only|not|no sooner|not sooner|no earlier|never) (?:once|when|after|until|till|before|than)(?: after)?\b"
-    r"|\b(?:has|have|is|are) to wait (?:until|till|for)\b(?! (?:\d|an? |half|\w+ (?:minutes|seconds|hours)))"
-    r"|\bwaits? (?:until|till|for)\b(?! (?:\d|an? |half|\w+ (?:minutes|seconds|hours)))",
-    re.IGNORECASE,
-)
-"""What stands between a task and the one that comes before it."""
 _NO = re.compile(
     r"\b(?:no|not|don['’]?t|without|skip|never|neither|needn['’]?t)\b(?! (?:only|until|before|forget|later|less|more))(?: (?!but\b)[a-z']+){0,3} $",
     re.IGNORECASE,
@@ -79,8 +47,8 @@ def forbidden(command: str, tasks: Sequence[Mapping[str, Any]], vocabulary: Voca
 
 def _denied(command: str, titles: set[str]) -> Iterator[str]:
     """Tasks that a command speaks of only to rule them out: "no report", "don't circle it", "I will write it up myself"."""
-    for title in sorted(titles & set(_SAYS) - _TOLD_BY_LACK):
-        spoken = [(sentence, match) for sentence in _sentences(command) for match in _SAYS[title].finditer(sentence)]
+    for title in sorted(titles & set(SAYS) - _TOLD_BY_LACK):
+        spoken = [(sentence, match) for sentence in sentences(command) for match in SAYS[title].finditer(sentence)]
         if spoken and all(_ruled_out(sentence, match) for sentence, match in spoken):
             yield title
 
@@ -94,27 +62,20 @@ def _ruled_out(sentence: str, match: re.Match[str]) -> bool:
 
 def _out_of_order(command: str, titles: Sequence[str]) -> Iterator[str]:
     """Tasks that stand before one which the command has come first, or without it: "send the log, but only once the sensors have been checked"."""
-    for sentence in _sentences(command):
-        for match in _ONLY_THEN.finditer(sentence):
+    told = ((titles.index(one), titles.index(two), two) for one, two in read_orders(command).titles if one in titles and two in titles)
+    early = dict.fromkeys(title for before, behind, title in told if behind < before)
+    yield from early
+    for sentence in sentences(command):
+        for match in ONLY_THEN.finditer(sentence):
             before, behind = sentence[: match.start()].rpartition(", and ")[2], sentence[match.end() :].partition(", and ")[0]
-            later, earlier = _asked(before), _asked(behind)
+            later, earlier = asked(before), asked(behind)
             if later & earlier:
                 continue
             pairs = ((one, other) for one in later for other in earlier if titles.count(one) == titles.count(other) == 1)
-            yield from (one for one, other in pairs if titles.index(one) < titles.index(other))
-            asked = later or _asked(sentence[: match.start()])
-            if earlier <= _DONE_ONCE and not earlier & set(titles) and asked & set(titles):
+            yield from (one for one, other in pairs if titles.index(one) < titles.index(other) and one not in early)
+            wanted = later or asked(sentence[: match.start()])
+            if earlier <= _DONE_ONCE and not earlier & set(titles) and wanted & set(titles):
                 yield from earlier
-
-
-def _sentences(command: str) -> Iterator[str]:
-    starts = [0, *(match.end() for match in SENTENCE.finditer(command)), len(command)]
-    yield from (command[start:end] for start, end in pairwise(starts))
-
-
-def _asked(text: str) -> set[str]:
-    """The tasks that a part of a sentence speaks of: what is sent may have the name of one."""
-    return {"SmartDataHarvest"} if _DATA.search(text) else {title for title, words in _SAYS.items() if words.search(text)}
 
 
 def _found_there(command: str, tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Iterator[str]:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.data.quantities import positions
-from planner_ft.decoding.constraints.reading.missions.homeward import no_way_home
+from planner_ft.decoding.constraints.reading.missions.apart import PLACE
+from planner_ft.decoding.constraints.reading.missions.homeward import home_meant, no_way_home
+from planner_ft.decoding.constraints.reading.missions.spoken import SAYS
 from planner_ft.document.against import forbidden
 from planner_ft.document.language import language
 from planner_ft.document.lost import lost_values
@@ -18,7 +20,11 @@ from planner_ft.vocabulary import Vocabulary
 
 _PLACED = r"[\s,:]{0,2}(?:(?:at|around|about|near|by|on|centred on) )?"
 """What stands between a thing and its coordinates."""
-_SEARCH = re.compile(r"\b(?:find|finding|search\w*|locat\w*|look(?:ing)? (?:for|around)|hunt\w*|seek\w*|spot|detect\w*|sweep for|where)\b", re.IGNORECASE)
+_SEARCH = re.compile(
+    r"\b(?:find(?:ing)?\b(?! the (?:hot|warm))|search\w*|locat\w*|look(?:ing)? (?:for|around)|hunt\w*|seek\w*|(?<!hot )(?<!hot-)(?<!est )(?<!est-)spot|"
+    r"detect\w*|sweep for|where)\b",
+    re.IGNORECASE,
+)
 _ANOTHER = re.compile(r"\b(?:another|other|second|also|both|two|one more|any|each|every|different|all)\b", re.IGNORECASE)
 _WORK = re.compile(r"\b(?:inspection|survey|report|panorama|check|self-test|time lapse|orbit|transit|berthing|docking|scan|sounding|soundings)$")
 _AGAIN = re.compile(
@@ -26,6 +32,10 @@ _AGAIN = re.compile(
     r"|before and after)\b",
     re.IGNORECASE,
 )
+_SEVERAL = re.compile(r":|,? and (?:the|an?|at|one|on|of|for|to|then) |\b(?:ones?|then|before|after|when|as soon as|metres and|meters and)\b", re.IGNORECASE)
+_OFTEN = {"FeatureStare", "SearchAndDetect", "FollowTarget"}
+"""Tasks that one verb asks for with several targets."""
+"""What may stand before a second target."""
 _ONCE = {
     "Diagnostics": re.compile(r"\b(?:ch(?:e|c)\w*k\w*|chk\w*|diag\w*|test\w*|self-test\w*|health|verif\w*|prov\w*)\b", re.IGNORECASE),
     "AutoGenerateReportSummary": re.compile(r"\b(?:rep\w*t\w*|rpt\w*|summ\w*|brief\w*|account\w*)\b", re.IGNORECASE),
@@ -55,7 +65,7 @@ def count_lacking(command: str, answer: str, vocabulary: Vocabulary) -> int | No
         _searched_for_nothing(command, tasks, vocabulary),
         _searched_again(command, tasks, vocabulary),
         _returned(command, tasks, vocabulary),
-        _again(command, [task["title"] for task in tasks]),
+        _again(command, [task["title"] for task in tasks], set(_repeated(tasks, vocabulary))),
         forbidden(command, tasks, vocabulary),
     )
     return sum(1 for items in found for _item in items)
@@ -74,7 +84,11 @@ def _searched_for_nothing(command: str, tasks: Sequence[Mapping[str, Any]], voca
     before = [command[: start - 1].lower() for _x, _y, start, _end in positions(command) if command[start - 1 : start] in ("[", "(")]
     for task in tasks:
         described = [str(value).lower() for value in task["parameters"].values()] if task["title"] == vocabulary.locate else []
-        yield from (text for text in described if any(re.search(rf"\b{re.escape(text)}{_PLACED}$", piece) for piece in before))
+        for text in described:
+            named = re.search(rf"\b(?:that|this|it)(?: is|['’]s) (?:the |an? |our )?{re.escape(text)}\b", command, re.IGNORECASE)
+            placed = any(re.search(rf"\b{re.escape(text)}{_PLACED}$", piece) for piece in before)
+            if placed or (named and any(len(piece) < named.start() for piece in before)):
+                yield text
 
 
 def _searched_again(command: str, tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Iterator[str]:
@@ -83,21 +97,29 @@ def _searched_again(command: str, tasks: Sequence[Mapping[str, Any]], vocabulary
     for task in tasks:
         described = [str(value).lower() for value in task["parameters"].values()] if task["title"] == vocabulary.locate else []
         for text in described:
-            if _WORK.search(text) or (any(other.endswith(f" {text}") for other in before) and not _ANOTHER.search(command)):
+            if _WORK.search(text) or (any(f" {text} " in f" {other} " and text != other for other in before) and not _ANOTHER.search(command)):
                 yield text
         before += described
 
 
 def _returned(command: str, tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Iterator[str]:
     """The way home, where the command rules it out or speaks of home in another sense alone ("before you leave home")."""
-    last = tasks[-1]
-    if list(vocabulary.home) in last["parameters"].values() and last["title"] == vocabulary.transit and no_way_home(command):
-        yield last["title"]
+    home = [task for task in tasks if list(vocabulary.home) in task["parameters"].values() and task["title"] == vocabulary.transit]
+    if home and ((home[-1] is tasks[-1] and no_way_home(command)) or not home_meant(command)):
+        yield home[-1]["title"]
 
 
-def _again(command: str, titles: Sequence[str]) -> Iterator[str]:
-    """The titles of tasks that stand in the plan twice, and in the command once."""
-    yield from (title for title, asked in _ONCE.items() if titles.count(title) > 1 and not _AGAIN.search(command) and len(asked.findall(command)) < 2)
+def _again(command: str, titles: Sequence[str], repeated: Collection[str]) -> Iterator[str]:
+    """The titles of tasks that stand in the plan twice, and in the command once; not those that are known to be repeated."""
+    if _AGAIN.search(command):
+        return
+    yield from (title for title, asked in _ONCE.items() if titles.count(title) > 1 and len(asked.findall(command)) < 2)
+    # What is spoken of once, at one place, is done once.
+    asked_once = SAYS.keys() - _OFTEN - _ONCE.keys() - set(repeated)
+    alone = len(PLACE.findall(command)) < 2 and not _SEVERAL.search(command)
+    yield from (
+        title for title in dict.fromkeys(titles) if alone and title in asked_once and titles.count(title) > 1 and len(SAYS[title].findall(command)) == 1
+    )
 
 
 def _repeated(tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Iterator[str]:

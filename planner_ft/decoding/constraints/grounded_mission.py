@@ -15,10 +15,15 @@ from planner_ft.decoding.constraints.grounded import GroundedValues, one_of
 from planner_ft.decoding.constraints.reading.missions.apart import Given, lists_of_numbers, read_apart
 from planner_ft.decoding.constraints.reading.missions.areas import read_area
 from planner_ft.decoding.constraints.reading.missions.offsets import read_offsets
-from planner_ft.decoding.constraints.reading.missions.renewed import outdated
+from planner_ft.decoding.constraints.reading.missions.orders import Orders, read_orders
+from planner_ft.decoding.constraints.reading.missions.others import places_of_others
+from planner_ft.decoding.constraints.reading.missions.renewed import outdated, read_spacing
 from planner_ft.decoding.constraints.reading.missions.searches import nothing_to_search, pieces_of_sought
+from planner_ft.decoding.constraints.reading.missions.sections import read_sections
 from planner_ft.decoding.constraints.reading.missions.standoffs import read_standoffs
+from planner_ft.decoding.constraints.reading.missions.taken_back import dropped_titles, places_taken_back
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
+from planner_ft.vocabulary.progress import Progress
 
 Position = tuple[float, float]
 LONGEST = 3000
@@ -38,7 +43,7 @@ class Told:
     """`values` by pattern and parameter of the tasks, `apart` by place; `elsewhere` are places that the vehicle is not to go to.
 
     `nothing` are words of the command that name nothing that is searched for, and there may be nothing of the kind at all: `placed`;
-    `parts` are no whole features.
+    `parts` are no whole features. `dropped` are tasks that the command takes back, `orders` is what it says of the order.
     """
 
     values: dict[tuple[str, str], float] = field(default_factory=dict)
@@ -47,6 +52,18 @@ class Told:
     nothing: tuple[str, ...] = ()
     parts: tuple[str, ...] = ()
     placed: bool = False
+    dropped: frozenset[str] = frozenset()
+    orders: Orders = field(default_factory=Orders)
+
+    def allows(self, title: str, progress: Progress) -> bool:
+        """Whether a task may follow: one that is not taken back, behind all that comes before it."""
+        return title not in self.dropped and all(before in progress.done for before in self.orders.titles_before(title))
+
+    def too_early(self, progress: Progress) -> Iterator[Position]:
+        """The places that others come before."""
+        orders = self.orders
+        yield from (place for before, place in sorted(orders.places) if before not in progress.visited)
+        yield from (place for title, place in sorted(orders.after) if title not in progress.done)
 
     def value(self, parameter: Parameter, owner: Task | Skill) -> float | None:
         """The value that certainly is a task's."""
@@ -63,7 +80,7 @@ class MissionValues(GroundedValues):
         self._reading = replace(self._reading, places=tuple(places))
         self._listed = [number for row in lists_of_numbers(prompt) for number in row] if short else []
         self._outdated = outdated(prompt) if short else frozenset()
-        self.told = read_told(prompt) if short and not self._reading.numbers_free else Told()
+        self.told = read_told(prompt, (float(vocabulary.home[0]), float(vocabulary.home[1]))) if short and not self._reading.numbers_free else Told()
 
     def _values_of(self, parameter: Parameter) -> list[float] | None:
         said = super()._values_of(parameter)
@@ -74,16 +91,28 @@ class MissionValues(GroundedValues):
 
 
 @functools.lru_cache(maxsize=64)
-def read_told(prompt: str) -> Told:
+def read_told(prompt: str, home: Position = (0.0, 0.0)) -> Told:
     """What a command gives to a task or a place beyond doubt."""
     values = {("lawnmower", name): value for name, value in read_area(prompt).items()} | read_standoffs(prompt)
+    if (spacing := read_spacing(prompt)) is not None:
+        values["lawnmower", "spacing"] = spacing
     offsets = list(read_offsets(prompt))
     said = [(float(x), float(y)) for x, y, _start, _end in positions(prompt)]
     elsewhere = [offset.base for offset in offsets if offset.bare and said.count(offset.base) == 1]
+    elsewhere += [*places_taken_back(prompt, home), *places_of_others(prompt)]
     words, placed = set(re.findall(r"[a-z]+", prompt.lower())), nothing_to_search(prompt)
     nothing = [word for word in MEASURED if word in words] + list(pieces_of_sought(prompt))
     parts = dict.fromkeys(_beginnings(prompt)) if placed else {}
-    return Told(values, read_apart(prompt), tuple(elsewhere), tuple(dict.fromkeys(nothing)), tuple(parts), placed)
+    return Told(
+        values,
+        read_apart(prompt) or read_sections(prompt),
+        tuple(dict.fromkeys(elsewhere)),
+        tuple(dict.fromkeys(nothing)),
+        tuple(parts),
+        placed,
+        frozenset(dropped_titles(prompt)),
+        read_orders(prompt),
+    )
 
 
 def _beginnings(prompt: str) -> Iterator[str]:
@@ -97,11 +126,11 @@ def _beginnings(prompt: str) -> Iterator[str]:
 
 
 class ToldValues(Narrowed):
-    """The values of another strength where the vehicle is `here`, as far as the command leaves a choice."""
+    """The values of another strength where a plan stands, as far as the command leaves a choice."""
 
-    def __init__(self, values: Values, told: Told, here: Position | None) -> None:
+    def __init__(self, values: Values, told: Told, progress: Progress) -> None:
         super().__init__(values)
-        self._told, self._here = told, here
+        self._told, self._progress, self._here = told, progress, progress.here
 
     def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
         if parameter.type == "text" and isinstance(owner, Task) and self._told.parts:
@@ -119,7 +148,7 @@ class ToldValues(Narrowed):
         return super().needs(parameter, owner) or (value is not None and bool(usable([value], parameter)))
 
     def position(self, grammar: Grammar, without: Positions) -> str | None:
-        return super().position(grammar, (*without, *self._told.elsewhere))
+        return super().position(grammar, (*without, *self._told.elsewhere, *self._told.too_early(self._progress)))
 
     def text(self, grammar: Grammar, without: Sequence[str]) -> str | None:
         return super().text(grammar, (*without, *self._told.nothing))

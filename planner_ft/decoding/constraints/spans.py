@@ -16,7 +16,7 @@ from planner_ft.data.lexicon import corrections, is_known
 from planner_ft.data.words import edit_distance
 from planner_ft.decoding.constraints.budget import LONGEST_WORD
 from planner_ft.decoding.constraints.grammar import Grammar, none_of_texts
-from planner_ft.decoding.constraints.patterns import literal, quoted
+from planner_ft.decoding.constraints.patterns import QUOTE, escaped, literal, quoted, regex
 from planner_ft.decoding.constraints.reading.values.named_values import IDENTIFIER
 
 MOST_WORDS = 2000
@@ -46,6 +46,9 @@ UNCROSSED = frozenset(
     )
 )
 """Words that no description goes on over, written small: with them another clause has begun."""
+FILLERS = frozenset({"uh", "um", "er", "erm", "uhm", "umm", "hm", "hmm"})
+"""Sounds of a speaker who thinks, which stand in no description."""
+_FILLED = re.compile(rf"(?:[ ,.…–—-]{{1,3}}(?:{'|'.join(sorted(FILLERS))})\b){{1,4}}[ ,.…–—-]{{1,3}}", re.IGNORECASE)
 QUOTES = ('"', "'", "“", "‘", "«")
 """Signs behind which a value begins with any word: a note "as found"."""
 KINDS = frozenset(
@@ -94,6 +97,8 @@ class Spans:
     def __init__(self, texts: Sequence[str], *, named: bool = False) -> None:
         self._named = named
         self.loose = any(_ELLIPSIS.search(text) for text in texts)
+        self._twice: list[str] = []
+        """Words that a value does not begin with twice."""
         self._pieces: list[Piece] = []
         for text in texts:
             self._read(text)
@@ -117,6 +122,10 @@ class Spans:
         marks = literal('"')
         joined = f'(" " {span})?' if self.loose else ""
         whole = grammar.terminal(f"{'' if opened else marks} {span} {joined} {marks}")
+        if self.loose and self._twice and len(self._pieces) <= BLOCK:
+            words = "|".join(dict.fromkeys(f"{escaped(quoted(word))} {escaped(quoted(word))}" for word in self._twice))
+            stammer = regex(rf'(?i:{"" if opened else QUOTE}({words})( [^"]*)?")')
+            whole = grammar.terminal(f"{whole} & ~{stammer}")
         return grammar.terminal(f"{whole}{none_of_texts(without, opened=opened)}") if without else whole
 
     def _has_word_beside(self, without: Sequence[str]) -> bool:
@@ -151,11 +160,13 @@ class Spans:
 
     def _read(self, text: str) -> None:
         first, matches, run = len(self._pieces), list(_PIECE.finditer(text)), 0
-        misspelt = [match.group() for match in matches if _misspelt(match.group())] if self._named else []
+        slips = self._named and sum(_misspelt(match.group()) for match in matches) > 2
+        titled = not self._named and _in_titles(text)
+        if not self._named:
+            self._twice += dict.fromkeys(match.group() for match in matches if len(match.group()) > 1)
         for match in matches:
             word = match.group()
-            right = _put_right(word) if len(misspelt) > 2 and text[match.start() - 1 : match.start()] not in (*QUOTES, "_", "-") else ""
-            forms = (quoted(right),) if right else self._forms(word) if len(quoted(word).encode()) <= LONGEST_WORD // 2 else ()
+            forms = self._spellings(match, text, slips=slips, titled=titled)
             # In "camera A" and "cam_a" the letter is a name.
             named = word == "A" or text[match.start() - 1 : match.start()] in ("_", "-", ".")
             run = 0 if named or word.lower() not in UNENDING else run + 1
@@ -175,6 +186,11 @@ class Spans:
             if not gap.isspace() and matches[number].group().lower() == "a":
                 self._pieces[place].begins = self._pieces[place].ends = True
             self._link(place, _written_gaps(gap, matches[number].group()), place + 1)
+            behind = number + 1
+            while not self._named and behind < len(gaps) and matches[behind].group().lower() in FILLERS:
+                behind += 1
+            if behind > number + 1 and _FILLED.fullmatch(text, matches[number].end(), matches[behind].start()):
+                self._link(place, [" "], first + behind)
             if gap in ("'", "’") and matches[number + 1].group().lower() == "s" and number + 1 < len(gaps):
                 self._link(place, _written_gaps(gaps[number + 1], "s"), place + 2)
 
@@ -184,6 +200,19 @@ class Spans:
 
     def _link(self, place: int, gaps: list[str], following: int) -> None:
         self._pieces[place].following += [(quoted(gap), following) for gap in gaps]
+
+    def _spellings(self, match: re.Match[str], text: str, *, slips: bool, titled: bool) -> tuple[str, ...]:
+        """How a word may be written in a value: put right in a text that is full of slips, a name with its capital, a filler not at all."""
+        word = match.group()
+        right = _put_right(word) if slips and text[match.start() - 1 : match.start()] not in (*QUOTES, "_", "-") else ""
+        if right:
+            return (quoted(right),)
+        if len(quoted(word).encode()) > LONGEST_WORD // 2 or (not self._named and word.lower() in FILLERS):
+            return ()
+        forms = self._forms(word)
+        if not titled and not self._named and _is_name(word, text, match.start()):
+            return tuple(form for form in forms if form != word.lower())
+        return forms
 
     def _forms(self, word: str) -> tuple[str, ...]:
         forms = [word, word.lower()]
@@ -206,6 +235,19 @@ def _put_right(word: str) -> str:
         return ""
     near = [candidate for candidate in corrections(word) if edit_distance(word, candidate, 1) <= 1]
     return near[0] if len(near) == 1 else ""
+
+
+def _in_titles(text: str) -> bool:
+    """Whether a text writes most of its words with a capital."""
+    words = [match.group() for match in _PIECE.finditer(text) if len(match.group()) > 3 and match.group().isalpha()]
+    return 4 * sum(word[0].isupper() for word in words) > 3 * len(words)
+
+
+def _is_name(word: str, text: str, start: int) -> bool:
+    """Whether a word keeps its capital in a description: no list knows it, or it stands within a clause."""
+    if not word[0].isupper() or word.isupper() or not word.isalpha():
+        return False
+    return not word[0].isascii() or not is_known(word.lower()) or (text[start - 2 : start - 1].isalnum() and text[start - 1 : start] == " ")
 
 
 def _written_gaps(gap: str, before: str) -> list[str]:

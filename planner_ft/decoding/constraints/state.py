@@ -162,6 +162,8 @@ class MissionScript(Plain):
     def _possible(self, task: Task) -> bool:
         if self.told and self.told.placed and task.title == self.vocabulary.locate:
             return False
+        if self.told and not self.told.allows(task.title, self.progress):
+            return False
         needy = task.require_any or any(self._logical.needs(item, task) for item in task.parameters)
         return not needy or task_body(Grammar(), task, self._logical) is not None
 
@@ -174,7 +176,7 @@ class MissionScript(Plain):
 
     @property
     def _logical(self) -> LogicalValues:
-        values = ToldValues(self.values, self.told, self.progress.here) if self.told else self.values
+        values = ToldValues(self.values, self.told, self.progress) if self.told else self.values
         return LogicalValues(values, self.vocabulary, self.progress)
 
 

@@ -124,3 +124,23 @@ def test_long_commands_keep_their_spans(embedded: Any) -> None:
 )
 def test_a_name_is_told_from_its_kind(embedded: Any, text: str, value: str, admits: bool) -> None:
     assert admitted(embedded, [text], value, named=True) == admits
+
+
+@pytest.mark.parametrize(
+    ("command", "value", "right"),
+    [
+        ("Find the raft Łódka, please.", "raft Łódka", True),
+        ("Find the raft Łódka, please.", "raft łódka", False),
+        ("Circle the buoy Hestholmen at 9 m.", "buoy hestholmen", False),
+        ("Red buoy: circle it.", "red buoy", True),
+        ("FIND THE RED BUOY", "red buoy", True),
+        ("find the raft with um three masts", "raft with three masts", True),
+        ("find the raft with, er, three masts", "raft with three masts", True),
+        ("find the raft with um three masts", "raft with um", False),
+        ("Send the data, both logs first.", "data data", False),
+        ("Send the data, both logs first.", "data data logs", False),
+        ("Send the data, both logs first.", "data logs", True),
+    ],
+)
+def test_names_keep_their_capitals_and_sounds_are_no_words(tokenizer: Any, command: str, value: str, right: bool) -> None:
+    assert admitted(tokenizer, [command], value) == right

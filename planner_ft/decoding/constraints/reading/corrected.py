@@ -75,7 +75,7 @@ def as_corrected(text: str) -> str:
     numbers = [one for one in quantities(text) if text[one.start : one.end].lower() != "oh" and not any(start <= one.start < end for start, end in pairs)]
     for one, two in reversed([*itertools.pairwise(numbers)]):
         alike = two.unit == one.unit or (two.unit is None and LEAST < two.said / (one.said or 1) < 1 / LEAST)
-        if alike and _takes_back(text[one.end : two.start]):
+        if alike and takes_back(text[one.end : two.start]):
             unit = _UNIT_BEHIND.search(text[one.start : one.end]) if two.unit is None and one.unit is not None else None
             behind = f" {unit[0]}" if unit and unit[0].lower() in UNITS else ""
             if two.unit == one.unit or behind:
@@ -86,12 +86,12 @@ def as_corrected(text: str) -> str:
 def _without_first(text: str, spans: list[tuple[int, int]]) -> str:
     """The text without those of the places, directions or sides that the next one takes back."""
     for one, two in reversed([*itertools.pairwise(spans)]):
-        if _takes_back(text[one[1] : two[0]]):
+        if takes_back(text[one[1] : two[0]]):
             text = text[: one[0]] + text[two[0] :]
     return text
 
 
-def _takes_back(between: str) -> bool:
+def takes_back(between: str) -> bool:
     """Whether words say nothing but that what was said before them was wrong."""
     words = re.sub(r"['’]", "", between.lower())
     said = re.findall(r"[a-z]+", words)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from planner_ft.data.numerals import UNITS
 from planner_ft.data.quantities import Quantity, quantities
@@ -69,7 +69,7 @@ def _in_order(text: str, blank: str, places: list[tuple[Point, int, int]]) -> It
 
 def _by_name(text: str, blank: str, places: list[tuple[Point, int, int]]) -> Iterator[tuple[Point, str, frozenset[float]]]:
     """What stands behind the name of a place, up to the next name, place or sentence."""
-    named = dict(_names(text, places))
+    named = dict(named_places(text, places))
     if len(set(named.values())) < 2:
         return
     mentions = [(match, _key(match)) for match in _MENTION.finditer(blank) if _key(match) in named]
@@ -89,7 +89,7 @@ def _by_name(text: str, blank: str, places: list[tuple[Point, int, int]]) -> Ite
         before = numbers[0] if len(numbers) == 1 and numbers[0].unit else None
 
 
-def _names(text: str, places: list[tuple[Point, int, int]]) -> Iterator[tuple[tuple[str, str], Point]]:
+def named_places(text: str, places: Sequence[tuple[Point, int, int]]) -> Iterator[tuple[tuple[str, str], Point]]:
     """The names of places: "pier A at [1, 2]", "rafts 1, 2 and 3 are at [1, 2], [3, 4] and [5, 6]"."""
     for index, (place, start, _end) in enumerate(places):
         before = text[max(0, start - 80) : start]

@@ -15,7 +15,7 @@ NO_RETURN = re.compile(
 )
 HOME_MEANT = re.compile(
     r"\b(?:(?:leav\w+|left|depart\w*|quit\w*) (?:from |of )?|(?:away|off|out) (?:from|of) |"
-    r"(?:near|close|far|furth)\w* (?:to|from) |(?:north|south|east|west)\w* (?:of|from) )"
+    r"(?:near|close|far|furth)\w* (?:to |from )?|(?:north|south|east|west)\w* (?:of|from) )"
     r"(?:the |your |our )?(?:home|base|harbou?r|port)\b",
     re.IGNORECASE,
 )
@@ -24,6 +24,16 @@ HOME = re.compile(
     r"\b(?:home\w*|hom|hme|base|back|return\w*|rt[bh]|come in|head in|in again|harbou?r|port|berth|shore|ashore|start\w*|origin|where|\[?\(?0\s?[,/;]\s?0\b)",
     re.IGNORECASE,
 )
+
+
+_HOME_AT_ALL = re.compile(
+    r"home|\b(?:h[aeiou]+m\w?|ho\w?e?m|hme|com\w*|cum|b\w?c?k|ba\w?k|ret\w*|in for|rtb|rth|trip|0 ?[,/;] ?0|zero,? zero|nought)\b", re.IGNORECASE)  # fmt: skip
+"""Any word that may speak of home, misspelt ones too."""
+
+
+def home_meant(command: str) -> bool:
+    """Whether a command may mean the vehicle to go home at all."""
+    return HOME.search(command) is not None or _HOME_AT_ALL.search(command) is not None
 
 
 def no_way_home(command: str) -> bool:

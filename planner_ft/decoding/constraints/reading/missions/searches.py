@@ -35,6 +35,16 @@ _PLACELESS = re.compile(
     r"berth\w*|alongside|moor\w*|write\w*|written)\b",
     re.IGNORECASE,
 )
+_WEATHER = re.compile(
+    r"\b(?:winds?|gust\w*|sea state|barometer|visibility|swell|forecast|weather|sunset|sunrise|air pressure|humidity|"
+    r"(?:water|air|sea) (?:is )?(?:at )?\d+ ?(?:degrees|°)|high water|low water|slack water)\b",
+    re.IGNORECASE,
+)
+_ORDERED = re.compile(
+    r"\b(?:go|head|proceed|hold|circle|orbit|survey|inspect|film|follow|drift|dock|take|get|make|do|send|check|track|find|"
+    r"please|you|your)\b",
+    re.IGNORECASE,
+)
 _SEVERAL = re.compile(r"\b(?:other|another|both|each|every|all|too|also|as well|same|likewise|ditto|second|two|three|four|neighbour\w*|next)\b", re.IGNORECASE)
 _TIMED = re.compile(r"\b(?:before|after|until|till|when|once)\b", re.IGNORECASE)
 _CLAUSE = re.compile(r"[,:]|\b(?:and|before|after|until|till|when|once|only|while|without|so|unless|off|for|to clear)\b", re.IGNORECASE)
@@ -70,6 +80,8 @@ def nothing_to_search(text: str) -> bool:
     placed = False
     for sentence in sentences:
         places = len(PLACE.findall(sentence))
+        if places == 0 and _WEATHER.search(sentence) and not _ORDERED.search(sentence):
+            continue
         if places == 0:
             rest = _PLACELESS.sub(" ", sentence)
             plain = _WORK.search(rest) is None and (_PLACELESS.search(sentence) is not None or len(sentence.split()) <= 2)

@@ -62,7 +62,8 @@ ASKED: dict[str, tuple[str, ...]] = {
     ),
     "TrackObjects": (
         r"tracker (?:follows|stays on|keeps|holds|locked on|has to follow|is to follow|must follow)\b|track object\b|object tracking\b",
-        r"(?:keep|hold|maintain)(?:ing|s)? the (?:identity|track) of\b(?! (?:our|your|the|her|its) positions?\b)|tracking of (?:the )?(?:object|target|contact)\b",
+        r"(?:keep|hold|maintain)(?:ing|s)? the (?:identity|track) of\b(?! (?:our|your|the|her|its) positions?\b)|"
+        r"tracking of (?:the )?(?:object|target|contact)\b",
     ),
     "OCRScanning": (
         r"(?:with|by) (?:the )?(?:text (?:scanner|reader)|ocr)\b|text reading\b|ocr (?:covers|takes|in|for|over)\b|extract(?:ing)? the text\b",

@@ -180,7 +180,8 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"(?:hot|warm|fever)\b",
         r"therm[a-z]*\b(?! (?:cam\w*|stream|feed|view|clips?|images?|videos?|picture|files?|search)\b)|thermo\w*",
         r"(?:with|by|through|using|on|in|from|via|under) (?:the )?(?:thermal|infra-?red|ir)\b(?! (?:cam|stream|feed|view))",
-        r"(?<!\bhighest )\w*temper\w*|temps?\b|heat (?:of|in|on|levels?|readings?|figures?|values?|numbers?|data)|\bir (?:stays|on|off|runs?|running)\b|heat-? ?(?:map|stat)\w*|pyro\w*|cold\w*|cool\b|hotness|warmth",
+        r"(?<!\bhighest )\w*temper\w*|temps?\b|heat (?:of|in|on|levels?|readings?|figures?|values?|numbers?|data)|"
+        r"\bir (?:stays|on|off|runs?|running)\b|heat-? ?(?:map|stat)\w*|pyro\w*|cold\w*|cool\b|hotness|warmth",
         r"(?:how|is|are|too|get|gets|getting|runs?|running) (?:hot|warm|cold|cool)\b|how (?:hot|warm|cold|cool)\b",
         r"(?<!\bdepth )(?<!\bdistance )(?<!\bhorizon )(?<!\bpose )(?<!\bgps )(?<!\bposition )(?<!\bsector )(?<!\bobstacle )readings?\b(?! "
         r"(?:the |out |off |any |"
@@ -303,7 +304,8 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"sea ?-?line\b",
         r"\w*horizon(?!tal)\w*|tilt\w*|inclin\w*|(?:how|is|are|be|lies?|lying|stays?|sits?) level\b|levelness|heel(?:s|ing|ed)?\b|list(?:s|"
         r"ing)? to (?:port|starboard)|(?:any|her|much|angle of) list\b|skew\w*|slant\w*|imu\w*|gyro\w*|ahrs\w*|mru\w*|inertial\w*",
-        r"sky-?line\w*|lean(?:s|ed|ing)?\b|upright|(?:even|level) keel|(?:are|is) (?:we|she|it|the (?:boat|vessel)) level\b|lopsided|crooked|(?:sit|lie|rid|stand|float|lying)\w* (?:straight|level|"
+        r"sky-?line\w*|lean(?:s|ed|ing)?\b|upright|(?:even|level) keel|"
+        r"(?:are|is) (?:we|she|it|the (?:boat|vessel)) level\b|lopsided|crooked|(?:sit|lie|rid|stand|float|lying)\w* (?:straight|level|"
         r"even|true)\b|(?:a|any|her|the|what) list\b(?! of)|out of level|off (?:the )?(?:level|horizontal)|(?:from|how far from) level",
     ),
     "GetGPSLocation": (
@@ -321,7 +323,8 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"recorded) by (?:its |the )?position|(?:log|record|keep|save|store|note|gps|plot)(?:s|ging|ing|ed)? (?:of )?(?:the |a |your |"
         r"our )?(?:[a-z]+ )?tracks?\b(?! of)|tracks? (?:is |are )?(?:logged|recorded)",
         r"breadcrumb\w*|lat/?lon\w*|lat\b|lon\b|latitude|longitude|wgs\w*",
-        r"(?:keep\w*|hold\w*) (?:the |a )?track of (?:our|your|the|her) positions?\b|(?:track|trace|log|record|note|history|list|plot\w*|trac\w*|learn\w*|sav\w*|ask\w*|keep\w*|writ\w*) (?:of |down |out |"
+        r"(?:keep\w*|hold\w*) (?:the |a )?track of (?:our|your|the|her) positions?\b|"
+        r"(?:track|trace|log|record|note|history|list|plot\w*|trac\w*|learn\w*|sav\w*|ask\w*|keep\w*|writ\w*) (?:of |down |out |"
         r"up )?(?:exactly |precisely )?where (?:you|we|she|i|the boat)|lat(?:itude)? and lon\w*|(?:what|which) (?:spot|place|point) (?:you|we|"
         r"she) ",
     ),

@@ -1,0 +1,82 @@
+"""Places that a command only tells of: where another vessel is at work, what is none of this vehicle's business."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import pairwise
+
+from planner_ft.decoding.constraints.reading.missions.apart import PLACE, SENTENCE
+
+Position = tuple[float, float]
+_NO_BUSINESS = re.compile(
+    r"\b(?:(?:none|neither|not|no) (?:of (?:this|that|it|them|these|those) )?(?:is |are |of |one of )?(?:any (?:of )?)?(?:your|our) (?:affair"
+    r"|business|concern|job|task|problem|worry|work)"
+    r"|(?:neither|nothing|none of (?:it|this|that)|not) (?:is |are )?(?:for|meant for|addressed to|to do with) you\b"
+    r"|(?:is|are)(?:n['’]t| not) (?:yours|for you|your \w+)|no concern of yours|never ?mind (?:her|him|them|that one)|pay (?:it|her|them|that) no (?:heed|mind)"
+    r"|(?:ignore|disregard) (?:her|them|it|that|this|those|these|that one|her movements|their traffic)\b|do not concern you|does not concern you"
+    r"|doesn['’]t concern you"
+    r"|leave (?:her|them) (?:be|alone|to it))",
+    re.IGNORECASE,
+)
+_OTHER_VESSEL = re.compile(
+    r"^\s*(?:(?:the|our) )?(?P<who>[A-Z][a-z]+|[A-Z][a-z]+ [A-Z][a-z]+|[A-Z][a-z]+[ -]\d+|[Tt]he other (?:boat|vehicle|drone|USV|vessel)"
+    r"|sister (?:boat|ship|vessel))"
+    r" (?:keeps (?:holding|going|working|surveying)|holds|stays|docks|works|is (?:working|surveying|holding|docking|busy|inspecting|circling|lying"
+    r"|anchored|already|at work)|"
+    r"has (?:already|been)|will (?:be|hold|dock|stay|survey|take|handle|do|go|work)|takes|handles|surveys|inspects|circles|looks after|does|goes|returns)\b"
+)
+_YOU = re.compile(r"\b(?:you|your)\b", re.IGNORECASE)
+_NO_NAME = frozenset(
+    {"It", "That", "This", "She", "He", "There", "What", "Who", "Which", "Nobody", "Everyone", "Someone", "Harbour", "Traffic", "Wind", "Home", "Berth"}
+)
+
+
+def places_of_others(text: str) -> Iterator[Position]:
+    """The places of sentences about others, which no other sentence names."""
+    sentences = list(_sentences(text))
+    about = {number for number, sentence in enumerate(sentences) if _of_others(number, sentences)}
+    ours = {place for number, sentence in enumerate(sentences) if number not in about for place in _places(sentence)}
+    yield from dict.fromkeys(place for number in sorted(about) for place in _places(sentences[number]) if place not in ours) if ours else ()
+
+
+def _of_others(number: int, sentences: list[str]) -> bool:
+    sentence = sentences[number]
+    if not PLACE.search(sentence):
+        return False
+    denied = _NO_BUSINESS.search(sentence)
+    if denied is None and number + 1 < len(sentences) and not PLACE.search(sentences[number + 1]):
+        following = _NO_BUSINESS.search(sentences[number + 1])
+        denied = following if following and following.start() < 25 else None
+        if denied and _asks(sentence):
+            return False
+    if denied:
+        return not _asks(sentence)
+    vessel = _OTHER_VESSEL.match(sentence)
+    told = vessel is not None and vessel["who"] not in _NO_NAME and not _YOU.search(sentence)
+    return told and any(_YOU.search(other) for place, other in enumerate(sentences) if place != number)
+
+
+def _asks(sentence: str) -> bool:
+    """Whether a sentence begins with an order."""
+    return (
+        re.match(
+            r"\s*(?:please |then |now )?(?:go|hold|dock|survey|inspect|circle|orbit|film|find|take|keep|stay|do|make|run|head|proceed|transit|sweep"
+            r"|follow|get|give|track|drift|send|at|from)\b",
+            sentence,
+            re.IGNORECASE,
+        )
+        is not None
+    )
+
+
+def _places(sentence: str) -> list[Position]:
+    return [(float(match[1].translate(_SIGNS)), float(match[2].translate(_SIGNS))) for match in PLACE.finditer(sentence)]
+
+
+_SIGNS = str.maketrans("−–", "--")
+
+
+def _sentences(text: str) -> Iterator[str]:
+    ends = [0, *(match.end() for match in SENTENCE.finditer(text)), len(text)]
+    yield from (text[start:end] for start, end in pairwise(ends) if text[start:end].strip())
