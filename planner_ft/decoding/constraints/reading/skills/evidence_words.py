@@ -97,7 +97,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"cordon\w*",
         r"(?:the|a|this|that|in|inside|within|leave|geo-?|virtual|allowed|safety|permitted|given|corner) box\b(?! (?:search|survey|\d))|"
         r"^box\b(?! search)|[.,;:] box\b"
-        r"(?! search)|boxed in|(?:in|inside|within|leav\w*|out of) (?:the |a |its |this )(?:pen|cage)\b|"
+        r"(?! search| by box)|boxed in|(?:in|inside|within|leav\w*|out of) (?:the |a |its |this )(?:pen|cage)\b|"
         r"(?:in|inside|within|to|leav\w*|out of|respect\w*|enforc\w*|apply\w*|with|under|and|by) (?:the |a |an |this |that |its )?(?:rectang\w+|"
         r"quadrilateral|trapez\w+|triang\w+)|"
         r"(?:rectang\w+|quadrilateral|trapez\w+|triang\w+)[^.;]{0,60}(?:leav|left|cross|outside|appl|enforc|observ|respect|hold|count|in force)",
@@ -147,7 +147,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"a watch (?:is )?kept|alert (?:for|to)|(?:shout|call out|warn) ",
     ),
     "TrackObjects": (
-        r"plots?\b",
+        r"plots?\b|(?:box|frame) by (?:box|frame)\b",
         r"tracker\w*|tracked\b(?! (?:pixel|offset|pose))|(?<!\bcable )tracking\b|trk\b|identit\w+|persisten\w+|tabs on|re-?identif\w+",
         r"(?<!\bcable )(?<!\bon )(?<!\boff )(?<!\bthe )(?<!\bgps )(?<!back)(?:track|tracks)\b(?! (?:the |of the |of your |of our |your |a |"
         r"of )?(?:[a-z]+ )?(?:pixel|visual|offset|pose|relative|cable\b(?! (?:clamp|entry|drum|buoy|ferry|layer|winch))|"
@@ -351,7 +351,8 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         rf"\w*record(?:s|ed|ing|ings|er|ers)?\b(?! {SENSED})(?! as (?:an? )?obs)|film\w*|(?<!\bof )(?<!\bbuffered )vide?o(?:s|ing|ed)?\b(?! "
         r"(?:buffer|"
         r"quality|frame|from the buffer|is (?:good|usable|sharp)))|(?<!\bof )(?<!\bgrade the )(?<!\bgrading the )footage|movies?\b|tap(?:e|ing|ed)\b|"
-        r"rec\b|mp4|\binto ['\"“](?! )|(?:file|with the file|new file) (?:name|called|named) |(?:running|on), file \w|file the [\w ]+ as |keep it rolling",
+        r"rec\b|mp4|\binto ['\"“](?! )|name of the file|"
+        r"(?:file|with the file|new file) (?:name|called|named) |(?:running|on), file \w|file the [\w ]+ as |keep it rolling",
         r"(?<!\bbuffer )(?<!\bbuffer on)(?:to|on|onto) (?:the )?(?:disk|disc|drive|file|storage|card|camera)\b|on tape|roll(?:ing|"
         r"s)? (?:the )?(?:tape|cam|video|film|rec)|file-? ?tags?|(?:the|with|under|with a|file|,|a|same) tags?\b|tagged|filed|writ(?:e|es|"
         r"ing)\b[^.;]{0,30}dis[ck]|clips?\b",
