@@ -10,6 +10,7 @@ import json
 import os
 import time
 from collections.abc import Iterator
+from contextlib import nullcontext
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from torch import Tensor, nn
 
 from planner_ft.pretraining.corpus import IGNORE, Rows, batched, load_shard
 from planner_ft.pretraining.kernels import CAUSAL, register_attention, summed_cross_entropy
+from planner_ft.pretraining.rounding import rounded
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,8 @@ class PretrainSettings:
     decay: float = 0.4
     """Share of the budget over which the learning rate falls linearly to zero, at the end."""
     gradient_clip: float = 1.0
+    four_bit: bool = False
+    """Whether the forward pass sees the layers' matrices rounded to NF4, as the candidate runs."""
     seed: int = 0
     checkpoint_seconds: float = 240.0
     compile: bool = True
@@ -108,9 +112,14 @@ def share_of(rows: Rows, rank: int, world: int) -> Rows:
     return Rows(ids, labels, rows.tokens)
 
 
+def layer_matrices(model: nn.Module) -> list[nn.Parameter]:
+    """The matrices of the layers: all weights but embeddings, output and norms. They are what 4-bit storage rounds."""
+    return [value for name, value in model.named_parameters() if value.ndim == 2 and "embed" not in name and "lm_head" not in name]
+
+
 def optimizers(model: nn.Module, settings: PretrainSettings) -> list[torch.optim.Optimizer]:
     """Muon for the layers' matrices, AdamW for embeddings and norms."""
-    matrices = [value for name, value in model.named_parameters() if value.ndim == 2 and "embed" not in name and "lm_head" not in name]
+    matrices = layer_matrices(model)
     others = [value for name, value in model.named_parameters() if value.ndim != 2 or "embed" in name or "lm_head" in name]
     return [
         torch.optim.Muon(matrices, lr=settings.matrix_lr, weight_decay=settings.weight_decay, momentum=0.95, adjust_lr_fn="match_rms_adamw"),
@@ -125,6 +134,7 @@ def pretrain(model: Any, shards: list[Path], settings: PretrainSettings, *, pad:
     """
     rank, world = _join()
     optims = optimizers(model, settings)
+    matrices = layer_matrices(model)
     state = _restore(folder, model, optims)
     body = torch.compile(model.model, dynamic=True) if settings.compile else model.model
     started = saved = time.monotonic()
@@ -134,8 +144,9 @@ def pretrain(model: Any, shards: list[Path], settings: PretrainSettings, *, pad:
         for optim, peak in zip(optims, (settings.matrix_lr, settings.other_lr), strict=True):
             for group in optim.param_groups:
                 group["lr"] = factor * peak
-        loss = completion_loss(model, body, rows, rank, world)
-        torch.autograd.backward(loss)
+        with rounded(matrices) if settings.four_bit else nullcontext():
+            loss = completion_loss(model, body, rows, rank, world)
+            torch.autograd.backward(loss)
         losses.append(_summed(model, loss.detach(), world))
         torch.nn.utils.clip_grad_norm_(model.parameters(), settings.gradient_clip)
         for optim in optims:
