@@ -5,8 +5,15 @@ from __future__ import annotations
 import importlib.util
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import pytest
+
+from planner_ft.pretraining.corpus import encode_shard, tokenizer_texts
+from planner_ft.pretraining.tokenizer import train_tokenizer
+from planner_ft.vocabulary import load_vocabulary
+
+VOCABULARY = load_vocabulary()
 
 
 @pytest.fixture(scope="session")
@@ -17,3 +24,16 @@ def script() -> ModuleType:
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+@pytest.fixture(scope="session")
+def tokenizer() -> Any:
+    return train_tokenizer(tokenizer_texts(VOCABULARY, 0, 300, 0.5), VOCABULARY, size=1200)
+
+
+@pytest.fixture(scope="session")
+def shard(tokenizer: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("corpus") / "shard.npz"
+    counts = encode_shard(path, tokenizer, VOCABULARY, seed=1, count=80, mission_share=0.5, longest=1024)
+    assert counts["samples"] + counts["left_out"] == 80
+    return path

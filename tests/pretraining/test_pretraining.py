@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import torch
 
-from planner_ft.pretraining.corpus import IGNORE, batched, encode_shard, load_shard, rows_of, tokenizer_texts
+from planner_ft.pretraining.corpus import IGNORE, batched, load_shard, rows_of, tokenizer_texts
 from planner_ft.pretraining.loop import PretrainSettings, completion_loss, learning_rate, new_model, pretrain
 from planner_ft.pretraining.tokenizer import train_tokenizer
 from planner_ft.prompts.text import system_text
@@ -17,19 +17,6 @@ from planner_ft.vocabulary import load_vocabulary
 VOCABULARY = load_vocabulary()
 TINY = PretrainSettings(hidden=32, layers=1, heads=2, feed_forward=64, batch_tokens=2048, tokens=6000, compile=False)
 SPECIAL = {"bos": 1, "eos": 2, "pad": 0}
-
-
-@pytest.fixture(scope="module")
-def tokenizer() -> Any:
-    return train_tokenizer(tokenizer_texts(VOCABULARY, 0, 300, 0.5), VOCABULARY, size=1200)
-
-
-@pytest.fixture(scope="module")
-def shard(tokenizer: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("corpus") / "shard.npz"
-    counts = encode_shard(path, tokenizer, VOCABULARY, seed=1, count=80, mission_share=0.5, longest=1024)
-    assert counts["samples"] + counts["left_out"] == 80
-    return path
 
 
 def test_any_text_survives_the_tokenizer(tokenizer: Any) -> None:
