@@ -67,6 +67,11 @@ Token = tuple[str, int, int]
 """Lower-case text, start, end."""
 
 
+def signed(digits: str) -> float:
+    """The number that `digits` say; its minus may be a dash. Raises ValueError for anything else."""
+    return float(digits.replace("−", "-").replace("–", "-"))
+
+
 def tokenize(text: str) -> list[Token]:
     """Numbers, words and signs of a text; digits and letters that stand together ("5m", "39E") are apart."""
     return [(match.group().lower(), match.start(), match.end()) for match in _TOKEN.finditer(text)]

@@ -6,7 +6,7 @@ import itertools
 import re
 from collections.abc import Iterator, Sequence
 
-from planner_ft.data.numerals import UNITS
+from planner_ft.data.numerals import UNITS, signed
 from planner_ft.data.quantities import Quantity, quantities
 
 Point = tuple[float, float]
@@ -30,7 +30,7 @@ _SAME = re.compile(r"\b(?:same|as for|as with|like|ditto|likewise|both|each|all)
 
 def read_apart(text: str) -> Given:
     """What a text gives to one of its places alone."""
-    places = [((_number(match[1]), _number(match[2])), match.start(), match.end()) for match in PLACE.finditer(text)]
+    places = [((signed(match[1]), signed(match[2])), match.start(), match.end()) for match in PLACE.finditer(text)]
     if not 2 <= len({place for place, _start, _end in places}) <= MOST:
         return {}
     blank = PLACE.sub(lambda match: " " * len(match[0]), text)
@@ -115,7 +115,3 @@ def _sentence(text: str, place: int) -> tuple[int, int]:
     """Where the sentence around a place begins and ends."""
     ends = [match.start() for match in SENTENCE.finditer(text)]
     return max((end + 1 for end in ends if end < place), default=0), min((end for end in ends if end >= place), default=len(text))
-
-
-def _number(digits: str) -> float:
-    return float(digits.replace("−", "-").replace("–", "-"))

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from planner_ft.data.numerals import signed
 from planner_ft.data.quantities import Quantity, quantities
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.reading import wordings as w
@@ -42,7 +43,7 @@ def read_offsets(text: str, home: Point | None = None) -> Iterator[Offset]:
         match = _OF_PLACE.match(text, end)
         from_home = _OF_HOME.match(text, end) if home is not None else None
         if match:
-            base = (float(match[2].translate(_SIGNS)), float(match[3].translate(_SIGNS)))
+            base = (signed(match[2]), signed(match[3]))
         elif from_home and home is not None:
             base = home
         else:
@@ -56,9 +57,6 @@ def read_offsets(text: str, home: Point | None = None) -> Iterator[Offset]:
         behind = match or from_home
         assert behind is not None
         yield Offset(start, behind.end(), (round(place[0], 2), round(place[1], 2)), base, match is not None and match["thing"] is None)
-
-
-_SIGNS = str.maketrans("−–", "--")
 
 
 def _ways(text: str) -> Iterator[tuple[Quantity, int, float]]:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 
+from planner_ft.data.numerals import signed
 from planner_ft.decoding.constraints.reading.missions.apart import PLACE, SENTENCE, named_places
 from planner_ft.decoding.constraints.reading.missions.spoken import SAYS
 
@@ -249,5 +250,5 @@ def _between(text: str, found: Found) -> Iterator[tuple[Position, Position]]:
 
 
 def _position(match: re.Match[str]) -> Position:
-    x, y = (float(part.replace("−", "-").replace("–", "-")) for part in match.groups())
+    x, y = (signed(part) for part in match.groups())
     return x, y

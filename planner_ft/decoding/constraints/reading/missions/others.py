@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
+from planner_ft.data.numerals import signed
 from planner_ft.decoding.constraints.reading.missions.apart import PLACE, SENTENCE
 
 Position = tuple[float, float]
@@ -71,10 +72,7 @@ def _asks(sentence: str) -> bool:
 
 
 def _places(sentence: str) -> list[Position]:
-    return [(float(match[1].translate(_SIGNS)), float(match[2].translate(_SIGNS))) for match in PLACE.finditer(sentence)]
-
-
-_SIGNS = str.maketrans("−–", "--")
+    return [(signed(match[1]), signed(match[2])) for match in PLACE.finditer(sentence)]
 
 
 def _sentences(text: str) -> Iterator[str]:

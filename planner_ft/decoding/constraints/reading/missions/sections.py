@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from planner_ft.data.numerals import signed
 from planner_ft.data.quantities import quantities
 from planner_ft.decoding.constraints.reading.missions.apart import PLACE, SENTENCE, Given
 
@@ -30,7 +31,7 @@ def read_sections(text: str) -> Given:
     last = next((start for start in starts if start > heads[-1][1].end()), len(text))
     if quantities(text[: heads[0][0]]) or quantities(text[last:]):
         return {}
-    return {(_number(place[1]), _number(place[2])): dict(_values(text[place.end() : end])) for (_start, place), end in zip(heads, ends, strict=True)}
+    return {(signed(place[1]), signed(place[2])): dict(_values(text[place.end() : end])) for (_start, place), end in zip(heads, ends, strict=True)}
 
 
 def _head(text: str, start: int) -> re.Match[str] | None:
@@ -46,7 +47,3 @@ def _values(section: str) -> Iterator[tuple[str, frozenset[float]]]:
         values = {round(number.value, 4) for number in numbers if number.unit in (unit, None)}
         if any(number.unit == unit for number in numbers):
             yield unit, frozenset(values)
-
-
-def _number(digits: str) -> float:
-    return float(digits.replace("−", "-").replace("–", "-"))

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+from planner_ft.data.numerals import signed
 from planner_ft.decoding.constraints.reading.corrected import takes_back
 from planner_ft.decoding.constraints.reading.missions.apart import PLACE, SENTENCE
 from planner_ft.decoding.constraints.reading.missions.spoken import SAYS
@@ -126,7 +127,7 @@ def dropped_titles(text: str) -> Iterator[str]:
 
 def places_taken_back(text: str, home: Position) -> Iterator[Position]:
     """The places that a text names and does not want the vehicle to go to."""
-    found = [((float(_plain(match[1])), float(_plain(match[2]))), match.start(), match.end()) for match in PLACE.finditer(text)]
+    found = [((signed(match[1]), signed(match[2])), match.start(), match.end()) for match in PLACE.finditer(text)]
     dropped = [*_corrected(text, found), *_said_wrong(text, found), *_not_wanted(text, found), *_taken(text, found), *_left_out(text, found)]
     for index in dict.fromkeys(dropped):
         if all(other[0] != found[index][0] or number in dropped for number, other in enumerate(found)):
@@ -220,7 +221,3 @@ def index_of(word: str, places: Sequence[Position]) -> int | None:
         values = [(place[0] ** 2 + place[1] ** 2) * (-1 if word == "nearest" else 1) for place in places]
     best = max(values)
     return values.index(best) if values.count(best) == 1 else None
-
-
-def _plain(digits: str) -> str:
-    return digits.replace("−", "-").replace("–", "-")

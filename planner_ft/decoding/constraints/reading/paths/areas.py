@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from planner_ft.data.numerals import signed
 from planner_ft.data.quantities import quantities
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.reading import wordings as w
@@ -134,7 +135,7 @@ def _written(point: Point) -> str:
 def _point(pair: str) -> Point:
     match = PAIR.fullmatch(pair.strip())
     assert match
-    return g.point(*(float(match[axis].replace("−", "-").replace("–", "-")) for axis in "xy"))
+    return g.point(*(signed(match[axis]) for axis in "xy"))
 
 
 def _with_centre(text: str, parameters: dict[str, Any]) -> str:
@@ -146,7 +147,7 @@ def _with_centre(text: str, parameters: dict[str, Any]) -> str:
         if len(xs) == len(ys) == 2 and len(set(corners_of)) == 4:
             return _between(text, (xs[0], ys[0]), (xs[1], ys[1]), row.start(), row.end())
     if ranges and not PAIR.search(text) and not KEEP_IN.search(text):
-        x1, x2, y1, y2 = (float(ranges[name].replace("−", "-").replace("–", "-")) for name in ("x1", "x2", "y1", "y2"))
+        x1, x2, y1, y2 = (signed(ranges[name]) for name in ("x1", "x2", "y1", "y2"))
         return _between(text, g.point(x1, y1), g.point(x2, y2), ranges.start(), ranges.end())
     named = sorted([*NAMED.finditer(text), *BEHIND.finditer(text)], key=lambda match: match.start())
     corners = {match["corner"].lower(): match for match in named}

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from planner_ft.data.numerals import signed
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.reading import LONGEST
 from planner_ft.decoding.constraints.reading.paths.itinerary import plain_text, without_fences
@@ -89,7 +90,7 @@ def with_middles(text: str) -> str:
 
 def _point(match: re.Match[str] | None) -> Point:
     assert match
-    return g.point(*(float(match[axis].replace("−", "-").replace("–", "-")) for axis in "xy"))
+    return g.point(*(signed(match[axis]) for axis in "xy"))
 
 
 def read_halfway(record: dict[str, Any]) -> Path | None:

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from planner_ft.data.numerals import signed
 from planner_ft.data.quantities import positions, quantities
 from planner_ft.data.task import geometry as g
 from planner_ft.data.words import edit_distance, words
@@ -203,18 +204,13 @@ def _is_pair(text: str, start: int, end: int) -> bool:
 def _explicit(match: re.Match[str], text: str) -> list[Place]:
     """The place that EXPLICIT has found."""
     if match["a"] or match["c"]:
-        x, y = _number(match["a"] or match["c"]), _number(match["b"] or match["d"])
+        x, y = signed(match["a"] or match["c"]), signed(match["b"] or match["d"])
         return [Place(g.point(x, y), match.start(), match.end())]
     first, second = match["f"].lower(), match["i"].lower()
     if (first in ("east", "west")) == (second in ("east", "west")) or (match["j"] and not r.OF_HOME.match(match["j"])):
         raise Uncertain
-    one, two = (_number(match[value]) * (-1 if way in ("west", "south") else 1) for value, way in (("e", first), ("h", second)))
+    one, two = (signed(match[value]) * (-1 if way in ("west", "south") else 1) for value, way in (("e", first), ("h", second)))
     return [Place(g.point(one, two) if first in ("east", "west") else g.point(two, one), match.start(), match.end())]
-
-
-def _number(text: str) -> float:
-    """A number with whatever mark stands for its sign."""
-    return float(text.replace("−", "-").replace("–", "-"))
 
 
 def _leads(before: str) -> bool:

@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Iterator
 
+from planner_ft.data.numerals import signed
 from planner_ft.data.quantities import quantities
 from planner_ft.data.stated import CABLE, CABLES
 from planner_ft.data.task import geometry as g
@@ -72,7 +73,7 @@ def in_metres(cables: re.Match[str]) -> str:
 
 def _between(ends: re.Match[str]) -> str:
     """Two ends of a line without the direction from one to the other, where it agrees with them."""
-    (x, y), (to_x, to_y) = ((float(ends[axis].replace("−", "-").replace("–", "-")) for axis in pair) for pair in (("a", "b"), ("c", "d")))
+    (x, y), (to_x, to_y) = ((signed(ends[axis]) for axis in pair) for pair in (("a", "b"), ("c", "d")))
     bearing = w.bearing_of(ends["way"])
     agrees = abs((math.degrees(math.atan2(to_x - x, to_y - y)) - bearing + 180) % 360 - 180) < 46
     return f"{ends['one']} to {ends['two']}" if agrees else ends[0]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from planner_ft.data.numerals import signed
 from planner_ft.decoding.constraints.facts import WRITTEN_PAIR, Position, in_metres
 from planner_ft.decoding.constraints.reading.wordings import FENCE_BEHIND
 
@@ -32,5 +33,5 @@ def fences(text: str) -> Iterator[list[Position]]:
     for number, run in enumerate(runs):
         begins = max(text.rfind(". ", 0, run[0].start()) + 1, runs[number - 1][-1].end() if number else 0)
         if len(run) >= LEAST_CORNERS and (_FENCED.search(text[begins : run[0].start()]) or FENCE_BEHIND.match(text[run[-1].end() :])):
-            corners = [tuple(float(part.replace("−", "-").replace("–", "-")) for part in _NUMBER.findall(match.group())) for match in run]
+            corners = [tuple(signed(part) for part in _NUMBER.findall(match.group())) for match in run]
             yield [metres.get(corner, corner) for corner in corners if len(corner) == 2]
