@@ -38,6 +38,7 @@ from planner_ft.decoding.constraints.reading.paths.squares import read_squares
 from planner_ft.decoding.constraints.reading.paths.station_rows import read_station_rows
 from planner_ft.decoding.constraints.reading.paths.stations import read_stations
 from planner_ft.decoding.constraints.reading.paths.tracks import read_cable
+from planner_ft.decoding.constraints.reading.paths.underived import MISREAD, OPEN
 from planner_ft.decoding.constraints.reading.paths.written_out import written_out
 from planner_ft.vocabulary import Vocabulary
 
@@ -212,6 +213,7 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     angles = {value % 360 for value in (*bearings(reading.text), *stated_numbers(reading.bare, "deg"), *_angles(parameters))}
     unread = reading.numbers_free or bool(reading.loose) or UNKNOWN.search(reading.text) is not None
     loose = LOOSE.search(reading.text) is not None
+    misread = MISREAD.search(reading.text) is not None
     free = unread or loose or len(places) > MOST_PLACES or len(lengths) > MOST_LENGTHS
     paths: Iterator[Path] = iter(())
     if not free:
@@ -226,17 +228,22 @@ def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
         run = (read_halfway(placed) or read_chain(placed, home) or read_station_rows(placed)) if placed else run
         if run is None and task is not None and task.pattern == "square":
             run = read_squares(record, own[0] if len(own) == 1 else None)
-        itinerary = run or read_itinerary(record, vocabulary)
+        itinerary = run or (None if misread else read_itinerary(record, vocabulary))
     itinerary = itinerary if itinerary is None or len(itinerary) <= MOST_STEPS else None
     found = tuple(dict.fromkeys(itertools.islice(paths, MOST_PATHS)))
     begun = 2 if task and task.pattern in ("lawnmower", "square") else 3
-    shape = None if unread or loose or task is None or itinerary is not None else one_shape(reading.text, parameters, task, own[0] if len(own) == 1 else None)
-    if itinerary is None and shape is None and task is not None and not unread and len(reading.text) <= LONGEST:
+    shape = (
+        None
+        if unread or loose or misread or task is None or itinerary is not None
+        else one_shape(reading.text, parameters, task, own[0] if len(own) == 1 else None)
+    )
+    if itinerary is None and shape is None and task is not None and not unread and not misread and len(reading.text) <= LONGEST:
         itinerary = () if stays(record) else read_runs(record, vocabulary)
     apart: tuple[Point, ...] = ()
     if shape is not None:
         (found, apart), begun = shape, 1
-    free = free and itinerary is None and shape is None
+    free = (free or misread or OPEN.search(reading.text) is not None) and itinerary is None and shape is None
+    found = () if free else found
     text = without_courses(reading.text) if run or (task is not None and task.pattern == "lawnmower") else reading.text
     one_path = not apart and (shape is not None or (itinerary is not None and _round_own(itinerary, own)))
     return Ground(

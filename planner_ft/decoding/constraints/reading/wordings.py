@@ -165,7 +165,7 @@ SIDE = re.compile(
     r"|\b(?:from|in|on|at|starting|start) (?:the |its )?(?:middle of the )?(north|south|east|west)\b",
     re.IGNORECASE,
 )
-CLOCKWISE = re.compile(r"\b(?:(counter|anti)[- ]?)?clock-?wise\b", re.IGNORECASE)
+CLOCKWISE = re.compile(r"\b(?:(counter|anti|[ac](?=cw\b))[- ]?)?(?:clock-?wise|cw)\b", re.IGNORECASE)
 
 # Sizes
 ANGLED = re.compile(r"^[^\[(]*(?:\d\s?°|(?:\b|\d)deg)", re.IGNORECASE)
@@ -208,7 +208,8 @@ _OWN = r"(?:the |its )?(?:(?:task'?s?|given|planned|stated|target|goal|start(?:i
 _OWN_NOUN = r"(?:target|goal|cent(?:re|er)|start|position|point(?! cloud)|berth|location|destination)"
 OWN = re.compile(rf"^{_OWN}{_OWN_NOUN}\b", re.IGNORECASE)
 TO_OWN = re.compile(
-    rf"\bgo in\b|(?<!way )\b(?:to|at|for|reach|via) {_OWN}{_OWN_NOUN}\b(?! of the (?:task|side|edge|frame|picture)|"
+    rf"\bgo in\b|(?<!way )(?<!relative )\b(?:to|at|for|reach|via) {_OWN}{_OWN_NOUN}\b(?! (?:the|an?|your|her|recording)\b)"
+    rf"(?! of the (?:task|side|edge|frame|picture)|"
     rf" (?:\d|[a-z-]+ (?:m|metres?|meters?|feet)\b)| to (?:follow|be|track|watch))(?!s)",
     re.IGNORECASE,
 )
@@ -266,7 +267,7 @@ STILL = re.compile(
     r"park\w*|position for|second\w*|minute\w*|hour\w*|"
     r"\d+ ?s|min|h|cent(?:re|er)\w* (?:it|on|the|in)|centred|centered|fram\w+|picture|in view|turn\w*|rotat\w*|"
     r"fac(?:e|es|ing)|swing\w*|spin\w*|pivot\w*|line up|lined up|yaw\w*|look\w*|"
-    r"nudg\w*|pan(?:s|ning)?|twist\w*|trim|arc\w*|sweep\w*|curv\w*|bend|orbit\w*|circl\w*|drift\w*|float\w*|"
+    r"nudg\w*|pan(?:s|ning)?|twist\w*|trim|arc\w*|sweep\w*|curv\w*|bend|loop to|orbit\w*|circl\w*|drift\w*|float\w*|"
     r"engines?|adrift|propulsion|current|steady|stab\w+|settl\w*|pitch|roll|motion|"
     r"degrees?|bearing|heading|bow|nose|course|follow\w*|track\w*|headings|panorama|"
     r"position with|in position|keep position|the position within|on the spot|square up|view|moor\w*)\b",

@@ -110,7 +110,7 @@ def read_part(record: dict[str, Any], task: Task, own: Point | None, home: Point
     given, prompt = record.get("parameters"), str(record.get("prompt", ""))
     if task.pattern not in ("lawnmower", "square") or own is None or len(prompt) > LONGEST or not isinstance(given, dict):
         return None
-    text = CLOSED.sub(r"clos\g<e> it", ACCURACY.sub(" ", WAY_HOME.sub(" ", without_fences(plain_text(prompt)))))
+    text = CLOSED.sub(r"clos\g<e> it", ACCURACY.sub(" ", WAY_HOME.sub(" ", w.NOT_HOME.sub(" ", without_fences(plain_text(prompt))))))
     homeward = [*HOME_LAST.finditer(text)]
     text = HOME_LAST.sub(lambda said: said["stop"] or "", text)
     if len(homeward) > 1 or HOME.search(text):

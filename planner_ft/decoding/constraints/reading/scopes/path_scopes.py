@@ -94,7 +94,11 @@ _ANY: tuple[tuple[str, str], ...] = (
     ("start", rf"\b(?:the|its) {_WAY} (?:out |over |up |in )?to {_START}\b"),
     ("start", rf"\b(?:until|till|before|up to|as far as) {_START}(?: (?:is|has been) reached| lies (?:behind|astern))?"),
     ("start", rf"\b(?:until|till|before) (?:you|she|it) (?:reach|reaches|have reached|has reached|are at|is at) {_START}\b"),
-    ("beyond", rf"\b(?:from|beyond|past|after|starting (?:at|from)) {_START}(?: on(?:wards?|(?=[,.;]|$))| to the (?:very )?end\b|(?=,))"),
+    (
+        "beyond",
+        rf"(?<!metres )(?<!meters )(?<!\dm )(?<!\d m )"
+        rf"\b(?:from|beyond|past|after|starting (?:at|from)) {_START}(?: on(?:wards?|(?=[,.;]|$))| to the (?:very )?end\b|(?=,))",
+    ),
     ("beyond", rf"\bonce (?:{_START} (?:is|has been) (?:reached|passed)|(?:you|she) (?:have|has|are|is) (?:reached|passed|at|past) {_START})\b"),
     ("first", rf"\b(?:at|on) (?:the |its )?(?:very )?(?:(?:start(?:ing)?|first) {_POINT}|first one|start)\b(?! (?:of|to)\b)"),
     ("final", rf"\b(?:at|on) (?:the |its )?(?:very )?(?:(?:end|last|final|finishing) {_POINT}|(?:last|final) one)\b(?! (?:of|to)\b)"),
@@ -141,6 +145,7 @@ _TIED = re.compile(r"\b(?:if|unless|every (?:other|second|third)|alternat\w*|hal
 _DONE = re.compile(r"\b(?:run|pass|go|head|track|follow|sail|then|drive|turn)\b|@")
 _STAYS = re.compile(r"\b(?:hold|wait|stay|stop|halt|pause|drift|float|keep station|turn|rotate|face|pan)(?:s|ing|ping)?\b")
 """Words of movements that go nowhere: what a sentence with one of them says may be about that."""
+_LIMITS = ("BoundaryEnforcement", "ObstacleAvoidance", "LockHeading")
 _PARTS = re.compile(r",|\b(?:and|but|while)\b")
 
 
@@ -208,6 +213,11 @@ def _placed(text: str, begin: int, end: int, mentions: Sequence[Mention], spots:
         return
     if len(positive) == 1:
         for mention in mentions:
+            closer = [other for other in mentions if mention.end <= other.start < positive[0].start and "," in text[mention.end : other.start]]
+            if mention.name in _LIMITS and closer:
+                # "Inside @, pin q at the last point."
+                yield mention, None
+                continue
             yield mention, _less(positive[0].holds, [spot.holds for spot in spots if spot.ruled_out])
         return
     if len(positive) == 2 and _JOINT.fullmatch(text[positive[0].end : positive[1].start]):

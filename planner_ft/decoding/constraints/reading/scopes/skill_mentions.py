@@ -36,11 +36,11 @@ _DENIED_TWICE = re.compile(
 _DENIED_BEHIND = re.compile(
     r"^(?![^.;,]{0,40}\bnot (?:only|before|less))[^.;,@]{0,40}\b(?:no longer|does not|do not|is not|are not|isn't|aren't|doesn't|don't|needn't|need not)\b|"
     r"^,? ?(?:(?:is|are|has|does|do|can|may|need|shall|should|will|must|being) )?(?:not\b(?! (?:only|before|less))|no longer\b|no more\b|n't|"
-    r"unnecessary|off\b(?! \w)|free\b|lifted|"
+    r"unnecessary|off\b(?! \w)|free\b(?! (?:of|from)\b)|lifted|"
     r"nothing\b|none\b|finished\b|stopped\b|ended\b|over by\b|rests?\b|sleeps?\b|needless|dropped|released|idle|over\b(?= ?[.,;]|$)|not\b|isn't|"
     r"aren't|doesn't|don't|needn't)"
 )
-_DENIED_WITHIN = re.compile(r"\b(?:not (?!to leave|leave|within)|unlocked|free\b|n't)")
+_DENIED_WITHIN = re.compile(r"\b(?:not (?!to leave|leave|within)|unlocked|free\b(?! (?:of|from)\b)|n't)")
 _CLEAR_OF = re.compile(r"\d ?(?:m|metres?|meters?|feet|ft|yards?)\b[^.;,]{0,12}\b(?:from|off|of|to|clear of|away from) (?:everything|anything|"
 r"everybody|all|any)\b|"
                         r"\b(?:metres?|meters?|feet|fathoms|yards) (?:of clearance|(?:clear )?(?:from|off|of|to|away from) (?:everything|anything|"

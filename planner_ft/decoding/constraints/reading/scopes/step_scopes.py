@@ -79,7 +79,11 @@ _STRUCTURE = re.compile(
     r"\b(?:runs?|goes|lies|extends|stretches|starts|begins|leaves|leads)\b[^.;]{0,20}@"
 )
 """A structure's course, whose places are not gone to as they are told."""
-_LIKE_MOVEMENTS = ("LockHeading", "LogLidarSlice", "ObstacleAvoidance")
+_LISTED = re.compile(r"\bthen @ in (?:that|this|the given|the stated) order\b")
+"""Places in a list, of which the last may be taken for a movement of its own."""
+_ACROSS = re.compile(r"\bfrom @ (?:across|over|straight|on|direct(?:ly)?) to @")
+"""A run whose beginning is gone to as well."""
+_LIKE_MOVEMENTS = ("FitCylinderModel", "LockHeading", "LogLidarSlice", "ObstacleAvoidance")
 """Skills whose words could be those of movements."""
 _SENSOR_ONLY = re.compile(r"GetSeabedDepth|CheckLensClearness|GetGPSLocation|SetStreamRecording|DetectSonarFeature")
 _CLAUSE = re.compile(
@@ -93,6 +97,8 @@ def read_step_scopes(text: str, names: Iterable[str], vocabulary: Vocabulary) ->
     said = plain(text)
     if not said.text or w.CHANGED.search(said.text) or " STOP " in text or text.endswith(" STOP"):
         return StepReading()
+    if _LISTED.search(said.text):
+        return StepReading()
     found = list(scopes_of(said.text))
     once = [place for place in said.places.values() if list(said.places.values()).count(place) == 1]
     # "As far as @ no care is needed": a place that nothing else leads to is gone to.
@@ -103,6 +109,8 @@ def read_step_scopes(text: str, names: Iterable[str], vocabulary: Vocabulary) ->
     assert row is not None
     counted = row
     if _repeated(said.text, row, found) or _PAUSED.search(said.text) or _ORDER.search(said.text) or not row.units:
+        row = None
+    if _ACROSS.search(said.text):
         row = None
     if row is not None and _unread_movement(said.text, row, _unresolved(found)):
         row = None

@@ -147,7 +147,7 @@ SPOKEN: dict[str, tuple[str, ...]] = {
         r"a watch (?:is )?kept|alert (?:for|to)|(?:shout|call out|warn) ",
     ),
     "TrackObjects": (
-        r"plots?\b|(?:box|frame) by (?:box|frame)\b",
+        r"plots?\b|(?:box|frame|piece|item) by (?:box|frame|piece|item)\b",
         r"tracker\w*|tracked\b(?! (?:pixel|offset|pose))|(?<!\bcable )tracking\b|trk\b|identit\w+|persisten\w+|tabs on|re-?identif\w+",
         r"(?<!\bcable )(?<!\bon )(?<!\boff )(?<!\bthe )(?<!\bgps )(?<!back)(?:track|tracks)\b(?! (?:the |of the |of your |of our |your |a |"
         r"of )?(?:[a-z]+ )?(?:pixel|visual|offset|pose|relative|cable\b(?! (?:clamp|entry|drum|buoy|ferry|layer|winch))|"

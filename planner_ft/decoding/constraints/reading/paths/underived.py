@@ -1,0 +1,48 @@
+"""Constructions whose waypoints are not derived: the places and paths of `waypoints` do not hold them, and readings of plain itineraries take them for others.
+
+Where one of them is not read as a whole by the reader that knows it, any waypoint may be meant.
+"""
+
+from __future__ import annotations
+
+import re
+
+_WAY = r"(?:north|south|east|west)"
+_SIDE = rf"{_WAY}(?:[ -]?(?:east|west))?(?:ern)?"
+_LENGTH = r"\d+(?:\.\d+)? ?(?:m|met(?:re|er)s?)\b"
+MISREAD = re.compile(
+    # "20 east, 5 south, 20 west": lengths, which look like a place as well
+    rf"\b\d+(?:\.\d+)? {_WAY}, ?\d+(?:\.\d+)? {_WAY}, ?\d+(?:\.\d+)? {_WAY}\b|"
+    # "15 m east-west, 70 m north-south": sizes
+    rf"{_LENGTH} (?:east-west|north-south|e-w|n-s)\b,? (?:and |by )?{_LENGTH} (?:east-west|north-south|e-w|n-s)\b|"
+    # "two minutes forty, forty-five to starboard": no place
+    r"\bminutes? [\w-]+, [\w-]+ to (?:port|starboard)\b|"
+    # "[-110, 9] from its north-east side at 30 metres": a place off the one that is stated
+    rf"\bfrom (?:its|the|that|the same) (?:{_SIDE} )?side at\b|\bat (?:[\w.]+ ){{1,3}}from (?:its|the) {_SIDE} side\b|"
+    # "and then the same distance and direction once more"
+    r"\bthe same (?:distance|way|length|step|leg|stretch|vector|again|direction)\b(?=[^.;]{0,24}\b(?:again|more|further|on|beyond|back)\b)|\bas far again\b|"
+    # "red is P, green is Q, yellow is R. From west to east"
+    rf"(?:^|[.;:,] )(?:in order )?from (?:the )?{_SIDE} to (?:the )?{_SIDE}\b,?(?: please| thanks)?\W*$|\b{_SIDE}(?:ern)?most (?:one )?first\b|"
+    # "move to the ferry at yaw 210": the task's own place
+    r"\bto the (?!goal|target|start|berth|cent|given|planned)\w+(?: \w+)? (?:at|with) (?:a )?(?:yaw|heading)\b|"
+    # "keeping it on your right": which way round
+    r"\bkeep\w* (?:it|the \w+) (?:always )?(?:on|to) (?:your|the) (?:left|right|port|starboard)\b|"
+    # "stay inside the fence [...] from P to Q, then go on to R without it"
+    r"\b(?:inside|within) (?:the |this |that )?(?:fence|boundary|polygon|box|area)\b[^.;]{0,120}\][^.;\[(]{0,3} from [\[(]?[-−]?\d",
+    re.IGNORECASE,
+)
+"""What a reading of stated places takes for something else."""
+OPEN = re.compile(
+    r"\bdiagonals?\b|\b(?:enlarged|grown|widened|shrunk|reduced|extended|moved in|set in) by\b|\b(?:enlarged|shrunk)|\bm \w+ (?:its|the) walls?\b\b|"
+    r"\b(?:inside|outside) (?:its|the|their) (?:walls?|edges?|limits)\b|"
+    r"\ball the way round at\b|\bcorners? (?:at )?[\[(]?-?\d[^;.]{0,40}\bround\b|\bcorners clockwise\b|"
+    r"\b(?:run|follow|trace) (?:its|the) (?:edge|outline|border)\b|"
+    r"\b(?:half|halves|quarters?|thirds?) of (?:it|its|the)\b|\b(?:middle|midpoint) (?:at [\[(x]|outwards?)|\bto (?:the|its) (?:middle|midpoint)\b(?! of)|"
+    rf"\babeam of\b|{_LENGTH} (?:to|on|off) its {_SIDE}\b|\ba (?:second|third) time\b|\b(?:home|base) (?:is|lies) (?:\S+ ){{1,4}}of\b|"
+    r"\bthe course (?:goes|turns|bends|changes)\b|\bon for (?:\S+ ){1,2}(?:m|met\w+|yards|feet)\b|\bdouble (?:that|it)\b|\btwice (?:that|as far)\b|"
+    r"\bthe same (?:again|ag\w+) (?:back|on)\b|\bplan\w* len\w+\b|\bn-s\b|\be-w\b|\bleave the (?:loop|round|ring) open\b|\bclose the (?:round|loop|ring)\b|"
+    r"\b(?:x-?ray|yankee)\b|\bcomma minus\b|\byou began\b|\bback to it\b|\bcovering (?:\S+ ){1,2}(?:m|met\w+) in [xy]\b|"
+    r"\bof width and (?:\S+ ){1,2}of length\b|\bstart to end\b",
+    re.IGNORECASE,
+)
+"""What the derived places and paths do not hold."""
