@@ -115,3 +115,9 @@ def _sentence(text: str, place: int) -> tuple[int, int]:
     """Where the sentence around a place begins and ends."""
     ends = [match.start() for match in SENTENCE.finditer(text)]
     return max((end + 1 for end in ends if end < place), default=0), min((end for end in ends if end >= place), default=len(text))
+
+
+def sentences(text: str) -> Iterator[str]:
+    """The sentences of a text, but for blank ones."""
+    ends = [0, *(match.end() for match in SENTENCE.finditer(text)), len(text)]
+    yield from (text[start:end] for start, end in itertools.pairwise(ends) if text[start:end].strip())

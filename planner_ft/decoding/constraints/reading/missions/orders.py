@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from itertools import combinations, pairwise
 
 from planner_ft.data.numerals import signed
-from planner_ft.decoding.constraints.reading.missions.apart import PLACE, SENTENCE, named_places
+from planner_ft.decoding.constraints.reading.missions.apart import PLACE, SENTENCE, named_places, sentences
 from planner_ft.decoding.constraints.reading.missions.spoken import SAYS
 
 Position = tuple[float, float]
@@ -111,12 +111,6 @@ def read_orders(text: str) -> Orders:
 def asked(text: str) -> set[str]:
     """The tasks that a part of a sentence speaks of: what is sent may have the name of one."""
     return {"SmartDataHarvest"} if _DATA.search(text) else {title for title, words in SAYS.items() if words.search(text)}
-
-
-def sentences(text: str) -> Iterator[str]:
-    """The sentences of a text."""
-    starts = [0, *(match.end() for match in SENTENCE.finditer(text)), len(text)]
-    yield from (text[start:end] for start, end in pairwise(starts))
 
 
 def _titles(text: str) -> Iterator[tuple[str, str]]:

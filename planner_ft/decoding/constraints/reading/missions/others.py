@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from itertools import pairwise
 
 from planner_ft.data.numerals import signed
-from planner_ft.decoding.constraints.reading.missions.apart import PLACE, SENTENCE
+from planner_ft.decoding.constraints.reading.missions.apart import PLACE, sentences
 
 Position = tuple[float, float]
 _NO_BUSINESS = re.compile(
@@ -35,19 +34,19 @@ _NO_NAME = frozenset(
 
 def places_of_others(text: str) -> Iterator[Position]:
     """The places of sentences about others, which no other sentence names."""
-    sentences = list(_sentences(text))
-    about = {number for number, sentence in enumerate(sentences) if _of_others(number, sentences)}
-    ours = {place for number, sentence in enumerate(sentences) if number not in about for place in _places(sentence)}
-    yield from dict.fromkeys(place for number in sorted(about) for place in _places(sentences[number]) if place not in ours) if ours else ()
+    told = list(sentences(text))
+    about = {number for number, sentence in enumerate(told) if _of_others(number, told)}
+    ours = {place for number, sentence in enumerate(told) if number not in about for place in _places(sentence)}
+    yield from dict.fromkeys(place for number in sorted(about) for place in _places(told[number]) if place not in ours) if ours else ()
 
 
-def _of_others(number: int, sentences: list[str]) -> bool:
-    sentence = sentences[number]
+def _of_others(number: int, row: list[str]) -> bool:
+    sentence = row[number]
     if not PLACE.search(sentence):
         return False
     denied = _NO_BUSINESS.search(sentence)
-    if denied is None and number + 1 < len(sentences) and not PLACE.search(sentences[number + 1]):
-        following = _NO_BUSINESS.search(sentences[number + 1])
+    if denied is None and number + 1 < len(row) and not PLACE.search(row[number + 1]):
+        following = _NO_BUSINESS.search(row[number + 1])
         denied = following if following and following.start() < 25 else None
         if denied and _asks(sentence):
             return False
@@ -55,7 +54,7 @@ def _of_others(number: int, sentences: list[str]) -> bool:
         return not _asks(sentence)
     vessel = _OTHER_VESSEL.match(sentence)
     told = vessel is not None and vessel["who"] not in _NO_NAME and not _YOU.search(sentence)
-    return told and any(_YOU.search(other) for place, other in enumerate(sentences) if place != number)
+    return told and any(_YOU.search(other) for place, other in enumerate(row) if place != number)
 
 
 def _asks(sentence: str) -> bool:
@@ -73,8 +72,3 @@ def _asks(sentence: str) -> bool:
 
 def _places(sentence: str) -> list[Position]:
     return [(signed(match[1]), signed(match[2])) for match in PLACE.finditer(sentence)]
-
-
-def _sentences(text: str) -> Iterator[str]:
-    ends = [0, *(match.end() for match in SENTENCE.finditer(text)), len(text)]
-    yield from (text[start:end] for start, end in pairwise(ends) if text[start:end].strip())

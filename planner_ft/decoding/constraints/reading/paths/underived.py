@@ -33,7 +33,7 @@ MISREAD = re.compile(
 )
 """What a reading of stated places takes for something else."""
 OPEN = re.compile(
-    r"\bdiagonals?\b|\b(?:enlarged|grown|widened|shrunk|reduced|extended|moved in|set in) by\b|\b(?:enlarged|shrunk)|\bm \w+ (?:its|the) walls?\b\b|"
+    r"\bdiagonals?\b|\b(?:enlarged|grown|widened|shrunk|reduced|extended|moved in|set in) by\b|\b(?:enlarged|shrunk)|\bm \w+ (?:its|the) walls?\b|"
     r"\b(?:inside|outside) (?:its|the|their) (?:walls?|edges?|limits)\b|"
     r"\ball the way round at\b|\bcorners? (?:at )?[\[(]?-?\d[^;.]{0,40}\bround\b|\bcorners clockwise\b|"
     r"\b(?:run|follow|trace) (?:its|the) (?:edge|outline|border)\b|"
