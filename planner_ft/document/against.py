@@ -8,8 +8,8 @@ from typing import Any
 
 from planner_ft.data.quantities import positions
 from planner_ft.data.rules import DOCKING
-from planner_ft.decoding.constraints.reading.missions.apart import SENTENCE
-from planner_ft.decoding.constraints.reading.missions.orders import ONLY_THEN, asked, read_orders, sentences
+from planner_ft.decoding.constraints.reading.missions.apart import SENTENCE, sentences
+from planner_ft.decoding.constraints.reading.missions.orders import ONLY_THEN, asked, read_orders
 from planner_ft.decoding.constraints.reading.missions.searches import MOVES, SEARCH, THERE
 from planner_ft.decoding.constraints.reading.missions.spoken import SAYS
 from planner_ft.vocabulary import Vocabulary
