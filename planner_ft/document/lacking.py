@@ -33,9 +33,9 @@ _AGAIN = re.compile(
     re.IGNORECASE,
 )
 _SEVERAL = re.compile(r":|,? and (?:the|an?|at|one|on|of|for|to|then) |\b(?:ones?|then|before|after|when|as soon as|metres and|meters and)\b", re.IGNORECASE)
+"""What may stand before a second target."""
 _OFTEN = {"FeatureStare", "SearchAndDetect", "FollowTarget"}
 """Tasks that one verb asks for with several targets."""
-"""What may stand before a second target."""
 _ONCE = {
     "Diagnostics": re.compile(r"\b(?:ch(?:e|c)\w*k\w*|chk\w*|diag\w*|test\w*|self-test\w*|health|verif\w*|prov\w*)\b", re.IGNORECASE),
     "AutoGenerateReportSummary": re.compile(r"\b(?:rep\w*t\w*|rpt\w*|summ\w*|brief\w*|account\w*)\b", re.IGNORECASE),
