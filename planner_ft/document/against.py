@@ -18,7 +18,7 @@ _TOLD_BY_LACK = {"GlareFreeApproach", "SearchAndDetect"}
 """What is asked for by what there is not to be: "without glare"."""
 _DONE_ONCE = {"Diagnostics", "AutoGenerateReportSummary"}
 _NO = re.compile(
-    r"\b(?:no|not|don['’]?t|without|skip|never|neither|needn['’]?t)\b(?! (?:only|until|before|forget|later|less|more))(?: (?!but\b)[a-z']+){0,3} $",
+    r"\b(?:no|not|don['’]?t|without|skip|never|neither|needn['’]?t)\b(?! (?:only|until|before|forget|later|less|more))(?: (?!but\b)[a-z'-]+){0,3} $",
     re.IGNORECASE,
 )
 _OURSELVES = re.compile(r"\b(?:I|we)(?:['’]ll| will| shall)\b[^.;,]{0,40}\b(?:myself|ourselves)\b", re.IGNORECASE)

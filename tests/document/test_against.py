@@ -26,6 +26,7 @@ DOCK = task("DockingApproach", goal_position=[-99, -99])
         ("Hold at [20, 60] for ten minutes, no report.", [GO, HOLD, REPORT], ["AutoGenerateReportSummary"]),
         ("Hold at [20, 60] for ten minutes. We shall write the report ourselves.", [GO, HOLD, REPORT], ["AutoGenerateReportSummary"]),
         ("Hold at [20, 60] for ten minutes. Do not circle it.", [GO, HOLD, ROUND], ["PerformOrbit"]),
+        ("Hold at [20, 60] for ten minutes, no end-of-watch report.", [GO, HOLD, REPORT], ["AutoGenerateReportSummary"]),
         ("Hold at [20, 60] for ten minutes, no report before that.", [GO, HOLD, REPORT], []),
         ("Hold at [20, 60] for ten minutes. No report by mail, a report on the screen.", [GO, HOLD, REPORT], []),
         ("Do not forget the report.", [REPORT], []),

@@ -35,6 +35,8 @@ _NOUNS = {
     "VisualDockingApproach": r"docking|berthing|mooring",
 }
 """What a task is called when it is taken back."""
+_NOWHERE = {"SearchAndDetect", "Diagnostics", "AutoGenerateReportSummary", "SmartDataHarvest"}
+"""Tasks that are not done at one of the places of a sentence."""
 _DROP = r"(?:scratch|scrap|forget|forget about|drop|cancel|skip|never ?mind|strike|belay|abandon|call off|omit|leave out|leave off)"
 _END = r"(?=\s*(?:[.,;:!)…–—]|-{2}|$|and\b|we\b|altogether|entirely|completely|after all|please|again\b|part\b|bit\b|then\b|though\b))"
 _OFF = (
@@ -43,7 +45,7 @@ _OFF = (
 )
 _DROPS = {
     title: re.compile(
-        rf"(?<!n't )(?<!n’t )(?<!not )(?<!never )\b{_DROP} (?:the |that |this |all (?:the |that )?|any )?(?:whole )?(?:{nouns}){_END}"
+        rf"(?<!n't )(?<!n’t )(?<!not )(?<!never )\b{_DROP} (?:the |that |this |your |all (?:the |that )?|any )?(?:whole |(?:pre|post)-\w+ )?(?:{nouns}){_END}"
         rf"|\b(?:the|that) (?:{nouns}) {_OFF}{_END}",
         re.IGNORECASE,
     )
@@ -118,7 +120,7 @@ def dropped_titles(text: str) -> Iterator[str]:
         if match is None or (words and words.search(text, match.end())):
             continue
         start = max((end.end() for end in SENTENCE.finditer(text, 0, match.start())), default=0)
-        placed = title != "SearchAndDetect" and PLACE.search(text, start, match.start())
+        placed = title not in _NOWHERE and PLACE.search(text, start, match.start())
         if placed or _PARTLY.search(text, start, match.end()) or _PARTLY.match(text, match.end() + 1):
             continue
         if words is None or len(words.findall(text[: match.start()])) <= 1:

@@ -22,6 +22,7 @@ HOME = (0.0, 0.0)
         ("Look for the skiff and film its bow. She lies at [40, 9] as we hear, so drop the search.", ["SearchAndDetect"]),
         ("A sensor check, then survey the cone at [3, 30]. The sensor check is cancelled.", ["Diagnostics"]),
         ("Circle the cone at [3, 30]. Don't forget the report.", []),
+        ("Go to [41, 6], skip the post-mission report.", ["AutoGenerateReportSummary"]),
         ("Circle the cone at [3, 30] and the can at [9, 80]. At [9, 80] skip the circling.", []),
         ("Scratch the circling for now; first film the bow, then circle it.", []),
         ("Skip the first panorama, take the second one at [9, 9].", []),
