@@ -19,7 +19,8 @@ from planner_ft.data.stated import stated_positions
 from planner_ft.data.task import geometry as g
 from planner_ft.data.words import says
 from planner_ft.decoding.constraints.facts import MEASURES, Reading, own_numbers, own_texts, read, sector_counts, turned, without_counts, without_pairs
-from planner_ft.decoding.constraints.waypoints import Ground, read_ground
+from planner_ft.decoding.constraints.ground import Ground
+from planner_ft.decoding.constraints.waypoints import read_ground
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import Level
 

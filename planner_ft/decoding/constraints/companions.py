@@ -10,7 +10,8 @@ from typing import Any
 from planner_ft.decoding.constraints.reading import LONGEST
 from planner_ft.decoding.constraints.reading.scopes.own_sentences import read_own_sentences
 from planner_ft.decoding.constraints.reading.scopes.path_scopes import PathScope, read_path_scopes
-from planner_ft.decoding.constraints.reading.scopes.scopes import Scope, read_scopes
+from planner_ft.decoding.constraints.reading.scopes.scope_parts import Scope
+from planner_ft.decoding.constraints.reading.scopes.scopes import read_scopes
 from planner_ft.decoding.constraints.reading.scopes.step_scopes import StepScope, read_step_scopes
 from planner_ft.decoding.constraints.reading.skills.asked import asked_movements
 from planner_ft.decoding.constraints.reading.skills.evidence import required, spoken_of

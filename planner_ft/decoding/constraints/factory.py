@@ -14,6 +14,7 @@ from planner_ft.decoding.constraints.answer import Answer, Script, Whole
 from planner_ft.decoding.constraints.budget import Budget
 from planner_ft.decoding.constraints.companions import read_companions, to_insist_on
 from planner_ft.decoding.constraints.grammar import SchemaValues, plan_grammar
+from planner_ft.decoding.constraints.ground import Ground
 from planner_ft.decoding.constraints.grounded_mission import MissionValues
 from planner_ft.decoding.constraints.grounded_task import FreeWaypoints, GroundedTaskValues
 from planner_ft.decoding.constraints.reading import LONGEST
@@ -28,7 +29,7 @@ from planner_ft.decoding.constraints.reading.values.own_values import in_figures
 from planner_ft.decoding.constraints.routes import TaskScript
 from planner_ft.decoding.constraints.state import MissionScript, ResolvedValues, names_unresolved
 from planner_ft.decoding.constraints.tokens import Tokens, tokens_of
-from planner_ft.decoding.constraints.waypoints import Ground, read_ground
+from planner_ft.decoding.constraints.waypoints import read_ground
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field, replace
 from planner_ft.decoding.constraints import patterns
 from planner_ft.decoding.constraints.answer import Script
 from planner_ft.decoding.constraints.companions import Companions
+from planner_ft.decoding.constraints.derived_paths import Path, Point
 from planner_ft.decoding.constraints.grammar import (
     MOST_SKILLS,
     MOST_STEPS,
@@ -30,12 +31,12 @@ from planner_ft.decoding.constraints.grammar import (
     step_tail,
     written_number,
 )
+from planner_ft.decoding.constraints.ground import Ending, Ground
 from planner_ft.decoding.constraints.patterns import literal
 from planner_ft.decoding.constraints.reading.rows.sequence import Sequence
 from planner_ft.decoding.constraints.reading.rows.sequence_clauses import Movement
 from planner_ft.decoding.constraints.reading.rows.turn_parts import Turn
 from planner_ft.decoding.constraints.repeats import ROTATING, MovementValues, Step, TurnValues, UnlikeValues, repeatable, spent
-from planner_ft.decoding.constraints.waypoints import Ending, Ground, Path, Point
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.definition import Role
 from planner_ft.vocabulary.plans import STEP_KEYS, without_working

@@ -14,6 +14,7 @@ from typing import Any
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.reading import LONGEST
 from planner_ft.decoding.constraints.reading import wordings as w
+from planner_ft.decoding.constraints.reading.paths import destination_wordings as d
 from planner_ft.decoding.constraints.reading.paths import face_wordings as f
 from planner_ft.decoding.constraints.reading.paths import run_wordings as r
 from planner_ft.decoding.constraints.reading.paths.itinerary import plain_text, reworded, without_fences
@@ -230,7 +231,7 @@ WHERE_YOU_LIE = re.compile(
 def _idle(rest: str, places: list[re.Match[str]], start: Point) -> bool:
     """Whether what is left of the text leads nowhere."""
     plain = r.NO_MOVE.sub(" ", ALL_OF_IT.sub(" ", rest.replace("§", " ")))
-    if r.MOVE.search(plain) or r.ORDER.search(plain) or r.STOP.search(plain) or r.HOME.search(plain) or r.UNPLACED.search(rest):
+    if r.MOVE.search(plain) or r.ORDER.search(plain) or r.STOP.search(plain) or d.HOME.search(plain) or r.UNPLACED.search(rest):
         return False
     return all(w.OTHER_LENGTH.search(sentence_rest(rest, at)) for _value, at, _end in stated_sizes(rest, []) for at in [at]) and not any(
         r.WAY_BEHIND.match(rest[end:]) for _value, _at, end in stated_lengths(rest, [])

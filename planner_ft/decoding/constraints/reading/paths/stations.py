@@ -11,6 +11,7 @@ from planner_ft.decoding.constraints.reading import LONGEST
 from planner_ft.decoding.constraints.reading import wordings as w
 from planner_ft.decoding.constraints.reading.paths import face_wordings as f
 from planner_ft.decoding.constraints.reading.paths import run_wordings as r
+from planner_ft.decoding.constraints.reading.paths import straight_run_wordings as s
 from planner_ft.decoding.constraints.reading.paths.itinerary import plain_text, reworded, without_fences
 from planner_ft.decoding.constraints.reading.paths.shapes import Point, stated_lengths, stated_sizes
 from planner_ft.decoding.constraints.reading.paths.tracks import evenly, is_step
@@ -114,7 +115,7 @@ def _evenly(
         return evenly(start, bearing, every[0] * (number - 1), every[0]) if len(counts) == 1 and number > 1 else None
     if counts and {_count(count) for count in counts} != {round(next(iter(rest)) / every[0]) + 1}:
         return None
-    length = rest.pop() if rest else own if r.OWN_LENGTH.search(text) else None
+    length = rest.pop() if rest else own if s.OWN_LENGTH.search(text) else None
     return evenly(start, bearing, length, every[0]) if length else None
 
 

@@ -10,7 +10,9 @@ import re
 from collections.abc import Collection, Sequence
 
 from planner_ft.decoding.constraints.reading.scopes import scope_words as w
-from planner_ft.decoding.constraints.reading.scopes.scopes import EVERYWHERE, Mark, Scope, marks_of, plain_form
+from planner_ft.decoding.constraints.reading.scopes.scope_clauses import Mark, marks_of, plain_form
+from planner_ft.decoding.constraints.reading.scopes.scope_parts import EVERYWHERE, Scope
+from planner_ft.decoding.constraints.reading.scopes.skill_words import SKILL_WORDS
 from planner_ft.decoding.constraints.reading.skills.evidence import asks_for
 from planner_ft.vocabulary import Vocabulary
 
@@ -35,7 +37,7 @@ _LIST = re.compile(r"^\W*(?:\(?[\da-f][.)]|[-*])\s|\n")
 def read_own_sentences(text: str, asked: Collection[str], vocabulary: Vocabulary) -> dict[str, Scope]:
     """Those of the skills `asked` for that run in every step because a sentence of their own asks for them behind all movements."""
     plain = plain_form(text)
-    names = [skill.name for role in ("filter", "perception") for skill in vocabulary.skills_in_role(role) if skill.name in w.SKILL_WORDS]
+    names = [skill.name for role in ("filter", "perception") for skill in vocabulary.skills_in_role(role) if skill.name in SKILL_WORDS]
     sentences = [sentence for sentence in w.SENTENCE.split(plain) if sentence.strip()]
     if w.CHANGED.search(plain) or _LIST.search(plain):
         return {}

@@ -1,236 +1,27 @@
-"""How task inputs word skills, movements and the steps that something runs in: the patterns by which `scopes` reads them."""
+"""How task inputs word the steps that something runs in: the patterns by which `scopes` reads them, on text in small letters."""
 
 from __future__ import annotations
 
 import re
 
+from planner_ft.decoding.constraints.reading.rows.movement_words import ARC, DRIFT, FACE, GOTO, HOLD, NUDGE, VISUAL, WAIT
+
 LAST = -1
 
 
-def _words(pattern: str) -> re.Pattern[str]:
+def whole_words(pattern: str) -> re.Pattern[str]:
     return re.compile(rf"\b(?:{pattern})\b")
 
 
-# ---------------------------------------------------------------- skills
-_LENS = r"lens(?:es)?\b|droplets?|the glass of|drops? on"
-_PICTURE = r"(?:image|picture|video|frame)s?(?:'s)?"
-SKILL_WORDS = {
-    "LockHeading": _words(
-        r"(?:bow|heading|nose|yaw)(?: \w+){0,4}? (?:lock(?:ed)?|held|fixed|where it (?:is|points)|steady|on its heading|must not change|stays|free)|"
-        r"(?:lock|fix|hold|keep|freeze|pin|maintain|leav)\w* (?:your |the |its |her |this |a )?(?:present |same |current )?(?:bow|heading|nose)\b|"
-        r"(?:heading|bow)[- ]?(?:lock|hold)|(?:locked|fixed) (?:bow|heading)|the lock|same way|the bow swing|unlocked|locking"
-    ),
-    "ObstacleAvoidance": _words(
-        r"clearances?|margins?|obstacle avoidance|collision avoidance|(?:avoid|dodge|clear of|away from|off) (?:all )?(?:obstacles?|"
-        r"everything|anything)|"
-        r"(?:metres?|meters?|feet|m) (?:\w+ )?(?:clear|off|away|of room|of space|between)|keep\w* clear|stay\w* clear|steer\w* clear|"
-        r"safe(?:ty)? (?:distance|gap)|your distance|no closer|no nearer|closer than|nearer than|not within|go within|berth of|no less than|avoid\w*|"
-        r"(?:give|giving) (?:everything|all|anything)|(?<!to )(?<!far )(?<!nearest )(?<!range )obstacles|room to|to spare|(?:will|"
-        r"would) (?:have to )?do|is enough"
-    ),
-    "BoundaryEnforcement": _words(
-        r"(?:geo)?-?fence[ds]?|boundar\w+|polygon|limits?|stay\w* (?:inside|within|in)\b|(?:keep|remain)\w* (?:inside|within|in\b)|"
-        r"not (?:to )?leave|box|"
-        r"permitted area|outside|perimeter|square around|area bounded|inside"
-    ),
-    "DetectObjects": _words(
-        r"detect\w*|detector|look(?:ing|ed)? (?:out |around )?for|look-?out|search\w* (?:\w+ ){0,3}for|watch\w* (?:out |for)|"
-        r"scan\w* for|eyes? (?:out|open)|spot(?:ting)? |"
-        r"check\w* for|watch for|find (?:any|the|a)\b|seek\w*|identif\w+|make out|hunt\w*|locate (?:the|a) (?!hot)|objects in view|"
-        r"in view|report any|keep\w* watch|pick\w* out|flag(?:ging)? any|see if there"
-    ),
-    "TrackObjects": _words(r"track(?:ed|er|ers|ing|s)?(?! length| \d)|identit\w+|tabs on"),
-    "OCRScanning": _words(
-        r"ocr\w*|text|lettering|writing|written|letters|inscription|read(?:ing)? (?:off |out )|markings?|what it says|transcrib\w*|"
-        r"decipher\w*|characters|lettered|read by"
-    ),
-    "GetThermalStats": _words(r"thermal\w*|temperatures?|infrared|thermally|how (?:hot|warm)|warmth|heat stat\w*"),
-    "LocateHotspot": _words(
-        r"hot[- ]?(?:spot|point)s?|hottest|warmest|hotter|warmer|heat\b|anything (?:above|over)|whatever is (?:above|over)|find whatever|"
-        r"(?:located|locate) anything"
-    ),
-    "CheckLensClearness": re.compile(rf"\b(?:{_LENS}|lens-?\w*|water drops|spray|dirt|glass)\b"),
-    "GetImageQualityMetrics": re.compile(
-        rf"\b(?:{_PICTURE} quality|quality|usab\w+|rat(?:e|ing) the|scor(?:e|ing) the|how good|sharp\w*|video frame|good enough|"
-        rf"{_PICTURE}(?: from (?:the )?(?:\w+ )?cam)? (?:is|are))\b"
-    ),
-    "CalculateVisualOffset": _words(
-        r"offsets?|pixel\w*|off[- ]cent(?:re|er)|from the (?:image |picture |frame )?cent(?:re|er)|image cent(?:re|er)|visual error"
-    ),
-    "GetSectorDistance": _words(
-        r"sectors?|(?:minimum|shortest|smallest|least) (?:lidar )?(?:distance|range)|closest return|nearest return|how close|in that slice|"
-        r"lidar (?:minimum|min)|min\.? (?:lidar )?(?:distance|range)|(?:query|check) the lidar|lidar distance(?! to)"
-    ),
-    "DistanceToObstacle": _words(
-        r"(?:obstacle|wall) (?:distance|ranging|range)s?|(?:distance|range|ranging|far|readings)\b.{0,25}\b(?:obstacles?|ahead|wall|"
-        r"structure|in front)|"
-        r"how far|range (?:the |ahead|obstacles)|ranging|field of view|distance ahead"
-    ),
-    "FitCylinderModel": _words(r"cylind\w+|curve in|large curve"),
-    "CheckPlanarity": _words(r"planar\w*|flat\w*|curvature|or curved|unevenness"),
-    "DetectSonarFeature": _words(r"sonar\w*|blobs"),
-    "GetSeabedDepth": _words(r"depths?|soundings?|how deep|sound(?:ing|s)? the (?:bottom|depth)|sounders?|echo ?sounder"),
-    "GetHorizonAngle": _words(r"horizons?|tilt\w*|how level|level the|horizontal"),
-    "GetGPSLocation": _words(
-        r"gps(?! accuracy| quality| check| error)|gnss|fix(?:es)?|(?:log|record|note|position|save|check|determine|read|take|"
-        r"get)\w* (?:the |your |its |own )?(?:current )?(?:gps )?positions?(?! hold)|"
-        r"position(?:s)? (?:is |are |be |to be )?(?:logged|logging|log|noted|recorded|fix\w*|read\w*)|coordinates|the track|"
-        r"own position|the position(?= (?:on|in|at|while|during|for|as)\b|,)|^\W*position(?=:| (?:on|in|at|while|during)\b)"
-    ),
-    "SelectActiveStream": _words(
-        r"active|(?<!store the )(?<!record the )stream\w*|feed\w*|switch\w*(?! (?:the )?(?:recording|engine|heading|object|off))|"
-        r"select\w*|activat\w+|(?<!field of )view (?:on|over|through)|in use|on screen|on (?:the )?display|channel \w+|the \w+ view|"
-        r"(?:go|change|chang\w+|going) (?:over )?to (?:the )?(?:cam\w*|\w+[_ ]cam\w*)|use cam\w*|(?<!field of )view"
-    ),
-    "SetStreamRecording": _words(
-        r"(?<!environment )(?<!environmental )record(?:s|ed|ing|ings|er)?\b(?! (?:an? |the |your |any |all )?(?:observation|gps|"
-        r"position|depth|water|seabed|environment\w*|horizon|tilt|temperature\w*|thermal|lidar (?:sl|pr|sw)|2d|sector|obstacle|distance|"
-        r"wind|weather|conditions|state|current pos|geotagged|q\b|pose|fix))|run cam|cam running|film\w*|footage|video(?! buffer|"
-        r" quality| frame)|to disk|shoot\w*|store the (?:stream|data)|run the camera|(?:let|have) (?:the )?[\w-]+(?: [\w-]+)? (?:run|"
-        r"record)|tape\w*|tagged|file tag|(?<!detector )(?<!tracker )(?<!ocr )(?<!detection )runs"
-    ),
-    "BufferLoopCapture": _words(
-        r"buffer\w*|(?:last|past|recent|latest) (?:[\w.]+ ){1,5}?(?:saved|kept|captured|of video|seconds|minutes|sec|min|s|of footage)|"
-        r"loop|clip|recent"
-    ),
-    "CaptureGeoSnapshot": _words(
-        r"snap\w*|stills?|photo\w*|geo-?tagged|geo-?ref\w*|pictures?(?: with| taken| from)|geotag(?! quality)|geo-?snapshots?|images?(?: with)|shots?"
-    ),
-    "LogLidarSlice": _words(
-        r"(?<!check the )(?<!query the )lidar (?:slices?|profiles?|sweeps?|scan|log|cut|logging)|"
-        r"(?<!in that )(?<!in the )(?<!lidar )slices?|profiles?|laser|2d"
-    ),
-    "LogEnvironmentState": _words(r"environment\w*|env|wind and|weather|conditions|surroundings|sea state"),
-    "GetRelativePose": _words(r"poses?|relative (?:to|position)|attitude (?:to|relative)"),
-    "VerifyGeotagQuality": _words(
-        r"gps (?:accurac\w+|error)|accurac\w+|accurate|geotag quality|geotag\w*(?: \w+)? (?:quality|accurac\w+)|gps (?:is|quality)|"
-        r"quality of the (?:gps|geotag)|geotags?"
-    ),
-    "CreateMapMarker": _words(r"pins?|pinn\w+|markers?|mark(?:ing|ed|s)? (?:the|this|it|on|a|q)|place ?marks?|map\b|mark\b"),
-    "RegisterObservation": _words(
-        r"observ\w+|regist\w+|not(?:e|ing|ed) (?:as|q|that|in the log)|log entr\w+|enter\w* (?:the|q|an|in)|add(?:ing|ed)? q|finding|"
-        r"entry|q (?:in|to|as an)\b|into the log|(?:store|log) q|note"
-    ),
-}
-"""Words that speak of a skill. Better one too many: a skill that is spoken of elsewhere as well is held to less."""
-NEGATED = re.compile(
-    r"(?:\b(?:no|without|not|nor|neither|nothing|never mind|don't|do not|need no|stop\w*|leave|instead of|in place of|in lieu of|off|skip\w*|except|"
-    r"rather than)(?: (?:a|an|any|the|that|this|be|run|take|keep|get|check|"
-    r"further|other|more|second|map|geotagged|safety|heading|bow|gps|lidar|position|image|object|obstacle|need|use|log|do|measure|"
-    r"record|confirm|verify))* ?)$"
-)
-FREE = re.compile(r"\bfree\b|unlocked")
 CHANGED = re.compile(
     r"\b(?:i|we) (?:said|asked|told|wanted|wrote)\b|\bmake (?:that|it) (?:the|both|all|one|two)\b|\bcorrection\b|\bno, (?:while|on|in|at|during|the|only)\b|"
     r"\btake (?:that|it) back\b|\b(?:two|three|four|five|six|[2-6]) (?:stops|halts|pauses|waits) of\b|"
     r"\bas (?:at|on|in) (?:the )?(?:@|\d|first|second)|\bnothing of the sort|\b(?:arriving|waiting|leaving),|\bi mean\b|\brather not\b"
 )
 """Words of texts that take a scope back, give it by what was said of another step, or by single words."""
-LAPSED = re.compile(
-    r"^\W{0,2}(?:is |are |\w+ )?(?:not |no longer|needn't|need not|may (?:be )?\w* ?(?:swing|free)|free|off\b|lifted|unlocked|does not|"
-    r"do not|isn't|aren't|quiet|no more|stays off|has been|"
-    r"can wait|is for later|excluded)"
-)
 
-# ---------------------------------------------------------------- movements
-GOTO, HOLD, FACE, NUDGE = "GoToXY", "StationKeep", "RotateToHeading", "NudgeYaw"
-ARC, DRIFT, VISUAL, WAIT = "ArcTurn", "DriftWithCurrent", "VisualStationKeep", "WaitForStability"
-KINDS = frozenset({GOTO, HOLD, FACE, NUDGE, ARC, DRIFT, VISUAL, WAIT})
-_NO_NOUN = "".join(
-    rf"(?<!{word} )" for word in ["the", "that", "this", "each", "every", "both", "first", "second", "third", "last", "two", "all", "in", "during"]
-)
-_TIME = (
-    r"(?:\d[\d.]*|an?|another|one|two|three|four|five|six|seven|eight|nine|ten|half|twelve|fifteen|twenty|thirty|forty|fifty|sixty|ninety|"
-    r"the (?:given|planned|set|whole|full|next)|the(?= duration\b)|as long)[\w ,.-]{0,25}?(?<![a-z])(?:seconds?|minutes?|hours?|sec|min|s|h|duration|time|"
-    r"half a minute|quarter of an hour)\b(?! of (?:video|the|footage|buffer))"
-)
-_BOAT = r"(?:the |a |an |her |him |it |you |your |yourself |boat |vessel |vehicle |usv |craft |she |as if anchored )*"
-_LAG = (
-    r"(?:the |a |an |her |him |it |you |your |yourself |boat |vessel |vehicle |usv |craft |she |bow |nose |heading |camera |view |round |"
-    r"around |on the spot |in place )*"
-)
-MOVEMENTS: tuple[tuple[str, re.Pattern[str]], ...] = (
-    (WAIT, re.compile(
-        r"\b(?:wait|let|paus|hold on|hang on|mak|until|till|once|allow|giv)\w*\b[^.;,]{0,40}?\b(?:stead\w+|stable|stability|settl\w+|"
-        r"calm\w*|pitch|roll|come to rest|motion|lies? still|rocking|"
-        r"at rest|quiet)\b[^.;]{0,40}?(?=$|[.;,@]|\bthen\b|\band\b|\bwhile\b|\bwith\b)|\bsettl(?:e|es|ing)\b|\bsteady to\b|\bsteadiness\b"
-    )),
-    (VISUAL, re.compile(
-        r"\b(?:keep|hold|lock|stay|get|centr|center|frame|fix|maintain|follow|track along|shadow|pursu|star|look)\w*\b[^.;]{0,60}?"
-        r"\b(?:cent(?:red|ered|re of|er of|re|er)|in (?:the |its )?(?:picture|frame|view|image|middle)|mid-?frame|on screen|visually|"
-        r"by camera|from leaving)\b"
-        r"|\bvisually\b|\bcent(?:red|ered|ring|re the|er the)\b|\b(?:keep|hold|fix|lock)\w* the (?:camera|picture|frame|view|eye)\b|"
-        r"\bvisual station\b|\bframe (?:the|q|\w+ and hold)\b|"
-        r"\b(?:stare|lock(?:ed|ing)? on ?to)\b"
-    )),
-    (DRIFT, re.compile(
-        rf"{_NO_NOUN}\b(?:drift(?:ing)?(?! no more)(?:[^.;,@]{{0,30}}(?:engines? (?:off|stopped)|current(?: takes? \w+)?|propulsion))?|float(?:ing)?|"
-        rf"adrift)\b(?=\W*$|\W*[,.;:]|[ -](?:for|with|free|freely|in|until|till|while|and|then|passively|wherever|\d|at|as|[\w-]+ (?:s|"
-        rf"sec|seconds|min|minutes|hours?))\b)|\b(?:cut|kill|stop|shut|switch|power|turn|take)\w* (?:down |off )?(?:the )?(?:engines?|"
-        rf"motors?|propulsion|"
-        rf"thrusters?|thrust|power)\b(?: and (?:then )?(?:drift\w*|float\w*))?(?: with the current)?|\bengines? (?:off|stopped)|"
-        rf"\b(?:with|ride|rid\w+) the current\b|\bpropulsion off|\bwithout propulsion|\bno propulsion|\bcurrent takes? |\blet the (?:tide|"
-        rf"current) (?:have|take|carry) (?:her|it|us|you|the boat)\b|\blet (?:her|it|the boat) float\b"
-    )),
-    (ARC, re.compile(
-        rf"\b(?:sweeping|arc|wide) (?:turn|arc|curve)s?(?: (?:to|of) (?:port|starboard|the left|the right))?|{_NO_NOUN}\b(?:(?:sail|make|"
-        rf"do|run|follow|drive|describe|turn|take|come round) )?(?:in |through )?(?:an |a )?"
-        r"(?:arc|sweep|curv|bend)(?:s|e|es|ing)?\b(?!s?:| (?:the (?:bottom|view)|to|at \d|as|saved|logged))|\b(?:swing|turn|come round)(?:s|"
-        r"ing)? [^.;@,]{0,40}?\b(?:on|with|at) (?:a )?(?:radius|\d[\d.]* ?(?:m|metres?|meters?)\b)|\b(?:quarter|half|full|"
-        r"one) (?:a )?circle\b|\bswing wide\b"
-    )),
-    (FACE, re.compile(
-        rf"\b(?:turn(?:s|ed|ing)?|rotat(?:e|es|ing)|pivot(?:s|ing)?|swing(?:s|ing)?|com(?:e|es|ing)|bring(?:ing)?|point(?:ing)?|"
-        rf"put(?:ting)?|spin(?:ning)?|swivel|fac(?:e|es|ing)|look|square up|line up|"
-        rf"go|going|tak(?:e|ing) up|set(?:ting)? the heading|chang(?:e|ing) (?:the )?heading|aim)\s+{_LAG}"
-        r"(?:to|on|onto|towards?|up|until|facing|in)?\s*(?:face |a heading of |heading |bearing |the headings? |due |on )*"
-        r"(?:\d{1,3}\b(?! ?(?:m|s|sec\w*|min\w*|metres?|meters?)\b)(?!\s?(?:°|degrees?)? (?:to |further to )?(?:the |your |her )?(?:left|right|port|"
-        r"starboard|clockwise|anti|counter|back))|"
-        r"(?:north|south|east|west)\w*(?:-\w+)*)|\bbow to (?!(?:the|its|her|your|this)\b)|"
-        r"\bface (?:due|heading|one|two|three|zero|north|south|east|west|@)\b|\bturn to\b"
-    )),
-    (NUDGE, re.compile(
-        rf"\b(?:(?:nudg|pan|twist|eas)(?:e|s|es|ning|ing)?\b(?! (?:of|on arrival))|yaw(?:ing)? (?=by\b|[^.;,]{{0,20}}(?:left|right|port|"
-        rf"starboard|clockwise)))|\b(?:turn(?:s|ing)?|rotat(?:e|es|ing)|swing(?:s|ing)?|com(?:e|es|ing)|bring(?:ing)?|mov(?:e|ing)|"
-        rf"correct(?:ing)?|adjust(?:ing)?|trim(?:ming)?|shift(?:ing)?|chang(?:e|ing)|offset(?:ting)?|tweak) {_LAG}(?:heading |yaw )?"
-        r"(?:by |through )?[^.;,@]{0,40}?(?:degrees?|°|left|right|port|starboard|clockwise|anticlockwise|counter-?clockwise)\b|\bon the spot by\b|"
-        r"\b(?:full|right) (?:turn|circle|round|rotation) on the spot|\brotation of\b"
-    )),
-    (HOLD, re.compile(
-        rf"{_NO_NOUN}\b(?:hold(?:ing)?|keep(?:ing)?|maintain(?:ing)?|stay(?:ing)?|remain(?:ing)?|wait(?:ing)?|paus(?:e|ing)|"
-        rf"stop(?:ping)?|station-?keep(?:ing)?|park|loiter|stand by|lie|sit)\s+{_BOAT}"
-        rf"(?:position|station|put|there|here|still|steady|in place|in position|on station|on spot|on the spot|at the spot|where (?:you|"
-        rf"it|we|she)|(?:with)?in(?:side)? (?:an? (?!fence|box|polygon|area|rectangle)|(?:no more than )?[\w.-]+ ?(?:m|met\w+|feet)\b)|"
-        rf"it there|tight|the spot|"
-        rf"the position|this position|for {_TIME}|{_TIME}|off the)|\b(?:do|make) a [\w .-]{{0,30}}(?:hold|stop|station keep)|\bloiter|"
-        rf"\bstand by\b|\bstation[- ]keep\b|^\W*hold\W*$|"
-        rf"(?:^\W*|, |(?<!ing )\band )hold(?=\W*$|[,;.])|\b(?:a|an|one) (?:(?!and )[\w.-]+ ){{0,3}}(?:hold|stop)\b|\bstay put\b|\bon the spot for\b|"
-        rf"{_TIME} (?:on (?:the spot|station)|holding)\b(?: again)?|\b(?:sit|sitting) tight\b(?: for)?|\b(?:lie|stay) there\b"
-    )),
-    (GOTO, re.compile(
-        r"(?:\b(?:go|going|driv\w+|head\w*|run\w*|steer\w*|proceed\w*|transit\w*|sail\w*|steam\w*|motor\w*|cruis\w+|mov\w+|travel\w*|"
-        r"cross\w*|shift\w*|com(?:e|es|ing)|return\w*|approach\w*|"
-        r"continu\w+|carry\w*|mak\w+|get\w*|bring\w*|tak\w+|set|navigat\w+|reach\w*|leav\w+|position\w*|clos\w+|back|out|up|on|over|"
-        r"pass\w*|visit\w*|start|begin|stop short)"
-        r"(?: (?:on|over|in|out|up|back|off|straight|directly|way|your|course|for|to|the|a|boat|vessel|vehicle|usv|craft|her|it|"
-        r"yourself|point|waypoint|position|at|via|through|past|first|down|again|short|pair|towards|parallel)){0,7} @)"
-        r"|\b(?:to|for|via|into) @|^\W*@|(?<=[,:;] )@|"
-        r"\b(?:go|going|head\w*|come|coming|return\w*|back|sail\w*|driv\w+|run|then|steer\w*|transit\w*|(?<!out )and|finally|lastly|to|"
-        r"at) (?:back |straight |over |to |directly |its |her )*(?:home|base)\b|^\W*home\b|, home\b|"
-        r"\b(?:go|going|driv\w+|head\w*|run\w*|steer\w*|proceed\w*|transit\w*|sail\w*|mov\w+|com(?:e|es|ing)|return\w*|approach\w*|"
-        r"continu\w+|make for|get (?:over |back |on )?to|reach\w*|back|make|ease over|dock at|go alongside|berth at) "
-        r"(?:on |over |to |back |in |out |straight |directly |for )*(?:the |its )(?:\w+ )?(?:target|goal|start\w*|centre|center|berth|"
-        r"dock|position|point|middle|cable|\w+ point|\w+ position)\b|"
-        r"(?:^\W*|, |\band |\bthere )to the (?:\w+ )?(?:target|goal|start\w*|centre|center|berth|dock|\w+ point|\w+ position)\b|"
-        r"\b(?:run|move|go|drive|sail|follow)\b(?! (?:an? |the )?(?:gps|ocr|lens|image|detector|tracker|object|position|geotag|quality|sonar))[^.;,]{0,25}?"
-        r"\b\d+ ?(?:m|metres?|meters?|km|kilomet\w+)\b|"
-        r"\b(?:run|cover|mow|drive|survey|sweep|follow|track(?= the cable)|inspect|work|make)(?:s|e|ing)?\b[^.;,]{0,40}?\b(?:grid|"
-        r"lawn-?mower|squares?|lanes?|area|transect|cable|track|line|target|pass|waypoints|points|sides)\b|"
-        r"\bwhere (?:it|the target) was\b|^\W*(?:the )?(?:start|goal|target|(?:start|goal|target) (?:point|position))\W*$"
-    )),
-)  # fmt: skip
-"""What speaks of a movement; where two of them overlap, the former holds."""
-MANY = _words(
+# ---------------------------------------------------------------- what the text as a whole says of its movements
+MANY = whole_words(
     r"grids?|lawn-?\w*|mow\w*|lanes?|lines|squares?|circle of|points|waypoints|stations|zig-?zag|spiral|triang\w+|sectors?|evenly|"
     r"steps of|in (?:\w+ ){0,2}steps|survey\w*|inspect\w*|all the way round|length|\w+ (?:equal )?"
     r"(?:rotations|pans|turns|nudges|steps)(?= (?:of|to|each|at|by)\b)|times|again|twice|repeat\w*|once more|each|headings|bearings|"
@@ -241,11 +32,11 @@ MANY = _words(
     r"met|m\b|deg|and a half|point|hundred|thousand|or )\w*)|\d+ (?:of|pans|turns|nudges)|run \w+ (?:m|metres?|meters?)"
 )
 """Words for a movement of several steps, or for one that is done again: steps cannot be counted by movements."""
-UNORDERED = _words(
+UNORDERED = whole_words(
     r"before|after (?!that|this|which)|once|preceded|followed|precedes|comes|backwards|but first|earlier|having|until then|first of all|"
     r"last of all|alternat\w+|on the way to @|reverse"
 )
-ELLIPTIC = _words(
+ELLIPTIC = whole_words(
     r"as the (?:first|second|third|last|former|one)|likewise|ditto|as before|another (?:at|in|on|for|one)|"
     r"same (?:again|there|as)|and again"
 )
@@ -254,12 +45,12 @@ RUNS = re.compile(r"@|\b(?:home|back|return\w*|base|target|goal|start|centre|ber
 PAUSED = re.compile(
     r"\b(?:paus|stop|hold|wait|stay|station|stand)\w*\b[^.;]{0,60}\b(?:each|every)\b|\b(?:each|every)\b[^.;]{0,40}\b(?:paus|stop|hold|wait|stay)\w*"
 )
-HOME = _words(r"home|base")
-HOMEWARDS = _words(r"home|base|return\w*|back")
-STEP = _words(r"steps?")
+HOME = whole_words(r"home|base")
+HOMEWARDS = whole_words(r"home|base|return\w*|back")
+STEP = whole_words(r"steps?")
 BARE = re.compile(r"(?:first|second|third|fourth|fifth|sixth|last|latter|former|final|1st|2nd|3rd|ones?)$")
-STOPS = _words(r"stop\w*|paus\w+|wait\w*|hold(?:ing)?(?! the)")
-SCOPED = _words(
+STOPS = whole_words(r"stop\w*|paus\w+|wait\w*|hold(?:ing)?(?! the)")
+SCOPED = whole_words(
     r"before|after|once|until|through|with(?= the \w+ (?:only|alone))|only|alone|rest|back|both|either|each|then|while|second|two|three|"
     r"four|five|six|first|last|in [a-d]\b|on the (?:grid|square|lanes|way)|off|the (?:drift|hold|turn|run|trip)|this|that|home|there|"
     r"next|finally|afterwards|no"
@@ -468,16 +259,11 @@ JOINT = re.compile(
 )
 """What stands between two scopes of one phrase."""
 
+# ---------------------------------------------------------------- clauses, and what stands in them
 SENTENCE = re.compile(r"[.!?](?=\s|$)|\n")
 CLAUSE = re.compile(
     r";|\s[-–—]\s|,?\s*\b(?:and|but)? ?(?:(?<!by )(?<!until )(?<!till )(?<!from )(?<!since )then|next|after that|after which|afterwards|"
     r"finally|lastly)\b,?|(?:^|(?<=\s))(?:\(\d\)|\d[.)]|\*)(?=\s)|,? before (?=\w+ing\b)"
-)
-QUOTED = re.compile(r"(?<![\w])['\"‘“][^'\"’”]{1,40}['\"’”]")
-SENSORS = re.compile(
-    r"\b(?:thermal|infrared) (?=stream|feed|view|channel)|\b(?:the )?(?:(?!stream|feed|view|check|lens)[\w-]+ )?(?:camera|"
-    r"cam)(?: ?(?:[a-z]|\d+))?\b|\b[a-z]+_?\w*cam\b|\bcam[\w-]*\d\b|(?<=from )the (?:[\w-]+ )?(?:sonar|lidar|sounder)|"
-    r"(?<=from )(?:sonar|lidar)_?\w*"
 )
 PLACE = re.compile(
     r"(?:\b(?:x|minus|\+)\s*=?\s*|[\[({]|\b(?:position|waypoint|point)\s+|[-−–=]\s?(?=[-−–]?@))*@(?:[\])}]|(?: (?:north|south|east|"
@@ -497,8 +283,6 @@ PERIOD = re.compile(
     r"(?<!cable )(?<!planned )(?<!given )(?<!the )\btrack(?:ing)? (?!the cable|from|to\b)(?=\w)"
 )
 """Words that `MANY` would take for movements."""
-COUNTED = re.compile(r"(?:steps?|parts?|stages?|legs?|lines?|headings?|bearings|through|first|last|face|facing|turn to|bow to) (?:\d+, )*$", re.IGNORECASE)
-"""What stands before numbers that are no place."""
 GOES_ON = re.compile(r" (?:and|or) (?:at|near|from|until|till|after|before|on (?!board)|in|\w+ing)\b")
 """A second place for what runs in a scope, that was not read as one."""
 TO_OWN_PLACE = re.compile(r" to the (?:target|goal) (?:position|point)\b")

@@ -6,9 +6,9 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from planner_ft.decoding.constraints.reading.scopes import scope_words as w
 from planner_ft.decoding.constraints.reading.scopes import step_scope_words as s
-from planner_ft.decoding.constraints.reading.scopes.step_meanings import Anchor
+from planner_ft.decoding.constraints.reading.scopes.skill_words import SKILL_WORDS
+from planner_ft.decoding.constraints.reading.scopes.where import Anchor
 
 CLEARANCE = "ObstacleAvoidance"
 
@@ -72,7 +72,7 @@ def mentions_of(text: str, names: Sequence[str], anchors: Sequence[Anchor]) -> l
     found = []
     for name in names:
         spans: list[tuple[int, int]] = []
-        matches = [match.span() for match in w.SKILL_WORDS[name].finditer(text)]
+        matches = [match.span() for match in SKILL_WORDS[name].finditer(text)]
         if name == CLEARANCE:
             matches += [match.span() for match in _CLEAR_OF.finditer(text)]
             first = min((start for start, _end in matches), default=len(text))

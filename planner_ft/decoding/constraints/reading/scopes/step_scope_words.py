@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 
+from planner_ft.decoding.constraints.reading.rows import movement_words as m
 from planner_ft.decoding.constraints.reading.scopes import scope_words as w
 
-GOTO, HOLD, FACE, NUDGE, ARC = w.GOTO, w.HOLD, w.FACE, w.NUDGE, w.ARC
-DRIFT, VISUAL, WAIT = w.DRIFT, w.VISUAL, w.WAIT
+GOTO, HOLD, FACE, NUDGE, ARC = m.GOTO, m.HOLD, m.FACE, m.NUDGE, m.ARC
+DRIFT, VISUAL, WAIT = m.DRIFT, m.VISUAL, m.WAIT
 TURNS = frozenset({FACE, NUDGE, ARC})
-ANY = frozenset(w.KINDS)
+ANY = frozenset(m.KINDS)
 NOUNS: tuple[tuple[str, frozenset[str]], ...] = (
     (r"legs?|runs?|transits?|approach(?:es)?|drives?|trips?|crossings?|stretch(?:es)?|straights?|passages?|lanes?|waypoints?|points?|ways?|transects?|hops?",
      frozenset({GOTO})),

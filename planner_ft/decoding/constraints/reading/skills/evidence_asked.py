@@ -5,7 +5,7 @@ Patterns are read on text in small letters, in a sentence that holds no word of 
 
 from __future__ import annotations
 
-from planner_ft.decoding.constraints.reading.skills.evidence_words import COUNT, SIZE
+from planner_ft.decoding.constraints.reading.skills.evidence_parts import COUNT, SIZE
 
 _STEP = r"(?:turns?|holds?|legs?|runs?|steps?|parts?|stages?|drifts?|arcs?|waits?|stays?|halts?|pauses?|nudges?|pans?|corners?|others?|rest|way|moves?|lanes?)"
 _OBSTACLES = r"(?:everything|anything|every(?: \w+)? obstacle|any(?: \w+)? obstacles?|all(?: the)? obstacles|obstacles|all traffic|all of (?:them|it))"

@@ -6,7 +6,7 @@ no other.
 
 from __future__ import annotations
 
-from planner_ft.decoding.constraints.reading.skills.evidence_words import COUNT, SIZE
+from planner_ft.decoding.constraints.reading.skills.evidence_parts import COUNT, SIZE
 
 SEEKING = (
     r"(?:detect(?:s|ed|ing|ion|ions)?\b|look(?:s|ed|ing)? (?:out |first |again |then )?(?:for|around|about|with)|(?:be|keep|keeping|stay) "

@@ -7,7 +7,8 @@ from typing import Any
 import pytest
 
 from planner_ft.data.task import geometry as g
-from planner_ft.decoding.constraints.waypoints import Ground, read_ground
+from planner_ft.decoding.constraints.ground import Ground
+from planner_ft.decoding.constraints.waypoints import read_ground
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()

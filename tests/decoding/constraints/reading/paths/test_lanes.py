@@ -7,10 +7,11 @@ from typing import Any
 import pytest
 
 from planner_ft.data.task import geometry as g
+from planner_ft.decoding.constraints.ground import Ground
 from planner_ft.decoding.constraints.reading.paths.extents import extents
 from planner_ft.decoding.constraints.reading.paths.halts import halts_at, read_halts
 from planner_ft.decoding.constraints.reading.paths.lanes import read_lanes
-from planner_ft.decoding.constraints.waypoints import Ground, read_ground
+from planner_ft.decoding.constraints.waypoints import read_ground
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()

@@ -11,9 +11,10 @@ import pytest
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.factory import constraint_factory
 from planner_ft.decoding.constraints.grammar import SchemaValues
+from planner_ft.decoding.constraints.ground import Ground
 from planner_ft.decoding.constraints.reading.paths.cues import ANY, read_cues
 from planner_ft.decoding.constraints.routes import STEP_OPENS, TaskScript
-from planner_ft.decoding.constraints.waypoints import Ground, read_ground
+from planner_ft.decoding.constraints.waypoints import read_ground
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()

@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 
 from planner_ft.data.task.sampler import sample_tasks
-from planner_ft.decoding.constraints.reading.scopes.scopes import Scope, read_scopes
+from planner_ft.decoding.constraints.reading.scopes.scope_parts import Scope
+from planner_ft.decoding.constraints.reading.scopes.scopes import read_scopes
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()

@@ -7,7 +7,8 @@ import time
 import pytest
 
 from planner_ft.decoding.constraints.companions import read_companions
-from planner_ft.decoding.constraints.reading.rows.movement_rows import plain, row_of
+from planner_ft.decoding.constraints.reading.rows.movement_rows import plain
+from planner_ft.decoding.constraints.reading.rows.told_movements import row_of
 from planner_ft.decoding.constraints.reading.scopes.step_scopes import read_step_scopes
 from planner_ft.vocabulary import load_vocabulary
 
