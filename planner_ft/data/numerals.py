@@ -40,6 +40,7 @@ SMALL = {
     **{word: 10.0 * value for value, word in enumerate(TENS, 2)},
     "oh": 0.0,
     "fourty": 40.0,
+    "niner": 9.0,
     "couple": 2.0,
 }
 SCALES = {"dozen": 12.0, "score": 20.0, "hundred": 100.0, "thousand": 1000.0}
@@ -58,7 +59,7 @@ BESIDE_UNIT = ("-", "of", "a", "an", "full", "whole", "good", "solid", "nautical
 _MIXED = {"1/2": 0.5, "1/4": 0.25, "3/4": 0.75}
 
 _TOKEN = re.compile(
-    r"\d{1,3},\d{3}(?=\s?(?:m|metres|meters|s|seconds)\b)|[1-9]/[2-9](?!\d)|\d*\.\d+|\d+|[a-z°]+(?:'[a-z]+)?|(?<![a-z])[-−–]|[-−–](?![a-z])|[^\s\w−–-]",
+    r"\d{1,3},\d{3}(?=\s?(?:m|metres|meters|s|seconds)\b)|(?:1/[2-9]|2/[3579]|3/[4578]|4/5|5/[68]|7/8)(?!\d)|\d*\.\d+|\d+|[a-z°]+(?:'[a-z]+)?|(?<![a-z])[-−–]|[-−–](?![a-z])|[^\s\w−–-]",
     re.IGNORECASE,
 )
 """A hyphen between letters is no token: "ninety-five" is ninety five."""
@@ -117,11 +118,12 @@ def _is_part(tokens: list[Token], index: int) -> bool:
 
 
 def _spelled_out(tokens: list[Token], index: int) -> tuple[float, int] | None:
-    """Three or more digits as they are read over the radio: "one two zero"."""
+    """Digits as they are read over the radio: "one two zero", "minus two five"; two with a unit behind them may be "two five minute holds"."""
     digits = ""
     while SMALL.get(word_at(tokens, index + len(digits)), 10) < 10:
         digits += str(int(SMALL[word_at(tokens, index + len(digits))]))
-    return (float(digits), len(digits)) if len(digits) >= 3 else None
+    two = len(digits) == 2 and digits[0] != "0" and (digits[1] == "0" or unit_at(tokens, index + 2)[0] is None)
+    return (float(digits), len(digits)) if len(digits) >= 3 or two else None
 
 
 def _in_words(tokens: list[Token], index: int, current: float) -> tuple[float, int]:

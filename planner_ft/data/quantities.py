@@ -9,7 +9,8 @@ from __future__ import annotations
 import functools
 import itertools
 import re
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 from planner_ft.data.numerals import Token, half_behind, number_at, tokenize, unit_at, unit_of, word_at
 
@@ -38,6 +39,7 @@ _BETWEEN = re.compile(
 )
 _DIRECTED = re.compile(rf"\s*(?:met(?:re|er)s?|m)?\s*(?:(?:to )?the |due )?({_DIRECTION})", re.IGNORECASE)
 _LED = re.compile(rf"(?<![a-z])({_DIRECTION})\s*(?:of|by|[:=])?\s*(?:minus|negative|[-−–])?\s*$", re.IGNORECASE)
+_BY = re.compile(r"\s?(?:by|x|×)\s?", re.IGNORECASE)
 _SPEEDS = (
     (re.compile(r"\s*(?:an? )?(?:m/s|m s-1|m(?:et(?:re|er)s?)?,? (?:per|a) s(?:ec(?:ond)?)?\b)", re.IGNORECASE), 1.0),
     (re.compile(r"\s*(?:km/h|km (?:per|an) hour|kilomet(?:re|er)s (?:per|an) hour)", re.IGNORECASE), 1 / 3.6),
@@ -71,7 +73,14 @@ def quantities(text: str) -> tuple[Quantity, ...]:
         quantity, after = _with_unit(text, tokens, index, index + used, -value if negative else value)
         found.append(quantity)
         index = max(after, index + used)
-    return tuple(found)
+    return tuple(_with_shared_units(text, found))
+
+
+def _with_shared_units(text: str, found: list[Quantity]) -> Iterator[Quantity]:
+    """The quantities, the first side of an area with the unit that is said behind the second: "200 by 120 feet"."""
+    for one, two in itertools.zip_longest(found, found[1:]):
+        shared = two is not None and one.unit is None and two.unit == "m" and two.said and _BY.fullmatch(text[one.end : two.start])
+        yield replace(one, value=one.said * two.value / two.said, unit=two.unit) if two is not None and shared else one
 
 
 def _negative(text: str, tokens: list[Token], index: int) -> bool:

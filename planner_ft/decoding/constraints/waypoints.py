@@ -32,6 +32,7 @@ from planner_ft.decoding.constraints.reading.paths.legs import read_legs
 from planner_ft.decoding.constraints.reading.paths.one_shape import one_shape
 from planner_ft.decoding.constraints.reading.paths.own_movement import own_movement
 from planner_ft.decoding.constraints.reading.paths.parts_of_shapes import read_part
+from planner_ft.decoding.constraints.reading.paths.rings import read_ring
 from planner_ft.decoding.constraints.reading.paths.runs import read_runs
 from planner_ft.decoding.constraints.reading.paths.squares import read_squares
 from planner_ft.decoding.constraints.reading.paths.station_rows import read_station_rows
@@ -191,9 +192,9 @@ def _told_waypoints(given: _Input) -> _Told:
 
 
 def _run(given: _Input) -> Path | None:
-    """Every waypoint of an input that is about a part of a shape, a straight way, or a square of its own."""
+    """Every waypoint of an input that is about a part of a shape, a ring, a straight way, or a square of its own."""
     record, home = given.record, given.home
-    run = (read_part(record, given.task, given.place, home) if given.task else None) or _straight(record, home)
+    run = (read_part(record, given.task, given.place, home) if given.task else None) or read_ring(record, given.pattern, given.place) or _straight(record, home)
     placed = None if run else with_own_places(record)
     run = (read_halfway(placed) or read_chain(placed, home) or read_station_rows(placed)) if placed else run
     return read_squares(record, given.place) if run is None and given.pattern == "square" else run

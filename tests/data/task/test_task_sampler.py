@@ -118,7 +118,7 @@ def test_left_is_negative():
 
 
 def test_a_referred_value_comes_from_the_task_parameters():
-    record = label(r"^(?:Hold|Drift)\b(?![^.]*\b(?:not|no|then)\b)[^.]* for the (?:planned|given|ordered|set) time[^.]*\.$")
+    record = label(r"^(?:Hold|Drift)\b(?![^.]*\b(?:not|no|then)\b)[^.]* for the (?:planned|given|ordered|set) (?:time|duration)[^.]*\.$")
     assert navigation(record)[0]["parameters"]["time"] == record["parameters"]["duration"]
 
 

@@ -27,7 +27,7 @@ def read_area(text: str) -> dict[str, float]:
     """Width and length in metres of the only area that a text speaks of, where it says which is which; empty where it does not."""
     numbers = [one for one in quantities(text) if one.unit in ("m", None)]
     pairs = [(one, two) for one, two in itertools.pairwise(numbers) if _BY.fullmatch(text[one.end : two.start])]
-    sizes = {_sizes(one, two) for one, two in pairs}
+    sizes = {(round(one.value, 4), round(two.value, 4)) for one, two in pairs}
     said = _labelled(text, numbers)
     if len(sizes) > 1 or any(len(values) > 1 for values in said.values()):
         return {}
@@ -44,12 +44,6 @@ def read_area(text: str) -> dict[str, float]:
         name, value = next(iter(told.items()))
         told[LENGTH if name == WIDTH else WIDTH] = second if value == first else first
     return told if sorted(told.values()) == sorted((first, second)) else {}
-
-
-def _sizes(one: Quantity, two: Quantity) -> tuple[float, float]:
-    """The two sides in metres; a unit that is said once, behind the second, is that of both."""
-    factor = two.value / two.said if two.unit and not one.unit and two.said else 1.0
-    return round(one.value * factor, 4), round(two.value, 4)
 
 
 def _labelled(text: str, numbers: list[Quantity]) -> dict[str, set[float]]:
