@@ -38,7 +38,7 @@ CAMERA: dict[str, tuple[str, ...]] = {
         r"a watch (?:is )?kept|alert (?:for|to)|(?:shout|call out|warn) ",
     ),
     "TrackObjects": (
-        r"plots?\b|(?:box|frame|piece|item) by (?:box|frame|piece|item)\b",
+        r"(?:give|assign)\w* [^.;,]{1,40} a number\b|plots?\b|(?:box|frame|piece|item) by (?:box|frame|piece|item)\b",
         r"tracker\w*|tracked\b(?! (?:pixel|offset|pose))|(?<!\bcable )tracking\b|trk\b|identit\w+|persisten\w+|tabs on|re-?identif\w+",
         r"(?<!\bcable )(?<!\bon )(?<!\boff )(?<!\bthe )(?<!\bgps )(?<!back)(?:track|tracks)\b(?! (?:the |of the |of your |of our |your |a |"
         r"of )?(?:[a-z]+ )?(?:pixel|visual|offset|pose|relative|cable\b(?! (?:clamp|entry|drum|buoy|ferry|layer|winch))|"
@@ -68,7 +68,7 @@ CAMERA: dict[str, tuple[str, ...]] = {
         r"number|sign)",
     ),
     "GetThermalStats": (
-        r"(?:hot|warm|fever)\b",
+        r"(?:hot|warm|fever)\b|(?:under|before) the thermal cam\w*",
         r"therm[a-z]*\b(?! (?:cam\w*|stream|feed|view|clips?|images?|videos?|picture|files?|search)\b)|thermo\w*",
         r"(?:with|by|through|using|on|in|from|via|under) (?:the )?(?:thermal|infra-?red|ir)\b(?! (?:cam|stream|feed|view))",
         r"(?<!\bhighest )\w*temper\w*|temps?\b|heat (?:of|in|on|levels?|readings?|figures?|values?|numbers?|data)|"
@@ -82,7 +82,7 @@ CAMERA: dict[str, tuple[str, ...]] = {
         r"infra-?red\b(?! (?:cam\w*|stream|feed|view|clips?|images?|videos?|picture|files?|search)\b)|\bir (?:figures|values|readings?|data|numbers)",
     ),
     "LocateHotspot": (
-        r"(?:infrared|thermal|heat|temperature) (?:maximum|peak)|"
+        r"(?:infrared|thermal|heat|temperature) (?:maximum|peak)|max-?te\w+|"
         r"\w*hot-? ?spots?\w*|hott\w+|(?<!\bhow )hot\b|warmer\b|warmest|(?<!\bhow )warm\b|heat\b(?! of)|heated|overheat\w*|burn(?:s|ing|er)?\b|"
         r"glow\w*|scorch\w*|peaks?\b|maxima\b",
         r"(?:highest|greatest|max\w*|peak|top) (?:[a-z]+ )?(?:temp\w*|heat|thermal)|thermal (?:peak|max\w*|anomal\w*|search|source|signature|"
@@ -102,6 +102,7 @@ CAMERA: dict[str, tuple[str, ...]] = {
     ),
     "GetImageQualityMetrics": (
         r"rat(?:e|ing) (?:the )?(?:[a-z]+ )?cam\w*",
+        r"(?:lens|checklist)\b.*\bpicture\b|\bpicture\b.*\b(?:check|lens)",
         r"(?<!\bgeotag )(?<!\bgps )(?<!\bgeotagging )(?<!\bposition )(?<!\bfix )qualit\w*|\w*metrics?\b|usab\w*|useful\w*|sharp\w*|blur\w*|"
         r"crisp\w*|(?:in|"
         r"out of|check\w*|verify|test) (?:the )?focus|expos(?:ure|ed)\b(?! cable)|contrast|clarity",
@@ -115,7 +116,7 @@ CAMERA: dict[str, tuple[str, ...]] = {
         r"good for anything",
     ),
     "CalculateVisualOffset": (
-        r"dx\b",
+        r"dx\b|cross-?hairs?\b",
         r"\w*offset\w*|off-?set\w*|pixel\w*|px\b|displac\w*|deviat\w*|misalign\w*|(?<!\bgps )(?<!\bposition )(?<!\bhorizontal )errors?\b|"
         r"discrepan\w*",
         r"off[ -](?:the )?(?:[a-z]+ )?(?:cent\w+|middle|axis)|(?:from|to|and|between) (?:the )?(?:[a-z]+ )?(?:cent(?:re|er)|"

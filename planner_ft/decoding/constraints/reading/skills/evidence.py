@@ -25,6 +25,7 @@ HALF = 0.5
 """What an unknown word counts that can be put right."""
 MOST_VARIANTS = 6
 """Spellings that a word which is in no list is tried in."""
+_ELSEWHERE_YES = re.compile(r"[^.;!?]*\byes\b")
 MOST_BEHIND = 3
 """Words that may stand behind what is not wanted anywhere: more can say where it is."""
 RARE = 2
@@ -128,7 +129,7 @@ def _speaks(text: str, name: str) -> bool:
 def _ruled_out(text: str, match: re.Match[str]) -> bool:
     """Whether what a match names is not wanted anywhere: "no recording.", and no word about where."""
     before, behind = text[: match.start()], re.split(r"[.;,:!?\n]", text[match.end() :], maxsplit=1)[0]
-    if _NEGATED_TWICE.search(re.split(r"[.;!?]", before)[-1]):
+    if _ELSEWHERE_YES.match(text[match.end() :]) or _NEGATED_TWICE.search(re.split(r"[.;!?]", before)[-1]):
         return False
     return RULED_OUT.search(before[-60:]) is not None and len(behind.split()) <= MOST_BEHIND and not SCOPED.search(behind)
 

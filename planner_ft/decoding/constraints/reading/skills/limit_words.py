@@ -24,7 +24,7 @@ LIMITS: dict[str, tuple[str, ...]] = {
     ),
     "ObstacleAvoidance": (
         rf"{SIZE} (?:minimum|safe) (?:distance|separation)|minimum (?:distance|separation)(?:,| of| is)? {SIZE}",
-        r"giv\w+ way\b",
+        r"giv\w+ way\b|kept free\b",
         r"\w*margins?\b|marg\b|clr\b|oa\b|\w*avoid\w*|collision|collid\w+|anti-?coll\w+|evad\w+|evasi\w+|dodg\w+|proximity|skirt\w*|bump\w*|hit\b|"
         r"hitting|touch(?!down)\w*|safety",
         r"clear(?:ance|ances|ing)?\b(?! (?:of (?:drop|water|spray|salt|dirt)|lens|cam))",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 MEASURING: dict[str, tuple[str, ...]] = {
     "GetSectorDistance": (
-        r"sectors?\b(?= (?:at|on|to|towards|bearing|ahead|dist|rang|measur|between|read|\d))|sectors?\b[^.;]{0,50}(?:dist|rang|lidar|clos|near|"
+        r"sectors?\b(?= (?:min|at|on|to|towards|bearing|ahead|dist|rang|measur|between|read|\d))|sectors?\b[^.;]{0,50}(?:dist|rang|lidar|clos|near|"
         r"bearing|watch|monitor|read|measur|log)",
         r"(?:dist|rang|lidar|clos|near|watch|monitor|read|measur|scan|guard|query|quer|check|log|tell|min)\w*[^.;]{0,60}sectors?\b",
         r"(?:quer|rang|check|dist|clos|near|minim|return|watch|monitor|read|measur|smallest|shortest)\w*[^.;,]{0,40}slices?\b|"
@@ -99,7 +99,8 @@ MEASURING: dict[str, tuple[str, ...]] = {
         r"she) ",
     ),
     "GetRelativePose": (
-        r"\w*poses?\b|relativ\w*|attitude|orientat\w*|in the frame of|(?:with|in) (?:respect|relation|reference) to|(?:dock|local|body|marker|tag|"
+        r"distance and (?:angle|direction) of|place and (?:attitude|angle)|as [^.;,]{1,30} sees? (?:it|us|her)\b|\w*poses?\b|relativ\w*|attitude|"
+        r"orientat\w*|in the frame of|(?:with|in) (?:respect|relation|reference) to|(?:dock|local|body|marker|tag|"
         r"berth|quay|landing) frame|6-?dof|6 ?d\b|how (?:you|we|she|it) (?:lie|sit|stand)s?|rel\b",
         r"how (?:do |does |are |is )?(?:you|we|she|it|the (?:boat|vessel|hull|bow)) (?:are |is )?(?:lie|lying|sit|stand|placed|plac|point|com|"
         r"bear|align|turned)\w*|(?:what|which) angle\b|angles? (?:to|relative|against|between|with)\b|placed (?:against|relative|to|with|"
@@ -115,7 +116,8 @@ MEASURING: dict[str, tuple[str, ...]] = {
         r"(?:verif|check|confirm|validat|test|ensur|make sure|making sure|see that|see whether|see if|prov|how good|quality of|error of|error on|"
         r"assess|monitor|limit)\w*(?: (?!and\b|while\b|lens)[\w:-]+){0,5} (?:gps|gnss|geo-? ?tag\w*|fix\b|fixes|satellite)|(?:verif|validat|"
         r"confirm)\w* (?:the |your |our )?positions?",
-        r"(?:good|true|right|correct|valid) to (?:within )?|(?:check|test)\w*:[^.;]{0,60}(?:gps|gnss)",
+        r"fix\b[^.;]{0,4}\(?[\d.]+ ?m\b|(?:checklist|check)\b.*\bfix\b|(?:good|true|right|correct|valid) to (?:within )?|(?:check|"
+        r"test)\w*:[^.;]{0,60}(?:gps|gnss)",
         r"(?:gps|gnss|fix(?:es)?|satellite\w*|receiver|position\w*)\b[^.;,]{0,30}\b(?:wrong|off|out by|err\w*|believ\w*|stand\w* up|hold\w* up|"
         r"count\w* on|rel(?:y|ied)|to the test)\b|(?:rely|relying|count|bank|depend)\w* on (?:the |our )?(?:gps|gnss|fix|sat|position)",
     ),

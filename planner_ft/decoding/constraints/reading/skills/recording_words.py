@@ -6,7 +6,8 @@ from planner_ft.decoding.constraints.reading.skills.evidence_parts import SENSED
 
 RECORDING: dict[str, tuple[str, ...]] = {
     "SelectActiveStream": (
-        r"\w*stream\w*|\w*feeds?\b|active\b|actively|activat\w*|select\w*|channels?\b|choos\w*|chosen|chose|live\b|screens?\b|display\w*|"
+        r"pictures? of [\w-]+ (?:in front of|before) (?:me|us)\b|\w*stream\w*|\w*feeds?\b|active\b|actively|activat\w*|select\w*|channels?\b|choos\w*|"
+        r"chosen|chose|live\b|screens?\b|display\w*|"
         r"monitors\b|in use",
         r"(?<!\bfield of )(?<!\bfields of )(?<!\bin )(?<!\binto )(?<!\bwithin )(?<!\bin the )(?<!\busable the )(?<!\bhow good the )(?<!\bkeep )"
         r"(?<!\bits )"
@@ -29,7 +30,8 @@ RECORDING: dict[str, tuple[str, ...]] = {
         r"(?:buffer|"
         r"quality|frame|from the buffer|is (?:good|usable|sharp)))|(?<!\bof )(?<!\bgrade the )(?<!\bgrading the )footage|movies?\b|tap(?:e|ing|ed)\b|"
         r"rec\b|mp4|\binto ['\"“](?! )|name of the file|"
-        r"(?:file|with the file|new file) (?:name|called|named) |(?:running|on), file \w|file the [\w ]+ as |keep it rolling",
+        r"files?\b ?[:=]|the \w*cam\w*(?: \w+)? on\)|(?:file|with the file|new file) (?:name|called|named) |(?:running|on), file \w|"
+        r"file the [\w ]+ as |keep it rolling",
         r"(?<!\bbuffer )(?<!\bbuffer on)(?:to|on|onto) (?:the )?(?:disk|disc|drive|file|storage|card|camera)\b|on tape|roll(?:ing|"
         r"s)? (?:the )?(?:tape|cam|video|film|rec)|file-? ?tags?|(?:the|with|under|with a|file|,|a|same) tags?\b|tagged|filed|writ(?:e|es|"
         r"ing)\b[^.;]{0,30}dis[ck]|clips?\b",
@@ -50,7 +52,7 @@ RECORDING: dict[str, tuple[str, ...]] = {
     ),
     "BufferLoopCapture": (
         r"\w*buffer\w*(?! (?:zone|distance))|buf\b|(?:s|secs?|seconds?|mins?|minutes?|hours?|thirty|fifteen|half) of (?:the |buffered |"
-        r"recent )?(?:video|footage|film)|loops?\b|looped|retro\w*|replay|rewind|just (?:happened|seen|filmed|shot|gone)|pre-?record\w*|dash-?cam",
+        r"recent )?(?:video|footage|film)|loops?\b|looped|retro\w*|replay|rewind|just (?:happened|seen|filmed|shot|gone|past)|pre-?record\w*|dash-?cam",
         r"(?:last|past|previous|preceding|latest|recent|foregoing|prior|trailing|just gone)\b(?: (?:[a-z'-]+|\d+(?:\.\d+)?)){0,5}? ?(?:\d ?s|"
         r"\d ?h|secs?|seconds?|mins?|minutes?|hours?|quarter|half|video|footage|clips?|films?|recordings?)\b",
         r"(?:sav|keep|kept|dump|grab|secur|retain|preserv|rescu|stor|hang on)\w*[^.;]{0,30}(?:secs?|seconds?|mins?|minutes?|hours?|"
@@ -83,7 +85,8 @@ RECORDING: dict[str, tuple[str, ...]] = {
         r"get)(?:e|es|s|ed|ing|ging|k?es?)? (?:(?!wide|turn)[a-z0-9-]+ ){0,4}(?:sweeps?\b|lidar|laser)(?! (?:dist|rang|sector))",
     ),
     "LogEnvironmentState": (
-        r"\w*envi?r?o?n?m\w*|env\b|ambient|meteo\w*|met\b(?! (?:mast|tower))|atmospher\w*|humid\w*|salin\w*|air (?:temp|press)\w*|barom\w*|(?:sea|"
+        r"weather (?:log|station gives)|\w*envi?r?o?n?m\w*|env\b|ambient|meteo\w*|met\b(?! (?:mast|tower))|atmospher\w*|humid\w*|salin\w*|air (?:temp|"
+        r"press)\w*|barom\w*|(?:sea|"
         r"weather|water)[ -]state|conditions?\b|weather\b(?! (?:turns|station|buoy))|surrounding\w*",
         r"(?:log|record|not|sav|stor|tak|measur|writ|report|collect|get)\w* (?:[a-z,]+ ){0,6}(?:wind\b|waves?\b(?! of)|swell|water temp\w*)|"
         r"wind (?:and|speed|data|log|plus|,)",

@@ -21,7 +21,7 @@ _FUNCTION = (
     r"any|some|your|our|her|his|their|my|one|ones|other|others|same|first|second|third|last|once|but|after|before|along|into|alone|just|via|within|between|"
     r"steady|centred|centered|read|logged|tracked|recorded|recording|checked|measured|taken|watched|registered|noted|saved|active|selected|kept|held|wanted|"
     r"monitored|followed|observed|sought|inspected|verified|rated|calculated|scanned|fitted|filmed|running|visible|in-between|how|whether|"
-    r"if|i|you|we|she|he|they|given|task|task's|stated|target|feature|object|contact|using|per|minus|plus|so|because)"
+    r"clean|clear|dry|dirty|usable|legible|drive|home|up|onward|if|i|you|we|she|he|they|given|task|task's|stated|target|feature|object|contact|using|per|minus|plus|so|because)"
 )
 _WORD = rf"(?!{_FUNCTION}(?![\w'’-]))(?:[A-Za-z][\w'’-]*|\d+(?=[\s.,;:!?)]|$)|{IDENTIFIER})"
 _NAME = rf"(?:the |an? |our )?(?P<v>{_WORD}(?: {_WORD}){{0,4}})"
@@ -105,11 +105,15 @@ _KIND_BEFORE = re.compile(rf"^(?:camera|sensor|stream|cloud|region|object|target
 _NO_NAME = re.compile(
     r"(?:camera|cameras|sensor|stream|region|roi|surface|frame|picture|image|way|target|feature|object|view|light|vessel|boat|position|place|spot|log|boat's)"
     r"|(?:marker|contact|roi|region|target|vessel|ship|sensor|camera|stream|cloud|object|feature|type|sounder|sonde|file) .*|"
-    r"beginning|end|start|middle|rest|.*[- ]named\b.*|position fix|\d+(?:\.\d+)?(?: ?(?:s|sec\w*|min\w*|m|met\w+)\b.*)?",
+    r"beginning|end|start|middle|rest|x \d.*|.*[- ]named\b.*|position fix|\d+(?:\.\d+)?(?: ?(?:s|sec\w*|min\w*|m|met\w+)\b.*)?",
     re.IGNORECASE,
 )
 """What is the word for a kind, or may or may not have one before its name."""
-_LIKEWISE = re.compile(r"\bthe same (?:from|for|of|with|on|in)\b|\bsame again\b|\brather\b|, no\b", re.IGNORECASE)
+_LIKEWISE = re.compile(
+    r"\bthe same (?:from|for|of|with|on|in)\b|\bsame again\b|\bthe same thing\b|\brather\b|, no\b|\bin (?:leg |part )?one, |"
+    r"\b(?:last|first|second) of (?:the|these|them|those)\b",
+    re.IGNORECASE,
+)
 _NEAR = 20
 """Characters beside a value's words within which the skill is not spoken of once more."""
 _VISUAL = re.compile(r"\bcent(?:re|er)\w*|\b(?:frame|picture|view|image|visual\w*)\b", re.IGNORECASE)
