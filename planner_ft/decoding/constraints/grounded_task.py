@@ -36,6 +36,12 @@ DIVIDED = re.compile(
     re.IGNORECASE,
 )
 """Words for a turn that is divided into parts."""
+MULTIPLES = {
+    2.0: re.compile(r"\b(?:twice|double|two times)\b", re.IGNORECASE),
+    3.0: re.compile(r"\b(?:triple|treble|thrice|three times)\b", re.IGNORECASE),
+    0.5: re.compile(r"\bhalf (?:as|the|that|of|its|this)\b|\bhalve\w*\b", re.IGNORECASE),
+}
+"""Words for a time or length by another one: "hold twice as long", "half the distance"."""
 RECIPROCAL = re.compile(r"\breciprocal\b|\bopposite (?:heading|bearing|course|direction|way)\b|\bback bearing\b", re.IGNORECASE)
 
 
@@ -52,6 +58,7 @@ class GroundedTaskValues(GroundedValues):
         self._texts = list(own_texts(record))
         self._spans = Spans([prompt, *self._texts], named=True)
         self._reciprocal = RECIPROCAL.search(prompt) is not None
+        self._multiples = [factor for factor, words in MULTIPLES.items() if words.search(prompt)]
         self._divided = DIVIDED.search(prompt) is not None
         self._counts = sector_counts([*(quantity.said for quantity in quantities(prompt)), *(number for number, _unit in self._own)])
 
@@ -75,6 +82,8 @@ class GroundedTaskValues(GroundedValues):
         if said is None:
             return super().number(grammar, parameter, without)
         facts = [*said, *(number for number, unit in self._own if None in (unit, parameter.unit) or unit == parameter.unit)]
+        if parameter.unit in ("s", "m"):
+            facts += [value * factor for factor in self._multiples for value in facts]
         if parameter.unit == "deg" and self._reciprocal:
             facts += [(value + 180) % 360 for value in facts]
         values = usable([*facts, *(turned(facts, self._counts if self._divided else ()) if parameter.unit == "deg" else ())], parameter)

@@ -59,11 +59,19 @@ SHAPED = ("lawnmower", "square")
 """Patterns of tasks that are about one path of a shape."""
 AGAIN = re.compile(r"\b(?:clos\w*|back|return\w*|again|revisit\w*|same|twice|times|repeat\w*|between|patrol\w*|laps?|home|start\w*|once more)\b", re.I)
 
+TO_OWN = re.compile(
+    r"(?:^|[.;:,] |\b(?:to|into|for|reach\w*|at|via) )(?:the |its |your )?(?:(?:task'?s?|given|planned|stated) )?(?:target|goal|destination|berth)"
+    r"(?: position| point| place)?(?=\s*(?:[,.;:)]|$|(?:via|and|then|but|by|over|only|with|at|in|while|without)\b))",
+    re.IGNORECASE,
+)
+"""The task's own place as somewhere to go."""
+
 
 def read_ground(record: dict[str, Any], vocabulary: Vocabulary) -> Ground:
     """The facts of a task input. Waypoints are free where its numbers cannot be read with certainty."""
     given = _read_input(record, vocabulary)
     told, facts = _told(given), _path_facts(given)
+    told = _Told(None) if _leaves_out_own(given, told.itinerary) else told
     underived = given.unread or given.loose or len(given.places) > MOST_PLACES or len(facts.lengths) > MOST_LENGTHS
     known = told.itinerary is not None or told.shape is not None
     free = not known and (underived or given.misread or OPEN.search(given.text) is not None)
@@ -189,6 +197,11 @@ def _told_waypoints(given: _Input) -> _Told:
     run = _run(given)
     itinerary = run or (None if given.misread else read_itinerary(given.record, given.vocabulary))
     return _Told(itinerary if itinerary is None or len(itinerary) <= MOST_STEPS else None, None, run)
+
+
+def _leaves_out_own(given: _Input, itinerary: Path | None) -> bool:
+    """Whether waypoints leave out the task's own place although the text goes there: then they are not all."""
+    return bool(itinerary) and given.place is not None and given.place not in (itinerary or ()) and TO_OWN.search(str(given.record["prompt"])) is not None
 
 
 def _run(given: _Input) -> Path | None:

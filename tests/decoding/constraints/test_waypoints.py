@@ -97,3 +97,15 @@ def test_a_working_derives_coordinates_by_right_sums_over_the_facts() -> None:
     assert (110, 20) in shown.following(((100, -20), (100, 20)))
     assert ground.shown("x100+7=107").worked == ground.worked
     assert ground.shown("no sum").worked == ground.worked
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "Keep 9 m off everything out to the target, then home without that.",
+        "Target via [5, 5], back by the same place and then home.",
+        "Over [5, 5] and [7, 1], then into the target.",
+    ],
+)
+def test_waypoints_are_not_told_where_the_tasks_own_place_would_be_left_out(prompt: str) -> None:
+    assert ground("Transit", prompt, target_position=[40, -8]).itinerary is None
