@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from planner_ft.data.quantities import bearings, quantities
+from planner_ft.data.quantities import bearings, positions, quantities
 from planner_ft.data.stated import stated_numbers
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.derived_paths import Path, PathFacts, Point, derived_paths
@@ -34,12 +34,14 @@ from planner_ft.decoding.constraints.reading.paths.own_movement import own_movem
 from planner_ft.decoding.constraints.reading.paths.parts_of_shapes import read_part
 from planner_ft.decoding.constraints.reading.paths.rings import read_ring
 from planner_ft.decoding.constraints.reading.paths.runs import read_runs
+from planner_ft.decoding.constraints.reading.paths.shapes import Place, named_sizes, stated_sizes
 from planner_ft.decoding.constraints.reading.paths.squares import read_squares
 from planner_ft.decoding.constraints.reading.paths.station_rows import read_station_rows
 from planner_ft.decoding.constraints.reading.paths.stations import read_stations
 from planner_ft.decoding.constraints.reading.paths.tracks import read_cable
 from planner_ft.decoding.constraints.reading.paths.underived import MISREAD, OPEN
 from planner_ft.decoding.constraints.reading.paths.written_out import written_out
+from planner_ft.decoding.constraints.reading.wordings import SIZE
 from planner_ft.vocabulary import Task, Vocabulary
 
 MOST_LENGTHS, MOST_PLACES = 7, 12
@@ -59,6 +61,7 @@ SHAPED = ("lawnmower", "square")
 """Patterns of tasks that are about one path of a shape."""
 AGAIN = re.compile(r"\b(?:clos\w*|back|return\w*|again|revisit\w*|same|twice|times|repeat\w*|between|patrol\w*|laps?|home|start\w*|once more)\b", re.I)
 
+LANES = re.compile(r"\b(?:lanes?|lawn-?mow\w*|grid)\b", re.IGNORECASE)
 TO_OWN = re.compile(
     r"(?:^|[.;:,] |\b(?:to|into|for|reach\w*|at|via) )(?:the |its |your )?(?:(?:task'?s?|given|planned|stated) )?(?:target|goal|destination|berth)"
     r"(?: position| point| place)?(?=\s*(?:[,.;:)]|$|(?:via|and|then|but|by|over|only|with|at|in|while|without)\b))",
@@ -142,13 +145,23 @@ class _Input:
 
 
 def _read_input(record: dict[str, Any], vocabulary: Vocabulary) -> _Input:
-    task, home, given = vocabulary.task.get(str(record.get("task"))), _tidy(vocabulary.home), record.get("parameters")
+    home, given = _tidy(vocabulary.home), record.get("parameters")
     parameters = given if isinstance(given, dict) else {}
     prompt = written_out(str(record.get("prompt", "")), home)
+    task = _shaped_as(prompt, vocabulary.task.get(str(record.get("task"))), vocabulary)
     prompt = extents(prompt) if task and task.pattern == "lawnmower" else prompt
     prompt = areas(prompt, task.pattern, parameters, home) if task else prompt
     own = [_tidy(value) for value in parameters.values() if _is_place(value)]
     return _Input({**record, "prompt": prompt}, task, vocabulary, parameters, home, read(prompt, vocabulary), own)
+
+
+def _shaped_as(prompt: str, task: Task | None, vocabulary: Vocabulary) -> Task | None:
+    """The task, or one that is a grid where a task without a shape of its own is to run lanes over an area whose sizes are stated."""
+    if task is None or task.pattern in SHAPED or not LANES.search(prompt):
+        return task
+    places = [Place(g.point(x, y), start, end) for x, y, start, end in positions(prompt) if not SIZE.search(prompt[start:end])]
+    sizes = {name for name, _value, _used in named_sizes(prompt, stated_sizes(prompt, places))}
+    return next((other for other in vocabulary.tasks if other.pattern == "lawnmower"), task) if {"width", "length"} <= sizes else task
 
 
 def _path_facts(given: _Input) -> PathFacts:

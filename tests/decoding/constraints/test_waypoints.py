@@ -109,3 +109,15 @@ def test_a_working_derives_coordinates_by_right_sums_over_the_facts() -> None:
 )
 def test_waypoints_are_not_told_where_the_tasks_own_place_would_be_left_out(prompt: str) -> None:
     assert ground("Transit", prompt, target_position=[40, -8]).itinerary is None
+
+
+def test_lanes_with_all_sizes_are_a_grid_for_any_task() -> None:
+    prompt = "Search the block centred on [20, 10], 20 m wide and 40 m long, in lanes 10 m apart."
+    assert ground("SearchAndDetect", prompt).itinerary == tuple(g.lawnmower((20, 10), 20, 40, 10))
+    corner = "The patch has its south-west corner at [10, -10]; it is 20 m wide and 40 m long. Comb it with lanes every 10 m."
+    assert ground("SearchAndDetect", corner).paths == (tuple(g.lawnmower((20, 10), 20, 40, 10)),)
+
+
+def test_the_middle_of_a_side_is_no_centre() -> None:
+    facts = ground("SearchAndDetect", "The middle of the east side of the area is [20, 10]. It is 20 m wide and 40 m long, lanes every 10 m.")
+    assert facts.itinerary is None and not facts.shaped

@@ -105,7 +105,7 @@ OTHER_LENGTH = _words(
 _NAMED_PLACE = rf"\b(?P<name>[A-Z])\s?(?:=|:|is(?: at)?)\s*(?P<place>{_PAIR})"
 NAMED_PLACE = re.compile(_NAMED_PLACE)
 NAME_LIST = re.compile(r"\b[A-Z]\b(?:(?:\s*(?:,|;|->|→|–|-)|\s+(?:then|and|to)\b)*\s*\b[A-Z]\b)+")
-CENTRE = re.compile(r"\b(?:cent(?:re|er)|middle|mid-?point)(?: of (?:the|its) \w+)?\s*(?:is|at|of|on|in)?\s*[:=]?\s*[\[(]?$", re.IGNORECASE)
+CENTRE = re.compile(r"\b(?:cent(?:re|er)|middle|mid-?point)(?: of (?:the|its) \w+)?\s*(?:is|at|of|on|in)?\s*[:=]?\s*[\[(]?(?:[-−–]|(?:minus|negative) )?$", re.IGNORECASE)
 """Before the centre of a shape."""
 BACK_ALONE = re.compile(r"(?<!brought )(?<!read )(?<!report )\bback(?=\s*(?:[,.;:]|$|and\b|then\b|along\b|the way\b))", re.IGNORECASE)
 """Back to where one came from, wherever that is."""
@@ -139,7 +139,11 @@ SHAPED = _words(
     r"area around|area of|depth survey|from the (?:north|south|east|west)\w* and stop"
 )
 """What a path may be meant by, where no grid and no square is named."""
-AT_CORNER = re.compile(r"\b(?:corner|start\w*|begin\w*|edge|side|end)\s+(?:at|from|in|is|being|on)?\s*[\[(]?$", re.IGNORECASE)
+AT_CORNER = re.compile(
+    r"\b(?:corner|start\w*|begin\w*|edge|side|end)(?: of (?:the|its|an?) (?:area|box|block|grid|patch|field|square|rectangle))?"
+    r"\s+(?:at|from|in|is|being|on)?\s*[\[(]?(?:[-−–]|(?:minus|negative) )?$",
+    re.IGNORECASE,
+)
 EIGHT = _words(r"(?:all )?eight|8|standard")
 NO_SQUARE = _words(r"four|clos(?:e|es|ed|ing)|half the|corners? (?:and|only)|mid-?sides? (?:and|only)|never|leaving|left|limits?|fence|use a")
 SQUARE_RUN = _words(
@@ -201,7 +205,7 @@ OWN_SIZE = _words(r"given|planned|task'?s?|stated|its|standard|usual|the (?:surv
 WAY_BEHIND = re.compile(rf"^\s?(?:(?:straight|directly|due|to|the|further|farther)\s+)*({_WAY})\b(\s+of\b\s*)?", re.IGNORECASE)
 NO_DESTINATION = re.compile(
     r"\b(?:(?:stay|remain|keep|hold)\w* \w+|(?:lies|is|are|stands|sits) (?:at|on)|way to|after|before|until|past|when at|round|around|about|"
-    r"of|circle|orbit|centred on|centered on|from|\d\s?(?:m|met(?:re|er)s?) off)\s*(?:the point |the position |\w+ at )?[\[(]?$",
+    r"of|circle|orbit|centred on|centered on|from|\d\s?(?:m|met(?:re|er)s?) off)\s*(?:the point |the position |\w+ at )?[\[(]?(?:[-−–]|(?:minus|negative) )?$",
     re.IGNORECASE,
 )
 _OWN = r"(?:the |its )?(?:(?:task'?s?|given|planned|stated|target|goal|start(?:ing)?|last known) )*"

@@ -67,7 +67,7 @@ ELSEWHERE = re.compile(
 )
 CENTRED = re.compile(
     r"\b(?:round|around|about|circle|ring|of|on|upon|centre|center|middle|is|centred|centered|from)"
-    r"(?: the [\w' -]{1,30}?(?: at)?| it at| at| is| on)?:? ?[\[(]?$",
+    r"(?: the [\w' -]{1,30}?(?: at)?| it at| at| is| on)?:? ?[\[(]?(?:[-−–]|(?:minus|negative) )?$",
     re.IGNORECASE,
 )
 """Before the centre of a ring."""
