@@ -63,7 +63,8 @@ AGAIN = re.compile(r"\b(?:clos\w*|back|return\w*|again|revisit\w*|same|twice|tim
 
 LANES = re.compile(r"\b(?:lanes?|lawn-?mow\w*|grid)\b", re.IGNORECASE)
 TO_OWN = re.compile(
-    r"(?:^|[.;:,] |\b(?:to|into|for|reach\w*|at|via) )(?:the |its |your )?(?:(?:task'?s?|given|planned|stated) )?(?:target|goal|destination|berth)"
+    r"(?:^|[.;:,] |\b(?:to|into|for|reach\w*|at|via) )(?:the |its |your )?(?:(?:task'?s?|given|planned|stated|usual|same|final|ordered) )?"
+    r"(?:target|goal|destination|berth)"
     r"(?: position| point| place)?(?=\s*(?:[,.;:)]|$|(?:via|and|then|but|by|over|only|with|at|in|while|without)\b))",
     re.IGNORECASE,
 )

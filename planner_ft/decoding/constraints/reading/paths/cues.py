@@ -33,7 +33,8 @@ LANE_END = re.compile(r"\b(?:start\w*|begin\w*|from)\b[^.;,]{0,15}?\b(?:its|the)
 APART = re.compile(
     r"\b(?:at|on|along|for) (?:all )?(?:the )?(?:(?:three|four|eight|[348]) )?(?:(?:waypoints?|points?|middles?|corners?)(?: waypoints?|"
     r" points?)? (?:of|on|along) )?"
-    r"(?:the |its |each |every |all )(?:(?:north|south|east|west)(?:ern)? )?(?:sides?|edges?)\b|(?<=metres )from the\b|(?<=yards )from the\b|"
+    r"(?:the |its |each |every |all )(?:(?:north|south|east|west)(?:ern)? )?(?:sides?|edges?)\b|"
+    r"\b(?:for|on|along|over) the (?:whole|entire|full) (?:north|south|east|west)(?:ern)? side\b|(?<=metres )from the\b|(?<=yards )from the\b|"
     r"(?<=feet )from the\b",
     re.IGNORECASE,
 )

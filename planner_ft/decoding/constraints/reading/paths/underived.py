@@ -27,6 +27,16 @@ MISREAD = re.compile(
     r"\bto the (?!goal|target|start|berth|cent|given|planned)\w+(?: \w+)? (?:at|with) (?:a )?(?:yaw|heading)\b|"
     # "keeping it on your right": which way round
     r"\bkeep\w* (?:it|the \w+) (?:always )?(?:on|to) (?:your|the) (?:left|right|port|starboard)\b|"
+    # "25 m and then 8 m east of P": both from P
+    rf"{_LENGTH} and (?:then )?{_LENGTH} {_WAY}\w* of\b|\beach (?:one )?measured from\b|"
+    # "40 m further on the same heading", "in two equal legs"
+    r"\bfurther on the same\b|\bin (?:two|three|four|five|[2-5]) equal\b|"
+    # "with the target on the starboard hand": which way round
+    r"\bon (?:the|your) (?:port|starboard|left|right) hand\b|"
+    # "half-side 11", "how wide: 30 m": sizes that are not read
+    r"\bhalf-side \d+(?:\.\d+)?(?! ?m)\b|\bhow (?:wide|long|tall|close)\b ?:|"
+    # "0, 270, 180 and 90", "one reading in one, 225 in two": no places
+    r"(?<![\d.\[(-])\d{1,3}, \d{1,3}, \d{1,3}(?:,| and) \d{1,3}\b(?! ?[\])])|\bin one, \d|"
     # "stay inside the fence [...] from P to Q, then go on to R without it"
     r"\b(?:inside|within) (?:the |this |that )?(?:fence|boundary|polygon|box|area)\b[^.;]{0,120}\][^.;\[(]{0,3} from [\[(]?[-−]?\d",
     re.IGNORECASE,
@@ -42,6 +52,8 @@ OPEN = re.compile(
     r"\bthe course (?:goes|turns|bends|changes)\b|\bon for (?:\S+ ){1,2}(?:m|met\w+|yards|feet)\b|\bdouble (?:that|it)\b|\btwice (?:that|as far)\b|"
     r"\bthe same (?:again|ag\w+) (?:back|on)\b|\bplan\w* len\w+\b|\bn-s\b|\be-w\b|\bleave the (?:loop|round|ring) open\b|\bclose the (?:round|loop|ring)\b|"
     r"\b(?:x-?ray|yankee)\b|\bcomma minus\b|\byou began\b|\bback to it\b|\bcovering (?:\S+ ){1,2}(?:m|met\w+) in [xy]\b|"
+    r"\bend(?:s|ed)? up\b|\balong the [xy][ -]axis\b|\bexpanding\b|\bfirst (?:lane|leg|line) of the\b|\bfirst corner\b|"
+    r"\bmiddle of (?:the|a|its) [\w -]{1,30}?(?: is|:|,| at) ?[\[(]?-?\d|"
     r"\bof width and (?:\S+ ){1,2}of length\b|\bstart to end\b",
     re.IGNORECASE,
 )

@@ -108,7 +108,8 @@ CAMERA: dict[str, tuple[str, ...]] = {
         r"out of|check\w*|verify|test) (?:the )?focus|expos(?:ure|ed)\b(?! cable)|contrast|clarity",
         r"resolution|grain\w*|good enough|noisy|imag\w+ noise|iqm|iq\b|fit (?:to|for) use",
         r"(?:rat|scor|grad|judg|assess|evaluat|analys|analyz|apprais|inspect|how good|usable|check|test|verif|examin|watch|monitor)(?:s|e|es|ed|"
-        r"ing|y|ies|ify|ifies|uat\w+)? (?:(?!and\b|while\b|with\b|then\b|for\b)[\w-]+ ){0,5}(?:picture|image|video|frame|view|footage|imagery)",
+        r"ing|y|ies|ify|ifies|uat\w+)? (?:(?!and\b|while\b|with\b|then\b|for\b)[\w-]+ ){0,5}(?:picture|pic\b|image|video|frame|view|footage|imagery)|"
+        r"how (?:good|gd|ok) (?:is )?the pic",
         r"(?:picture|image|video|frame|view|footage|imagery)s?\b[^.;,]{0,40}\b(?:good|usable|rat(?:ed|ing)|scor(?:ed|ing)|grad(?:ed|ing)|judg\w+|"
         r"assess\w*|evaluat\w*|analys\w*|checked|fit\b|ok\b|okay|worth|bright|dark)\b",
         r"mush\w*|enough to (?:work|use|go|be used|see)|to work with|can be used|(?:any|some|much) (?:good|use)\b|worth (?:looking|using|"
