@@ -60,7 +60,7 @@ AFTERWARDS = re.compile(r",? ?(?:and )?(?:then |finally |afterwards,? |after tha
 ELSEWHERE = re.compile(
     r"\b(?:home|base|grid|square|lanes?|lawn\w*|arc|half|quarter|twice|again|laps?|rounds|spiral|zig-?zag|sweep\w*|drift\w*|via|instead|rather|sorry|correction|"
     r"ellip\w+|oval|triangle|figure|star|two (?:rings|circles)|inner|outer|smaller|larger|hold\w* at \[|mid-?sides?|corners?|reverse\w*|star\w* pattern|"
-    r"transit\w*|follow\w*|tracks?|cable|mov(?:e|ing)|proceed\w*|"
+    r"return\w*|back|transit\w*|follow\w*|tracks?|cable|mov(?:e|ing)|proceed\w*|"
     r"(?:head|run|sail|drive|take|steam|go)(?:ing|s)? (?:the \w+ |her |it |out |over |straight )?(?:to|for|in)|"
     r"alternat\w+|opposite|skip\w*|omit\w*|leave out|except(?! (?:for )?(?:at|on|while))|unless|if|not the|half ?way|between the)\b",
     re.IGNORECASE,
@@ -80,7 +80,7 @@ def read_ring(record: dict[str, Any], pattern: str, own: Point | None) -> Path |
     if len(prompt) > LONGEST or not isinstance(given, dict):
         return None
     text = without_fences(plain_text(prompt))
-    if AFTERWARDS.search(text) or ELSEWHERE.search(text) or (pattern == "square" and not ROUNDED.search(text)):
+    if AFTERWARDS.search(text) or ELSEWHERE.search(OPEN.sub(" ", CLOSED.sub(" ", text))) or (pattern == "square" and not ROUNDED.search(text)):
         return None
     places = [Place(g.point(x, y), start, end) for x, y, start, end in positions(text) if not w.SIZE.search(text[start:end])]
     if any(not CENTRED.search(text[: place.start]) or _counted(text, place) for place in places):
