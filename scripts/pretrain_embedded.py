@@ -122,20 +122,23 @@ def earlier_stages(init: Path | None) -> list[dict[str, Any]]:
 
 
 def export(model: Any, tokenizer: Any, settings: PretrainSettings, arguments: argparse.Namespace) -> None:
-    """Write the newest checkpoint as a bf16 model folder, averaged with the weights of `--init` where `--init-share` asks for it."""
+    """Write the newest checkpoint as a bf16 model folder, averaged with the weights of `--init` or `--average-with` where `--init-share` asks for it."""
     import torch
 
     saved = torch.load(arguments.work / "checkpoint.pt", weights_only=True)
-    weights, share = saved["model"], arguments.init_share
+    weights, share, other = saved["model"], arguments.init_share, arguments.average_with or arguments.init
     if share:
-        if not arguments.init:
+        if not other:
             raise SystemExit("--init-share needs --init: the model folder whose weights are averaged with the checkpoint's.")
-        initialise(model, arguments.init)
+        initialise(model, other)
         weights = {name: torch.lerp(weights[name].float(), value.float(), share) for name, value in model.state_dict().items()}
     model.load_state_dict(weights)
     model.to(torch.bfloat16).save_pretrained(arguments.export)
     tokenizer.save_pretrained(arguments.export)
     record = {"state": saved["state"], "settings": dataclasses.asdict(settings), "init_share": share, "corpus": corpus_summary(arguments.work)}
+    if arguments.average_with:
+        # Averaged with an earlier stage than the one that this began from: its number, as the stages are listed.
+        record["averaged_with_stage"] = len(earlier_stages(arguments.average_with))
     write_json(arguments.export / "pretraining.json", {**record, "earlier_stages": earlier_stages(arguments.init)})
 
 
@@ -153,6 +156,7 @@ def main() -> None:
     parser.add_argument("--export", type=Path, help="write the newest checkpoint as a model folder here and stop")
     parser.add_argument("--init", type=Path, help="model folder whose weights and tokenizer a further stage starts from")
     parser.add_argument("--init-share", type=float, default=0.0, help="share of the weights of --init in those that --export writes, 0 to 1")
+    parser.add_argument("--average-with", type=Path, help="model folder of an earlier stage that --init-share is about, instead of --init")
     parser.add_argument("--shards", type=int, default=20)
     parser.add_argument("--shard-samples", type=int, default=12_000)
     parser.add_argument("--mission-share", type=float, default=0.6)

@@ -19,7 +19,7 @@ SPECIAL = {"bos": 1, "eos": 2, "pad": 0}
 
 
 def arguments(folder: Path, **given: Any) -> argparse.Namespace:
-    return argparse.Namespace(work=folder / "work", export=folder / "out", **{"init": None, "init_share": 0.0} | given)
+    return argparse.Namespace(work=folder / "work", export=folder / "out", **{"init": None, "init_share": 0.0, "average_with": None} | given)
 
 
 @pytest.fixture
@@ -49,3 +49,17 @@ def test_an_average_needs_something_to_average_with(script: ModuleType, folder: 
     with pytest.raises(SystemExit, match="--init-share needs --init"):
         script.export(new_model(SETTINGS, 64, SPECIAL), None, SETTINGS, arguments(folder, init_share=0.5))
     assert not (folder / "out").exists()
+
+
+def test_the_average_may_be_with_an_earlier_stage(script: ModuleType, folder: Path) -> None:
+    model = new_model(SETTINGS, 64, SPECIAL)
+    model.load_state_dict({name: torch.full_like(value, 8.0) for name, value in model.state_dict().items()})
+    model.save_pretrained(folder / "first")
+    (folder / "first" / "pretraining.json").write_text('{"state": {"step": 1}}')
+    tokenizer = SimpleNamespace(save_pretrained=lambda path: None)
+    given = arguments(folder, init=folder / "before", average_with=folder / "first", init_share=0.5)
+    script.export(new_model(SETTINGS, 64, SPECIAL), tokenizer, SETTINGS, given)
+    written = load_file(folder / "out" / "model.safetensors")
+    assert all(bool((value.float() == 5.0).all()) for value in written.values())
+    record = json.loads((folder / "out" / "pretraining.json").read_text())
+    assert record["averaged_with_stage"] == 1 and [stage["state"]["step"] for stage in record["earlier_stages"]] == [3]
