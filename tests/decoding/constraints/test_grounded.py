@@ -211,3 +211,15 @@ def test_a_fence_has_corners_that_the_input_states(embedded: Any) -> None:
     for wrong in ("[[-500,-500],[400,-500],[500,500]]", "[[-0.5,-0.5],[0.5,-0.5],[0.5,0.5]]"):
         ids = answer_ids(embedded, answer % wrong)
         assert factory.start(record).admits(ids) < len(ids)
+
+
+@pytest.mark.parametrize(("words", "seconds", "possible"), [("twice as long", 120, True), ("half the time", 30, True), ("for as long", 120, False)])
+def test_a_time_may_be_told_by_another_one(embedded: Any, words: str, seconds: float, possible: bool) -> None:
+    vocabulary = load_vocabulary()
+    prompt = f"Hold 60 s at [5, -12], then move to [9, 4] and stay there {words}."
+    places, times = ({"x": 5, "y": -12}, {"x": 9, "y": 4}), ({"time": 60}, {"time": seconds})
+    moves = [(name, given) for pair in zip(places, times, strict=True) for name, given in zip(("GoToXY", "StationKeep"), pair, strict=True)]
+    plan = {"skill_sequence": [plan_step(name, dict(given), [], [], vocabulary) for name, given in moves]}
+    ids = answer_ids(embedded, completion_text("task", plan, vocabulary))
+    record = {"task": "Transit", "parameters": {"target_position": [5, -12]}, "prompt": prompt}
+    assert (make_factory(embedded, "task", vocabulary, "grounded").start(record, 4096).admits(ids) == len(ids)) is possible
