@@ -65,6 +65,13 @@ _A_SECOND_ONE = re.compile(
 _UNIT_LEFT_OUT = re.compile(r"(?: (?:more|at|here|there|on|and|then|in)\b|[.,;)]|$)(?! ?\d)", re.IGNORECASE)
 """What stands behind a number whose unit was said before: "ten minutes here and five there"."""
 
+_MULTIPLES = {
+    2.0: re.compile(r"\b(?:twice|double|two times)\b", re.IGNORECASE),
+    3.0: re.compile(r"\b(?:triple|treble|thrice|three times)\b", re.IGNORECASE),
+    0.5: re.compile(r"\bhalf (?:as|the|that|of|its|this)\b|\bhalve\w*\b", re.IGNORECASE),
+}
+"""Words for a time or length by another one: "hold twice as long", "half the distance"."""
+
 
 @dataclass(frozen=True)
 class Reading:
@@ -189,6 +196,11 @@ def own_texts(record: dict[str, Any]) -> Iterator[str]:
 def sector_counts(numbers: Iterable[float]) -> frozenset[int]:
     """The numbers into which a turn can be divided."""
     return frozenset(int(number) for number in numbers if number in range(2, MOST_SECTORS + 1))
+
+
+def multiples(text: str) -> list[float]:
+    """By what a text multiplies a time or a length: "hold twice as long", "make it half as long"."""
+    return [factor for factor, words in _MULTIPLES.items() if words.search(text)]
 
 
 def turned(said: Sequence[float], counts: Iterable[int]) -> Iterator[float]:

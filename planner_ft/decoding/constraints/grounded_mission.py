@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 
 from planner_ft.data.numerals import UNITS
 from planner_ft.data.quantities import close, positions
-from planner_ft.decoding.constraints.facts import usable
+from planner_ft.decoding.constraints.facts import multiples, usable
 from planner_ft.decoding.constraints.grammar import Context, Grammar, Narrowed, Positions, Values, written_number
 from planner_ft.decoding.constraints.grounded import GroundedValues, one_of
 from planner_ft.decoding.constraints.reading.missions.apart import Given, lists_of_numbers, read_apart
@@ -80,10 +80,13 @@ class MissionValues(GroundedValues):
         self._reading = replace(self._reading, places=tuple(places))
         self._listed = [number for row in lists_of_numbers(prompt) for number in row] if short else []
         self._outdated = outdated(prompt) if short else frozenset()
+        self._multiples = multiples(prompt)
         self.told = read_told(prompt, (float(vocabulary.home[0]), float(vocabulary.home[1]))) if short and not self._reading.numbers_free else Told()
 
     def _values_of(self, parameter: Parameter) -> list[float] | None:
         said = super()._values_of(parameter)
+        if said is not None and parameter.unit in ("s", "m"):
+            said = usable((*said, *(value * factor for factor in self._multiples for value in said)), parameter)
         listed = {number.value for number in self._listed if number.unit == parameter.unit}
         if said is None or not (listed or self._outdated):
             return said

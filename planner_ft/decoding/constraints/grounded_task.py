@@ -8,7 +8,7 @@ from collections.abc import Collection, Sequence
 from typing import Any
 
 from planner_ft.data.quantities import quantities
-from planner_ft.decoding.constraints.facts import MOST_CROSSED, own_numbers, own_texts, sector_counts, turned, usable
+from planner_ft.decoding.constraints.facts import MOST_CROSSED, multiples, own_numbers, own_texts, sector_counts, turned, usable
 from planner_ft.decoding.constraints.grammar import (
     IDENTIFIED,
     MOST_TEXTS,
@@ -36,12 +36,6 @@ DIVIDED = re.compile(
     re.IGNORECASE,
 )
 """Words for a turn that is divided into parts."""
-MULTIPLES = {
-    2.0: re.compile(r"\b(?:twice|double|two times)\b", re.IGNORECASE),
-    3.0: re.compile(r"\b(?:triple|treble|thrice|three times)\b", re.IGNORECASE),
-    0.5: re.compile(r"\bhalf (?:as|the|that|of|its|this)\b|\bhalve\w*\b", re.IGNORECASE),
-}
-"""Words for a time or length by another one: "hold twice as long", "half the distance"."""
 RECIPROCAL = re.compile(r"\breciprocal\b|\bopposite (?:heading|bearing|course|direction|way)\b|\bback bearing\b", re.IGNORECASE)
 
 
@@ -58,7 +52,7 @@ class GroundedTaskValues(GroundedValues):
         self._texts = list(own_texts(record))
         self._spans = Spans([prompt, *self._texts], named=True)
         self._reciprocal = RECIPROCAL.search(prompt) is not None
-        self._multiples = [factor for factor, words in MULTIPLES.items() if words.search(prompt)]
+        self._multiples = multiples(prompt)
         self._divided = DIVIDED.search(prompt) is not None
         self._counts = sector_counts([*(quantity.said for quantity in quantities(prompt)), *(number for number, _unit in self._own)])
 
