@@ -181,6 +181,9 @@ def half_behind(tokens: list[Token], index: int) -> tuple[float, int]:
     if word_at(tokens, index + 1) in _MIXED:
         return _MIXED[word_at(tokens, index + 1)], 2
     place = index + 1 + (word_at(tokens, index + 1) in ("a", "one"))
+    if word_at(tokens, place + 1) in ("a", "an"):
+        # "Nine minutes and half an hour" are two.
+        return 0.0, 0
     return (FRACTIONS[word_at(tokens, place)], place + 1 - index) if word_at(tokens, place) in FRACTIONS else (0.0, 0)
 
 

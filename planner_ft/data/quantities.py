@@ -40,6 +40,8 @@ _BETWEEN = re.compile(
 _DIRECTED = re.compile(rf"\s*(?:met(?:re|er)s?|m)?\s*(?:(?:to )?the |due )?({_DIRECTION})", re.IGNORECASE)
 _LED = re.compile(rf"(?<![a-z])({_DIRECTION})\s*(?:of|by|[:=])?\s*(?:minus|negative|[-−–])?\s*$", re.IGNORECASE)
 _BY = re.compile(r"\s?(?:by|x|×)\s?", re.IGNORECASE)
+_MINUTES_SECONDS = re.compile(r" ?m(?:in)? ?(\d{1,2}) ?s(?:ec)?\b", re.IGNORECASE)
+"""What follows the minutes of "3m30s"."""
 _SPEEDS = (
     (re.compile(r"\s*(?:an? )?(?:m/s|m s-1|m(?:et(?:re|er)s?)?,? (?:per|a) s(?:ec(?:ond)?)?\b)", re.IGNORECASE), 1.0),
     (re.compile(r"\s*(?:km/h|km (?:per|an) hour|kilomet(?:re|er)s (?:per|an) hour)", re.IGNORECASE), 1 / 3.6),
@@ -101,6 +103,9 @@ def _with_unit(text: str, tokens: list[Token], first: int, after: int, value: fl
         if speed:
             behind = next((index for index in range(after, len(tokens)) if tokens[index][1] >= speed.end()), len(tokens))
             return Quantity(value * factor, "m/s", start, speed.end(), value), behind
+    if clock := _MINUTES_SECONDS.match(text, end):
+        behind = next((index for index in range(after, len(tokens)) if tokens[index][1] >= clock.end()), len(tokens))
+        return Quantity(60 * value + float(clock[1]), "s", start, clock.end(), value), behind
     unit, behind = unit_at(tokens, after)
     if unit is not None and unit[0] == "m" and word_at(tokens, behind) in ("per", "a", "an", "each", "every", "/"):
         rate = unit_of(word_at(tokens, behind + 1))

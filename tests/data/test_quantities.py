@@ -31,6 +31,8 @@ from planner_ft.data.stated import states_number, states_position
         ("100 by 50 yards", [(91.44, "m"), (45.72, "m")]),
         ("niner zero, minus two five", [(90, None), (-25, None)]),
         ("lanes one zero metres apart", [(10, "m")]),
+        ("3m30s", [(210, "s")]),
+        ("9 minutes and half an hour", [(540, "s"), (1800, "s")]),
         ("two five-minute holds", [(2, None), (300, "s")]),
         ("2/3 of it", [(2 / 3, None)]),
         ("5/5 and 5/35", [(5, None), (5, None), (5, None), (35, None)]),

@@ -27,8 +27,10 @@ from planner_ft.decoding.constraints.reading.paths.ways_off import ways_off
 from planner_ft.vocabulary import Vocabulary
 
 Path = tuple[Point, ...]
-SHIFTED = re.compile(r"\b(?:shifted|displaced) (?:by )?\d", re.IGNORECASE)
-"""A line that is moved aside as a whole: not read."""
+SHIFTED = re.compile(
+    r"\b(?:shifted|displaced) (?:by )?\d|\bbefore \w+ing (?:to|for|out)\b|\bby way of\b|\bturn and run\b|\bat the second end\b|\bchange places\b", re.IGNORECASE
+)
+"""A line that is moved aside as a whole, and an order that is told otherwise: not read."""
 
 
 def read_runs(record: dict[str, Any], vocabulary: Vocabulary) -> Path | None:

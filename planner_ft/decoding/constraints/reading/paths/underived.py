@@ -31,6 +31,8 @@ MISREAD = re.compile(
     rf"{_LENGTH} and (?:then )?{_LENGTH} {_WAY}\w* of\b|\beach (?:one )?measured from\b|"
     # "40 m further on the same heading", "in two equal legs"
     r"\bfurther on the same\b|\bin (?:two|three|four|five|[2-5]) equal\b|"
+    # "run 30 m east, turn to starboard, 30 m", "round the rectangle P to Q"
+    r"\bturn (?:and run\b|to (?:port|starboard),? \d)|\bright angles\b|\bround the rectangle\b|\brectangle from\b[^.;]{0,60}\boutline\b|"
     # "with the target on the starboard hand": which way round
     r"\bon (?:the|your) (?:port|starboard|left|right) hand\b|"
     # "half-side 11", "how wide: 30 m": sizes that are not read
@@ -52,6 +54,7 @@ OPEN = re.compile(
     r"\bthe course (?:goes|turns|bends|changes)\b|\bon for (?:\S+ ){1,2}(?:m|met\w+|yards|feet)\b|\bdouble (?:that|it)\b|\btwice (?:that|as far)\b|"
     r"\bthe same (?:again|ag\w+) (?:back|on)\b|\bplan\w* len\w+\b|\bn-s\b|\be-w\b|\bleave the (?:loop|round|ring) open\b|\bclose the (?:round|loop|ring)\b|"
     r"\b(?:x-?ray|yankee)\b|\bcomma minus\b|\byou began\b|\bback to it\b|\bcovering (?:\S+ ){1,2}(?:m|met\w+) in [xy]\b|"
+    r"\bpast the [^.;]{1,30} on its\b|\b[xy] (?:stays|goes from)\b|"
     r"\bend(?:s|ed)? up\b|\balong the [xy][ -]axis\b|\bexpanding\b|\bfirst (?:lane|leg|line) of the\b|\bfirst corner\b|"
     r"\bmiddle of (?:the|a|its) [\w -]{1,30}?(?: is|:|,| at) ?[\[(]?-?\d|"
     r"\bof width and (?:\S+ ){1,2}of length\b|\bstart to end\b",

@@ -23,11 +23,12 @@ _TAKEN_BACK = f.compiled(
     r"\b(?:sorry|i mean|i meant|correction|rather|instead|actually|make (?:that|it)|scratch|cancel|forget|strike|disregard|skip|leave out|drop the|"
     r"no longer|if|unless|either|"
     r"or rather|wrong|changed? my mind|undo|vice versa|other way|opposite|reverse\w*|backwards|any (?:heading|bearing|direction)|alternat\w+|"
-    r"reciprocal|back (?:to )?where|way-?points? (?:every|each)|mirror\w*)\b|\bno, |\?|"
+    r"reciprocal|end with the (?:nose|bow) on|back (?:to )?where|way-?points? (?:every|each)|mirror\w*)\b|\bno, |\?|"
     r"\b(?:not|n't|never|no|without|nor|don't|neither) (?:(?!during|in|on|while|when|for|at|until|after|before|of)[a-z]+ ){0,2}?"
     r"(?:turn|rotat|pan\b|panning|nudg|yaw|swing|pivot|fac(?:e|ing)|spin)\w*|\b(?:not|n't) (?:to )?[DNC]-?\d"
 )
 _ONE_OR_MORE = f.compiled(
+    r"\brounds of \w+:|"
     r"\breturn(?:ing)?\b(?! (?:home|to (?:base|home|where|P|the (?!heading|bearing|first))))|"
     r"(?<!all )\btimes\b|"
     r"(?<!long )(?<!look )(?<!hold )(?<!wait )(?<!check )(?<!stay )(?<!measure )(?<!centred )(?<!still )(?<!home )(?<!record )\bagain\b|"

@@ -213,7 +213,8 @@ UNMISTAKABLE: dict[str, tuple[str, ...]] = {
         r"(?:record|film)(?:ing)? (?:video|footage)\b|(?:start|run)(?:ning|ing)? (?:the |a )?recording\b|recording (?:on|running)\b|"
         r"record(?:ing)? (?:with )?(?:the )?(?:[a-z-]+ )?(?:cam\w*|camera|sonar|radar|sss\w*|hydrophone)\b|film(?:ing)? (?:it|everything|"
         r"the whole)\b",
-        r"all on (?:video|tape)\b|camera rolling\b|shoot(?:ing)? video\b|(?:have|keep) (?!an? )(?:the )?[\w-]+(?: [\w-]+)? (?:record|rolling)\b|recording of\b",
+        r"all on (?:video|tape)\b|camera rolling\b|shoot(?:ing)? video\b|"
+        r"(?:have|keep) (?!an? )(?:the )?[\w-]+(?: [\w-]+)? (?:(?<!on )record|rolling)\b|recording of\b",
     ),
     "BufferLoopCapture": (
         rf"(?:sav|captur|grab|dump|stor|keep|secur)(?:e|ing|s)? the last (?:{COUNT}[ -]?){{1,5}}(?:s|sec\w*|min\w*|"

@@ -54,7 +54,7 @@ LIMITS: dict[str, tuple[str, ...]] = {
         r"in (?:the|your) path",
     ),
     "BoundaryEnforcement": (
-        r"playground",
+        r"playground|(?:operating|working|first|second|third|other|last) box\b",
         r"\w*fenc\w*|\w*bound(?!\b)\w*|(?:in|out of|within|of|the) bounds\b|bound (?:by|to|the|your|us|you)\b|polygon\w*|poly\b|perimeter\w*|enclos\w+|corral|"
         r"cordon\w*",
         r"(?:the|a|this|that|in|inside|within|leave|geo-?|virtual|allowed|safety|permitted|given|corner) box\b(?! (?:search|survey|\d))|"

@@ -50,7 +50,7 @@ def test_what_is_not_certain_is_left_to_the_model(text: str, spoken: set[str]) -
 def test_values_of_sampled_tasks_are_mostly_the_labels() -> None:
     """Where a skill is used with several values and one has its kind beside it, the others are missed."""
     right = wrong = 0
-    for record in itertools.islice(sample_tasks(VOCABULARY, 616, None, "train"), 500):
+    for record in itertools.islice(sample_tasks(VOCABULARY, 616, None, "train"), 700):
         named = read_named_values(record["prompt"], read_companions(record, VOCABULARY).mentioned, VOCABULARY)
         steps = record["expected"]["skill_sequence"]
         for (name, parameter), values in named.items():
