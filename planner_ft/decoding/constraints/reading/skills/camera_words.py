@@ -68,7 +68,7 @@ CAMERA: dict[str, tuple[str, ...]] = {
         r"number|sign)",
     ),
     "GetThermalStats": (
-        r"(?:hot|warm|fever)\b|(?:under|before) the thermal cam\w*",
+        r"(?:hot|warm|fever)\b|(?:under|before) the thermal cam\w*|look(?:s|ing)? at [^.;]{1,40} with the thermal cam\w*",
         r"therm[a-z]*\b(?! (?:cam\w*|stream|feed|view|clips?|images?|videos?|picture|files?|search)\b)|thermo\w*",
         r"(?:with|by|through|using|on|in|from|via|under) (?:the )?(?:thermal|infra-?red|ir)\b(?! (?:cam|stream|feed|view))",
         r"(?<!\bhighest )\w*temper\w*|temps?\b|heat (?:of|in|on|levels?|readings?|figures?|values?|numbers?|data)|"

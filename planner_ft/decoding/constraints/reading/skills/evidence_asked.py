@@ -56,7 +56,7 @@ ASKED: dict[str, tuple[str, ...]] = {
     ),
     "DetectObjects": (
         rf"(?<!sonar )(?<!feature )(?<!text )detector(?:,|:| is| to be| must be| has to be)? (?:on|running|for|look\w*|(?!off\b|does|not)[a-z ]{{3,20}},)|"
-        rf"detect(?:ing)? (?!the (?:lens|hottest|text)|a curve|sonar|blobs|features)[a-z ]{{3,40}}(?:,|and) [a-z ]{{3,30}}{_SEEN}$",
+        rf"detect(?:ing)? (?!the (?:lens|hottest|text)|a curve|blobs|features|[a-z ]{{0,50}}sonar)[a-z ]{{3,40}}(?:,|and) [a-z ]{{3,30}}{_SEEN}$",
         r"(?:with|by) the detector\b|keep\w* your eyes open for\b|run(?:ning)? (?:the )?(?:object )?detection (?:of|for|on)\b|"
         r"look(?:ing)? out for (?!hot|the (?:hot|warm))",
     ),

@@ -100,7 +100,7 @@ RECORDING: dict[str, tuple[str, ...]] = {
         r"this|that) (?:spot|place|position|point|location)|mark-?up|label[^.;,]{0,30}(?:map|chart|spot|place)",
     ),
     "RegisterObservation": (
-        r"(?<!\bwhat was )(?<!\bwhat has been )\w*observ\w*|regist(?:er|ers|ered|ering)\b|entry\b|entries\b|logger\w*|log-?book|journal|remark\w*|"
+        r"(?<!\bwhat was )(?<!\bwhat has been )\w*observ\w*|reg(?:ist(?:er|ers|ered|ering))?\b|entry\b|entries\b|logger\w*|log-?book|journal|remark\w*|"
         r"jot\w*|memo\b|what (?:you|we|is|was) (?:see|saw|seen|there|found|find)\b|comment\w*|diary|minute (?:it|that|this)\b|data-? ?log\w*",
         r"enter(?:s|ed|ing)?\b(?! (?:at|from|by|on|through|the (?:area|grid|block|box|harb|lane|basin|port|dock|north|south|east|west)|it at))|"
         r"entering\b",
