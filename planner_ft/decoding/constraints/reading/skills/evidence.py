@@ -26,6 +26,7 @@ HALF = 0.5
 MOST_VARIANTS = 6
 """Spellings that a word which is in no list is tried in."""
 _ELSEWHERE_YES = re.compile(r"[^.;!?]*\byes\b")
+"""Behind what is not wanted in one place: "no soundings out, back yes"."""
 MOST_BEHIND = 3
 """Words that may stand behind what is not wanted anywhere: more can say where it is."""
 RARE = 2
