@@ -12,7 +12,7 @@ _WAY = (
     r"(?:(?:north|south|east|west)[ -](?:north|south)[ -]?(?:east|west)|north[ -]?(?:east|west)|south[ -]?(?:east|west)|north|south|east|west)(?:ern|wards?)?"
 )
 _NUMBER = r"[-−–]?\d+(?:\.\d+)?"
-_OPENS = r"[\[(]?(?:[-−–]|(?:minus|negative) )?"
+OPENS = r"[\[(]?(?:[-−–]|(?:minus|negative) )?"
 """Between a word and the first digit of a place."""
 _PAIR = rf"[\[(]\s*{_NUMBER}\s*,\s*{_NUMBER}\s*[\])]"
 
@@ -107,7 +107,7 @@ OTHER_LENGTH = _words(
 _NAMED_PLACE = rf"\b(?P<name>[A-Z])\s?(?:=|:|is(?: at)?)\s*(?P<place>{_PAIR})"
 NAMED_PLACE = re.compile(_NAMED_PLACE)
 NAME_LIST = re.compile(r"\b[A-Z]\b(?:(?:\s*(?:,|;|->|→|–|-)|\s+(?:then|and|to)\b)*\s*\b[A-Z]\b)+")
-CENTRE = re.compile(rf"\b(?:cent(?:re|er)|middle|mid-?point)(?: of (?:the|its) \w+)?\s*(?:is|at|of|on|in)?\s*[:=]?\s*{_OPENS}$", re.IGNORECASE)
+CENTRE = re.compile(rf"\b(?:cent(?:re|er)|middle|mid-?point)(?: of (?:the|its) \w+)?\s*(?:is|at|of|on|in)?\s*[:=]?\s*{OPENS}$", re.IGNORECASE)
 """Before the centre of a shape."""
 BACK_ALONE = re.compile(r"(?<!brought )(?<!read )(?<!report )\bback(?=\s*(?:[,.;:]|$|and\b|then\b|along\b|the way\b))", re.IGNORECASE)
 """Back to where one came from, wherever that is."""
@@ -143,7 +143,7 @@ SHAPED = _words(
 """What a path may be meant by, where no grid and no square is named."""
 AT_CORNER = re.compile(
     r"\b(?:corner|start\w*|begin\w*|edge|side|end)(?: of (?:the|its|an?) (?:area|box|block|grid|patch|field|square|rectangle))?"
-    rf"\s+(?:at|from|in|is|being|on)?\s*{_OPENS}$",
+    rf"\s+(?:at|from|in|is|being|on)?\s*{OPENS}$",
     re.IGNORECASE,
 )
 EIGHT = _words(r"(?:all )?eight|8|standard")
@@ -207,7 +207,7 @@ OWN_SIZE = _words(r"given|planned|task'?s?|stated|its|standard|usual|the (?:surv
 WAY_BEHIND = re.compile(rf"^\s?(?:(?:straight|directly|due|to|the|further|farther)\s+)*({_WAY})\b(\s+of\b\s*)?", re.IGNORECASE)
 NO_DESTINATION = re.compile(
     r"\b(?:(?:stay|remain|keep|hold)\w* \w+|(?:lies|is|are|stands|sits) (?:at|on)|way to|after|before|until|past|when at|round|around|about|"
-    rf"of|circle|orbit|centred on|centered on|from|\d\s?(?:m|met(?:re|er)s?) off)\s*(?:the point |the position |\w+ at )?{_OPENS}$",
+    rf"of|circle|orbit|centred on|centered on|from|\d\s?(?:m|met(?:re|er)s?) off)\s*(?:the point |the position |\w+ at )?{OPENS}$",
     re.IGNORECASE,
 )
 _OWN = r"(?:the |its )?(?:(?:task'?s?|given|planned|stated|target|goal|start(?:ing)?|last known) )*"

@@ -55,7 +55,7 @@ CLOSED = re.compile(
     r"(?:finish|end)\w* (?:where (?:you|it|we) (?:began|started)|(?:at|on) the (?:first|start\w*)))\b",
     re.IGNORECASE,
 )
-OPEN = re.compile(r"\b(?:not|never|no|don['’]t|without|need not)\b[^.;]{0,30}\b(?:clos\w+|back|return\w*|close)\b|\bopen\b", re.IGNORECASE)
+LEFT_OPEN = re.compile(r"\b(?:not|never|no|don['’]t|without|need not)\b[^.;]{0,30}\b(?:clos\w+|back|return\w*|close)\b|\bopen\b", re.IGNORECASE)
 AFTERWARDS = re.compile(r",? ?(?:and )?(?:then |finally |afterwards,? |after that,? )(?:go |head |return |come |back )*(?:home|to base)\b", re.IGNORECASE)
 ELSEWHERE = re.compile(
     r"\b(?:home|base|grid|square|lanes?|lawn\w*|arc|half|quarter|twice|again|laps?|rounds|spiral|zig-?zag|sweep\w*|drift\w*|via|instead|rather|sorry|correction|"
@@ -67,11 +67,10 @@ ELSEWHERE = re.compile(
 )
 CENTRED = re.compile(
     r"\b(?:round|around|about|circle|ring|of|on|upon|centre|center|middle|is|centred|centered|from)"
-    r"(?: the [\w' -]{1,30}?(?: at)?| it at| at| is| on)?:? ?[\[(]?(?:[-−–]|(?:minus|negative) )?$",
+    rf"(?: the [\w' -]{{1,30}}?(?: at)?| it at| at| is| on)?:? ?{w.OPENS}$",
     re.IGNORECASE,
 )
 """Before the centre of a ring."""
-BEARINGS = {"north": 0.0, "northeast": 45.0, "east": 90.0, "southeast": 135.0, "south": 180.0, "southwest": 225.0, "west": 270.0, "northwest": 315.0}
 
 
 def read_ring(record: dict[str, Any], pattern: str, own: Point | None) -> Path | None:
@@ -80,7 +79,7 @@ def read_ring(record: dict[str, Any], pattern: str, own: Point | None) -> Path |
     if len(prompt) > LONGEST or not isinstance(given, dict):
         return None
     text = without_fences(plain_text(prompt))
-    if AFTERWARDS.search(text) or ELSEWHERE.search(OPEN.sub(" ", CLOSED.sub(" ", text))) or (pattern == "square" and not ROUNDED.search(text)):
+    if AFTERWARDS.search(text) or ELSEWHERE.search(LEFT_OPEN.sub(" ", CLOSED.sub(" ", text))) or (pattern == "square" and not ROUNDED.search(text)):
         return None
     places = [Place(g.point(x, y), start, end) for x, y, start, end in positions(text) if not w.SIZE.search(text[start:end])]
     if any(not CENTRED.search(text[: place.start]) or _counted(text, place) for place in places):
@@ -94,7 +93,7 @@ def read_ring(record: dict[str, Any], pattern: str, own: Point | None) -> Path |
     if len(bearings) < 3:
         return None
     ring = tuple(g.offset(centre, bearing, float(radius)) for bearing in bearings)
-    return (*ring, ring[0]) if CLOSED.search(text) and not OPEN.search(text) else ring
+    return (*ring, ring[0]) if CLOSED.search(text) and not LEFT_OPEN.search(text) else ring
 
 
 def _counted(text: str, place: Place) -> bool:
@@ -106,7 +105,7 @@ def _listed(text: str) -> Iterator[float]:
     """The bearings of the points from the centre, where the text tells them one by one."""
     lists = list(LIST.finditer(text))
     if len(lists) == 1 and not _ONE_SPOT.search(text[: lists[0].start()] + text[lists[0].end() :]):
-        found = [BEARINGS[re.sub("[ -]", "", spot["way"].lower())] for spot in _ONE_SPOT.finditer(lists[0][0])]
+        found = [w.bearing_of(spot["way"]) for spot in _ONE_SPOT.finditer(lists[0][0])]
         counts = set(_counts(text))
         if len(set(found)) == len(found) and counts <= {len(found)} and not WAY_ROUND.search(text):
             yield from found
@@ -121,7 +120,7 @@ def _spread(text: str) -> Iterator[float]:
     evenly = EVEN.search(text) or steps or RING.search(text)
     if len(counts) != 1 or len(first) != 1 or len(rounds) != 1 or not evenly:
         return
-    count, start = counts.pop(), BEARINGS[re.sub("[ -]", "", first.pop())]
+    count, start = counts.pop(), w.bearing_of(first.pop())
     if count == int(count) and 3 <= count <= MOST_POINTS:
         step = 360 / count if rounds.pop() else -360 / count
         yield from ((start + step * index) % 360 for index in range(int(count)))
