@@ -53,7 +53,7 @@ SERVER_VENV ?= .venv-server
 server-test: install
 	test -x $(SERVER_VENV)/bin/python || $(PYTHON) -m venv $(SERVER_VENV)
 	CMAKE_ARGS="-DLLAVA_BUILD=OFF $(CMAKE_ARGS)" $(SERVER_VENV)/bin/python -m pip install --quiet --disable-pip-version-check -c benchmarks/server.txt "llama-cpp-python[server]"
-	PLANNERFT_SERVER_PYTHON=$(SERVER_VENV)/bin/python $(BIN)/python -m pytest -m server tests/export/test_server.py
+	PLANNERFT_SERVER_PYTHON=$(SERVER_VENV)/bin/python $(BIN)/python -m pytest -m server tests/model_export/test_server.py
 
 clean:
 	rm -rf build $(VENV)

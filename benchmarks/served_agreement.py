@@ -72,7 +72,7 @@ def compare(arguments: argparse.Namespace, work: Path) -> dict[str, Any]:
 
 def exported(arguments: argparse.Namespace, folder: Path) -> Path:
     """The folder of a fresh export."""
-    from planner_ft.export import ExportSettings, export
+    from planner_ft.model_export import ExportSettings, export
 
     return export(ExportSettings(arguments.candidate, folder, arguments.level, merge=True, gguf=True), print).folder
 
@@ -114,7 +114,7 @@ def compare_ids(url: str, folder: Path, level: Any, count: int) -> int:
 
     from planner_ft.candidates import resolve_candidate
     from planner_ft.candidates.loading import load_tokenizer
-    from planner_ft.export.check import check_records
+    from planner_ft.model_export.check import check_records
     from planner_ft.prompts import render_prompt
     from planner_ft.vocabulary import load_vocabulary
 
@@ -159,8 +159,8 @@ def local_answers(folder: Path, arguments: argparse.Namespace, path: Path) -> di
     """The texts of greedy answers in float32 by id, also written as predictions."""
     from planner_ft.candidates import resolve_candidate
     from planner_ft.candidates.loading import load_tokenizer
-    from planner_ft.export.check import Answers
-    from planner_ft.export.merge import load_full
+    from planner_ft.model_export.check import Answers
+    from planner_ft.model_export.merge import load_full
     from planner_ft.support.files import read_jsonl, write_jsonl
     from planner_ft.vocabulary import load_vocabulary
 

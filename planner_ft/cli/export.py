@@ -52,7 +52,7 @@ def export(
     if plan is not None:
         _export_plan(plan, format or [], origin, out, log, draft, vocabulary if "vocabulary" in given else None, overwrite)
         return
-    from planner_ft.export.settings import ExportSettings
+    from planner_ft.model_export.settings import ExportSettings
     from planner_ft.vocabulary.plans import check_level
 
     known: Any = outtype  # checked by the settings
@@ -97,9 +97,9 @@ def _required_out(out: Path | None) -> Path:
 def _export_plan(
     plan: Path, formats: list[str], origin: str | None, out: Path | None, log: Path | None, draft: bool, vocabulary: str | None, overwrite: bool
 ) -> None:
-    from planner_ft.handover.geodesy import parse_origin
-    from planner_ft.handover.losses import loss_lines, loss_summary
-    from planner_ft.handover.run import HandoverSettings, hand_over
+    from planner_ft.exporters.geodesy import parse_origin
+    from planner_ft.exporters.losses import loss_lines, loss_summary
+    from planner_ft.exporters.run import HandoverSettings, hand_over
 
     place = parse_origin(origin) if origin is not None else None
     for one in hand_over(HandoverSettings(plan, tuple(formats), place, out, log, draft, vocabulary, overwrite)):
@@ -109,7 +109,7 @@ def _export_plan(
 
 
 def _export_model(settings: Any) -> None:
-    from planner_ft.export.run import export as run_export
+    from planner_ft.model_export.run import export as run_export
 
     done = run_export(settings, lambda line: typer.echo(line, err=True))
     check = done.check

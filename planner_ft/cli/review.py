@@ -100,8 +100,8 @@ def _review(desk: Desk, show: bool, adopt: bool, edits: list[str], approve: bool
 
 def _serve(plans: list[Path], log: Path | None, vocabulary: str | None, candidate: str | None, device: str, given: dict[str, Any]) -> None:
     from planner_ft.review.task_agent import planning_of
+    from planner_ft.review.web import WebSettings, serve
     from planner_ft.support.errors import PlannerError
-    from planner_ft.web import WebSettings, serve
 
     if len(plans) > 1:
         raise PlannerError(f"{len(plans)} plans are given; one is opened, and the page offers the others of its folder")

@@ -1,0 +1,134 @@
+"""What a format is, what it is given, and which formats there are.
+
+A format of a lab's own is an entry point of the group "planner_ft.formats" that names a `Format`:
+
+    [project.entry-points."planner_ft.formats"]
+    ours = "our_package.ours:FORMAT"
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib.metadata import EntryPoint, entry_points
+from typing import TYPE_CHECKING, Any
+
+from planner_ft.exporters.geodesy import Origin
+from planner_ft.exporters.ledger import Account, Ledger
+from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary import Vocabulary
+
+if TYPE_CHECKING:
+    from planner_ft.document.track import Track
+
+GROUP = "planner_ft.formats"
+BUNDLED = {
+    "qgc": "planner_ft.exporters.qgc:FORMAT",
+    "waypoints": "planner_ft.exporters.waypoints:FORMAT",
+    "geojson": "planner_ft.exporters.geojson:FORMAT",
+    "bt": "planner_ft.exporters.bt:FORMAT",
+    "moos": "planner_ft.exporters.moos:FORMAT",
+}
+DRAFT = "DRAFT - NOT APPROVED"
+
+
+@dataclass(frozen=True)
+class Handover:
+    """A plan on its way to a vehicle.
+
+    `origin` is where [0, 0] lies, None where the format does not need it and it was not given. `approval` says in one sentence who
+    approved the plan and when; it is None for a draft.
+    """
+
+    document: dict[str, Any]
+    vocabulary: Vocabulary
+    origin: Origin | None = None
+    approval: str | None = None
+
+    @property
+    def name(self) -> str:
+        """A name for the mission; a draft's begins with DRAFT."""
+        name = f"plan {self.document['digest'][:12]}"
+        return name if self.approval else f"{DRAFT}: {name}"
+
+    @property
+    def mark(self) -> str:
+        """What the file is to say about its approval: who gave it, or DRAFT."""
+        return self.approval or DRAFT
+
+    @functools.cached_property
+    def track(self) -> Track:
+        """The vehicle's track in local metres."""
+        from planner_ft.document.track import track
+
+        return track(self.document, self.vocabulary)
+
+    @functools.cached_property
+    def blocked(self) -> tuple[int, str] | None:
+        """(index from 0 of the first task that waits for a place or for its skills, why), None where none does.
+
+        A format that cannot wait carries no task from here on. A task that says its movement without skills (a transit) waits for none.
+        """
+        for index, task in enumerate(self.document["tasks"]):
+            if task.get("waits_for"):
+                return index, f'{task["id"]} waits for "{task["waits_for"]}", and the format cannot wait: plan again when it is located'
+            if task["skill_sequence"] is None and task["id"] in self.track.open:
+                return index, f"{task['id']} has no skills, and the format cannot go on without its movement: plan its skills first"
+        return None
+
+    @property
+    def ready(self) -> int:
+        """How many tasks, from the first, a format that cannot wait for a place carries."""
+        return self.blocked[0] if self.blocked else len(self.document["tasks"])
+
+    def ledger(self) -> Ledger:
+        """A new account of this plan."""
+        return Ledger(self.document)
+
+
+@dataclass(frozen=True)
+class Written:
+    """A format's file, and what became of everything that the plan says."""
+
+    text: str
+    account: Account
+
+
+@dataclass(frozen=True)
+class Format:
+    """A way to hand a plan over.
+
+    `extension` begins with a dot. `write` may raise PlannerError for a plan that the format cannot take at all. `Handover.origin` is
+    never None for a format that `needs_origin`.
+    """
+
+    name: str
+    extension: str
+    description: str
+    needs_origin: bool
+    write: Callable[[Handover], Written]
+
+
+def format_names() -> list[str]:
+    """The formats that can be asked for: those of the package, then those that entry points add."""
+    return [*BUNDLED, *(name for name in _added() if name not in BUNDLED)]
+
+
+def load_format(name: str) -> Format:
+    """A format by its name. Raises PlannerError when there is none, or when one that a package adds cannot be loaded."""
+    bundled = BUNDLED.get(name)
+    entry = EntryPoint(name, bundled, GROUP) if bundled else _added().get(name)
+    if entry is None:
+        raise PlannerError(f"--format {name}: must be one of {', '.join(format_names())}, or all")
+    try:
+        loaded = entry.load()
+    except (ImportError, AttributeError) as error:
+        raise PlannerError(f"--format {name}: {entry.value} cannot be loaded ({error}); install what it needs, or the package that adds it anew") from error
+    if not isinstance(loaded, Format):
+        raise PlannerError(f"--format {name}: {entry.value} is no planner_ft.exporters.Format; ask whoever wrote it")
+    return loaded
+
+
+def _added() -> dict[str, EntryPoint]:
+    return {entry.name: entry for entry in entry_points(group=GROUP)}

@@ -1,0 +1,158 @@
+"""The format `geojson`: a plan for maps (RFC 7946: longitude before latitude, polygons counter-clockwise, lines cut at the antimeridian).
+
+Features by their property `kind`: `plan` and `task` hold everything that the plan says, `waypoint`, `target`, `boundary`, `area`, `grid`
+and `stand-off` what a map shows of it. Every geometry stands in local metres beside it (`local`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from planner_ft.document.track import Circle, Leg, Point
+from planner_ft.exporters.formats import Format, Handover, Written
+from planner_ft.exporters.geodesy import Origin
+from planner_ft.support.files import indented_json
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
+Feature = dict[str, Any]
+PLAN_KEYS = ("command", "vehicle", "assumptions", "constraints", "open_places", "located", "problems", "warnings")
+TASK_KEYS = ("title", "parameters", "task_prompt", "skill_sequence", "waits_for", "stale", "located", "assumptions", "problems")
+CORNERS = 72
+"""Of a circle."""
+DIGITS = 9
+"""Decimal places of degrees: a tenth of a millimetre."""
+LAWNMOWER = "lawnmower"
+"""The pattern of a task that covers an area (see the vocabulary's definition)."""
+
+
+def write(handover: Handover) -> Written:
+    """A FeatureCollection. Nothing is lost: all that the plan says stands in properties."""
+    ledger = handover.ledger()
+    for path in ledger.items:
+        ledger.carry(*path)
+    features = list(_Drawing(handover).features())
+    return Written(indented_json({"type": "FeatureCollection", "name": handover.name, "features": features}), ledger.close())
+
+
+class _Drawing:
+    """The features of one plan."""
+
+    def __init__(self, handover: Handover) -> None:
+        assert handover.origin is not None
+        self.handover, self.document, self.track = handover, handover.document, handover.track
+        self.origin: Origin = handover.origin
+
+    def features(self) -> Iterator[Feature]:
+        """The plan, then its tasks with their waypoints, then what lies around."""
+        yield self._plan()
+        for number, task in enumerate(self.document["tasks"], start=1):
+            legs = [leg for leg in self._legs.get(task["id"], ()) if leg.points]
+            yield self._task(number, task, legs)
+            yield from map(self._waypoint, legs)
+            yield from self._grid(task, legs)
+        for target in self.track.targets:
+            points = [] if target.position is None else [target.position]
+            yield self._feature("target", points, name=target.name, task=target.task, located=target.position is not None)
+        for boundary in self.track.boundaries:
+            yield self._feature("boundary", boundary.polygon, ring=True, task=boundary.task, step=boundary.step + 1)
+        if self.document["vehicle"]["area"]:
+            yield self._feature("area", self.document["vehicle"]["area"], ring=True)
+        for circle in self.track.circles:
+            yield self._feature("stand-off", _corners(circle), ring=True, task=circle.task, center=list(circle.center), radius=circle.radius, arc=circle.arc)
+
+    @property
+    def _legs(self) -> dict[str, list[Leg]]:
+        legs: dict[str, list[Leg]] = {}
+        for leg in self.track.legs:
+            legs.setdefault(leg.task, []).append(leg)
+        return legs
+
+    def _plan(self) -> Feature:
+        origin = {"latitude": self.origin.latitude, "longitude": self.origin.longitude}
+        said = {key: self.document[key] for key in PLAN_KEYS if key in self.document}
+        told = {
+            "name": self.handover.name,
+            "approval": self.handover.mark,
+            "digest": self.document["digest"],
+            "vocabulary": self.document["vocabulary"]["name"],
+        }
+        return self._feature("plan", [], **told, origin=origin, **said)
+
+    def _task(self, number: int, task: dict[str, Any], legs: Sequence[Leg]) -> Feature:
+        points: list[Point] = []
+        for leg in legs:
+            points += leg.points if leg.points[:1] != tuple(points[-1:]) else leg.points[1:]
+        said = {key: task[key] for key in TASK_KEYS if key in task}
+        return self._feature("task", points, task=task["id"], number=number, **said)
+
+    def _waypoint(self, leg: Leg) -> Feature:
+        return self._feature(
+            "waypoint", [leg.points[-1]], task=leg.task, step=leg.step + 1, skill=leg.skill, motion=leg.kind, metres=leg.metres, seconds=leg.seconds
+        )
+
+    def _grid(self, task: dict[str, Any], legs: Sequence[Leg]) -> Iterator[Feature]:
+        """The area that the lanes of a survey span."""
+        import shapely
+
+        known = self.handover.vocabulary.task.get(task["title"])
+        hull = shapely.MultiPoint([leg.points[-1] for leg in legs if leg.kind == "go"]).convex_hull
+        if known and known.pattern == LAWNMOWER and isinstance(hull, shapely.Polygon) and not hull.is_empty:
+            yield self._feature("grid", hull.exterior.coords[:-1], ring=True, task=task["id"])
+
+    def _feature(self, kind: str, points: Sequence[Sequence[float]], *, ring: bool = False, **properties: Any) -> Feature:
+        local = [list(point) for point in points]
+        geometry = _geometry([self._place(x, y) for x, y in local], ring) if local else None
+        return {"type": "Feature", "geometry": geometry, "properties": {"kind": kind, **properties, "local": local}}
+
+    def _place(self, x: float, y: float) -> tuple[float, float]:
+        """Longitude and latitude; the longitude goes on beyond 180 degrees, as the way does."""
+        latitude, longitude = self.origin.to_geographic(x, y)
+        turns = round((longitude - self.origin.longitude) / 360)
+        return round(longitude - 360 * turns, DIGITS), round(latitude, DIGITS)
+
+
+def _geometry(places: list[tuple[float, float]], ring: bool) -> dict[str, Any]:
+    """A point, a line or a polygon as GeoJSON, cut at the antimeridian where it crosses it."""
+    import shapely
+
+    shape: BaseGeometry
+    if ring:
+        shape = shapely.orient_polygons(shapely.Polygon(places))
+    elif len(set(places)) == 1:
+        shape = shapely.Point(places[0])
+    else:
+        shape = shapely.LineString(places)
+    west, _south, east, _north = shape.bounds
+    told: dict[str, Any] = shapely.geometry.mapping(shape if west >= -180 and east <= 180 else _cut(shape))
+    return told
+
+
+def _cut(shape: BaseGeometry) -> BaseGeometry:
+    """A geometry whose longitudes go beyond 180 degrees as its parts on either side, all within -180 and 180."""
+    import shapely
+    from shapely.affinity import translate
+
+    whole = shape if shape.is_valid else shapely.make_valid(shape)
+    parts: list[BaseGeometry] = []
+    for turn in (-1, 0, 1):
+        window = shapely.box(360 * turn - 180, -90, 360 * turn + 180, 90)
+        pieces = shapely.get_parts(translate(whole.intersection(window), -360 * turn))
+        parts += [piece for piece in pieces if piece.geom_type == shape.geom_type and not piece.is_empty]
+    if not parts:
+        # A polygon without an inside.
+        return translate(shape, -360 * round(shape.bounds[0] / 360))
+    several = {"Point": shapely.MultiPoint, "LineString": shapely.MultiLineString, "Polygon": shapely.MultiPolygon}[shape.geom_type]
+    return shapely.orient_polygons(parts[0] if len(parts) == 1 else several(parts))
+
+
+def _corners(circle: Circle) -> list[Point]:
+    x, y = circle.center
+    angles = [2 * math.pi * index / CORNERS for index in range(CORNERS)]
+    return [(x + circle.radius * math.cos(angle), y + circle.radius * math.sin(angle)) for angle in angles]
+
+
+FORMAT = Format("geojson", ".geojson", "GeoJSON for maps", needs_origin=True, write=write)

@@ -1,0 +1,153 @@
+"""Serving a review until Ctrl-C."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import socket
+import sys
+import threading
+import webbrowser
+from pathlib import Path
+from typing import Any
+
+import h11
+import uvicorn
+from uvicorn.protocols.http.h11_impl import H11Protocol
+
+from planner_ft.document import read_document
+from planner_ft.document.vehicle import Vehicle
+from planner_ft.review.web.app import web_app
+from planner_ft.review.web.guard import Door, bracketed, is_wildcard
+from planner_ft.review.web.session import Session
+from planner_ft.review.web.settings import LOOPBACK, WebSettings
+from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary import load_vocabulary
+
+SLOWEST_REQUEST = 10.0
+"""Seconds within which a request must have come in whole."""
+MOST_CONNECTIONS = 100
+GRACE = 1
+"""Seconds that answers which are on their way are given when the server ends."""
+
+
+def serve(plan: Path | None, settings: WebSettings) -> None:
+    """Serve the review of a plan, or of the plans to come, until Ctrl-C. Plans to come are for the vehicle of the plan that is given.
+
+    Prints the address with its key, and opens it in the browser where there is a screen. Ends the process itself when the agents are still at
+    work. Raises PlannerError for a plan that cannot be
+    read and an address that cannot be listened on.
+    """
+    vocabulary = load_vocabulary(settings.planning.vocabulary)
+    vehicle = Vehicle(**read_document(plan, vocabulary)["vehicle"]) if plan is not None else None
+    with _listening(settings) as listener:
+        door = Door(settings.host, listener.getsockname()[1])
+        session = Session(plan, settings, vocabulary, vehicle)
+        try:
+            _say_where(settings, door)
+            _Server(session, door).run(sockets=[listener])
+        except KeyboardInterrupt:
+            print(_farewell(session), flush=True)
+        if not session.planning.ended(GRACE / 2):
+            # What the agents compute cannot be stopped at once, and tearing their thread down would crash. All that counts is on the disk.
+            sys.stderr.flush()
+            os._exit(0)
+
+
+class _Server(uvicorn.Server):
+    """Ends the open event streams first: they would keep it waiting."""
+
+    def __init__(self, session: Session, door: Door) -> None:
+        self.session = session
+        config = uvicorn.Config(
+            web_app(session, door), http=_PromptProtocol, ws="none", lifespan="on", log_level="error", access_log=False,
+            server_header=False, proxy_headers=False, limit_concurrency=MOST_CONNECTIONS, timeout_graceful_shutdown=GRACE,
+        )  # fmt: skip
+        super().__init__(config)
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        self.session.planning.stop()
+        self.session.events.close()
+        await super().shutdown(sockets)
+
+
+class _PromptProtocol(H11Protocol):
+    """Closes connections whose request does not come in within SLOWEST_REQUEST; uvicorn itself waits for ever."""
+
+    _limit: asyncio.TimerHandle | None = None
+
+    def connection_made(self, transport: Any) -> None:
+        super().connection_made(transport)
+        self._watch()
+
+    def data_received(self, data: bytes) -> None:
+        super().data_received(data)
+        self._watch()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._unwatch()
+        super().connection_lost(exc)
+
+    def _watch(self) -> None:
+        """Set the time when the first byte is due or came; stop it when the request is there."""
+        if self.conn.their_state not in (h11.IDLE, h11.SEND_BODY):
+            self._unwatch()
+        elif self._limit is None:
+            self._limit = self.loop.call_later(SLOWEST_REQUEST, self.transport.abort)
+
+    def _unwatch(self) -> None:
+        if self._limit is not None:
+            self._limit.cancel()
+            self._limit = None
+
+
+def _listening(settings: WebSettings) -> socket.socket:
+    """A socket on the address of the settings. Raises PlannerError."""
+    host = settings.host
+    try:
+        family, kind, protocol, _name, address = socket.getaddrinfo(host or None, settings.port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
+        listener = socket.socket(family, kind, protocol)
+    except OSError as error:
+        raise PlannerError(f"--host {host}: is no address of this machine ({error.strerror}); leave the flag out for {LOOPBACK}") from None
+    try:
+        if os.name == "posix":
+            # The port is free again as soon as the last server ended. On Windows this would share it with another program.
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind(address)
+        listener.listen()
+    except OSError as error:
+        listener.close()
+        raise _not_listening(settings, error) from None
+    return listener
+
+
+def _not_listening(settings: WebSettings, error: OSError) -> PlannerError:
+    if isinstance(error, PermissionError):
+        return PlannerError(f"--port {settings.port}: this user may not listen there; give a port above 1023, or leave the flag out for a free one")
+    if settings.port and "in use" in str(error.strerror).lower():
+        return PlannerError(f"--port {settings.port}: another program listens there; give another port, or leave the flag out for a free one")
+    return PlannerError(f"--host {settings.host}: cannot be listened on ({error.strerror}); leave the flag out for {LOOPBACK}")
+
+
+def _say_where(settings: WebSettings, door: Door) -> None:
+    """Print the address, warn where others can reach it, and open it. The browser gets a key that opens the page once."""
+    if not settings.is_loopback:
+        warning = "others on the network can reach this page, and what it sends is not encrypted; who has the address below can approve plans"
+        print(f"--host {settings.host}: {warning}", file=sys.stderr)
+    base = f"http://{bracketed(LOOPBACK if is_wildcard(settings.host) else settings.host)}:{door.port}/?token="
+    print(f"Review at {base}{door.keys.session}\nCtrl-C ends it.", flush=True)
+    if settings.open_browser and _has_screen():
+        threading.Thread(target=webbrowser.open, args=(f"{base}{door.keys.once}",), daemon=True).start()
+
+
+def _has_screen() -> bool:
+    """Whether a browser has somewhere to show a page: without one a text browser would take the terminal."""
+    return sys.platform in ("darwin", "win32") or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def _farewell(session: Session) -> str:
+    """Where everything is, when it is over."""
+    path = session.file.path
+    saved = f"the plan is saved in {path}, decisions in {session.log}" if path else "there was no plan to save"
+    lost = f"; {session.planning.busy['what']} was not finished" if session.planning.busy else ""
+    return f"\nended: {saved}{lost}"
