@@ -1,8 +1,10 @@
-"""How often the 95 % interval of a rate holds the truth when samples share phrasing families: the Wilson interval, and the one that is used.
+"""How often the 95 % interval of a rate holds the truth when samples share phrasing families: the
+Wilson interval, and the one that is used.
 
     python benchmarks/interval_coverage.py [--trials 2000]
 
-Families have their own rates (beta-binomial with an intra-family correlation). Prints a line per design, correlation and rate: coverage of both.
+Families have their own rates (beta-binomial with an intra-family correlation). Prints a line per
+design, correlation and rate: coverage of both.
 """
 
 from __future__ import annotations
@@ -23,7 +25,9 @@ DESIGNS = {
 }
 
 
-def family_rates(rate: float, correlation: float, count: int, generator: np.random.Generator) -> NDArray[np.float64]:
+def family_rates(
+    rate: float, correlation: float, count: int, generator: np.random.Generator
+) -> NDArray[np.float64]:
     if correlation == 0:
         return np.full(count, rate)
     if correlation == 1:
@@ -42,7 +46,10 @@ def coverage(sizes: list[int], rate: float, correlation: float, trials: int) -> 
     families = [family for family, size in enumerate(sizes) for _ in range(size)]
     plain = clustered = 0
     for _ in range(trials):
-        hits = (generator.random(len(families)) < family_rates(rate, correlation, len(sizes), generator)[families]).tolist()
+        hits = (
+            generator.random(len(families))
+            < family_rates(rate, correlation, len(sizes), generator)[families]
+        ).tolist()
         plain += holds(wilson(sum(hits), len(hits)), rate)
         clustered += holds(clustered_rate(hits, families), rate)
     return plain / trials, clustered / trials
@@ -57,7 +64,10 @@ def main() -> None:
         for correlation in (0, 0.3, 0.7):
             for rate in (0.5, 0.8, 0.95):
                 plain, clustered = coverage(sizes, rate, correlation, trials)
-                print(f"| {name} | {correlation} | {rate} | {100 * plain:.1f} % | {100 * clustered:.1f} % |")
+                print(
+                    f"| {name} | {correlation} | {rate} | {100 * plain:.1f} % |"
+                    f" {100 * clustered:.1f} % |"
+                )
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
-"""llama-cpp-python's server without its limit on the length of tokens: `python benchmarks/llama_server.py FLAGS`.
+"""llama-cpp-python's server without its limit on the length of tokens: `python
+benchmarks/llama_server.py FLAGS`.
 
-Up to version 0.3.36 `LlamaModel.detokenize` reads each token into 32 bytes and drops longer ones from the answer
-(https://github.com/abetlen/llama-cpp-python/issues/2362). The embedded candidate writes a plan's structure in tokens of
-up to 81.
+Up to version 0.3.36 `LlamaModel.detokenize` reads each token into 32 bytes and drops longer ones
+from the answer (https://github.com/abetlen/llama-cpp-python/issues/2362). The embedded candidate
+writes a plan's structure in tokens of up to 81.
 """
 
 from __future__ import annotations
@@ -21,7 +22,9 @@ def detokenize(self: Any, tokens: list[int], special: bool = False) -> bytes:
     buffer = (ctypes.c_char * LONGEST)()
     pieces = []
     for token in tokens:
-        size = llama_cpp.llama_token_to_piece(self.vocab, llama_cpp.llama_token(token), buffer, LONGEST, 0, special)
+        size = llama_cpp.llama_token_to_piece(
+            self.vocab, llama_cpp.llama_token(token), buffer, LONGEST, 0, special
+        )
         assert 0 <= size <= LONGEST, f"token {token} is longer than {LONGEST} bytes"
         pieces.append(buffer.raw[:size])
     return b"".join(pieces)

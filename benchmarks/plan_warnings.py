@@ -2,10 +2,11 @@
 
     python benchmarks/plan_warnings.py --json benchmarks/results/plan_warnings.json
 
-The expected plans of data/mission and data/task are right: a serious warning about one is a false alarm. Each planted mistake is made in every
-place of every plan where it can be made, one at a time; it is found when a serious warning appears that the right plan does not have.
-`by` counts the kinds that found it. Synthetic commands, of a seed that nothing was developed on, are harder: they correct themselves, look
-back and speak of other things; no mistakes are planted in their plans.
+The expected plans of data/mission and data/task are right: a serious warning about one is a false
+alarm. Each planted mistake is made in every place of every plan where it can be made, one at a
+time; it is found when a serious warning appears that the right plan does not have. `by` counts the
+kinds that found it. Synthetic commands, of a seed that nothing was developed on, are harder: they
+correct themselves, look back and speak of other things; no mistakes are planted in their plans.
 """
 
 from __future__ import annotations
@@ -29,28 +30,55 @@ from planner_ft.vocabulary.plans import step_skills
 
 USV = load_vocabulary()
 SEED = 23
-COUNTED = {"mission": tuple(kind for kind in SERIOUS if kind not in ("unresolved-location", "no-skills")), "task": ("skill-value-not-said", "out-of-reach")}
-"""Serious kinds that say that something is wrong. An open place and missing skills are facts of a right plan, too; a task apart from its
-mission, with parameters that its prompt does not repeat and a boundary that the sampler draws anywhere, can be judged by its skills alone."""
+COUNTED = {
+    "mission": tuple(kind for kind in SERIOUS if kind not in ("unresolved-location", "no-skills")),
+    "task": ("skill-value-not-said", "out-of-reach"),
+}
+"""Serious kinds that say that something is wrong. An open place and missing skills are facts of a
+right plan, too; a task apart from its mission, with parameters that its prompt does not repeat and
+a boundary that the sampler draws anywhere, can be judged by its skills alone.
+"""
 Document = dict[str, Any]
 Plant = Callable[[Document], Iterator[Document]]
 
 
 def of_mission(record: dict[str, Any]) -> Document:
     """The document of an expected mission plan, its skills left empty."""
-    tasks = [{"id": f"t{number}", **task, "skill_sequence": []} for number, task in enumerate(record["expected"]["tasks"], 1)]
-    return {**_document(record["prompt"], tasks), "assumptions": record["expected"]["assumptions"], "constraints": record["expected"]["constraints"]}
+    tasks = [
+        {"id": f"t{number}", **task, "skill_sequence": []}
+        for number, task in enumerate(record["expected"]["tasks"], 1)
+    ]
+    return {
+        **_document(record["prompt"], tasks),
+        "assumptions": record["expected"]["assumptions"],
+        "constraints": record["expected"]["constraints"],
+    }
 
 
 def of_task(record: dict[str, Any]) -> Document:
     """The document of one task with its expected skills; the task prompt is the command."""
-    task = {"id": "t1", "title": record["task"], "parameters": record["parameters"], "task_prompt": record["prompt"]}
-    return _document(record["prompt"], [{**task, "skill_sequence": record["expected"]["skill_sequence"]}])
+    task = {
+        "id": "t1",
+        "title": record["task"],
+        "parameters": record["parameters"],
+        "task_prompt": record["prompt"],
+    }
+    return _document(
+        record["prompt"], [{**task, "skill_sequence": record["expected"]["skill_sequence"]}]
+    )
 
 
 def _document(command: str, tasks: list[dict[str, Any]]) -> Document:
     vehicle = load_vehicle(None, USV).as_json()
-    return {"command": command, "vehicle": vehicle, "tasks": tasks, "located": {}, "assumptions": [], "constraints": [], "edits": []}
+    return {
+        "command": command,
+        "vehicle": vehicle,
+        "tasks": tasks,
+        "located": {},
+        "assumptions": [],
+        "constraints": [],
+        "edits": [],
+    }
 
 
 def raised(document: Document) -> dict[str, str]:
@@ -66,7 +94,10 @@ def _without(title: str | None) -> Plant:
     def plant(document: Document) -> Iterator[Document]:
         for index, task in enumerate(document["tasks"]):
             if title in (None, task["title"]):
-                yield {**document, "tasks": [*document["tasks"][:index], *document["tasks"][index + 1 :]]}
+                yield {
+                    **document,
+                    "tasks": [*document["tasks"][:index], *document["tasks"][index + 1 :]],
+                }
 
     return plant
 
@@ -83,7 +114,10 @@ def _changed(types: tuple[str, ...], change: Callable[[Any], Any]) -> Plant:
     def plant(document: Document) -> Iterator[Document]:
         for index, task in enumerate(document["tasks"]):
             for name, value in task["parameters"].items():
-                if USV.task[task["title"]].by_name[name].type in types and value not in (list(USV.home), list(USV.unresolved)):
+                if USV.task[task["title"]].by_name[name].type in types and value not in (
+                    list(USV.home),
+                    list(USV.unresolved),
+                ):
                     changed = copy.deepcopy(document)
                     changed["tasks"][index]["parameters"][name] = change(value)
                     yield changed
@@ -104,7 +138,11 @@ def _invented(document: Document) -> Iterator[Document]:
 def _long_hold(document: Document) -> Iterator[Document]:
     for index, task in enumerate(document["tasks"]):
         if "duration" in task["parameters"]:
-            step = {"navigation_skill": {"name": "StationKeep", "parameters": {"time": 36000}}, "filter_skills": [], "perception_skills": []}
+            step = {
+                "navigation_skill": {"name": "StationKeep", "parameters": {"time": 36000}},
+                "filter_skills": [],
+                "perception_skills": [],
+            }
             changed = copy.deepcopy(document)
             changed["tasks"][index]["parameters"]["duration"] = 36000
             changed["tasks"][index]["skill_sequence"] = [step]
@@ -132,17 +170,23 @@ MISSION: dict[str, Plant] = {
     "the search is forgotten": _without(USV.locate),
     "a transit is forgotten": _without(USV.transit),
     "the return is forgotten": _without_return,
-    "a number is changed by half": _changed(("number", "integer"), lambda value: max(1, round(value * 1.5))),
+    "a number is changed by half": _changed(
+        ("number", "integer"), lambda value: max(1, round(value * 1.5))
+    ),
     "a number is changed by one": _changed(("number", "integer"), lambda value: value + 1),
     "a position is 10 m off": _changed(("position",), lambda value: [value[0] + 10, value[1]]),
-    "x and y are swapped": _changed(("position",), lambda value: [value[1], value[0] + (value[0] == value[1])]),
+    "x and y are swapped": _changed(
+        ("position",), lambda value: [value[1], value[0] + (value[0] == value[1])]
+    ),
     "a position is 50 km away": _changed(("position",), lambda _value: [50_000, 0]),
     "another target is named": _changed(("text",), lambda _value: "purple lighthouse"),
     "a value is invented": _invented,
     "a hold lasts ten hours": _long_hold,
 }
 TASK: dict[str, Plant] = {
-    "a skill's number is changed by half": _skill_number(lambda value: round(value * 1.5) + 1, ("x", "y"), among=False),
+    "a skill's number is changed by half": _skill_number(
+        lambda value: round(value * 1.5) + 1, ("x", "y"), among=False
+    ),
     "a waypoint is 13 m off": _skill_number(lambda value: value + 13, ("x", "y"), among=True),
     "a waypoint is 500 km away": _skill_number(lambda _value: 500_000, ("x", "y"), among=True),
 }
@@ -155,7 +199,11 @@ def false_alarms(documents: list[Document], counted: tuple[str, ...]) -> dict[st
     """Per kind the right plans that have a warning of it, and those that have a serious one."""
     plans = [set(raised(document).values()) for document in documents]
     counts = Counter(kind for kinds in plans for kind in kinds)
-    shown = [kind for kind in KINDS if counts[kind] and (kind in counted or counted == COUNTED["mission"])]
+    shown = [
+        kind
+        for kind in KINDS
+        if counts[kind] and (kind in counted or counted == COUNTED["mission"])
+    ]
     return {
         "plans": len(plans),
         "plans with a false alarm": sum(not kinds.isdisjoint(counted) for kinds in plans),
@@ -163,7 +211,9 @@ def false_alarms(documents: list[Document], counted: tuple[str, ...]) -> dict[st
     }
 
 
-def detections(documents: list[Document], plants: dict[str, Plant], counted: tuple[str, ...]) -> dict[str, Any]:
+def detections(
+    documents: list[Document], plants: dict[str, Plant], counted: tuple[str, ...]
+) -> dict[str, Any]:
     """Per mistake how often it was made and found, and by which kinds."""
     figures: dict[str, Any] = {}
     before = [raised(document) for document in documents] if plants else []
@@ -173,7 +223,11 @@ def detections(documents: list[Document], plants: dict[str, Plant], counted: tup
             for changed in plant(document):
                 if changed["tasks"] == document["tasks"]:
                     continue
-                new = {kind for key, kind in raised(changed).items() if key not in known and kind in counted}
+                new = {
+                    kind
+                    for key, kind in raised(changed).items()
+                    if key not in known and kind in counted
+                }
                 made, found = made + 1, found + bool(new)
                 by.update(new)
         figures[name] = {"made": made, "found": found, "by": dict(by.most_common())}
@@ -181,9 +235,17 @@ def detections(documents: list[Document], plants: dict[str, Plant], counted: tup
 
 
 def speed(count: int, records: list[dict[str, Any]]) -> dict[str, float]:
-    """Processor seconds of a revision of `count` tasks that were never read, and of the next one."""
-    tasks = [{**of_task(record)["tasks"][0], "id": f"t{number}"} for number, record in enumerate(records[:count], 1)]
-    document = {**_document(" ".join(record["prompt"] for record in records[:count]), tasks), "proposed": {"tasks": tasks}}
+    """Processor seconds of a revision of `count` tasks that were never read, and of the next
+    one.
+    """
+    tasks = [
+        {**of_task(record)["tasks"][0], "id": f"t{number}"}
+        for number, record in enumerate(records[:count], 1)
+    ]
+    document = {
+        **_document(" ".join(record["prompt"] for record in records[:count]), tasks),
+        "proposed": {"tasks": tasks},
+    }
     started = time.process_time()
     revised = revise(document, USV)
     first = time.process_time()
@@ -203,7 +265,11 @@ def main() -> None:
     corrections("thrml")  # Reads the word lists once.
     sampled = read_jsonl("data/task/train.jsonl")
     speed(1, sampled[1000:])  # Reads the word files once.
-    results: dict[str, Any] = {"false alarms": {}, "detected": {}, "seconds": [speed(10, sampled[500:]), speed(500, sampled)]}
+    results: dict[str, Any] = {
+        "false alarms": {},
+        "detected": {},
+        "seconds": [speed(10, sampled[500:]), speed(500, sampled)],
+    }
     for timed in results["seconds"]:
         print(timed)
     for level, split, records, plants, build in (
@@ -215,8 +281,13 @@ def main() -> None:
         documents = [build(record) for record in records]
         name = f"{level}, {split}"
         results["false alarms"][name] = alarms = false_alarms(documents, COUNTED[level])
-        results["detected"][name] = detected = detections([document for document in documents if document["tasks"]], plants, COUNTED[level])
-        print(f"\n{name}: {alarms['plans with a false alarm']} of {alarms['plans']} right plans have a serious warning")
+        results["detected"][name] = detected = detections(
+            [document for document in documents if document["tasks"]], plants, COUNTED[level]
+        )
+        print(
+            f"\n{name}: {alarms['plans with a false alarm']} of {alarms['plans']} right plans have"
+            " a serious warning"
+        )
         for kind, count in alarms["kinds"].items():
             print(f"  {kind:24} {count:4} {'serious' if kind in COUNTED[level] else ''}")
         for mistake, figure in detected.items():

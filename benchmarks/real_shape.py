@@ -9,14 +9,21 @@ from typing import Any
 from planner_ft.candidates.standins import make_standin
 
 SHAPE: dict[str, Any] = {
-    "hidden_size": 896, "intermediate_size": 4864, "num_hidden_layers": 24, "num_attention_heads": 14, "num_key_value_heads": 2, "vocab_size": 151_936,
+    "hidden_size": 896,
+    "intermediate_size": 4864,
+    "num_hidden_layers": 24,
+    "num_attention_heads": 14,
+    "num_key_value_heads": 2,
+    "vocab_size": 151_936,
     "tie_word_embeddings": True,
-}  # fmt: skip
+}
 """Of Qwen2.5-0.5B-Instruct's config.json: 494 million weights."""
 
 
 def make_real_shape(folder: Path, seed: int = 0) -> Path:
-    """Write the model beside a stand-in's tokenizer and chat template; return its folder. It never ends an answer but by chance."""
+    """Write the model beside a stand-in's tokenizer and chat template; return its folder. It never
+    ends an answer but by chance.
+    """
     import torch
     from transformers import Qwen2Config, Qwen2ForCausalLM
 

@@ -20,10 +20,15 @@ from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.definition import Vocabulary, load_vocabulary
 
 PARTS: tuple[tuple[str, Any, str], ...] = (
-    ("draw (geometry included)", sampler, "draw_script"), ("phrasing", sampler, "say_it"), ("plan", sampler, "expected_plan"),
+    ("draw (geometry included)", sampler, "draw_script"),
+    ("phrasing", sampler, "say_it"),
+    ("plan", sampler, "expected_plan"),
     ("validation", sampler, "plan_problems"),
-    ("geometry", geometry, "survey_square"), ("geometry", geometry, "lawnmower"), ("geometry", geometry, "circle"), ("geometry", geometry, "offset"),
-)  # fmt: skip
+    ("geometry", geometry, "survey_square"),
+    ("geometry", geometry, "lawnmower"),
+    ("geometry", geometry, "circle"),
+    ("geometry", geometry, "offset"),
+)
 
 
 def timed(parts: dict[str, float], name: str, function: Callable[..., Any]) -> Callable[..., Any]:
@@ -41,9 +46,15 @@ def timed(parts: dict[str, float], name: str, function: Callable[..., Any]) -> C
 def rate(vocabulary: Vocabulary, count: int) -> None:
     """Print validated and serialised samples per second of one core."""
     start = time.process_time()
-    size = sum(len(compact_json(record)) + 1 for record in sampler.sample_tasks(vocabulary, 1, count, "train"))
+    size = sum(
+        len(compact_json(record)) + 1
+        for record in sampler.sample_tasks(vocabulary, 1, count, "train")
+    )
     seconds = time.process_time() - start
-    print(f"{count / seconds:,.0f} validated and serialised samples per second of one core ({count} in {seconds:.2f} s, {size / 1e6:.1f} MB)")
+    print(
+        f"{count / seconds:,.0f} validated and serialised samples per second of one core ({count}"
+        f" in {seconds:.2f} s, {size / 1e6:.1f} MB)"
+    )
 
 
 def shares(vocabulary: Vocabulary, count: int) -> None:
@@ -57,7 +68,9 @@ def shares(vocabulary: Vocabulary, count: int) -> None:
         serialise(record)
     whole = time.process_time() - start
     for name, seconds in sorted(parts.items(), key=lambda item: -item[1]):
-        print(f"{name:26} {1e6 * seconds / count:7.1f} us per sample  {100 * seconds / whole:5.1f} %")
+        print(
+            f"{name:26} {1e6 * seconds / count:7.1f} us per sample  {100 * seconds / whole:5.1f} %"
+        )
 
 
 def profile(vocabulary: Vocabulary, count: int) -> None:
@@ -72,10 +85,14 @@ def profile(vocabulary: Vocabulary, count: int) -> None:
 
 def main() -> None:
     """Parse and run."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--count", type=int, default=10_000)
     parser.add_argument("--vocabulary", default="usv")
-    parser.add_argument("--profile", action="store_true", help="print the functions that take longest")
+    parser.add_argument(
+        "--profile", action="store_true", help="print the functions that take longest"
+    )
     options = parser.parse_args()
     vocabulary = load_vocabulary(options.vocabulary)
     next(sampler.sample_tasks(vocabulary, 0, 1, "train"))  # phrases are compiled once

@@ -2,9 +2,9 @@
 
     python benchmarks/scoring.py [--level mission|task] [--count N] [--data FILE] [--profile] [--write DIR]
 
-Expected plans come from the task sampler, or from `--data`; the predictions are those plans, damaged in ways that real answers are:
-tasks lost, added, renamed, swapped, values changed, text cut. Processor time is counted. `--write` keeps the data and the predictions
-for `plannerft score`.
+Expected plans come from the task sampler, or from `--data`; the predictions are those plans,
+damaged in ways that real answers are: tasks lost, added, renamed, swapped, values changed, text
+cut. Processor time is counted. `--write` keeps the data and the predictions for `plannerft score`.
 """
 
 from __future__ import annotations
@@ -47,7 +47,9 @@ def swap(entries: list[Any], rng: random.Random) -> None:
 
 
 def damaged(level: Level, expected: Plan, vocabulary: Vocabulary, rng: random.Random) -> str:
-    """The text of an answer: every second one right, the others wrong in one way or two, some no JSON."""
+    """The text of an answer: every second one right, the others wrong in one way or two, some no
+    JSON.
+    """
     plan: Plan = json.loads(json.dumps(expected))
     entries = plan[list_key(level)]
     for _ in range(rng.choice((0, 0, 1, 1, 2)) if entries else 0):
@@ -86,7 +88,9 @@ def change(level: Level, plan: Plan, rng: random.Random) -> None:
             parameters[key] = [-99, -99] if isinstance(parameters[key], list) else 7
 
 
-def records(level: Level, count: int, data: Path | None, vocabulary: Vocabulary) -> list[dict[str, Any]]:
+def records(
+    level: Level, count: int, data: Path | None, vocabulary: Vocabulary
+) -> list[dict[str, Any]]:
     """`count` records: sampled tasks, or those of a file, over and over under new ids."""
     if data is None and level == "task":
         return list(sample_tasks(vocabulary, 1, count, "train"))
@@ -96,7 +100,9 @@ def records(level: Level, count: int, data: Path | None, vocabulary: Vocabulary)
 
 def main() -> None:
     """Score `count` damaged plans and print the rate."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--level", default="task")
     parser.add_argument("--count", type=int, default=10_000)
     parser.add_argument("--data", type=Path)
@@ -105,13 +111,21 @@ def main() -> None:
     options = parser.parse_args()
     level, vocabulary, rng = check_level(options.level), load_vocabulary(), random.Random(0)
     data = records(level, options.count, options.data, vocabulary)
-    samples = [Sample(str(record["id"]), str(record.get("family") or record["id"]), record) for record in data]
-    predictions = {sample.id: {"id": sample.id, "output": damaged(level, sample.expected, vocabulary, rng)} for sample in samples}
+    samples = [
+        Sample(str(record["id"]), str(record.get("family") or record["id"]), record)
+        for record in data
+    ]
+    predictions = {
+        sample.id: {"id": sample.id, "output": damaged(level, sample.expected, vocabulary, rng)}
+        for sample in samples
+    }
     if options.write:
         options.write.mkdir(parents=True, exist_ok=True)
         write_jsonl(options.write / "data.jsonl", data)
         write_jsonl(options.write / "predictions.jsonl", list(predictions.values()))
-    warm = [score_sample(level, sample, predictions[sample.id], vocabulary) for sample in samples[:20]]
+    warm = [
+        score_sample(level, sample, predictions[sample.id], vocabulary) for sample in samples[:20]
+    ]
     summarise(warm, seed=0)
     profiler = cProfile.Profile()
     start = time.process_time()
@@ -122,7 +136,10 @@ def main() -> None:
     metrics = summarise(scores, seed=0)
     profiler.disable()
     seconds = time.process_time() - start
-    print(f"{len(samples) / scored:,.0f} samples scored per second of one core ({len(samples)} in {scored:.2f} s)")
+    print(
+        f"{len(samples) / scored:,.0f} samples scored per second of one core ({len(samples)} in"
+        f" {scored:.2f} s)"
+    )
     print(f"figures and intervals of {len(metrics)} metrics in {seconds - scored:.2f} s")
     print(f"F1 {metrics['f1'].value:.3f}, whole plan right {metrics['whole_plan'].value:.3f}")
     if options.profile:

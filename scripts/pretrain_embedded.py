@@ -3,7 +3,8 @@
     python scripts/pretrain_embedded.py --work /tmp/embedded --tokens 30000000
     python scripts/pretrain_embedded.py --work /tmp/embedded --export planner_ft/candidates/embedded
 
-The first command can be killed and started again at any time. The second writes the newest checkpoint as a model folder.
+The first command can be killed and started again at any time. The second writes the newest
+checkpoint as a model folder.
 """
 
 from __future__ import annotations
@@ -35,12 +36,16 @@ def tokenizer_of(work: Path, arguments: argparse.Namespace) -> Any:
             PreTrainedTokenizerFast.from_pretrained(arguments.init).save_pretrained(folder)
             return PreTrainedTokenizerFast.from_pretrained(folder)
         vocabulary = load_vocabulary()
-        texts = tokenizer_texts(vocabulary, 999, arguments.tokenizer_samples, arguments.mission_share)
+        texts = tokenizer_texts(
+            vocabulary, 999, arguments.tokenizer_samples, arguments.mission_share
+        )
         train_tokenizer(texts, vocabulary, size=arguments.vocabulary_size).save_pretrained(folder)
     return PreTrainedTokenizerFast.from_pretrained(folder)
 
 
-def make_shard(job: tuple[Path, Path, Path | None, int, int, float, int, float, float]) -> dict[str, int]:
+def make_shard(
+    job: tuple[Path, Path, Path | None, int, int, float, int, float, float],
+) -> dict[str, int]:
     """Write one shard of the corpus (worker process)."""
     from transformers import PreTrainedTokenizerFast
 
@@ -62,12 +67,18 @@ def make_shard(job: tuple[Path, Path, Path | None, int, int, float, int, float, 
     )
 
 
-def emphasis_of(work: Path, arguments: argparse.Namespace, settings: PretrainSettings) -> Path | None:
-    """The file that says which samples the corpus keeps, fitted to the losses of `--init` first where there is none."""
+def emphasis_of(
+    work: Path, arguments: argparse.Namespace, settings: PretrainSettings
+) -> Path | None:
+    """The file that says which samples the corpus keeps, fitted to the losses of `--init` first
+    where there is none.
+    """
     if arguments.hard_share >= 1:
         return None
     if not arguments.init:
-        raise SystemExit("--hard-share needs --init: the model whose losses tell hard samples from easy ones.")
+        raise SystemExit(
+            "--hard-share needs --init: the model whose losses tell hard samples from easy ones."
+        )
     path = work / "emphasis.npz"
     if not path.is_file():
         import torch
@@ -79,9 +90,19 @@ def emphasis_of(work: Path, arguments: argparse.Namespace, settings: PretrainSet
 
         register_attention()
         tokenizer = tokenizer_of(work, arguments)
-        drawn = encoded(tokenizer, load_vocabulary(), seed=arguments.corpus_seed - 1, mission_share=arguments.mission_share, longest=settings.longest)
-        samples = [sample for sample in islice(drawn, arguments.scored_samples) if sample is not None]
-        model = LlamaForCausalLM.from_pretrained(arguments.init, dtype=torch.bfloat16, attn_implementation=CAUSAL).eval()
+        drawn = encoded(
+            tokenizer,
+            load_vocabulary(),
+            seed=arguments.corpus_seed - 1,
+            mission_share=arguments.mission_share,
+            longest=settings.longest,
+        )
+        samples = [
+            sample for sample in islice(drawn, arguments.scored_samples) if sample is not None
+        ]
+        model = LlamaForCausalLM.from_pretrained(
+            arguments.init, dtype=torch.bfloat16, attn_implementation=CAUSAL
+        ).eval()
         fit(samples, weighted_losses(model, samples, tokenizer), arguments.hard_share).save(path)
     return path
 
@@ -90,8 +111,18 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
     """The corpus as shard files, those that are missing written first."""
     paths = [work / "corpus" / f"shard-{index:03d}.npz" for index in range(arguments.shards)]
     emphasis = emphasis_of(work, arguments, settings)
-    drawn = arguments.shard_samples, arguments.mission_share, settings.longest, arguments.drill_share, arguments.unfamiliar_share
-    jobs = [(path, work / "tokenizer", emphasis, arguments.corpus_seed + index, *drawn) for index, path in enumerate(paths) if not path.is_file()]
+    drawn = (
+        arguments.shard_samples,
+        arguments.mission_share,
+        settings.longest,
+        arguments.drill_share,
+        arguments.unfamiliar_share,
+    )
+    jobs = [
+        (path, work / "tokenizer", emphasis, arguments.corpus_seed + index, *drawn)
+        for index, path in enumerate(paths)
+        if not path.is_file()
+    ]
     commit = source_commit()["commit"]
     with ProcessPoolExecutor(2) as pool:
         for job, counts in zip(jobs, pool.map(make_shard, jobs), strict=True):
@@ -101,7 +132,9 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
 
 
 def initialise(model: Any, init: Path) -> None:
-    """Take the weights of the model folder `init`, for a further stage of pretraining; a model of more layers begins as that one."""
+    """Take the weights of the model folder `init`, for a further stage of pretraining; a model of
+    more layers begins as that one.
+    """
     from transformers import LlamaForCausalLM
 
     from planner_ft.pretraining.growth import deepened
@@ -121,69 +154,155 @@ def earlier_stages(init: Path | None) -> list[dict[str, Any]]:
     return [*record.pop("earlier_stages", []), record]
 
 
-def export(model: Any, tokenizer: Any, settings: PretrainSettings, arguments: argparse.Namespace) -> None:
-    """Write the newest checkpoint as a bf16 model folder, averaged with the weights of `--init` or `--average-with` where `--init-share` asks for it."""
+def export(
+    model: Any, tokenizer: Any, settings: PretrainSettings, arguments: argparse.Namespace
+) -> None:
+    """Write the newest checkpoint as a bf16 model folder, averaged with the weights of `--init` or
+    `--average-with` where `--init-share` asks for it.
+    """
     import torch
 
     saved = torch.load(arguments.work / "checkpoint.pt", weights_only=True)
-    weights, share, other = saved["model"], arguments.init_share, arguments.average_with or arguments.init
+    weights, share, other = (
+        saved["model"],
+        arguments.init_share,
+        arguments.average_with or arguments.init,
+    )
     if share:
         if not other:
-            raise SystemExit("--init-share needs --init: the model folder whose weights are averaged with the checkpoint's.")
+            raise SystemExit(
+                "--init-share needs --init: the model folder whose weights are averaged with the"
+                " checkpoint's."
+            )
         initialise(model, other)
-        weights = {name: torch.lerp(weights[name].float(), value.float(), share) for name, value in model.state_dict().items()}
+        weights = {
+            name: torch.lerp(weights[name].float(), value.float(), share)
+            for name, value in model.state_dict().items()
+        }
     model.load_state_dict(weights)
     model.to(torch.bfloat16).save_pretrained(arguments.export)
     tokenizer.save_pretrained(arguments.export)
-    record = {"state": saved["state"], "settings": dataclasses.asdict(settings), "init_share": share, "corpus": corpus_summary(arguments.work)}
+    record = {
+        "state": saved["state"],
+        "settings": dataclasses.asdict(settings),
+        "init_share": share,
+        "corpus": corpus_summary(arguments.work),
+    }
     if arguments.average_with:
-        # Averaged with an earlier stage than the one that this began from: its number, as the stages are listed.
+        # Averaged with an earlier stage than the one that this began from: its number, as the
+        # stages are listed.
         record["averaged_with_stage"] = len(earlier_stages(arguments.average_with))
-    write_json(arguments.export / "pretraining.json", {**record, "earlier_stages": earlier_stages(arguments.init)})
+    write_json(
+        arguments.export / "pretraining.json",
+        {**record, "earlier_stages": earlier_stages(arguments.init)},
+    )
 
 
 def corpus_summary(work: Path) -> dict[str, Any]:
-    """Samples and tokens of the corpus in all, and the commits of the generators that wrote it: shards may be replaced while a run goes on."""
+    """Samples and tokens of the corpus in all, and the commits of the generators that wrote it:
+    shards may be replaced while a run goes on.
+    """
     parts = [json.loads(path.read_text()) for path in sorted((work / "corpus").glob("*.json"))]
-    sums = {key: sum(part.get(key, 0) for part in parts) for key in ("samples", "tokens", "left_out", "passed_over", "drills")}
+    sums = {
+        key: sum(part.get(key, 0) for part in parts)
+        for key in ("samples", "tokens", "left_out", "passed_over", "drills")
+    }
     return {**sums, "generators": sorted({part["commit"] for part in parts if part.get("commit")})}
 
 
 def main() -> None:
     """Parse the command line and run the step that it asks for."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--work", type=Path, required=True, help="folder for tokenizer, corpus, checkpoint and log")
-    parser.add_argument("--export", type=Path, help="write the newest checkpoint as a model folder here and stop")
-    parser.add_argument("--init", type=Path, help="model folder whose weights and tokenizer a further stage starts from")
-    parser.add_argument("--init-share", type=float, default=0.0, help="share of the weights of --init in those that --export writes, 0 to 1")
-    parser.add_argument("--average-with", type=Path, help="model folder of an earlier stage that --init-share is about, instead of --init")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--work", type=Path, required=True, help="folder for tokenizer, corpus, checkpoint and log"
+    )
+    parser.add_argument(
+        "--export", type=Path, help="write the newest checkpoint as a model folder here and stop"
+    )
+    parser.add_argument(
+        "--init",
+        type=Path,
+        help="model folder whose weights and tokenizer a further stage starts from",
+    )
+    parser.add_argument(
+        "--init-share",
+        type=float,
+        default=0.0,
+        help="share of the weights of --init in those that --export writes, 0 to 1",
+    )
+    parser.add_argument(
+        "--average-with",
+        type=Path,
+        help="model folder of an earlier stage that --init-share is about, instead of --init",
+    )
     parser.add_argument("--shards", type=int, default=20)
     parser.add_argument("--shard-samples", type=int, default=12_000)
     parser.add_argument("--mission-share", type=float, default=0.6)
-    parser.add_argument("--drill-share", type=float, default=0.0, help="samples of sums alone, the beginnings of task answers, per sample of the corpus")
-    parser.add_argument("--unfamiliar-share", type=float, default=0.0, help="samples whose targets go by words that the generators do not have")
-    parser.add_argument("--hard-share", type=float, default=1.0, help="share of the drawn tokens that is kept, those hard for --init first")
-    parser.add_argument("--scored-samples", type=int, default=8000, help="samples whose losses tell hard from easy")
+    parser.add_argument(
+        "--drill-share",
+        type=float,
+        default=0.0,
+        help="samples of sums alone, the beginnings of task answers, per sample of the corpus",
+    )
+    parser.add_argument(
+        "--unfamiliar-share",
+        type=float,
+        default=0.0,
+        help="samples whose targets go by words that the generators do not have",
+    )
+    parser.add_argument(
+        "--hard-share",
+        type=float,
+        default=1.0,
+        help="share of the drawn tokens that is kept, those hard for --init first",
+    )
+    parser.add_argument(
+        "--scored-samples", type=int, default=8000, help="samples whose losses tell hard from easy"
+    )
     parser.add_argument("--corpus-seed", type=int, default=1000)
     parser.add_argument("--tokenizer-samples", type=int, default=20_000)
     parser.add_argument("--vocabulary-size", type=int, default=4096)
     for field in dataclasses.fields(PretrainSettings):
         kind = type(field.default)
-        parser.add_argument(f"--{field.name.replace('_', '-')}", type=(lambda text: text == "true") if kind is bool else kind, default=field.default)
+        parser.add_argument(
+            f"--{field.name.replace('_', '-')}",
+            type=(lambda text: text == "true") if kind is bool else kind,
+            default=field.default,
+        )
     arguments = parser.parse_args()
-    settings = PretrainSettings(**{field.name: getattr(arguments, field.name) for field in dataclasses.fields(PretrainSettings)})
+    settings = PretrainSettings(
+        **{
+            field.name: getattr(arguments, field.name)
+            for field in dataclasses.fields(PretrainSettings)
+        }
+    )
 
     from planner_ft.pretraining.loop import new_model, pretrain
 
     tokenizer = tokenizer_of(arguments.work, arguments)
-    special = {"bos": tokenizer.bos_token_id, "eos": tokenizer.eos_token_id, "pad": tokenizer.pad_token_id}
+    special = {
+        "bos": tokenizer.bos_token_id,
+        "eos": tokenizer.eos_token_id,
+        "pad": tokenizer.pad_token_id,
+    }
     model: Any = new_model(settings, len(tokenizer), special)
     if arguments.export:
         export(model, tokenizer, settings, arguments)
         return
     if arguments.init:
         initialise(model, arguments.init)
-    print(pretrain(model, shards_of(arguments.work, arguments, settings), settings, pad=special["pad"], folder=arguments.work), flush=True)
+    print(
+        pretrain(
+            model,
+            shards_of(arguments.work, arguments, settings),
+            settings,
+            pad=special["pad"],
+            folder=arguments.work,
+        ),
+        flush=True,
+    )
 
 
 if __name__ == "__main__":

@@ -13,7 +13,9 @@ SCRIPT_SECONDS = 30
 
 
 def headless_chromium(*reachable: str) -> Iterator[Any]:
-    """A browser that may reach these hosts and no other; the test is skipped where there is none (PLANNERFT_REQUIRE_BROWSER=1: it fails)."""
+    """A browser that may reach these hosts and no other; the test is skipped where there is none
+    (PLANNERFT_REQUIRE_BROWSER=1: it fails).
+    """
     reason = _missing()
     if reason and os.environ.get("PLANNERFT_REQUIRE_BROWSER") == "1":
         pytest.fail(reason)
@@ -24,8 +26,16 @@ def headless_chromium(*reachable: str) -> Iterator[Any]:
 
     options = webdriver.ChromeOptions()
     options.binary_location = str(shutil.which("chromium"))
-    hosts = ", ".join(["--host-resolver-rules=MAP * ~NOTFOUND", *(f"EXCLUDE {host}" for host in reachable)])
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", hosts):
+    hosts = ", ".join(
+        ["--host-resolver-rules=MAP * ~NOTFOUND", *(f"EXCLUDE {host}" for host in reachable)]
+    )
+    for argument in (
+        "--headless=new",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--disable-dev-shm-usage",
+        hosts,
+    ):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
@@ -40,4 +50,8 @@ def _missing() -> str | None:
     except ImportError:
         return "selenium is not installed (the extra `browser`)"
     absent = [name for name in ("chromium", "chromedriver") if shutil.which(name) is None]
-    return f"{' and '.join(absent)} not found (Debian: apt-get install chromium chromium-driver)" if absent else None
+    return (
+        f"{' and '.join(absent)} not found (Debian: apt-get install chromium chromium-driver)"
+        if absent
+        else None
+    )

@@ -10,13 +10,16 @@ import pytest
 
 # Set before anything imports the hub's library, which reads it once: tests never touch a network.
 os.environ["HF_HUB_OFFLINE"] = "1"
-# A shell starts background jobs with Ctrl-C ignored, and so would every process of a suite that runs in one.
+# A shell starts background jobs with Ctrl-C ignored, and so would every process of a suite that
+# runs in one.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")
 def standins(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with the stand-ins of the seven published candidates, to be named by PLANNERFT_MODELS. Do not write to it."""
+    """A folder with the stand-ins of the seven published candidates, to be named by
+    PLANNERFT_MODELS. Do not write to it.
+    """
     from planner_ft.candidates.standins import make_all_standins
 
     folder = tmp_path_factory.mktemp("standins")

@@ -1,7 +1,8 @@
-"""The mission and task benchmarks for inspect_ai: our prompts and our scores on any model that it can ask.
+"""The mission and task benchmarks for inspect_ai: our prompts and our scores on any model that it
+can ask.
 
-inspect eval eval/inspect_ai/planner.py@mission --model openai/MODEL
-inspect eval eval/inspect_ai/planner.py@task_level --model openai/MODEL -T data=data/task/test_unseen.jsonl
+inspect eval eval/inspect_ai/planner.py@mission --model openai/MODEL inspect eval
+eval/inspect_ai/planner.py@task_level --model openai/MODEL -T data=data/task/test_unseen.jsonl
 """
 
 from __future__ import annotations
@@ -29,13 +30,17 @@ METRICS = ("f1", "hallucination", "schema_valid", "strict_valid", "exact_sequenc
 
 
 @task
-def mission(data: str = "data/mission/test.jsonl", vocabulary: str = "usv", with_vocabulary: bool = True) -> Task:
+def mission(
+    data: str = "data/mission/test.jsonl", vocabulary: str = "usv", with_vocabulary: bool = True
+) -> Task:
     """Commands to tasks. `with_vocabulary` is for models that have not learned it."""
     return _benchmark("mission", data, load_vocabulary(vocabulary), with_vocabulary=with_vocabulary)
 
 
 @task
-def task_level(data: str = "data/task/test.jsonl", vocabulary: str = "usv", with_vocabulary: bool = True) -> Task:
+def task_level(
+    data: str = "data/task/test.jsonl", vocabulary: str = "usv", with_vocabulary: bool = True
+) -> Task:
     """Tasks to skills."""
     return _benchmark("task", data, load_vocabulary(vocabulary), with_vocabulary=with_vocabulary)
 
@@ -46,7 +51,9 @@ def plan_scorer(level: Level, samples: dict[str, Sample], vocabulary: Vocabulary
 
     async def score(state: TaskState, target: Target) -> Score:
         output = state.output.completion
-        values = score_sample(level, samples[str(state.sample_id)], {"output": output}, vocabulary).values
+        values = score_sample(
+            level, samples[str(state.sample_id)], {"output": output}, vocabulary
+        ).values
         return Score(value={name: float(values[name] or 0) for name in METRICS}, answer=output)
 
     return score
@@ -67,5 +74,9 @@ def _benchmark(level: Level, data: str, vocabulary: Vocabulary, *, with_vocabula
 def _asked(level: Level, sample: Sample, vocabulary: Vocabulary, with_vocabulary: bool) -> Asked:
     roles: dict[str, Any] = {"system": ChatMessageSystem, "user": ChatMessageUser}
     messages = prompt_messages(level, sample.record, vocabulary, with_vocabulary=with_vocabulary)
-    turns: list[ChatMessage] = [roles[message["role"]](content=message["content"]) for message in messages]
-    return Asked(id=sample.id, input=turns, target=completion_text(level, sample.expected, vocabulary))
+    turns: list[ChatMessage] = [
+        roles[message["role"]](content=message["content"]) for message in messages
+    ]
+    return Asked(
+        id=sample.id, input=turns, target=completion_text(level, sample.expected, vocabulary)
+    )

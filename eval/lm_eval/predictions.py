@@ -1,7 +1,9 @@
-"""Answers that lm-evaluation-harness logged (--log_samples) as predictions that `plannerft score` reads.
+"""Answers that lm-evaluation-harness logged (--log_samples) as predictions that `plannerft score`
+reads.
 
-python eval/lm_eval/predictions.py OUTPUT/MODEL/samples_planner_mission_test_DATE.jsonl > predictions.jsonl
-plannerft score --level mission --predictions predictions.jsonl --data data/mission/test.jsonl
+python eval/lm_eval/predictions.py OUTPUT/MODEL/samples_planner_mission_test_DATE.jsonl >
+predictions.jsonl plannerft score --level mission --predictions predictions.jsonl --data
+data/mission/test.jsonl
 """
 
 from __future__ import annotations

@@ -1,6 +1,8 @@
-"""The mission and task benchmarks for lm-evaluation-harness: our prompts and our scores on whatever model it can load.
+"""The mission and task benchmarks for lm-evaluation-harness: our prompts and our scores on whatever
+model it can load.
 
-Nothing is defined here: prompts come from `planner_ft.prompts`, samples and scores from `planner_ft.benchmark`.
+Nothing is defined here: prompts come from `planner_ft.prompts`, samples and scores from
+`planner_ft.benchmark`.
 """
 
 from __future__ import annotations
@@ -46,12 +48,17 @@ class PlannerTask(ConfigurableTask):
         chat_template: Callable[..., str] | None = None,
         gen_prefix: str | None = None,
     ) -> str:
-        """System instruction and user message in the model's chat template, or in the plain form of base models.
+        """System instruction and user message in the model's chat template, or in the plain form of
+        base models.
 
-        Raises PlannerError for few-shot examples and further instructions: the benchmark has neither.
+        Raises PlannerError for few-shot examples and further instructions: the benchmark has
+        neither.
         """
         if num_fewshot or system_instruction or gen_prefix:
-            raise PlannerError("the planner tasks have a fixed prompt; leave out --num_fewshot, --system_instruction and a gen_prefix")
+            raise PlannerError(
+                "the planner tasks have a fixed prompt; leave out --num_fewshot,"
+                " --system_instruction and a gen_prefix"
+            )
         if not (apply_chat_template and chat_template):
             return PLAIN_FORM.format(system=doc["system"], user=doc["user"])
         # Llama 3 templates write today's date unless they are given one.
@@ -71,18 +78,26 @@ def load(
     peft: str | None = None,
     **_: Any,
 ) -> dict[str, Dataset]:
-    """The documents of a task: a sample's record as JSON, its prompt in two messages, and the expected answer.
+    """The documents of a task: a sample's record as JSON, its prompt in two messages, and the
+    expected answer.
 
-    The samples are those of `file`, in this repository, or of `data`. `with_vocabulary` says whether the prompt holds the vocabulary; None decides as
-    `plannerft bench` does: a model with an adapter (`peft`) has learned it, and so has one that was pretrained on it.
-    Raises PlannerError for bad data.
+    The samples are those of `file`, in this repository, or of `data`. `with_vocabulary` says
+    whether the prompt holds the vocabulary; None decides as `plannerft bench` does: a model with an
+    adapter (`peft`) has learned it, and so has one that was pretrained on it. Raises PlannerError
+    for bad data.
     """
     definition = load_vocabulary(vocabulary)
     samples = _samples(data or file, level, definition)
     if with_vocabulary is None:
         with_vocabulary = not peft and not _knows(pretrained, definition)
-    logging.getLogger("lm_eval").info(f"{samples.path}: the prompt {'holds' if with_vocabulary else 'does not hold'} the vocabulary")
-    documents = [_document(level, vocabulary, definition, sample, with_vocabulary) for sample in samples.samples]
+    logging.getLogger("lm_eval").info(
+        f"{samples.path}: the prompt {'holds' if with_vocabulary else 'does not hold'} the"
+        " vocabulary"
+    )
+    documents = [
+        _document(level, vocabulary, definition, sample, with_vocabulary)
+        for sample in samples.samples
+    ]
     return {"test": Dataset.from_list(documents)}
 
 
@@ -90,7 +105,9 @@ def score(doc: Mapping[str, Any], results: list[str]) -> dict[str, Any]:
     """Our scores of one answer: metrics of METRICS, and (right, matched) parameters for `ratio`."""
     record, level = json.loads(doc["record"]), doc["level"]
     sample = Sample(record["id"], doc["family"], record)
-    values = score_sample(level, sample, {"output": results[0]}, load_vocabulary(doc["vocabulary"])).values
+    values = score_sample(
+        level, sample, {"output": results[0]}, load_vocabulary(doc["vocabulary"])
+    ).values
     parameters = values["parameters_right"], values["parameters_matched"]
     return {name: float(values[name] or 0) for name in METRICS} | {"parameters_right": parameters}
 
@@ -104,21 +121,37 @@ def ratio(pairs: Iterable[tuple[float, float]]) -> float:
 def _samples(data: str, level: Level, vocabulary: Vocabulary) -> BenchData:
     path = next((path for path in (Path(data), ROOT / data) if path.is_file()), None)
     if path is None:
-        raise PlannerError(f"{data}: no such file; write it with `plannerft gen-data --level {level}`, or give another one with --metadata '{{\"data\": ...}}'")
+        raise PlannerError(
+            f"{data}: no such file; write it with `plannerft gen-data --level {level}`, or give"
+            " another one with --metadata '{\"data\": ...}'"
+        )
     return load_bench_data(path, level, vocabulary)
 
 
-def _document(level: Level, name: str, vocabulary: Vocabulary, sample: Sample, with_vocabulary: bool) -> dict[str, str]:
+def _document(
+    level: Level, name: str, vocabulary: Vocabulary, sample: Sample, with_vocabulary: bool
+) -> dict[str, str]:
     messages = prompt_messages(level, sample.record, vocabulary, with_vocabulary=with_vocabulary)
     texts = {message["role"]: message["content"] for message in messages}
     target = completion_text(level, sample.expected, vocabulary)
     named = {"id": sample.id, "family": sample.family, "level": level, "vocabulary": name}
-    return {**named, **texts, "target": target, "record": json.dumps(sample.record, ensure_ascii=False)}
+    return {
+        **named,
+        **texts,
+        "target": target,
+        "record": json.dumps(sample.record, ensure_ascii=False),
+    }
 
 
 def _knows(pretrained: Any, vocabulary: Vocabulary) -> bool:
-    """Whether a model, named or in the folder of a registered candidate, was pretrained on this vocabulary."""
+    """Whether a model, named or in the folder of a registered candidate, was pretrained on this
+    vocabulary.
+    """
     if not isinstance(pretrained, str):
         return False
     names = (pretrained, Path(pretrained).resolve())
-    return any(candidate.knows(vocabulary) for candidate in all_candidates() if candidate.repo in names or candidate.folder in names)
+    return any(
+        candidate.knows(vocabulary)
+        for candidate in all_candidates()
+        if candidate.repo in names or candidate.folder in names
+    )

@@ -1,1 +1,3 @@
-"""Measuring candidates: metrics, statistics, runs that resume, tables and the gate. Scoring imports no torch."""
+"""Measuring candidates: metrics, statistics, runs that resume, tables and the gate. Scoring imports
+no torch.
+"""

@@ -20,7 +20,8 @@ Value = float | bool | None
 
 @dataclass(frozen=True)
 class Answer:
-    """A sample with the plan that was answered; `plan` is None when the output is not one JSON object.
+    """A sample with the plan that was answered; `plan` is None when the output is not one JSON
+    object.
 
     What several metrics need is computed once.
     """

@@ -1,6 +1,8 @@
-"""What needs no model: the most frequent plan of the training split, and the plan of its most similar command.
+"""What needs no model: the most frequent plan of the training split, and the plan of its most
+similar command.
 
-A candidate that does not beat them has learnt nothing from the training split that looking it up would not give.
+A candidate that does not beat them has learnt nothing from the training split that looking it up
+would not give.
 """
 
 from __future__ import annotations
@@ -42,7 +44,9 @@ class Baseline:
 
 @dataclass(frozen=True)
 class Baselines:
-    """The baselines of some test data, none where there is no training split for it; `notes` say what a reader must know."""
+    """The baselines of some test data, none where there is no training split for it; `notes` say
+    what a reader must know.
+    """
 
     found: tuple[Baseline, ...] = ()
     training: dict[str, Any] | None = None
@@ -50,24 +54,44 @@ class Baselines:
 
 
 def make_baselines(data: BenchData, vocabulary: Vocabulary) -> Baselines:
-    """Both baselines for the samples of `data`. They are not measured on the split that they are made from."""
+    """Both baselines for the samples of `data`. They are not measured on the split that they are
+    made from.
+    """
     training, problem = find_training(data, vocabulary)
     if training is None:
         return Baselines(notes=(f"No baselines: {problem}.",))
     if training.sha256 == data.sha256:
-        return Baselines(notes=(f"No baselines: {data.path} is the training split itself, and whatever was trained on it has seen these samples.",))
+        return Baselines(
+            notes=(
+                (
+                    f"No baselines: {data.path} is the training split itself, and whatever was"
+                    " trained on it has seen these samples."
+                ),
+            )
+        )
     seen = {_normalised(data.level, sample, vocabulary) for sample in training.samples}
     known = sum(_normalised(data.level, sample, vocabulary) in seen for sample in data.samples)
-    notes = [f"Baselines need no model and are made from {training.path} ({len(training.samples)} samples)."]
+    notes = [
+        f"Baselines need no model and are made from {training.path} ({len(training.samples)}"
+        " samples)."
+    ]
     if known:
-        notes.append(f"{known} of {len(data.samples)} test inputs stand in the training split, too: figures of whatever was trained on it are too high.")
+        notes.append(
+            f"{known} of {len(data.samples)} test inputs stand in the training split, too: figures"
+            " of whatever was trained on it are too high."
+        )
     found = (_majority(data, training), _nearest(data, training, vocabulary))
     return Baselines(found, training.summary(), tuple(notes))
 
 
 def find_training(data: BenchData, vocabulary: Vocabulary) -> tuple[BenchData | None, str]:
-    """The training split that goes with test data: beside it, in data/LEVEL, or the package's; else None and why."""
-    problem = f"no training split of the {data.level} level; `plannerft gen-data --level {data.level}` writes data/{data.level}/{TRAIN}"
+    """The training split that goes with test data: beside it, in data/LEVEL, or the package's; else
+    None and why.
+    """
+    problem = (
+        f"no training split of the {data.level} level; `plannerft gen-data --level {data.level}`"
+        f" writes data/{data.level}/{TRAIN}"
+    )
     for path in _places(data, vocabulary):
         if path.is_file():
             try:
@@ -87,18 +111,23 @@ def _places(data: BenchData, vocabulary: Vocabulary) -> Iterator[Path]:
 
 
 def _majority(data: BenchData, training: BenchData) -> Baseline:
-    """The most frequent plan: at task level that of the same task, which the input names, or of all for a task without samples."""
+    """The most frequent plan: at task level that of the same task, which the input names, or of all
+    for a task without samples.
+    """
     groups: dict[str | None, list[Sample]] = {}
     for sample in training.samples:
         groups.setdefault(_group(data.level, sample), []).append(sample)
     plans = {group: majority_plan(data.level, samples) for group, samples in groups.items()}
     fallback = majority_plan(data.level, training.samples)
-    answers = {sample.id: plans.get(_group(data.level, sample), fallback) for sample in data.samples}
+    answers = {
+        sample.id: plans.get(_group(data.level, sample), fallback) for sample in data.samples
+    }
     return _baseline(MAJORITY, {name: _line(name, plan) for name, plan in answers.items()})
 
 
 def majority_plan(level: Level, samples: Sequence[Sample]) -> Plan:
-    """The first plan with the most frequent sequence of names; at each place the most frequent parameters that stand there in such plans.
+    """The first plan with the most frequent sequence of names; at each place the most frequent
+    parameters that stand there in such plans.
 
     Of several that are equally frequent the first counts.
     """
@@ -108,22 +137,34 @@ def majority_plan(level: Level, samples: Sequence[Sample]) -> Plan:
     majority = copy.deepcopy(like[0])
     places = [_entries(level, plan) for plan in like]
     for place, entry in enumerate(_entries(level, majority)):
-        entry["parameters"] = json.loads(Counter(compact_json(entries[place].get("parameters", {})) for entries in places).most_common(1)[0][0])
+        entry["parameters"] = json.loads(
+            Counter(
+                compact_json(entries[place].get("parameters", {})) for entries in places
+            ).most_common(1)[0][0]
+        )
     return majority
 
 
 def _nearest(data: BenchData, training: BenchData, vocabulary: Vocabulary) -> Baseline:
     index = Index([user_text(data.level, sample.record, vocabulary) for sample in training.samples])
-    neighbours = index.nearest([user_text(data.level, sample.record, vocabulary) for sample in data.samples])
+    neighbours = index.nearest(
+        [user_text(data.level, sample.record, vocabulary) for sample in data.samples]
+    )
     lines = {}
     for sample, (place, similarity) in zip(data.samples, neighbours, strict=True):
         neighbour = training.samples[place]
-        lines[sample.id] = {**_line(sample.id, neighbour.expected), "neighbour": neighbour.id, "similarity": round(similarity, 4)}
+        lines[sample.id] = {
+            **_line(sample.id, neighbour.expected),
+            "neighbour": neighbour.id,
+            "similarity": round(similarity, 4),
+        }
     return _baseline(NEAREST, lines)
 
 
 def _baseline(name: str, lines: dict[str, Line]) -> Baseline:
-    return Baseline(System(name, CONFIGURATION, label=f"{name} (baseline)", is_baseline=True), lines)
+    return Baseline(
+        System(name, CONFIGURATION, label=f"{name} (baseline)", is_baseline=True), lines
+    )
 
 
 def _line(name: str, plan: Plan) -> Line:
@@ -142,10 +183,17 @@ def _sequence(level: Level, plan: Plan) -> tuple[Any, ...]:
     """Titles in order, or the names of each step with their roles."""
     if level == "mission":
         return tuple(task["title"] for task in plan[list_key(level)])
-    return tuple(tuple((role, skill["name"]) for role, skill in step_skills(step)) for step in plan[list_key(level)])
+    return tuple(
+        tuple((role, skill["name"]) for role, skill in step_skills(step))
+        for step in plan[list_key(level)]
+    )
 
 
 def _entries(level: Level, plan: Plan) -> list[dict[str, Any]]:
     """The tasks, or the skills of all steps."""
     entries: list[dict[str, Any]] = plan[list_key(level)]
-    return entries if level == "mission" else [skill for step in entries for _role, skill in step_skills(step)]
+    return (
+        entries
+        if level == "mission"
+        else [skill for step in entries for _role, skill in step_skills(step)]
+    )

@@ -1,4 +1,6 @@
-"""A row taken apart: figures per name, role and type of parameter, which name stands for which, examples of failures."""
+"""A row taken apart: figures per name, role and type of parameter, which name stands for which,
+examples of failures.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +8,13 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from planner_ft.benchmark.metrics import FAILURES, Counts, counts_by_name, counts_by_role, substitutions
+from planner_ft.benchmark.metrics import (
+    FAILURES,
+    Counts,
+    counts_by_name,
+    counts_by_role,
+    substitutions,
+)
 from planner_ft.benchmark.metrics.entries import Entry
 from planner_ft.benchmark.metrics.slots import KINDS
 from planner_ft.benchmark.scoring import SampleScore
@@ -21,16 +29,30 @@ Counted = list[tuple[SampleScore, dict[str, Counts]]]
 def breakdown(scores: Sequence[SampleScore]) -> Breakdown:
     """What results.json has per row beside its metrics.
 
-    `per_name`, and at task level `per_role`: `expected` (the support), `predicted` and `right` occurrences, `samples` that expect it, precision,
-    recall and F1 with intervals. `per_type`: expected values of matched entries by type of parameter, and the share that the answers give.
-    `substitutions`: how often a name was predicted where another was expected (`predicted` null: omitted, `expected` null: added).
-    `failure_examples`: ids by kind of failure. `stops`: answers that cannot be carried out, by the condition that does not hold and the title of
-    the first task that stops. `slots`: facts that the inputs state, by kind, and those that reached parameters and task prompts.
+    `per_name`, and at task level `per_role`: `expected` (the support), `predicted` and `right`
+    occurrences, `samples` that expect it, precision, recall and F1 with intervals. `per_type`:
+    expected values of matched entries by type of parameter, and the share that the answers give.
+    `substitutions`: how often a name was predicted where another was expected (`predicted` null:
+    omitted, `expected` null: added). `failure_examples`: ids by kind of failure. `stops`: answers
+    that cannot be carried out, by the condition that does not hold and the title of the first task
+    that stops. `slots`: facts that the inputs state, by kind, and those that reached parameters and
+    task prompts.
     """
-    by_name = _counted(scores, lambda score: counts_by_name(_names(score.alignment.predicted), _names(score.alignment.expected)))
+    by_name = _counted(
+        scores,
+        lambda score: counts_by_name(
+            _names(score.alignment.predicted), _names(score.alignment.expected)
+        ),
+    )
     found: Breakdown = {"per_name": _tables(by_name, "name")}
     if any("navigation_size" in score.values for score in scores):
-        found["per_role"] = _tables(_counted(scores, lambda score: counts_by_role(score.alignment.predicted, score.alignment.expected)), "role")
+        found["per_role"] = _tables(
+            _counted(
+                scores,
+                lambda score: counts_by_role(score.alignment.predicted, score.alignment.expected),
+            ),
+            "role",
+        )
     return {
         **found,
         "per_type": _per_type(scores),
@@ -38,7 +60,9 @@ def breakdown(scores: Sequence[SampleScore]) -> Breakdown:
         "failure_examples": failure_examples(scores),
         "stops": stop_counts(scores),
         "slots": slot_shares(scores),
-        "ungrounded_examples": [score.id for score in scores if score.details.get("ungrounded")][:SHOWN],
+        "ungrounded_examples": [score.id for score in scores if score.details.get("ungrounded")][
+            :SHOWN
+        ],
     }
 
 
@@ -54,8 +78,13 @@ def failure_examples(scores: Sequence[SampleScore]) -> dict[str, list[str]]:
 def substitution_counts(scores: Sequence[SampleScore]) -> list[dict[str, Any]]:
     """Pairs of expected and predicted name that do not agree, most frequent first."""
     counts = Counter(pair for score in scores for pair in substitutions(score.alignment))
-    ordered = sorted(counts.items(), key=lambda item: (-item[1], item[0][0] or "", item[0][1] or ""))
-    return [{"expected": expected, "predicted": predicted, "n": count} for (expected, predicted), count in ordered]
+    ordered = sorted(
+        counts.items(), key=lambda item: (-item[1], item[0][0] or "", item[0][1] or "")
+    )
+    return [
+        {"expected": expected, "predicted": predicted, "n": count}
+        for (expected, predicted), count in ordered
+    ]
 
 
 def stop_counts(scores: Sequence[SampleScore]) -> list[dict[str, Any]]:
@@ -66,11 +95,16 @@ def stop_counts(scores: Sequence[SampleScore]) -> list[dict[str, Any]]:
         if stop:
             ids.setdefault((stop["condition"], stop["title"]), []).append(score.id)
     ordered = sorted(ids.items(), key=lambda item: (-len(item[1]), item[0]))
-    return [{"condition": condition, "title": title, "n": len(of_them), "examples": of_them[:SHOWN]} for (condition, title), of_them in ordered]
+    return [
+        {"condition": condition, "title": title, "n": len(of_them), "examples": of_them[:SHOWN]}
+        for (condition, title), of_them in ordered
+    ]
 
 
 def slot_shares(scores: Sequence[SampleScore]) -> list[dict[str, Any]]:
-    """Per kind of slot: how many are stated, and how many reached the right parameters and (mission level) task prompts, with the shares."""
+    """Per kind of slot: how many are stated, and how many reached the right parameters and (mission
+    level) task prompts, with the shares.
+    """
     families = [score.family for score in scores]
     lines: list[dict[str, Any]] = []
     for kind in KINDS:
@@ -80,12 +114,16 @@ def slot_shares(scores: Sequence[SampleScore]) -> list[dict[str, Any]]:
         for place, name in ((1, "in_parameters"), (2, "in_prompt")):
             if all(count[place] is not None for count in counts):
                 line[name] = sum(count[place] for count in counts)
-                line[f"{name}_share"] = _share(((count[place], count[0]) for count in counts), families).to_json()
+                line[f"{name}_share"] = _share(
+                    ((count[place], count[0]) for count in counts), families
+                ).to_json()
         lines += [line] if stated else []
     return lines
 
 
-def _counted(scores: Sequence[SampleScore], count: Callable[[SampleScore], dict[str, Counts]]) -> Counted:
+def _counted(
+    scores: Sequence[SampleScore], count: Callable[[SampleScore], dict[str, Counts]]
+) -> Counted:
     return [(score, count(score)) for score in scores]
 
 
@@ -94,31 +132,47 @@ def _tables(counted: Counted, heading: str) -> list[dict[str, Any]]:
     names = sorted({name for _score, counts in counted for name in counts})
     nothing = Counts(0, 0, 0)
     families = [score.family for score, _counts in counted]
-    lines = [_line(heading, name, [counts.get(name, nothing) for _score, counts in counted], families) for name in names]
+    lines = [
+        _line(heading, name, [counts.get(name, nothing) for _score, counts in counted], families)
+        for name in names
+    ]
     return sorted(lines, key=lambda line: (-line["expected"], line[heading]))
 
 
-def _line(heading: str, name: str, column: Sequence[Counts], families: Sequence[str]) -> dict[str, Any]:
+def _line(
+    heading: str, name: str, column: Sequence[Counts], families: Sequence[str]
+) -> dict[str, Any]:
     return {
         heading: name,
         "expected": sum(entry.expected for entry in column),
         "predicted": sum(entry.predicted for entry in column),
         "right": sum(entry.right for entry in column),
         "samples": sum(entry.expected > 0 for entry in column),
-        "precision": _share(((entry.right, entry.predicted) for entry in column), families).to_json(),
+        "precision": (
+            _share(((entry.right, entry.predicted) for entry in column), families).to_json()
+        ),
         "recall": _share(((entry.right, entry.expected) for entry in column), families).to_json(),
         "f1": _f1(column, families).to_json(),
     }
 
 
 def _f1(column: Sequence[Counts], families: Sequence[str]) -> Estimate:
-    """F1 with an interval that holds for names seen once, which a bootstrap has nothing to resample of.
+    """F1 with an interval that holds for names seen once, which a bootstrap has nothing to resample
+    of.
 
-    With J the share of right ones among all that were expected or predicted (Jaccard 1912), F1 is 2 J / (1 + J), which grows with J: the bounds
-    of J give those of F1.
+    With J the share of right ones among all that were expected or predicted (Jaccard 1912), F1 is 2
+    J / (1 + J), which grows with J: the bounds of J give those of F1.
     """
-    share = _share(((entry.right, entry.predicted + entry.expected - entry.right) for entry in column), families)
-    return Estimate(*(None if bound is None else 2 * bound / (1 + bound) for bound in (share.value, share.low, share.high)))
+    share = _share(
+        ((entry.right, entry.predicted + entry.expected - entry.right) for entry in column),
+        families,
+    )
+    return Estimate(
+        *(
+            None if bound is None else 2 * bound / (1 + bound)
+            for bound in (share.value, share.low, share.high)
+        )
+    )
 
 
 def _share(counts: Iterable[tuple[int, int]], families: Sequence[str]) -> Estimate:
@@ -137,8 +191,18 @@ def _per_type(scores: Sequence[SampleScore]) -> list[dict[str, Any]]:
     lines = []
     for kind in kinds:
         counts = [score.types.get(kind, (0, 0)) for score in scores]
-        right, expected = sum(right for right, _all in counts), sum(of_all for _right, of_all in counts)
-        lines.append({"type": kind, "expected": expected, "right": right, "share": _share(counts, families).to_json()})
+        right, expected = (
+            sum(right for right, _all in counts),
+            sum(of_all for _right, of_all in counts),
+        )
+        lines.append(
+            {
+                "type": kind,
+                "expected": expected,
+                "right": right,
+                "share": _share(counts, families).to_json(),
+            }
+        )
     return sorted(lines, key=lambda line: (-line["expected"], line["type"]))
 
 

@@ -1,4 +1,6 @@
-"""Every metric of results.json, and how it is summed up from the values of samples (keys of scores.jsonl)."""
+"""Every metric of results.json, and how it is summed up from the values of samples (keys of
+scores.jsonl).
+"""
 
 from __future__ import annotations
 
@@ -12,8 +14,9 @@ Kind = Literal["rate", "mean", "ratio"]
 class Metric:
     """A metric over samples; samples whose value is None say nothing about it and are left out.
 
-    rate: share of samples whose value is true. mean: mean of the values. ratio: sum of the values under `over`[0] by the sum of those
-    under `over`[1]. Rates and means have their value in scores.jsonl under their own name. `fraction` says whether it lies between 0 and 1.
+    rate: share of samples whose value is true. mean: mean of the values. ratio: sum of the values
+    under `over`[0] by the sum of those under `over`[1]. Rates and means have their value in
+    scores.jsonl under their own name. `fraction` says whether it lies between 0 and 1.
     """
 
     name: str
@@ -23,7 +26,9 @@ class Metric:
 
 
 def pooled_f1(name: str, prefix: str) -> Metric:
-    """The F1 of all samples together: PREFIX_right by PREFIX_size, which is half of predicted and expected items."""
+    """The F1 of all samples together: PREFIX_right by PREFIX_size, which is half of predicted and
+    expected items.
+    """
     return Metric(name, "ratio", (f"{prefix}_right", f"{prefix}_size"))
 
 
@@ -67,7 +72,8 @@ CATALOGUE = (
     Metric("forward_passes", "mean", fraction=False),
 )
 WORST_CASES = {"worst_f1": "f1", "paraphrases_right": "whole_plan"}
-"""Metrics of phrasing families with at least two samples: the mean over families of the smallest F1, and the share of families of which
-every sample is right."""
+"""Metrics of phrasing families with at least two samples: the mean over families of the smallest
+F1, and the share of families of which every sample is right.
+"""
 METRICS = (*(metric.name for metric in CATALOGUE), *WORST_CASES)
 """Names of the metrics in results.json and in gate files."""

@@ -22,8 +22,10 @@ SHOWN = 5
 
 @dataclass(frozen=True)
 class CompareSettings:
-    """`metrics` are names of results.json. `against` names the row that the others are compared with, None takes the first one;
-    `same` compares each row with that of the same name in the first run instead. `common` allows different data files."""
+    """`metrics` are names of results.json. `against` names the row that the others are compared
+    with, None takes the first one; `same` compares each row with that of the same name in the first
+    run instead. `common` allows different data files.
+    """
 
     runs: tuple[Path, ...]
     metrics: tuple[str, ...] = DEFAULT_METRICS
@@ -45,13 +47,26 @@ class Report:
 
     def to_json(self) -> dict[str, Any]:
         settings = self.settings
-        method = {"confidence": CONFIDENCE, "resamples": RESAMPLES, "seed": settings.seed, "adjustment": "holm", "margin": MARGIN}
+        method = {
+            "confidence": CONFIDENCE,
+            "resamples": RESAMPLES,
+            "seed": settings.seed,
+            "adjustment": "holm",
+            "margin": MARGIN,
+        }
         return {
             "level": self.level,
-            "runs": [{"path": str(path), "data": data} for path, data in zip(settings.runs, self.data, strict=True)],
-            "against": settings.against, "same": settings.same, "common": settings.common, "method": method,
-            "comparisons": [comparison.to_json() for comparison in self.comparisons], "notes": list(self.notes),
-        }  # fmt: skip
+            "runs": [
+                {"path": str(path), "data": data}
+                for path, data in zip(settings.runs, self.data, strict=True)
+            ],
+            "against": settings.against,
+            "same": settings.same,
+            "common": settings.common,
+            "method": method,
+            "comparisons": [comparison.to_json() for comparison in self.comparisons],
+            "notes": list(self.notes),
+        }
 
 
 def compare_runs(settings: CompareSettings) -> Report:
@@ -64,10 +79,18 @@ def compare_runs(settings: CompareSettings) -> Report:
     found = []
     for first, second in pairs:
         if not first.scores.keys() & second.scores.keys():
-            raise PlannerError(f"{first.name} and {second.name} have no sample in common; compare runs of the same data")
-        found += [(first.name, second.name, paired(metric, first.scores, second.scores, settings.seed)) for metric in metrics]
+            raise PlannerError(
+                f"{first.name} and {second.name} have no sample in common; compare runs of the same"
+                " data"
+            )
+        found += [
+            (first.name, second.name, paired(metric, first.scores, second.scores, settings.seed))
+            for metric in metrics
+        ]
     data = tuple(load.data for path in settings.runs for load in runs if load.path == path)
-    return Report(settings, runs[0].level, data, tuple(adjusted(found)), tuple(_notes(runs, pairs, metrics)))
+    return Report(
+        settings, runs[0].level, data, tuple(adjusted(found)), tuple(_notes(runs, pairs, metrics))
+    )
 
 
 def _metrics(names: Sequence[str]) -> list[Metric]:
@@ -82,54 +105,93 @@ def _check_same(runs: Sequence[Run], *, common: bool) -> None:
     first = runs[0]
     for run in runs[1:]:
         if run.level != first.level:
-            raise PlannerError(f"{first.path} is a run of the {first.level} level and {run.path} one of the {run.level} level; compare runs of one level")
+            raise PlannerError(
+                f"{first.path} is a run of the {first.level} level and {run.path} one of the"
+                f" {run.level} level; compare runs of one level"
+            )
         if run.data.get("sha256") != first.data.get("sha256") and not common:
             raise PlannerError(
-                f"{first.path} was run on {first.data.get('path')} and {run.path} on {run.data.get('path')}, which are not the same data; "
-                "give --common to compare the samples whose ids are in both"
+                f"{first.path} was run on {first.data.get('path')} and {run.path} on"
+                f" {run.data.get('path')}, which are not the same data; give --common to compare"
+                " the samples whose ids are in both"
             )
 
 
-def _pairs(rows: Sequence[RunRow], first_run: Run, settings: CompareSettings) -> list[tuple[RunRow, RunRow]]:
+def _pairs(
+    rows: Sequence[RunRow], first_run: Run, settings: CompareSettings
+) -> list[tuple[RunRow, RunRow]]:
     if settings.same:
         former = {row.system: row for row in rows if row.run == first_run.path}
-        pairs = [(former[row.system], row) for row in rows if row.run != first_run.path and row.system in former and not row.is_baseline]
+        pairs = [
+            (former[row.system], row)
+            for row in rows
+            if row.run != first_run.path and row.system in former and not row.is_baseline
+        ]
         if not pairs:
-            raise PlannerError(f"--same: no row of the other runs has the name of one in {first_run.path} ({', '.join(former)}); leave out --same")
+            raise PlannerError(
+                f"--same: no row of the other runs has the name of one in {first_run.path}"
+                f" ({', '.join(former)}); leave out --same"
+            )
         return pairs
     reference = rows[0] if settings.against is None else _named(rows, settings.against)
     pairs = [(reference, row) for row in rows if row is not reference]
     if not pairs:
-        raise PlannerError(f"{first_run.path}: holds one row, {rows[0].name}; name a second run to compare it with")
+        raise PlannerError(
+            f"{first_run.path}: holds one row, {rows[0].name}; name a second run to compare it with"
+        )
     return pairs
 
 
 def _named(rows: Sequence[RunRow], text: str) -> RunRow:
     """The row of that name; a part of the name is enough where it fits one row alone."""
     names = ", ".join(row.name for row in rows)
-    matching = [row for row in rows if row.name == text] or [row for row in rows if text in row.name]
+    matching = [row for row in rows if row.name == text] or [
+        row for row in rows if text in row.name
+    ]
     if len(matching) != 1:
-        raise PlannerError(f"--against {text}: {'is the name of several rows' if matching else 'is no row'}; there are {names}")
+        raise PlannerError(
+            f"--against {text}: {'is the name of several rows' if matching else 'is no row'}; there"
+            f" are {names}"
+        )
     return matching[0]
 
 
-def _notes(runs: Sequence[Run], pairs: Sequence[tuple[RunRow, RunRow]], metrics: Sequence[Metric]) -> list[str]:
+def _notes(
+    runs: Sequence[Run], pairs: Sequence[tuple[RunRow, RunRow]], metrics: Sequence[Metric]
+) -> list[str]:
     notes: list[str] = []
     if len({str(run.data.get("sha256")) for run in runs}) > 1:
-        notes.append("The runs used different data files; samples are paired by id, and nothing says that the same id is the same sample.")
+        notes.append(
+            "The runs used different data files; samples are paired by id, and nothing says that"
+            " the same id is the same sample."
+        )
     involved = {row.name: row for pair in pairs for row in pair}.values()
-    notes += [f"{row.name}: no prediction for {_listed(row.missing)}, counted as empty outputs." for row in involved if row.missing]
+    notes += [
+        f"{row.name}: no prediction for {_listed(row.missing)}, counted as empty outputs."
+        for row in involved
+        if row.missing
+    ]
     for first, second in pairs:
         for one, other in ((first, second), (second, first)):
             if absent := [name for name in one.scores if name not in other.scores]:
                 notes.append(f"{other.name} lacks {_listed(absent)} of {one.name}: left out.")
         for metric in metrics:
             key = metric.over[0] if metric.kind == "ratio" else metric.name
-            if not all(any(score.get(key) is not None for scores in row.scores.values() for score in scores) for row in (first, second)):
-                notes.append(f"{metric.name} of {second.name} against {first.name} was not measured in both.")
+            if not all(
+                any(
+                    score.get(key) is not None for scores in row.scores.values() for score in scores
+                )
+                for row in (first, second)
+            ):
+                notes.append(
+                    f"{metric.name} of {second.name} against {first.name} was not measured in both."
+                )
     return list(dict.fromkeys(notes))
 
 
 def _listed(names: Sequence[str]) -> str:
     shown = ", ".join(names[:SHOWN])
-    return f"{len(names)} sample{'s' if len(names) > 1 else ''} ({shown}{', ...' if len(names) > SHOWN else ''})"
+    return (
+        f"{len(names)} sample{'s' if len(names) > 1 else ''}"
+        f" ({shown}{', ...' if len(names) > SHOWN else ''})"
+    )

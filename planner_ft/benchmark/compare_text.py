@@ -17,12 +17,31 @@ from planner_ft.benchmark.verdicts import EXPLAINED, NEITHER, UNBOUNDED, Compari
 
 RATES = frozenset(metric.name for metric in CATALOGUE if metric.kind != "mean")
 COLORS = {"better": "green", "worse": "red"}
-COLUMNS = ("first", "second", "metric", "n", "families", "first_value", "second_value", "difference", "low", "high", "p", "p_mcnemar", "p_adjusted", "verdict")
+COLUMNS = (
+    "first",
+    "second",
+    "metric",
+    "n",
+    "families",
+    "first_value",
+    "second_value",
+    "difference",
+    "low",
+    "high",
+    "p",
+    "p_mcnemar",
+    "p_adjusted",
+    "verdict",
+)
 
 
 def render_report(report: Report) -> dict[str, str]:
     """The texts of comparison.md, comparison.csv and comparison.tex."""
-    return {"comparison.md": markdown(report), "comparison.csv": csv_text(report), "comparison.tex": latex(report)}
+    return {
+        "comparison.md": markdown(report),
+        "comparison.csv": csv_text(report),
+        "comparison.tex": latex(report),
+    }
 
 
 def markdown(report: Report) -> str:
@@ -48,7 +67,11 @@ def csv_text(report: Report) -> str:
     for comparison in report.comparisons:
         values = comparison.to_json()
         difference = values.pop("difference")
-        values |= {"difference": difference["value"], "low": difference["low"], "high": difference["high"]}
+        values |= {
+            "difference": difference["value"],
+            "low": difference["low"],
+            "high": difference["high"],
+        }
         writer.writerow(["" if values[name] is None else values[name] for name in COLUMNS])
     return stream.getvalue()
 
@@ -58,11 +81,29 @@ def latex(report: Report) -> str:
     lines = ["% Needs \\usepackage{booktabs}.", "\\begin{tabular}{llrrrrrl}", "\\toprule"]
     lines.append("System & Metric & n & Against & This & Difference & $p$ (Holm) & \\\\")
     for (first, second), found in _by_pair(report).items():
-        lines += ["\\midrule", f"\\multicolumn{{8}}{{l}}{{{tex_text(second)} against {tex_text(first)}}} \\\\"]
+        lines += [
+            "\\midrule",
+            f"\\multicolumn{{8}}{{l}}{{{tex_text(second)} against {tex_text(first)}}} \\\\",
+        ]
         for comparison in found:
             metric, n, one, other, difference, _p, holm, verdict = _cells(comparison, mark=False)
-            lines.append(" & ".join(["", *(tex_text(cell) for cell in (metric, n, one, other, difference)), holm.replace("<", "$<$"), verdict]) + " \\\\")
-    return "\n".join([*lines, "\\bottomrule", "\\end{tabular}", *(f"% {note}" for note in notes(report))]) + "\n"
+            lines.append(
+                " & ".join(
+                    [
+                        "",
+                        *(tex_text(cell) for cell in (metric, n, one, other, difference)),
+                        holm.replace("<", "$<$"),
+                        verdict,
+                    ]
+                )
+                + " \\\\"
+            )
+    return (
+        "\n".join(
+            [*lines, "\\bottomrule", "\\end{tabular}", *(f"% {note}" for note in notes(report))]
+        )
+        + "\n"
+    )
 
 
 def print_report(report: Report, console: Console) -> None:
@@ -71,10 +112,22 @@ def print_report(report: Report, console: Console) -> None:
         console.print(Text.assemble((second, "bold"), " against ", (first, "bold")))
         table = Table(box=SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
         for heading in ("metric", "n", "against", "this", "difference", "p, Holm", ""):
-            table.add_column(heading, justify="left" if heading in ("metric", "") else "right", no_wrap=heading not in ("metric", ""))
+            table.add_column(
+                heading,
+                justify="left" if heading in ("metric", "") else "right",
+                no_wrap=heading not in ("metric", ""),
+            )
         for comparison in found:
             metric, n, one, other, difference, _p, holm, verdict = _cells(comparison)
-            table.add_row(metric, n, one, other, difference.replace(" [", "\n["), holm, Text(verdict, style=COLORS.get(comparison.verdict, "dim")))
+            table.add_row(
+                metric,
+                n,
+                one,
+                other,
+                difference.replace(" [", "\n["),
+                holm,
+                Text(verdict, style=COLORS.get(comparison.verdict, "dim")),
+            )
         console.print(table)
     for note in notes(report):
         console.print(Text(note, style="dim"))
@@ -85,9 +138,15 @@ def notes(report: Report) -> list[str]:
     count = sum(comparison.p_adjusted is not None for comparison in report.comparisons)
     families = max((comparison.paired.families for comparison in report.comparisons), default=0)
     return [
-        f"Paired by sample, whole phrasing families kept together ({families} families at most). {EXPLAINED}.",
-        f"Differences: this minus against, 95 % bootstrap intervals. p: families swapped at random (for rates of independent samples the exact "
-        f"McNemar test), adjusted for the {count} comparisons of this table. Seed {report.settings.seed}. Rates in percent.",
+        (
+            f"Paired by sample, whole phrasing families kept together ({families} families at"
+            f" most). {EXPLAINED}."
+        ),
+        (
+            "Differences: this minus against, 95 % bootstrap intervals. p: families swapped at"
+            " random (for rates of independent samples the exact McNemar test), adjusted for the"
+            f" {count} comparisons of this table. Seed {report.settings.seed}. Rates in percent."
+        ),
         *report.notes,
     ]
 
@@ -102,7 +161,22 @@ def _by_pair(report: Report) -> dict[tuple[str, str], list[Comparison]]:
 def _cells(comparison: Comparison, *, mark: bool = True) -> tuple[str, ...]:
     """Metric, n, both values, difference, p, adjusted p, verdict."""
     paired = comparison.paired
-    scale, decimals = (100, 1) if paired.metric in RATES else (1, 2 if paired.metric in UNBOUNDED | NEITHER else 3)
-    values = ("–" if value is None else f"{value * scale:.{decimals}f}" for value in (paired.first, paired.second))
+    scale, decimals = (
+        (100, 1)
+        if paired.metric in RATES
+        else (1, 2 if paired.metric in UNBOUNDED | NEITHER else 3)
+    )
+    values = (
+        "–" if value is None else f"{value * scale:.{decimals}f}"
+        for value in (paired.first, paired.second)
+    )
     verdict = f"{comparison.mark} {comparison.verdict}".strip() if mark else comparison.verdict
-    return (paired.metric, str(paired.n), *values, signed(paired.difference, scale, decimals), p_text(paired.p), p_text(comparison.p_adjusted), verdict)
+    return (
+        paired.metric,
+        str(paired.n),
+        *values,
+        signed(paired.difference, scale, decimals),
+        p_text(paired.p),
+        p_text(comparison.p_adjusted),
+        verdict,
+    )

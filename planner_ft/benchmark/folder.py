@@ -12,7 +12,13 @@ from planner_ft.benchmark.tables import render_tables
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import write_json, write_jsonl, write_text
 
-RESULTS, SCORES, PREDICTIONS, LATENCY, RUN = "results.json", "scores.jsonl", "predictions.jsonl", "latency.jsonl", "run.json"
+RESULTS, SCORES, PREDICTIONS, LATENCY, RUN = (
+    "results.json",
+    "scores.jsonl",
+    "predictions.jsonl",
+    "latency.jsonl",
+    "run.json",
+)
 PLANNING = "planning.jsonl"
 BASELINES = "baselines.jsonl"
 REPORT = "report.html"
@@ -22,7 +28,9 @@ ALL = (*SCORED, PREDICTIONS, LATENCY, PLANNING, RUN)
 
 
 def check_folder(folder: Path, names: Sequence[str], hint: str) -> None:
-    """Raise PlannerError when the folder holds any of these files, cannot be written, or is a file."""
+    """Raise PlannerError when the folder holds any of these files, cannot be written, or is a
+    file.
+    """
     present = [name for name in names if (folder / name).exists()]
     if present:
         raise PlannerError(f"{folder / present[0]}: results are there already; {hint}")
@@ -36,7 +44,9 @@ def check_writable(folder: Path) -> None:
     except (FileExistsError, NotADirectoryError):
         raise PlannerError(f"--out {folder}: is or lies below a file; give a folder") from None
     except OSError as error:
-        raise PlannerError(f"--out {folder}: cannot be made ({error.strerror}); give another folder") from None
+        raise PlannerError(
+            f"--out {folder}: cannot be made ({error.strerror}); give another folder"
+        ) from None
     if not os.access(folder, os.W_OK | os.X_OK):
         raise PlannerError(f"--out {folder}: cannot be written; give another folder")
 
@@ -49,7 +59,9 @@ def clear(folder: Path, names: Sequence[str] = ALL) -> None:
 
 
 def write_results(folder: Path, results: Results) -> None:
-    """Write results.json, scores.jsonl and the tables; results.json last, so that it is there only when all is."""
+    """Write results.json, scores.jsonl and the tables; results.json last, so that it is there only
+    when all is.
+    """
     # A report of earlier results would be taken for one of these.
     (folder / REPORT).unlink(missing_ok=True)
     write_jsonl(folder / SCORES, results.scores)

@@ -52,32 +52,60 @@ class Gate:
 
 
 def load_gate(path: Path) -> Gate:
-    """Read a gate file; `data`, `adapter` and a vocabulary's path are relative to it. Raises PlannerError that lists every mistake."""
+    """Read a gate file; `data`, `adapter` and a vocabulary's path are relative to it. Raises
+    PlannerError that lists every mistake.
+    """
     try:
         raw = tomllib.loads(read_text(path))
     except tomllib.TOMLDecodeError as error:
         raise PlannerError(f"{path}: not TOML: {error}") from None
     problems = [f"{key} is missing" for key in REQUIRED if key not in raw]
-    problems += [f"unknown key {key!r} (there are {', '.join((*REQUIRED, *OPTIONAL))})" for key in raw if key not in (*REQUIRED, *OPTIONAL)]
-    kinds: dict[str, type] = dict.fromkeys(("limit", "max_new_tokens", "latency_samples"), int) | {"thresholds": dict}
     problems += [
-        f"{key} must be a {kinds.get(key, str).__name__}" for key in raw if key in (*REQUIRED, *OPTIONAL) and type(raw[key]) is not kinds.get(key, str)
+        f"unknown key {key!r} (there are {', '.join((*REQUIRED, *OPTIONAL))})"
+        for key in raw
+        if key not in (*REQUIRED, *OPTIONAL)
+    ]
+    kinds: dict[str, type] = dict.fromkeys(("limit", "max_new_tokens", "latency_samples"), int) | {
+        "thresholds": dict
+    }
+    problems += [
+        f"{key} must be a {kinds.get(key, str).__name__}"
+        for key in raw
+        if key in (*REQUIRED, *OPTIONAL) and type(raw[key]) is not kinds.get(key, str)
     ]
     if problems:
         raise PlannerError(f"{path}: {'; '.join(problems)}")
-    thresholds = tuple(_threshold(path, metric, bounds) for metric, bounds in raw["thresholds"].items())
+    thresholds = tuple(
+        _threshold(path, metric, bounds) for metric, bounds in raw["thresholds"].items()
+    )
     if not thresholds:
-        raise PlannerError(f"{path}: [thresholds] names no metric; write for example schema_valid = {{ min = 0.98 }}")
+        raise PlannerError(
+            f"{path}: [thresholds] names no metric; write for example schema_valid = {{ min ="
+            " 0.98 }"
+        )
     return Gate(path, _settings(path, raw, thresholds), thresholds)
 
 
-def run_gate(gate: Gate, out: Path, progress: Progress, show: Callable[[Results], Any] = lambda _results: None, **changes: Any) -> Results:
-    """Run the gate's benchmark into `out`; `show` gets the results. Raises GateError when a figure falls short of its threshold."""
+def run_gate(
+    gate: Gate,
+    out: Path,
+    progress: Progress,
+    show: Callable[[Results], Any] = lambda _results: None,
+    **changes: Any,
+) -> Results:
+    """Run the gate's benchmark into `out`; `show` gets the results. Raises GateError when a figure
+    falls short of its threshold.
+    """
     results = run_bench(dataclasses.replace(gate.settings, out=out, **changes), progress)
     show(results)
-    shortfalls = [text for text in (threshold.shortfall(results) for threshold in gate.thresholds) if text]
+    shortfalls = [
+        text for text in (threshold.shortfall(results) for threshold in gate.thresholds) if text
+    ]
     if shortfalls:
-        raise GateError(f"{gate.path}: {results.rows[0].system.label}, {results.rows[0].system.configuration}: {'; '.join(shortfalls)}")
+        raise GateError(
+            f"{gate.path}: {results.rows[0].system.label}, {results.rows[0].system.configuration}:"
+            f" {'; '.join(shortfalls)}"
+        )
     return results
 
 
@@ -101,9 +129,16 @@ def _threshold(path: Path, metric: str, bounds: Any) -> Threshold:
     if metric not in METRICS:
         raise PlannerError(f"{path}: unknown metric {metric!r}; there are {', '.join(METRICS)}")
     values = bounds if isinstance(bounds, dict) else {}
-    numbers = all(isinstance(value, int | float) and not isinstance(value, bool) for value in values.values())
+    numbers = all(
+        isinstance(value, int | float) and not isinstance(value, bool) for value in values.values()
+    )
     if not values or set(values) - {"min", "max"} or not numbers:
-        raise PlannerError(f"{path}: {metric} must be a table of numbers with min or max, for example {metric} = {{ min = 0.98 }}")
+        raise PlannerError(
+            f"{path}: {metric} must be a table of numbers with min or max, for example {metric} ="
+            " { min = 0.98 }"
+        )
     if metric not in NOT_RATES and any(not 0 <= value <= 1 for value in values.values()):
-        raise PlannerError(f"{path}: {metric} is a fraction between 0 and 1, as in results.json, not a percentage")
+        raise PlannerError(
+            f"{path}: {metric} is a fraction between 0 and 1, as in results.json, not a percentage"
+        )
     return Threshold(metric, values.get("min"), values.get("max"))

@@ -33,7 +33,11 @@ class Column:
 
     def interval(self, estimate: Estimate) -> str:
         """The interval in brackets, or nothing where there is none."""
-        return "" if estimate.low is None or estimate.high is None else f"[{self.text(estimate.low)}, {self.text(estimate.high)}]"
+        return (
+            ""
+            if estimate.low is None or estimate.high is None
+            else f"[{self.text(estimate.low)}, {self.text(estimate.high)}]"
+        )
 
 
 COLUMNS = (
@@ -52,14 +56,18 @@ MORE_COLUMNS = (
     Column("forward_passes", "Forward passes", "↓", 1, 1, 1),
     Column("parsed", "Parses (%)", "↑", 100, 1, 1),
     Column("hallucination_with_unparsed", "Hallucination, unparsed counted (%)", "↓", 100, 1, 1),
-    Column("hallucination_without_unparsed", "Hallucination, unparsed not counted (%)", "↓", 100, 1, 1),
+    Column(
+        "hallucination_without_unparsed", "Hallucination, unparsed not counted (%)", "↓", 100, 1, 1
+    ),
 )
 """What the published tables leave out."""
 
 
 @dataclass(frozen=True)
 class TableRow:
-    """One model: measured, published or a baseline, with its figures by (metric, configuration), and marks of real differences (see `contrasts_text`)."""
+    """One model: measured, published or a baseline, with its figures by (metric, configuration),
+    and marks of real differences (see `contrasts_text`).
+    """
 
     model: str
     source: str
@@ -74,7 +82,9 @@ def measured_configurations(results: Results) -> list[str]:
 
 
 def configurations(results: Results) -> list[str]:
-    """The columns of the table: a run's configurations, after the published ones where it has none of those."""
+    """The columns of the table: a run's configurations, after the published ones where it has none
+    of those.
+    """
     ours = measured_configurations(results)
     alien = not set(ours) & set(published.CONFIGURATIONS)
     return [*published.CONFIGURATIONS, *ours] if alien and shows_published(results) else ours
@@ -90,37 +100,76 @@ def measured_rows(results: Results) -> list[TableRow]:
     rows: dict[str, TableRow] = {}
     known = marks(results)
     for row in results.rows:
-        entry = rows.setdefault(row.system.candidate, TableRow(row.system.label, "measured", row.n, {}))
-        entry.cells.update({(metric, row.system.configuration): estimate for metric, estimate in row.metrics.items()})
+        entry = rows.setdefault(
+            row.system.candidate, TableRow(row.system.label, "measured", row.n, {})
+        )
+        entry.cells.update(
+            {
+                (metric, row.system.configuration): estimate
+                for metric, estimate in row.metrics.items()
+            }
+        )
         name = system_key((row.system.candidate, row.system.configuration))
-        entry.marks.update({(metric, row.system.configuration): known[name, metric] for metric in row.metrics if (name, metric) in known})
+        entry.marks.update(
+            {
+                (metric, row.system.configuration): known[name, metric]
+                for metric in row.metrics
+                if (name, metric) in known
+            }
+        )
     return list(rows.values())
 
 
 def baseline_rows(results: Results) -> list[TableRow]:
-    """What needs no model; it knows neither base nor LoRA, so its figure stands in every column that was measured."""
+    """What needs no model; it knows neither base nor LoRA, so its figure stands in every column
+    that was measured.
+    """
     names = measured_configurations(results)
     return [
-        TableRow(row.system.label, "baseline", row.n, {(metric, name): estimate for metric, estimate in row.metrics.items() for name in names})
+        TableRow(
+            row.system.label,
+            "baseline",
+            row.n,
+            {
+                (metric, name): estimate
+                for metric, estimate in row.metrics.items()
+                for name in names
+            },
+        )
         for row in results.baselines
     ]
 
 
 def shows_published(results: Results) -> bool:
-    """Published figures stand only beside real candidates and for the vehicle that they are about."""
+    """Published figures stand only beside real candidates and for the vehicle that they are
+    about.
+    """
     vocabulary = results.manifest.get("configuration", {}).get("vocabulary", {}).get("name")
-    return vocabulary == published.VOCABULARY and any(not row.system.is_standin for row in results.rows)
+    return vocabulary == published.VOCABULARY and any(
+        not row.system.is_standin for row in results.rows
+    )
 
 
 def table_rows(results: Results) -> list[TableRow]:
-    """Measured rows, each followed by its published one, then the baselines and the other published rows."""
+    """Measured rows, each followed by its published one, then the baselines and the other published
+    rows.
+    """
     measured = measured_rows(results)
     if not shows_published(results):
         return [*measured, *baseline_rows(results)]
-    theirs = {row.model: _published_row(row, results.level) for row in published.published_rows(results.level)}
-    names = {row.system.candidate: row.system.published for row in results.rows if not row.system.is_standin}
+    theirs = {
+        row.model: _published_row(row, results.level)
+        for row in published.published_rows(results.level)
+    }
+    names = {
+        row.system.candidate: row.system.published
+        for row in results.rows
+        if not row.system.is_standin
+    }
     ordered: list[TableRow] = []
-    for candidate, row in zip(dict.fromkeys(row.system.candidate for row in results.rows), measured, strict=True):
+    for candidate, row in zip(
+        dict.fromkeys(row.system.candidate for row in results.rows), measured, strict=True
+    ):
         ordered.append(row)
         ordered += [theirs.pop(name) for name in [names.get(candidate)] if name in theirs]
     return [*ordered, *baseline_rows(results), *theirs.values()]
@@ -131,28 +180,53 @@ def notes(results: Results) -> list[str]:
     rows = results.rows
     counted = "as hallucinated" if results.level == "mission" else "as not hallucinated"
     lines = [
-        f"{results.level} level, n = {results.data['n']} samples of {results.data['path']}. In brackets: 95 % intervals "
-        "(rates: Wilson, n being the effective number of samples where phrasings of one family agree; means: bootstrap, whole families resampled).",
-        f"Hallucination counts an output that does not parse {counted}, as the published table of this level does; "
-        "both readings are in the second table of table.md.",
+        (
+            f"{results.level} level, n = {results.data['n']} samples of {results.data['path']}. In"
+            " brackets: 95 % intervals (rates: Wilson, n being the effective number of samples"
+            " where phrasings of one family agree; means: bootstrap, whole families resampled)."
+        ),
+        (
+            f"Hallucination counts an output that does not parse {counted}, as the published table"
+            " of this level does; both readings are in the second table of table.md."
+        ),
     ]
     if any(row.latency_n for row in rows):
-        lines.append(f"Latency: one query at a time after warm-up, mean over {max(row.latency_n for row in rows)} samples on the machine in results.json.")
+        lines.append(
+            "Latency: one query at a time after warm-up, mean over"
+            f" {max(row.latency_n for row in rows)} samples on the machine in results.json."
+        )
     if shows_published(results):
-        lines.append(f"(published): figures of the {published.source(results.level)}; not measured here.")
+        lines.append(
+            f"(published): figures of the {published.source(results.level)}; not measured here."
+        )
     lines += contrast_notes(results)
     for row in _first(rows):
         if row.system.pretrained:
-            lines.append(f"{row.system.label} was pretrained on synthetic plans of this vocabulary: its Base column is not that of a general model.")
+            lines.append(
+                f"{row.system.label} was pretrained on synthetic plans of this vocabulary: its Base"
+                " column is not that of a general model."
+            )
         if row.system.is_standin:
-            lines.append(f"{row.system.label} is a tiny, randomly initialised model: its figures say nothing about the real candidate.")
+            lines.append(
+                f"{row.system.label} is a tiny, randomly initialised model: its figures say nothing"
+                " about the real candidate."
+            )
     for row in rows:
         if row.missing:
-            lines.append(f"{system_name(row)}: {len(row.missing)} of {row.n} samples have no prediction and count as empty outputs.")
+            lines.append(
+                f"{system_name(row)}: {len(row.missing)} of {row.n} samples have no prediction and"
+                " count as empty outputs."
+            )
         if row.finish_reasons.get("length"):
-            lines.append(f"{system_name(row)}: {row.finish_reasons['length']} of {row.n} outputs were cut at the token limit.")
+            lines.append(
+                f"{system_name(row)}: {row.finish_reasons['length']} of {row.n} outputs were cut at"
+                " the token limit."
+            )
         if row.finish_reasons.get("error"):
-            lines.append(f"{system_name(row)}: {row.finish_reasons['error']} of {row.n} samples failed and count as empty outputs (see predictions.jsonl).")
+            lines.append(
+                f"{system_name(row)}: {row.finish_reasons['error']} of {row.n} samples failed and"
+                " count as empty outputs (see predictions.jsonl)."
+            )
     return lines
 
 
@@ -167,4 +241,9 @@ def _first(rows: Iterable[Row]) -> list[Row]:
 
 
 def _published_row(row: published.PublishedRow, level: Level) -> TableRow:
-    return TableRow(f"{row.model} (published)", "published", published.SAMPLES[level], {key: Estimate(value) for key, value in row.figures.items()})
+    return TableRow(
+        f"{row.model} (published)",
+        "published",
+        published.SAMPLES[level],
+        {key: Estimate(value) for key, value in row.figures.items()},
+    )

@@ -24,10 +24,11 @@ class Parsed:
 def parse_output(output: str | dict[str, Any] | None) -> Parsed:
     """Read an answer as one JSON object; white space around it is allowed, nothing else.
 
-    The published definition is "parses as one JSON object". A Markdown fence, a sentence before the object, a second
-    object or a cut end therefore do not parse, whatever they contain. An answer that is an object already is taken
-    as it is; the working before a skill sequence is no part of the plan. NaN and Infinity are not JSON; numbers that a
-    float cannot hold and strings that UTF-8 cannot hold are refused with them.
+    The published definition is "parses as one JSON object". A Markdown fence, a sentence before the
+    object, a second object or a cut end therefore do not parse, whatever they contain. An answer
+    that is an object already is taken as it is; the working before a skill sequence is no part of
+    the plan. NaN and Infinity are not JSON; numbers that a float cannot hold and strings that UTF-8
+    cannot hold are refused with them.
     """
     if output is None or (isinstance(output, str) and not output.strip()):
         return Parsed(None, "empty")

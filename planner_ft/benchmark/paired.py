@@ -1,4 +1,6 @@
-"""Two systems on the same samples: the difference of a metric with its interval, and how likely it is by chance."""
+"""Two systems on the same samples: the difference of a metric with its interval, and how likely it
+is by chance.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner_ft.benchmark.catalogue import Metric
-from planner_ft.benchmark.statistics import BLOCK, RESAMPLES, Estimate, cluster_sums, clustered_rate, percentiles, resampled_sums
+from planner_ft.benchmark.statistics import (
+    BLOCK,
+    RESAMPLES,
+    Estimate,
+    cluster_sums,
+    clustered_rate,
+    percentiles,
+    resampled_sums,
+)
 
 Floats = NDArray[np.float64]
 Score = Mapping[str, Any]
@@ -22,16 +32,20 @@ Answers = Mapping[str, Sequence[Score]]
 
 SIGNIFICANCE = 0.05
 ENUMERATED = 12
-"""Families with a difference up to which all ways to swap them are tried (2**12) instead of RESAMPLES random ones."""
+"""Families with a difference up to which all ways to swap them are tried (2**12) instead of
+RESAMPLES random ones.
+"""
 
 
 @dataclass(frozen=True)
 class Paired:
     """One metric of two systems over the samples that both answered.
 
-    `first` and `second` are its values, `difference` is second minus first (95 % interval, whole families resampled), `p` the two-sided
-    probability of as large a difference if it made no difference which system answered, families being swapped whole. `p_mcnemar`
-    is the exact McNemar test of a rate, which takes all samples for independent: where they are, `p` is the same. `n` counts samples.
+    `first` and `second` are its values, `difference` is second minus first (95 % interval, whole
+    families resampled), `p` the two-sided probability of as large a difference if it made no
+    difference which system answered, families being swapped whole. `p_mcnemar` is the exact McNemar
+    test of a rate, which takes all samples for independent: where they are, `p` is the same. `n`
+    counts samples.
     """
 
     metric: str
@@ -48,9 +62,19 @@ class Paired:
 
 
 def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired:
-    """Compare two systems by a metric, over the samples for which both have a value. Repeats of a sample are averaged first."""
-    both = {name: (_terms(metric, first[name]), _terms(metric, second[name])) for name in first if name in second}
-    known = {name: (*one, *other) for name, (one, other) in both.items() if one is not None and other is not None}
+    """Compare two systems by a metric, over the samples for which both have a value. Repeats of a
+    sample are averaged first.
+    """
+    both = {
+        name: (_terms(metric, first[name]), _terms(metric, second[name]))
+        for name in first
+        if name in second
+    }
+    known = {
+        name: (*one, *other)
+        for name, (one, other) in both.items()
+        if one is not None and other is not None
+    }
     if not known:
         return Paired(metric.name, 0, 0, None, None, Estimate(None))
     families = [_family(first[name]) for name in known]
@@ -60,19 +84,40 @@ def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired
     if one is None or other is None:
         return Paired(metric.name, len(known), len(sums), one, other, Estimate(None))
     binary = metric.kind == "rate" and all(value in (0, 1) for term in terms for value in term)
-    mcnemar = exact_mcnemar(sum(term[0] > term[2] for term in terms), sum(term[0] < term[2] for term in terms)) if binary else None
+    mcnemar = (
+        exact_mcnemar(
+            sum(term[0] > term[2] for term in terms), sum(term[0] < term[2] for term in terms)
+        )
+        if binary
+        else None
+    )
     p = exact_swaps(sums[:, 2] - sums[:, 0]) if binary else swaps(sums, seed)
-    return Paired(metric.name, len(known), len(sums), one, other, _difference(metric, terms, sums, families, other - one, seed), p, mcnemar)
+    return Paired(
+        metric.name,
+        len(known),
+        len(sums),
+        one,
+        other,
+        _difference(metric, terms, sums, families, other - one, seed),
+        p,
+        mcnemar,
+    )
 
 
 def _terms(metric: Metric, scores: Sequence[Score]) -> tuple[float, float] | None:
-    """Numerator and denominator of a sample, means over its repeats; None where it says nothing about the metric."""
+    """Numerator and denominator of a sample, means over its repeats; None where it says nothing
+    about the metric.
+    """
     keys = metric.over if metric.kind == "ratio" else (metric.name, None)
     known = [score for score in scores if score.get(keys[0]) is not None]
     if not known:
         return None
     numerator = sum(float(score[keys[0]]) for score in known) / len(known)
-    return numerator, 1.0 if keys[1] is None else sum(float(score.get(keys[1]) or 0) for score in known) / len(known)
+    return numerator, (
+        1.0
+        if keys[1] is None
+        else sum(float(score.get(keys[1]) or 0) for score in known) / len(known)
+    )
 
 
 def _family(scores: Sequence[Score]) -> str:
@@ -80,16 +125,26 @@ def _family(scores: Sequence[Score]) -> str:
 
 
 def _values(sums: Floats) -> tuple[Any, Any]:
-    """The metric of both systems from sums of (numerator, denominator) of the first and of the second, along the last axis."""
+    """The metric of both systems from sums of (numerator, denominator) of the first and of the
+    second, along the last axis.
+    """
     with np.errstate(invalid="ignore", divide="ignore"):
         return sums[..., 0] / sums[..., 1], sums[..., 2] / sums[..., 3]
 
 
-def _difference(metric: Metric, terms: Sequence[Sequence[float]], sums: Floats, families: Sequence[Hashable], value: float, seed: int) -> Estimate:
+def _difference(
+    metric: Metric,
+    terms: Sequence[Sequence[float]],
+    sums: Floats,
+    families: Sequence[Hashable],
+    value: float,
+    seed: int,
+) -> Estimate:
     """The difference with its bootstrap interval (Efron 1979).
 
-    Where no sample differs no resample does, and the bootstrap would be sure of a difference of nothing after three samples. A
-    share of something then takes the bound of the share of samples that may differ.
+    Where no sample differs no resample does, and the bootstrap would be sure of a difference of
+    nothing after three samples. A share of something then takes the bound of the share of samples
+    that may differ.
     """
     differs = [tuple(term[:2]) != tuple(term[2:]) for term in terms]
     if not any(differs) and metric.fraction:
@@ -104,7 +159,8 @@ def _difference(metric: Metric, terms: Sequence[Sequence[float]], sums: Floats, 
 
 
 def exact_mcnemar(lost: int, won: int) -> float:
-    """Two-sided p of McNemar's test by the binomial distribution: `lost` samples were right with the first system alone, `won` with the second.
+    """Two-sided p of McNemar's test by the binomial distribution: `lost` samples were right with
+    the first system alone, `won` with the second.
 
     McNemar 1947; the exact form is the sign test of the pairs that differ.
     """
@@ -115,7 +171,8 @@ def exact_mcnemar(lost: int, won: int) -> float:
 
 
 def exact_swaps(differences: Iterable[float]) -> float:
-    """Two-sided p that whole numbers, each with a random sign, have a sum as far from 0 as theirs: exact, from the sum's distribution.
+    """Two-sided p that whole numbers, each with a random sign, have a sum as far from 0 as theirs:
+    exact, from the sum's distribution.
 
     With differences of one sample each it is the exact McNemar test.
     """
@@ -126,13 +183,19 @@ def exact_swaps(differences: Iterable[float]) -> float:
     chances[total] = 1
     for size in whole:
         chances = (np.roll(chances, size) + np.roll(chances, -size)) / 2
-    return float(min(1.0, chances[: total - seen + 1].sum() + chances[total + seen :].sum())) if seen else 1.0
+    return (
+        float(min(1.0, chances[: total - seen + 1].sum() + chances[total + seen :].sum()))
+        if seen
+        else 1.0
+    )
 
 
 def swaps(sums: Floats, seed: int) -> float:
-    """Two-sided p of a difference if the two systems were swapped at random, family by family (Fisher 1935; Pitman 1937).
+    """Two-sided p of a difference if the two systems were swapped at random, family by family
+    (Fisher 1935; Pitman 1937).
 
-    `sums` are those of `_values`, (families, 4). All ways to swap are tried where few families differ, else RESAMPLES random ones.
+    `sums` are those of `_values`, (families, 4). All ways to swap are tried where few families
+    differ, else RESAMPLES random ones.
     """
     differing = sums[(sums[:, :2] != sums[:, 2:]).any(1)]
     if not len(differing):
@@ -141,7 +204,12 @@ def swaps(sums: Floats, seed: int) -> float:
     swapped = _all_swaps(len(differing)) if exact else _random_swaps(len(differing), seed)
     gained = (differing[:, 2:] - differing[:, :2])[None]
     rows = max(1, BLOCK // len(differing))
-    moved = np.concatenate([swapped[start : start + rows].astype(float) @ gained[0] for start in range(0, len(swapped), rows)])
+    moved = np.concatenate(
+        [
+            swapped[start : start + rows].astype(float) @ gained[0]
+            for start in range(0, len(swapped), rows)
+        ]
+    )
     whole = sums.sum(0)
     one, other = _values(np.concatenate([whole[:2] + moved, whole[2:] - moved], axis=1))
     seen_one, seen_other = _values(whole)
@@ -161,7 +229,8 @@ def _random_swaps(count: int, seed: int) -> NDArray[np.int8]:
 
 
 def holm(values: Sequence[float | None]) -> list[float | None]:
-    """p-values adjusted for how many there are (Holm 1979): the chance of one false difference among all stays under SIGNIFICANCE.
+    """p-values adjusted for how many there are (Holm 1979): the chance of one false difference
+    among all stays under SIGNIFICANCE.
 
     None stands for a comparison that could not be made; it stays None and does not count.
     """

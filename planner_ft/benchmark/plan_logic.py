@@ -15,7 +15,9 @@ from planner_ft.benchmark.metrics.source import source_of
 
 @dataclass(frozen=True)
 class PlanLogic:
-    """Values that nobody gave, how far the command's facts came, and at mission level where the plan stops (None: nowhere)."""
+    """Values that nobody gave, how far the command's facts came, and at mission level where the
+    plan stops (None: nowhere).
+    """
 
     answer: Answer
     grounded: Groundedness
@@ -23,7 +25,9 @@ class PlanLogic:
     stop: Stop | None
 
     def values(self) -> dict[str, Value]:
-        """Metrics of the sample. An answer that does not parse is not grounded, since it gives nothing to judge."""
+        """Metrics of the sample. An answer that does not parse is not grounded, since it gives
+        nothing to judge.
+        """
         answer, mission = self.answer, self.answer.level == "mission"
         stated = self.reached.stated.total()
         return {
@@ -40,16 +44,27 @@ class PlanLogic:
         }
 
     def details(self) -> dict[str, Any]:
-        """What explains the values: `stop`, `ungrounded` values, and `slots` per kind as [stated, in parameters, in the task prompt (null at task level)]."""
+        """What explains the values: `stop`, `ungrounded` values, and `slots` per kind as [stated,
+        in parameters, in the task prompt (null at task level)].
+        """
         reached, mission = self.reached, self.answer.level == "mission"
         prompted = {kind: reached.in_prompt[kind] if mission else None for kind in KINDS}
         return {
             "stop": asdict(self.stop) if self.stop else None,
             "ungrounded": [
-                {"entry": given.entry, "name": self.answer.given[given.entry].name, "parameter": given.parameter.name, "value": given.value}
+                {
+                    "entry": given.entry,
+                    "name": self.answer.given[given.entry].name,
+                    "parameter": given.parameter.name,
+                    "value": given.value,
+                }
                 for given in self.grounded.ungrounded
             ],
-            "slots": {kind: [reached.stated[kind], reached.in_parameters[kind], prompted[kind]] for kind in KINDS if reached.stated[kind]},
+            "slots": {
+                kind: [reached.stated[kind], reached.in_parameters[kind], prompted[kind]]
+                for kind in KINDS
+                if reached.stated[kind]
+            },
         }
 
 

@@ -1,6 +1,8 @@
-"""predictions.jsonl and latency.jsonl: append-only, flushed line by line, so that a run can end at any point and go on.
+"""predictions.jsonl and latency.jsonl: append-only, flushed line by line, so that a run can end at
+any point and go on.
 
-Every line carries the key of what it depends on (`plan.Job.key`); a resumed run uses the lines with its own key.
+Every line carries the key of what it depends on (`plan.Job.key`); a resumed run uses the lines with
+its own key.
 """
 
 from __future__ import annotations
@@ -19,24 +21,36 @@ Line = dict[str, Any]
 class RecordLog:
     """An append-only JSONL file of records with `key` and `id`, held by one process at a time.
 
-    Opening drops a last line that a killed run left without its end, reads what is there and locks the file. Raises
-    PlannerError when another run holds it, a line is damaged, or it cannot be written.
+    Opening drops a last line that a killed run left without its end, reads what is there and locks
+    the file. Raises PlannerError when another run holds it, a line is damaged, or it cannot be
+    written.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
         try:
-            # Unbuffered: after a failed write nothing is left to be written again when the file is closed.
+            # Unbuffered: after a failed write nothing is left to be written again when the file is
+            # closed.
             self.stream: IO[bytes] = open(path, "a+b", buffering=0)  # noqa: SIM115
         except OSError as error:
-            raise PlannerError(f"{path}: cannot be written ({error.strerror}); give another --out") from None
+            raise PlannerError(
+                f"{path}: cannot be written ({error.strerror}); give another --out"
+            ) from None
         self._lock()
         self._drop_unfinished_line()
         self.records: dict[tuple[str, str], Line] = {}
         for number, record, problem in iterate_jsonl(path):
-            if problem or not isinstance(record, dict) or not isinstance(record.get("key"), str) or not isinstance(record.get("id"), str):
+            if (
+                problem
+                or not isinstance(record, dict)
+                or not isinstance(record.get("key"), str)
+                or not isinstance(record.get("id"), str)
+            ):
                 self.close()
-                raise PlannerError(f"{path}:{number}: {problem or 'no record of a run (key and id are expected)'}; remove the line, or start with --overwrite")
+                raise PlannerError(
+                    f"{path}:{number}: {problem or 'no record of a run (key and id are expected)'};"
+                    " remove the line, or start with --overwrite"
+                )
             self.records[record["key"], record["id"]] = record
 
     def of_key(self, key: str) -> dict[str, Line]:
@@ -51,7 +65,10 @@ class RecordLog:
             while line:
                 line = line[self.stream.write(line) :]
         except OSError as error:
-            raise PlannerError(f"{self.path}: cannot be written ({error.strerror}); free some space and run the command again with --resume") from error
+            raise PlannerError(
+                f"{self.path}: cannot be written ({error.strerror}); free some space and run the"
+                " command again with --resume"
+            ) from error
 
     def close(self) -> None:
         self.stream.close()
@@ -71,7 +88,9 @@ class RecordLog:
             fcntl.flock(self.stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             self.close()
-            raise PlannerError(f"{self.path}: another run is writing here; wait for it or give another --out") from None
+            raise PlannerError(
+                f"{self.path}: another run is writing here; wait for it or give another --out"
+            ) from None
 
     def _drop_unfinished_line(self) -> None:
         self.stream.seek(0)

@@ -10,7 +10,9 @@ from pathlib import Path
 from planner_ft.vocabulary.plans import Level
 
 FOLDER = Path(__file__).parent / "published"
-SOURCE = "published study ({level}-level table): its own {n} test samples, model weights and hardware"
+SOURCE = (
+    "published study ({level}-level table): its own {n} test samples, model weights and hardware"
+)
 SAMPLES: dict[Level, int] = {"mission": 25, "task": 500}
 CONFIGURATIONS = ("base", "lora")
 VOCABULARY = "usv"
@@ -19,7 +21,9 @@ VOCABULARY = "usv"
 
 @dataclass(frozen=True)
 class PublishedRow:
-    """One model's published figures by (metric, configuration), in the units of results.json: rates are fractions."""
+    """One model's published figures by (metric, configuration), in the units of results.json: rates
+    are fractions.
+    """
 
     model: str
     figures: dict[tuple[str, str], float]
@@ -42,5 +46,7 @@ def _row(line: dict[str, str]) -> PublishedRow:
     for column, text in line.items():
         metric, _, configuration = column.rpartition("_")
         if configuration in CONFIGURATIONS:
-            figures[metric, configuration] = float(text) / (100 if metric in ("hallucination", "schema_valid") else 1)
+            figures[metric, configuration] = float(text) / (
+                100 if metric in ("hallucination", "schema_valid") else 1
+            )
     return PublishedRow(line["model"], figures)

@@ -17,12 +17,16 @@ from planner_ft.support.processes import end_with_parent
 
 Item = TypeVar("Item")
 LONGEST_WAIT = timedelta(days=14)
-"""A process may wait for the others as long as these answer; one that fails ends them all through its launcher."""
+"""A process may wait for the others as long as these answer; one that fails ends them all through
+its launcher.
+"""
 
 
 @dataclass(frozen=True)
 class Ranks:
-    """This process's place among those that share a run. Rank 0 owns the folder; the others write parts, which it takes in."""
+    """This process's place among those that share a run. Rank 0 owns the folder; the others write
+    parts, which it takes in.
+    """
 
     rank: int = 0
     world: int = 1
@@ -50,11 +54,20 @@ class Ranks:
 
         if not torch.cuda.is_available():
             return settings
-        return replace(settings, device=f"cuda:{int(os.environ.get('LOCAL_RANK', self.rank)) % torch.cuda.device_count()}")
+        return replace(
+            settings,
+            device=(
+                f"cuda:{int(os.environ.get('LOCAL_RANK', self.rank)) % torch.cuda.device_count()}"
+            ),
+        )
 
     def log(self, folder: Path) -> RecordLog:
         """Where this process writes its answers."""
-        return RecordLog(folder / PREDICTIONS) if self.leads else RecordLog(folder / part_name(self.rank))
+        return (
+            RecordLog(folder / PREDICTIONS)
+            if self.leads
+            else RecordLog(folder / part_name(self.rank))
+        )
 
 
 ALONE = Ranks()
@@ -98,7 +111,9 @@ def take_in(folder: Path, log: RecordLog) -> None:
 
 
 def take_in_abandoned(folder: Path, log: RecordLog) -> None:
-    """Take in and remove the parts of a run that was killed. Raises PlannerError when one is still being written."""
+    """Take in and remove the parts of a run that was killed. Raises PlannerError when one is still
+    being written.
+    """
     for path in part_files(folder):
         RecordLog(path).close()
     take_in(folder, log)

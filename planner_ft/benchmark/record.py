@@ -1,4 +1,6 @@
-"""run.json: what a run folder was made with, so that it can be gone on with, refused, or scored again without any model."""
+"""run.json: what a run folder was made with, so that it can be gone on with, refused, or scored
+again without any model.
+"""
 
 from __future__ import annotations
 
@@ -20,8 +22,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RunRecord:
-    """What run.json holds. `jobs` are the parts that answers depend on, `keys` their digests, `systems` what was measured, all by
-    job name; `costs` is what a candidate cost beside its queries; `settings` are level, data, limit, vocabulary and seed."""
+    """What run.json holds. `jobs` are the parts that answers depend on, `keys` their digests,
+    `systems` what was measured, all by job name; `costs` is what a candidate cost beside its
+    queries; `settings` are level, data, limit, vocabulary and seed.
+    """
 
     jobs: dict[str, dict[str, Any]]
     keys: dict[str, str]
@@ -31,22 +35,31 @@ class RunRecord:
 
 
 def begin_run(plan: Plan, predictions: RecordLog) -> None:
-    """Write run.json. Raises PlannerError when the folder holds a run that was made with something else."""
+    """Write run.json. Raises PlannerError when the folder holds a run that was made with something
+    else.
+    """
     path = plan.settings.folder / RUN
     before: dict[str, Any] = read_json(path) if path.is_file() else {}
     _check_jobs(plan, path, before)
     _check_predictions(plan, predictions)
     settings = {
-        "level": plan.settings.level, "data": str(plan.data.path), "data_sha256": plan.data.sha256, "limit": plan.settings.limit,
-        "vocabulary": plan.settings.vocabulary, "seed": plan.settings.seed,
-    }  # fmt: skip
+        "level": plan.settings.level,
+        "data": str(plan.data.path),
+        "data_sha256": plan.data.sha256,
+        "limit": plan.settings.limit,
+        "vocabulary": plan.settings.vocabulary,
+        "seed": plan.settings.seed,
+    }
     write_json(
         path,
         {
             "settings": settings,
             "jobs": {**before.get("jobs", {}), **{job.name: job.parts for job in plan.jobs}},
             "keys": {**before.get("keys", {}), **{job.name: job.key for job in plan.jobs}},
-            "systems": {**before.get("systems", {}), **{job.name: asdict(job.system) for job in plan.jobs}},
+            "systems": {
+                **before.get("systems", {}),
+                **{job.name: asdict(job.system) for job in plan.jobs},
+            },
             "costs": before.get("costs", {}),
         },
     )
@@ -55,34 +68,61 @@ def begin_run(plan: Plan, predictions: RecordLog) -> None:
 def add_costs(folder: Path, candidate: str, costs: Mapping[str, Any]) -> None:
     """Record what a candidate cost; figures that are None leave those of an earlier session."""
     record = read_json(folder / RUN)
-    record["costs"][candidate] = {**record["costs"].get(candidate, {}), **{name: value for name, value in costs.items() if value is not None}}
+    record["costs"][candidate] = {
+        **record["costs"].get(candidate, {}),
+        **{name: value for name, value in costs.items() if value is not None},
+    }
     write_json(folder / RUN, record)
 
 
 def read_run(folder: Path) -> RunRecord:
-    """Read run.json. Raises PlannerError when there is none, or it is of a version that recorded less."""
+    """Read run.json. Raises PlannerError when there is none, or it is of a version that recorded
+    less.
+    """
     if not (folder / RUN).is_file():
-        raise PlannerError(f"{folder}: no {RUN}, so no run of `plannerft bench`; for other predictions give --predictions FILE")
+        raise PlannerError(
+            f"{folder}: no {RUN}, so no run of `plannerft bench`; for other predictions give"
+            " --predictions FILE"
+        )
     record = read_json(folder / RUN)
     names = [field.name for field in fields(RunRecord)]
-    if not isinstance(record, dict) or any(not isinstance(record.get(name), dict) for name in names):
-        raise PlannerError(f"{folder / RUN}: does not say what was run; score its answers with --predictions {folder / PREDICTIONS}")
+    if not isinstance(record, dict) or any(
+        not isinstance(record.get(name), dict) for name in names
+    ):
+        raise PlannerError(
+            f"{folder / RUN}: does not say what was run; score its answers with --predictions"
+            f" {folder / PREDICTIONS}"
+        )
     values = {name: record[name] for name in names}
-    return RunRecord(**{**values, "systems": {name: System(**system) for name, system in record["systems"].items()}})
+    return RunRecord(
+        **{
+            **values,
+            "systems": {name: System(**system) for name, system in record["systems"].items()},
+        }
+    )
 
 
 def measured_in(folder: Path, record: RunRecord) -> list[Measured]:
-    """The systems of a run with their answers and timed queries, read without locking: a line that is being written is left out."""
+    """The systems of a run with their answers and timed queries, read without locking: a line that
+    is being written is left out.
+    """
     from planner_ft.benchmark.assembly import Measured
 
     answers, timed = (records_by_key(folder / name) for name in (PREDICTIONS, LATENCY))
     return [
-        Measured(system, answers.get(record.keys[name], {}), timed.get(record.keys[name], {}), *costs_of(folder, record.costs, system))
+        Measured(
+            system,
+            answers.get(record.keys[name], {}),
+            timed.get(record.keys[name], {}),
+            *costs_of(folder, record.costs, system),
+        )
         for name, system in record.systems.items()
     ]
 
 
-def costs_of(folder: Path, costs: Mapping[str, Mapping[str, Any]], system: System) -> tuple[Mapping[str, Any], list[dict[str, Any]]]:
+def costs_of(
+    folder: Path, costs: Mapping[str, Mapping[str, Any]], system: System
+) -> tuple[Mapping[str, Any], list[dict[str, Any]]]:
     """What run.json has on a system's candidate, and the system's lines of planning.jsonl."""
     beside = costs.get(system.candidate, {})
     key = beside.get("planning_keys", {}).get(system.configuration)
@@ -104,12 +144,18 @@ def _check_jobs(plan: Plan, path: Path, recorded: dict[str, Any]) -> None:
     for name, parts in recorded.get("jobs", {}).items():
         other = [part for part, value in same.items() if parts.get(part) != value]
         if other:
-            raise PlannerError(f"{path}: {name} was begun with another {' and another '.join(other)}; give --overwrite to start anew, or another --out")
+            raise PlannerError(
+                f"{path}: {name} was begun with another {' and another '.join(other)}; give"
+                " --overwrite to start anew, or another --out"
+            )
     for job in plan.jobs:
         before = recorded.get("jobs", {}).get(job.name, job.parts)
         changed = [name for name in job.parts if before.get(name) != job.parts[name]]
         if changed:
-            raise PlannerError(f"{path}: {job.name} was begun with another {' and another '.join(changed)}; give --overwrite to start anew, or another --out")
+            raise PlannerError(
+                f"{path}: {job.name} was begun with another {' and another '.join(changed)}; give"
+                " --overwrite to start anew, or another --out"
+            )
 
 
 def _check_predictions(plan: Plan, predictions: RecordLog) -> None:
@@ -119,4 +165,7 @@ def _check_predictions(plan: Plan, predictions: RecordLog) -> None:
     for record in predictions.records.values():
         name = str(record.get("candidate")), str(record.get("configuration"))
         if record["key"] not in keys.get(name, {record["key"]}):
-            raise PlannerError(f"{predictions.path}: holds answers of {name[0]} {name[1]} that are not of this run; give --overwrite or another --out")
+            raise PlannerError(
+                f"{predictions.path}: holds answers of {name[0]} {name[1]} that are not of this"
+                " run; give --overwrite or another --out"
+            )

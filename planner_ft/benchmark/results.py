@@ -29,10 +29,10 @@ Lines = Mapping[str, Mapping[str, Any]]
 class System:
     """What was measured: a candidate in one configuration, or somebody's predictions.
 
-    `label` is its name in tables, `published` its name in the published tables. `with_vocabulary` says whether the
-    prompt held the vocabulary, `pretrained` whether the candidate was pretrained on plans of this vocabulary; both are
-    None or False for predictions of unknown origin. `repeat` is which answers of a system that was asked several times
-    these are; a row is of all of them.
+    `label` is its name in tables, `published` its name in the published tables. `with_vocabulary`
+    says whether the prompt held the vocabulary, `pretrained` whether the candidate was pretrained
+    on plans of this vocabulary; both are None or False for predictions of unknown origin. `repeat`
+    is which answers of a system that was asked several times these are; a row is of all of them.
     """
 
     candidate: str
@@ -49,10 +49,12 @@ class System:
 
 @dataclass(frozen=True)
 class Row:
-    """The figures of one system. `missing` are the samples without a prediction, which count as empty outputs.
+    """The figures of one system. `missing` are the samples without a prediction, which count as
+    empty outputs.
 
-    With repeats, `metrics` and `failures` are over all answers to the `n` samples, and `repeats` holds pass^k (see `repeats`).
-    `breakdown` has the row taken apart (see `breakdown`), `costs` are time and memory (see `costs`).
+    With repeats, `metrics` and `failures` are over all answers to the `n` samples, and `repeats`
+    holds pass^k (see `repeats`). `breakdown` has the row taken apart (see `breakdown`), `costs` are
+    time and memory (see `costs`).
     """
 
     system: System
@@ -89,8 +91,9 @@ class Row:
 class Results:
     """Everything that results.json holds. `data` is path, sha256 and n of the test data.
 
-    `baselines` are the rows of what needs no model, made from `training` (path, sha256, n); they are no candidates. `baseline_scores`
-    are the lines of baselines.jsonl, `baseline_notes` say what a reader must know.
+    `baselines` are the rows of what needs no model, made from `training` (path, sha256, n); they
+    are no candidates. `baseline_scores` are the lines of baselines.jsonl, `baseline_notes` say what
+    a reader must know.
     """
 
     level: Level
@@ -109,13 +112,20 @@ class Results:
             "changes": [change.to_json() for change in self.changes],
             "groups": self.groups,
         }
-        figures["comparisons"] = {question: [one.to_json() for one in found] for question, found in self.contrasts.items()}
-        figures |= {"baselines": [row.to_json() for row in self.baselines], "training": self.training}
+        figures["comparisons"] = {
+            question: [one.to_json() for one in found] for question, found in self.contrasts.items()
+        }
+        figures |= {
+            "baselines": [row.to_json() for row in self.baselines],
+            "training": self.training,
+        }
         return {"level": self.level, "data": self.data, **figures, "manifest": self.manifest}
 
     @functools.cached_property
     def contrasts(self) -> dict[Question, list[Comparison]]:
-        """Which differences of the table are real: configurations, models, and everything against the baselines, paired by sample."""
+        """Which differences of the table are real: configurations, models, and everything against
+        the baselines, paired by sample.
+        """
         return contrasts(self.scores, self.baseline_scores, int(self.manifest.get("seed") or 0))
 
     @property
@@ -130,7 +140,11 @@ class Results:
 
     def row(self, candidate: str, configuration: str) -> Row:
         """The row of a candidate and configuration."""
-        return next(row for row in self.rows if (row.system.candidate, row.system.configuration) == (candidate, configuration))
+        return next(
+            row
+            for row in self.rows
+            if (row.system.candidate, row.system.configuration) == (candidate, configuration)
+        )
 
 
 def score_system(
@@ -142,13 +156,24 @@ def score_system(
     *,
     seed: int,
 ) -> tuple[Row, list[dict[str, Any]]]:
-    """Score one system's (predictions, timed queries), both by sample id: one pair, or one per repeat. Returns its row and the scores per answer."""
+    """Score one system's (predictions, timed queries), both by sample id: one pair, or one per
+    repeat. Returns its row and the scores per answer.
+    """
     scores = [
-        [score_sample(level, sample, predictions.get(sample.id), vocabulary, timed.get(sample.id)) for sample in samples] for predictions, timed in answers
+        [
+            score_sample(
+                level, sample, predictions.get(sample.id), vocabulary, timed.get(sample.id)
+            )
+            for sample in samples
+        ]
+        for predictions, timed in answers
     ]
     every = [score for of_repeat in scores for score in of_repeat]
     reasons = Counter(
-        str(lines[sample.id]["finish_reason"]) for lines, _timed in answers for sample in samples if lines.get(sample.id, {}).get("finish_reason")
+        str(lines[sample.id]["finish_reason"])
+        for lines, _timed in answers
+        for sample in samples
+        if lines.get(sample.id, {}).get("finish_reason")
     )
     row = Row(
         system=replace(system, repeat=None),
@@ -156,11 +181,24 @@ def score_system(
         metrics=summarise(every, seed),
         failures=failure_counts(every),
         finish_reasons=dict(sorted(reasons.items())),
-        missing=tuple(dict.fromkeys(sample.id for lines, _timed in answers for sample in samples if sample.id not in lines)),
+        missing=tuple(
+            dict.fromkeys(
+                sample.id
+                for lines, _timed in answers
+                for sample in samples
+                if sample.id not in lines
+            )
+        ),
         latency_n=sum(score.values["latency_s"] is not None for score in every),
         repeats=pass_figures(every, seed) if len(answers) > 1 else None,
         breakdown=breakdown(every),
     )
-    repeats = [{"repeat": repeat} if len(answers) > 1 else {} for repeat in range(1, len(answers) + 1)]
+    repeats = [
+        {"repeat": repeat} if len(answers) > 1 else {} for repeat in range(1, len(answers) + 1)
+    ]
     named = {"candidate": system.candidate, "configuration": system.configuration}
-    return row, [{**named, **repeat, **score.to_json()} for repeat, of_repeat in zip(repeats, scores, strict=True) for score in of_repeat]
+    return row, [
+        {**named, **repeat, **score.to_json()}
+        for repeat, of_repeat in zip(repeats, scores, strict=True)
+        for score in of_repeat
+    ]

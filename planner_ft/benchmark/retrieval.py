@@ -1,4 +1,6 @@
-"""The most similar text: TF-IDF over words, pairs of words and characters within words, cosine similarity."""
+"""The most similar text: TF-IDF over words, pairs of words and characters within words, cosine
+similarity.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,9 @@ ROWS = 256
 
 
 class Index:
-    """Texts to look up. Weights are those of Salton and Buckley 1988 with smoothed idf: tf (ln((1 + n) / (1 + df)) + 1), of length 1."""
+    """Texts to look up. Weights are those of Salton and Buckley 1988 with smoothed idf: tf (ln((1 +
+    n) / (1 + df)) + 1), of length 1.
+    """
 
     def __init__(self, texts: Sequence[str]) -> None:
         self.ids: dict[str, int] = {}
@@ -32,26 +36,40 @@ class Index:
         self.matrix = self._weighted(counts)
 
     def nearest(self, texts: Sequence[str]) -> list[tuple[int, float]]:
-        """For each text the index of the most similar one, the first of those that are equally similar, and the similarity, 0 to 1."""
+        """For each text the index of the most similar one, the first of those that are equally
+        similar, and the similarity, 0 to 1.
+        """
         queries = self._weighted(self._counts([self._features(text, grow=False) for text in texts]))
         found: list[tuple[int, float]] = []
         for start in range(0, len(texts), ROWS):
             # Rounded, because equal texts may differ in their last bit.
-            similarity: NDArray[np.float64] = (queries[start : start + ROWS] @ self.matrix.T).toarray().round(9)
+            similarity: NDArray[np.float64] = (
+                (queries[start : start + ROWS] @ self.matrix.T).toarray().round(9)
+            )
             best = similarity.argmax(1)
-            found += [(int(index), float(row[index])) for index, row in zip(best, similarity, strict=True)]
+            found += [
+                (int(index), float(row[index])) for index, row in zip(best, similarity, strict=True)
+            ]
         return found
 
     def _features(self, text: str, *, grow: bool) -> list[int]:
-        """The ids of its words in lower case, of their characters, and of pairs of words; those not known yet are added with `grow`, else left out."""
+        """The ids of its words in lower case, of their characters, and of pairs of words; those not
+        known yet are added with `grow`, else left out.
+        """
         words = TOKEN.findall(text.lower())
         found = [feature for word in words for feature in self._of_word(word, grow=grow)]
-        return found + self._known((f"{one} {other}" for one, other in itertools.pairwise(words)), grow=grow)
+        return found + self._known(
+            (f"{one} {other}" for one, other in itertools.pairwise(words)), grow=grow
+        )
 
     def _of_word(self, word: str, *, grow: bool) -> list[int]:
         if word not in self.words:
             padded = f"<{word}>"
-            pieces = [padded[start : start + length] for length in CHARACTERS for start in range(len(padded) - length + 1)]
+            pieces = [
+                padded[start : start + length]
+                for length in CHARACTERS
+                for start in range(len(padded) - length + 1)
+            ]
             self.words[word] = self._known([word, *pieces], grow=grow)
         return self.words[word]
 

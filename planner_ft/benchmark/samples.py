@@ -1,4 +1,6 @@
-"""Test data: any JSONL of `{"id", "prompt", "expected"}` records (task level: also `task` and `parameters`)."""
+"""Test data: any JSONL of `{"id", "prompt", "expected"}` records (task level: also `task` and
+`parameters`).
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ SHOWN = 5
 
 @dataclass(frozen=True)
 class Sample:
-    """One test sample. `family` is its phrasing family, or its id where the data has no families."""
+    """One test sample. `family` is its phrasing family, or its id where the data has no
+    families.
+    """
 
     id: str
     family: str
@@ -39,7 +43,9 @@ class Sample:
 
 @dataclass(frozen=True)
 class BenchData:
-    """The samples of a file, of which `limit` may have kept only the first; `ids` are those of the whole file."""
+    """The samples of a file, of which `limit` may have kept only the first; `ids` are those of the
+    whole file.
+    """
 
     path: Path
     sha256: str
@@ -52,7 +58,9 @@ class BenchData:
         return {"path": str(self.path), "sha256": self.sha256, "n": len(self.samples)}
 
 
-def load_bench_data(path: Path | str, level: Level, vocabulary: Vocabulary, limit: int | None = None) -> BenchData:
+def load_bench_data(
+    path: Path | str, level: Level, vocabulary: Vocabulary, limit: int | None = None
+) -> BenchData:
     """Read and check test data. Raises PlannerError that names the bad lines."""
     path = Path(path)
     if limit is not None and limit < 1:
@@ -69,12 +77,16 @@ def load_bench_data(path: Path | str, level: Level, vocabulary: Vocabulary, limi
             problems.append(f"{path}:{number}: {problem}")
             continue
         lines[record["id"]] = number
-        samples[record["id"]] = Sample(record["id"], str(record.get("family") or record["id"]), record)
+        samples[record["id"]] = Sample(
+            record["id"], str(record.get("family") or record["id"]), record
+        )
     if problems:
         raise PlannerError(joined(problems))
     if not samples:
         raise PlannerError(f"{path}: holds no samples")
-    return BenchData(path, sha256_file(path), level, tuple(samples.values())[:limit], frozenset(samples))
+    return BenchData(
+        path, sha256_file(path), level, tuple(samples.values())[:limit], frozenset(samples)
+    )
 
 
 def joined(problems: list[str]) -> str:
@@ -104,24 +116,34 @@ def record_problems(record: Any, level: Level, vocabulary: Vocabulary) -> Iterat
 
 
 def _plan_problems(expected: dict[str, Any], level: Level, vocabulary: Vocabulary) -> Iterator[str]:
-    """Entries without a readable name would be lost from the score, names outside the vocabulary can never be met."""
+    """Entries without a readable name would be lost from the score, names outside the vocabulary
+    can never be met.
+    """
     known = vocabulary.task if level == "mission" else vocabulary.skill
     key = list_key(level)
     for index, entry in enumerate(expected[key]):
         entries = [entry] if level == "mission" else [skill for _role, skill in step_skills(entry)]
         field = "title" if level == "mission" else "name"
-        if not entries or not all(isinstance(item, dict) and isinstance(item.get(field), str) for item in entries):
+        if not entries or not all(
+            isinstance(item, dict) and isinstance(item.get(field), str) for item in entries
+        ):
             yield f"expected.{key}[{index}] has no {field}"
         elif not all(isinstance(item.get("parameters", {}), dict) for item in entries):
             yield f"expected.{key}[{index}]: parameters is no object"
     for name in plan_names(level, expected):
         if name not in known:
-            yield f"expected names {name!r}, which is not in the vocabulary {vocabulary.name}; correct it or give --vocabulary"
+            yield (
+                f"expected names {name!r}, which is not in the vocabulary {vocabulary.name};"
+                " correct it or give --vocabulary"
+            )
 
 
 def default_data(level: Level) -> Path:
     """The test split that `plannerft gen-data` writes. Raises PlannerError when it is not there."""
     path = Path("data") / level / "test.jsonl"
     if not path.is_file():
-        raise PlannerError(f"{path}: no such file; write it with `plannerft gen-data --level {level}`, or give --data")
+        raise PlannerError(
+            f"{path}: no such file; write it with `plannerft gen-data --level {level}`, or give"
+            " --data"
+        )
     return path

@@ -42,10 +42,12 @@ Values = dict[str, Value]
 
 @dataclass(frozen=True)
 class SampleScore:
-    """What one answer scored: `values` by metric, and the kind of failure, None when names, order and parameters are right.
+    """What one answer scored: `values` by metric, and the kind of failure, None when names, order
+    and parameters are right.
 
-    `alignment` and `types` (per type of parameter: values that agree, values that there are) are what tables by name and type are made of,
-    `details` what explains values: where the plan stops, values that nobody gave, slots by kind (`plan_logic`).
+    `alignment` and `types` (per type of parameter: values that agree, values that there are) are
+    what tables by name and type are made of, `details` what explains values: where the plan stops,
+    values that nobody gave, slots by kind (`plan_logic`).
     """
 
     id: str
@@ -60,27 +62,52 @@ class SampleScore:
     def to_json(self) -> dict[str, Any]:
         """A line of scores.jsonl."""
         return {
-            "id": self.id, "family": self.family, **self.values, "failure": self.failure, "group": self.group, "alignment": self.alignment.to_json(),
+            "id": self.id,
+            "family": self.family,
+            **self.values,
+            "failure": self.failure,
+            "group": self.group,
+            "alignment": self.alignment.to_json(),
             **self.details,
-        }  # fmt: skip
+        }
 
 
 def score_sample(
-    level: Level, sample: Sample, prediction: Mapping[str, Any] | None, vocabulary: Vocabulary, timed: Mapping[str, Any] | None = None
+    level: Level,
+    sample: Sample,
+    prediction: Mapping[str, Any] | None,
+    vocabulary: Vocabulary,
+    timed: Mapping[str, Any] | None = None,
 ) -> SampleScore:
-    """Score one prediction (`output`, and `tokens` where they are known); None counts as an empty output. `timed` is the sample's timed query."""
+    """Score one prediction (`output`, and `tokens` where they are known); None counts as an empty
+    output. `timed` is the sample's timed query.
+    """
     prediction, timed = prediction or {}, timed or {}
     answer = Answer(level, sample, parse_output(prediction.get("output")).plan, vocabulary)
-    failure = failure_kind(level, answer.plan, sample.expected, vocabulary, valid=answer.schema_valid)
+    failure = failure_kind(
+        level, answer.plan, sample.expected, vocabulary, valid=answer.schema_valid
+    )
     values: Values = {}
     for part in PARTS:
         values |= part(answer)
     logic = plan_logic(answer)
     values |= logic.values()
-    values |= {"whole_plan": failure is None, "whole_plan_unordered": failure is None or unordered(answer)}
+    values |= {
+        "whole_plan": failure is None,
+        "whole_plan_unordered": failure is None or unordered(answer),
+    }
     values |= {"tokens": prediction.get("tokens")} | {key: timed.get(key) for key in TIMED}
     types = agreement_by_type(level, answer.alignment, vocabulary)
-    return SampleScore(sample.id, sample.family, sample.group, failure, values, answer.alignment, types, logic.details())
+    return SampleScore(
+        sample.id,
+        sample.family,
+        sample.group,
+        failure,
+        values,
+        answer.alignment,
+        types,
+        logic.details(),
+    )
 
 
 def published_values(answer: Answer) -> Values:
@@ -100,9 +127,16 @@ def published_values(answer: Answer) -> Values:
 
 def name_values(answer: Answer) -> Values:
     """Names as a set (the published F1) and as a multiset; at task level also per role."""
-    distinct, all_of_them = set_counts(answer.given_names, answer.wanted_names), multiset_counts(answer.given_names, answer.wanted_names)
+    distinct, all_of_them = (
+        set_counts(answer.given_names, answer.wanted_names),
+        multiset_counts(answer.given_names, answer.wanted_names),
+    )
     values: Values = {"f1": distinct.f1, "precision": distinct.precision, "recall": distinct.recall}
-    values |= {"multiset_f1": all_of_them.f1, "multiset_precision": all_of_them.precision, "multiset_recall": all_of_them.recall}
+    values |= {
+        "multiset_f1": all_of_them.f1,
+        "multiset_precision": all_of_them.precision,
+        "multiset_recall": all_of_them.recall,
+    }
     if answer.level == "task":
         by_role = counts_by_role(answer.given, answer.wanted)
         for role in ROLES:
@@ -125,7 +159,9 @@ def order_values(answer: Answer) -> Values:
 
 
 def parameter_values(answer: Answer) -> Values:
-    """Parameters of aligned entries: all right, keys and key-value pairs; these also over the whole plan."""
+    """Parameters of aligned entries: all right, keys and key-value pairs; these also over the whole
+    plan.
+    """
     agreement = right_entries(answer.level, answer.alignment, answer.vocabulary)
     counts = parameter_counts(answer.level, answer.alignment, answer.vocabulary)
     return {
@@ -140,13 +176,25 @@ def parameter_values(answer: Answer) -> Values:
 
 def unordered(answer: Answer) -> bool:
     """Whether the plan is right but for the order of its tasks or steps."""
-    return whole_plan_unordered(answer.level, answer.plan, answer.expected, answer.vocabulary, valid=answer.schema_valid)
+    return whole_plan_unordered(
+        answer.level, answer.plan, answer.expected, answer.vocabulary, valid=answer.schema_valid
+    )
 
 
 def _pooled(prefix: str, counts: Counts) -> Values:
     """What an F1 over all samples is summed up from (`catalogue.pooled_f1`)."""
-    return {f"{prefix}_right": counts.right, f"{prefix}_size": (counts.predicted + counts.expected) / 2}
+    return {
+        f"{prefix}_right": counts.right,
+        f"{prefix}_size": (counts.predicted + counts.expected) / 2,
+    }
 
 
-PARTS: tuple[Callable[[Answer], Values], ...] = (published_values, name_values, order_values, parameter_values)
-"""What a sample is scored by: each gives values under names of its own. The catalogue says how they are summed up."""
+PARTS: tuple[Callable[[Answer], Values], ...] = (
+    published_values,
+    name_values,
+    order_values,
+    parameter_values,
+)
+"""What a sample is scored by: each gives values under names of its own. The catalogue says how they
+are summed up.
+"""

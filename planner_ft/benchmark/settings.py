@@ -19,10 +19,12 @@ LONGEST = 16384
 class BenchSettings:
     """A run. `None` stands for the default that depends on level or candidate.
 
-    `candidates` are names, folders or hub ids, `configurations` as `parse_configuration` reads them, `adapters` folders
-    ("DIR", or "NAME=DIR" per candidate). A `batch_size` of None finds itself. `latency_samples` are the samples whose queries are
-    timed one at a time, `planning_samples` the missions of each length that both agents are timed on. With `endpoint` a server
-    answers, and the only candidate is its model. With a `temperature` above 0 every sample is asked `repeats` times.
+    `candidates` are names, folders or hub ids, `configurations` as `parse_configuration` reads
+    them, `adapters` folders ("DIR", or "NAME=DIR" per candidate). A `batch_size` of None finds
+    itself. `latency_samples` are the samples whose queries are timed one at a time,
+    `planning_samples` the missions of each length that both agents are timed on. With `endpoint` a
+    server answers, and the only candidate is its model. With a `temperature` above 0 every sample
+    is asked `repeats` times.
     """
 
     level: Level
@@ -62,12 +64,21 @@ class BenchSettings:
             ("latency-samples", self.latency_samples, 0, 10**9),
             ("planning-samples", self.planning_samples, 0, 1000),
         )
-        problems += [f"--{flag} {value}: must be between {low} and {high}" for flag, value, low, high in bounds if not low <= value <= high]
+        problems += [
+            f"--{flag} {value}: must be between {low} and {high}"
+            for flag, value, low, high in bounds
+            if not low <= value <= high
+        ]
         problems += repeats_problems(self.repeats, self.temperature, self.top_p)
         if self.resume and self.overwrite:
-            problems.append("--resume keeps former predictions and --overwrite removes them: give one of them")
+            problems.append(
+                "--resume keeps former predictions and --overwrite removes them: give one of them"
+            )
         if self.planning_samples and (self.level != "mission" or self.endpoint or self.temperature):
-            problems.append("--planning-samples times both agents from the mission level on, here and greedily: leave it out")
+            problems.append(
+                "--planning-samples times both agents from the mission level on, here and greedily:"
+                " leave it out"
+            )
         if problems:
             raise PlannerError("; ".join(problems))
 

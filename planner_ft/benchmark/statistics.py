@@ -1,4 +1,6 @@
-"""Intervals: Wilson for rates, seeded bootstrap for means; phrasings of one family are not counted as independent in either."""
+"""Intervals: Wilson for rates, seeded bootstrap for means; phrasings of one family are not counted
+as independent in either.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,9 @@ BLOCK = 2**22
 
 @dataclass(frozen=True)
 class Estimate:
-    """A figure with its 95 % interval; `value` is None where there is nothing to measure, the bounds where too little."""
+    """A figure with its 95 % interval; `value` is None where there is nothing to measure, the
+    bounds where too little.
+    """
 
     value: float | None
     low: float | None = None
@@ -32,28 +36,38 @@ class Estimate:
 
 
 def wilson(successes: int, n: int) -> Estimate:
-    """A rate with its Wilson score interval (Wilson 1927), which stays inside [0, 1] and is not empty at 0 and 1. For independent samples."""
+    """A rate with its Wilson score interval (Wilson 1927), which stays inside [0, 1] and is not
+    empty at 0 and 1. For independent samples.
+    """
     return _wilson(successes / n, n) if n else Estimate(None)
 
 
 def clustered_rate(successes: Sequence[bool], clusters: Sequence[Hashable]) -> Estimate:
-    """A rate with the Wilson interval of its effective sample size, the Wilson interval itself where no two samples share a cluster.
+    """A rate with the Wilson interval of its effective sample size, the Wilson interval itself
+    where no two samples share a cluster.
 
-    The effective size is n over the design effect: the variance of the rate with whole clusters as units over that of independent
-    samples (Kish 1965), with Korn and Graubard's correction for few clusters (Survey Methodology 1998); Dean and Pagano (Journal of
-    Survey Statistics and Methodology 2015) compare such intervals. Samples are never counted for more than they are, and for no less
-    than their clusters are. At 0 and 1, where a variance says nothing, samples of one cluster count as one.
+    The effective size is n over the design effect: the variance of the rate with whole clusters as
+    units over that of independent samples (Kish 1965), with Korn and Graubard's correction for few
+    clusters (Survey Methodology 1998); Dean and Pagano (Journal of Survey Statistics and
+    Methodology 2015) compare such intervals. Samples are never counted for more than they are, and
+    for no less than their clusters are. At 0 and 1, where a variance says nothing, samples of one
+    cluster count as one.
     """
     n = len(successes)
     if not n:
         return Estimate(None)
-    sizes, hits = Counter(clusters), Counter(cluster for cluster, hit in zip(clusters, successes, strict=True) if hit)
+    sizes, hits = (
+        Counter(clusters),
+        Counter(cluster for cluster, hit in zip(clusters, successes, strict=True) if hit),
+    )
     rate = hits.total() / n
     return _wilson(rate, effective_size([(hits[cluster], size) for cluster, size in sizes.items()]))
 
 
 def effective_size(counts: Sequence[tuple[int, int]]) -> float:
-    """As how many independent samples the samples of some clusters count for a rate; `counts` are (successes, samples) of each cluster."""
+    """As how many independent samples the samples of some clusters count for a rate; `counts` are
+    (successes, samples) of each cluster.
+    """
     n, clusters = sum(size for _hits, size in counts), len(counts)
     if clusters == n:
         return n
@@ -61,9 +75,15 @@ def effective_size(counts: Sequence[tuple[int, int]]) -> float:
     most = sum(size**2 for _hits, size in counts) / n
     if clusters == 1 or rate in (0, 1):
         return n / most
-    between = sum((hits - rate * size) ** 2 for hits, size in counts) * clusters / (clusters - 1) / n**2
+    between = (
+        sum((hits - rate * size) ** 2 for hits, size in counts) * clusters / (clusters - 1) / n**2
+    )
     effect = min(most, max(1.0, between * n / (rate * (1 - rate))))
-    return float(max(n / most, 1.0) if clusters < 3 else n / effect * (_student(n - 1) / _student(clusters - 1)) ** 2)
+    return float(
+        max(n / most, 1.0)
+        if clusters < 3
+        else n / effect * (_student(n - 1) / _student(clusters - 1)) ** 2
+    )
 
 
 def _student(freedom: int) -> float:
@@ -76,33 +96,57 @@ def _student(freedom: int) -> float:
 def _wilson(rate: float, n: float) -> Estimate:
     centre = (rate + Z**2 / (2 * n)) / (1 + Z**2 / n)
     half = Z * math.sqrt(rate * (1 - rate) / n + Z**2 / (4 * n**2)) / (1 + Z**2 / n)
-    return Estimate(rate, max(0.0, centre - half) if rate else 0.0, min(1.0, centre + half) if rate < 1 else 1.0)
+    return Estimate(
+        rate, max(0.0, centre - half) if rate else 0.0, min(1.0, centre + half) if rate < 1 else 1.0
+    )
 
 
 def bootstrap_mean(values: Sequence[float], clusters: Sequence[Hashable], seed: int) -> Estimate:
-    """The mean of `values` with its percentile bootstrap interval (Efron 1979), whole clusters resampled together."""
+    """The mean of `values` with its percentile bootstrap interval (Efron 1979), whole clusters
+    resampled together.
+    """
     return bootstrap_ratio(values, [1.0] * len(values), clusters, seed)
 
 
-def bootstrap_ratio(numerators: Sequence[float], denominators: Sequence[float], clusters: Sequence[Hashable], seed: int) -> Estimate:
-    """sum(numerators) / sum(denominators) with its percentile bootstrap interval, whole clusters resampled together.
+def bootstrap_ratio(
+    numerators: Sequence[float],
+    denominators: Sequence[float],
+    clusters: Sequence[Hashable],
+    seed: int,
+) -> Estimate:
+    """sum(numerators) / sum(denominators) with its percentile bootstrap interval, whole clusters
+    resampled together.
 
-    The three sequences have one entry per sample. Samples of one cluster (phrasings of one family) are not independent:
-    resampling them one by one would make the interval too narrow. Without a second cluster there is no interval.
+    The three sequences have one entry per sample. Samples of one cluster (phrasings of one family)
+    are not independent: resampling them one by one would make the interval too narrow. Without a
+    second cluster there is no interval.
     """
     return bootstrap_ratios([(numerators, denominators)], clusters, seed)[0]
 
 
-def bootstrap_ratios(ratios: Sequence[tuple[Sequence[float], Sequence[float]]], clusters: Sequence[Hashable], seed: int) -> list[Estimate]:
-    """Several ratios of the same samples, each as bootstrap_ratio gives it; one pass over the resamples serves them all."""
+def bootstrap_ratios(
+    ratios: Sequence[tuple[Sequence[float], Sequence[float]]],
+    clusters: Sequence[Hashable],
+    seed: int,
+) -> list[Estimate]:
+    """Several ratios of the same samples, each as bootstrap_ratio gives it; one pass over the
+    resamples serves them all.
+    """
     if not ratios or not clusters:
         return [Estimate(None)] * len(ratios)
-    sums = cluster_sums(np.array([column for pair in ratios for column in pair], dtype=float).T, clusters)
-    values = [float(top / below) if below else None for top, below in sums.sum(axis=0).reshape(-1, 2)]
+    sums = cluster_sums(
+        np.array([column for pair in ratios for column in pair], dtype=float).T, clusters
+    )
+    values = [
+        float(top / below) if below else None for top, below in sums.sum(axis=0).reshape(-1, 2)
+    ]
     if len(sums) < 2:
         return [Estimate(value) for value in values]
     totals = resampled_sums(sums, seed)
-    return [_resampled_ratio(value, totals[:, 2 * index : 2 * index + 2]) for index, value in enumerate(values)]
+    return [
+        _resampled_ratio(value, totals[:, 2 * index : 2 * index + 2])
+        for index, value in enumerate(values)
+    ]
 
 
 def _resampled_ratio(value: float | None, totals: NDArray[np.float64]) -> Estimate:
@@ -112,8 +156,12 @@ def _resampled_ratio(value: float | None, totals: NDArray[np.float64]) -> Estima
     return Estimate(value, *percentiles(totals[:, 0] / totals[:, 1]))
 
 
-def cluster_sums(values: Sequence[Sequence[float]] | NDArray[np.float64], clusters: Sequence[Hashable]) -> NDArray[np.float64]:
-    """The sums of `values`, (samples, columns), over each cluster, in the order in which clusters appear: (clusters, columns)."""
+def cluster_sums(
+    values: Sequence[Sequence[float]] | NDArray[np.float64], clusters: Sequence[Hashable]
+) -> NDArray[np.float64]:
+    """The sums of `values`, (samples, columns), over each cluster, in the order in which clusters
+    appear: (clusters, columns).
+    """
     order = {cluster: index for index, cluster in enumerate(dict.fromkeys(clusters))}
     sums = np.zeros((len(order), len(values[0])))
     np.add.at(sums, [order[cluster] for cluster in clusters], np.asarray(values, dtype=float))
@@ -121,17 +169,26 @@ def cluster_sums(values: Sequence[Sequence[float]] | NDArray[np.float64], cluste
 
 
 def resampled_sums(sums: NDArray[np.float64], seed: int) -> NDArray[np.float64]:
-    """The totals of RESAMPLES resamples of the clusters: (RESAMPLES, columns). The same seed draws the same clusters for every metric."""
+    """The totals of RESAMPLES resamples of the clusters: (RESAMPLES, columns). The same seed draws
+    the same clusters for every metric.
+    """
     drawn = _drawn(len(sums), seed)
     rows = max(1, BLOCK // len(sums))
-    return np.concatenate([drawn[start : start + rows].astype(float) @ sums for start in range(0, RESAMPLES, rows)])
+    return np.concatenate(
+        [drawn[start : start + rows].astype(float) @ sums for start in range(0, RESAMPLES, rows)]
+    )
 
 
 @functools.lru_cache(maxsize=2)
 def _drawn(count: int, seed: int) -> NDArray[np.int8]:
-    """How often each of `count` clusters is drawn in every resample. Drawing is the slow part, and the rows of a table share it."""
+    """How often each of `count` clusters is drawn in every resample. Drawing is the slow part, and
+    the rows of a table share it.
+    """
     generator, rows = np.random.default_rng(seed), max(1, BLOCK // count)
-    blocks = [generator.multinomial(count, np.full(count, 1 / count), size=min(rows, RESAMPLES - start)) for start in range(0, RESAMPLES, rows)]
+    blocks = [
+        generator.multinomial(count, np.full(count, 1 / count), size=min(rows, RESAMPLES - start))
+        for start in range(0, RESAMPLES, rows)
+    ]
     # No cluster is ever drawn 127 times: the chance is under 1e-200.
     return np.concatenate([block.astype(np.int8) for block in blocks])
 

@@ -23,51 +23,82 @@ CONFIGURATION = "submitted"
 Predictions = dict[tuple[str, str, int | None], dict[str, dict[str, Any]]]
 
 
-def score_predictions(path: Path, data: BenchData, vocabulary: Vocabulary, *, seed: int = 0, name: str | None = None) -> Results:
+def score_predictions(
+    path: Path, data: BenchData, vocabulary: Vocabulary, *, seed: int = 0, name: str | None = None
+) -> Results:
     """Score the predictions in `path` against `data`.
 
-    A line needs `id` and `output` (text, or the plan as an object); `candidate` and `configuration` group lines, `repeat` (from 1)
-    numbers the answers of a system that was asked several times, `tokens`,
-    `latency_s` and `finish_reason` are used where they are given. `name` stands for lines without `candidate`. For the
-    predictions.jsonl of a run, its latency.jsonl is read, too.
-    Raises PlannerError that names the lines of malformed, double and unknown predictions.
+    A line needs `id` and `output` (text, or the plan as an object); `candidate` and `configuration`
+    group lines, `repeat` (from 1) numbers the answers of a system that was asked several times,
+    `tokens`, `latency_s` and `finish_reason` are used where they are given. `name` stands for lines
+    without `candidate`. For the predictions.jsonl of a run, its latency.jsonl is read, too. Raises
+    PlannerError that names the lines of malformed, double and unknown predictions.
     """
     groups = read_predictions(path, data.ids, name or path.stem)
     measured = []
     timed = _timed(path)
     for (candidate, configuration, repeat), predictions in groups.items():
         system = replace(_system(candidate, configuration, predictions, vocabulary), repeat=repeat)
-        queries = {**timed.get((candidate, configuration, repeat), {}), **{key: line for key, line in predictions.items() if _is_timed(line)}}
+        queries = {
+            **timed.get((candidate, configuration, repeat), {}),
+            **{key: line for key, line in predictions.items() if _is_timed(line)},
+        }
         measured.append(Measured(system, predictions, queries))
     manifest = build_manifest(
-        "score", seed=seed, configuration={"level": data.level, "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256}},
+        "score",
+        seed=seed,
+        configuration={
+            "level": data.level,
+            "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
+        },
         inputs={"predictions": path, "data": data.path},
-    )  # fmt: skip
+    )
     return assemble(data, vocabulary, measured, seed=seed, manifest=manifest)
 
 
 def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None = None) -> Results:
-    """Score the answers in a run folder again, with the data that they were made for; no model is needed.
+    """Score the answers in a run folder again, with the data that they were made for; no model is
+    needed.
 
-    `data_path` says where the data lies now if it was moved. Raises PlannerError when it is not the same data.
+    `data_path` says where the data lies now if it was moved. Raises PlannerError when it is not the
+    same data.
     """
     record = read_run(folder)
     settings = record.settings
     vocabulary = load_vocabulary(settings["vocabulary"])
-    data = load_bench_data(data_path or settings["data"], settings["level"], vocabulary, settings["limit"])
+    data = load_bench_data(
+        data_path or settings["data"], settings["level"], vocabulary, settings["limit"]
+    )
     if data.sha256 != settings["data_sha256"]:
-        raise PlannerError(f"{data.path}: is not the data that {folder} was run on; give that file with --data")
+        raise PlannerError(
+            f"{data.path}: is not the data that {folder} was run on; give that file with --data"
+        )
     for name, parts in record.jobs.items():
         if parts.get("vocabulary") != vocabulary.sha256:
-            raise PlannerError(f"{folder}: {name} was run with another version of the vocabulary {vocabulary.name}; restore it to score the run again")
+            raise PlannerError(
+                f"{folder}: {name} was run with another version of the vocabulary"
+                f" {vocabulary.name}; restore it to score the run again"
+            )
     seed = settings["seed"] if seed is None else seed
-    configuration = {**settings, "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256}}
-    manifest = build_manifest("score", seed=seed, configuration=configuration, inputs={"data": data.path}, jobs=record.jobs, costs=record.costs)
+    configuration = {
+        **settings,
+        "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
+    }
+    manifest = build_manifest(
+        "score",
+        seed=seed,
+        configuration=configuration,
+        inputs={"data": data.path},
+        jobs=record.jobs,
+        costs=record.costs,
+    )
     return assemble(data, vocabulary, measured_in(folder, record), seed=seed, manifest=manifest)
 
 
 def read_predictions(path: Path, known: frozenset[str], name: str) -> Predictions:
-    """Predictions by (candidate, configuration, repeat), then by sample id; `known` are the ids of the test data."""
+    """Predictions by (candidate, configuration, repeat), then by sample id; `known` are the ids of
+    the test data.
+    """
     groups: Predictions = {}
     lines: dict[tuple[str, str, int | None, str], int] = {}
     problems: list[str] = []
@@ -75,9 +106,17 @@ def read_predictions(path: Path, known: frozenset[str], name: str) -> Prediction
     for number, line, problem in iterate_jsonl(path):
         problem = problem or _problem(line, known)
         if problem is None:
-            key = (str(line.get("candidate") or name), str(line.get("configuration") or CONFIGURATION), line.get("repeat"), line["id"])
+            key = (
+                str(line.get("candidate") or name),
+                str(line.get("configuration") or CONFIGURATION),
+                line.get("repeat"),
+                line["id"],
+            )
             if key in lines:
-                problem = f"id {line['id']!r} has a prediction on line {lines[key]} already (further answers to a sample need a number as repeat)"
+                problem = (
+                    f"id {line['id']!r} has a prediction on line {lines[key]} already (further"
+                    " answers to a sample need a number as repeat)"
+                )
         if problem is not None:
             problems.append(f"{path}:{number}: {problem}")
             continue
@@ -86,30 +125,45 @@ def read_predictions(path: Path, known: frozenset[str], name: str) -> Prediction
     if problems:
         raise PlannerError(joined(problems))
     if not groups:
-        raise PlannerError(f"{path}: holds no predictions; one JSON object per line with id and output is expected")
+        raise PlannerError(
+            f"{path}: holds no predictions; one JSON object per line with id and output is expected"
+        )
     return groups
 
 
-def _system(candidate: str, configuration: str, predictions: dict[str, dict[str, Any]], vocabulary: Vocabulary) -> System:
+def _system(
+    candidate: str,
+    configuration: str,
+    predictions: dict[str, dict[str, Any]],
+    vocabulary: Vocabulary,
+) -> System:
     """What is known of a system by its name, and from its lines whether it is a stand-in."""
     known = next((entry for entry in all_candidates() if entry.name == candidate), None)
     standin = any(line.get("standin") is True for line in predictions.values())
     label = (known and known.published) or candidate
     return System(
-        candidate, configuration, label=f"{label} (stand-in)" if standin else label, published=known.published if known else None,
-        is_standin=standin, pretrained=bool(known and known.knows(vocabulary)),
-    )  # fmt: skip
+        candidate,
+        configuration,
+        label=f"{label} (stand-in)" if standin else label,
+        published=known.published if known else None,
+        is_standin=standin,
+        pretrained=bool(known and known.knows(vocabulary)),
+    )
 
 
 def _timed(path: Path) -> Predictions:
-    """The timed queries of a run by (candidate, configuration, repeat) and sample id; none for other files."""
+    """The timed queries of a run by (candidate, configuration, repeat) and sample id; none for
+    other files.
+    """
     timed: Predictions = {}
     beside = path.with_name(LATENCY)
     if path.name != PREDICTIONS or not beside.is_file():
         return timed
     for _number, line, _problem_there in iterate_jsonl(beside):
         if isinstance(line, dict) and _is_timed(line):
-            timed.setdefault((str(line.get("candidate")), str(line.get("configuration")), line.get("repeat")), {})[str(line.get("id"))] = line
+            timed.setdefault(
+                (str(line.get("candidate")), str(line.get("configuration")), line.get("repeat")), {}
+            )[str(line.get("id"))] = line
     return timed
 
 

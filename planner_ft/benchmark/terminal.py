@@ -7,26 +7,50 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from planner_ft.benchmark.layout import COLUMNS, MORE_COLUMNS, Column, TableRow, baseline_rows, heading, measured_rows, notes, system_name, table_rows
+from planner_ft.benchmark.layout import (
+    COLUMNS,
+    MORE_COLUMNS,
+    Column,
+    TableRow,
+    baseline_rows,
+    heading,
+    measured_rows,
+    notes,
+    system_name,
+    table_rows,
+)
 from planner_ft.benchmark.published import CONFIGURATIONS, source
 from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.statistics import Estimate
 
 HEADINGS = {
-    "f1": "F1 ↑", "hallucination": "halluc.\n% ↓", "schema_valid": "schema\nvalid % ↑", "strict_valid": "strictly\nvalid % ↑",
-    "latency_s": "latency\ns ↓", "tokens": "tokens", "exact_sequence": "exact\nsequence % ↑", "parameters": "parameters\nright % ↑",
-    "whole_plan": "whole plan\nright % ↑", "parsed": "parses\n% ↑",
-}  # fmt: skip
+    "f1": "F1 ↑",
+    "hallucination": "halluc.\n% ↓",
+    "schema_valid": "schema\nvalid % ↑",
+    "strict_valid": "strictly\nvalid % ↑",
+    "latency_s": "latency\ns ↓",
+    "tokens": "tokens",
+    "exact_sequence": "exact\nsequence % ↑",
+    "parameters": "parameters\nright % ↑",
+    "whole_plan": "whole plan\nright % ↑",
+    "parsed": "parses\n% ↑",
+}
 
 
 def print_results(results: Results, console: Console) -> None:
-    """Print the figures in the order of the published table, what that leaves out, the published figures, and notes."""
+    """Print the figures in the order of the published table, what that leaves out, the published
+    figures, and notes.
+    """
     console.print(Text(f"{results.level} level, n = {results.data['n']}", style="bold"))
     console.print(_measured(results, COLUMNS))
-    console.print(_measured(results, tuple(column for column in MORE_COLUMNS if column.metric in HEADINGS)))
+    console.print(
+        _measured(results, tuple(column for column in MORE_COLUMNS if column.metric in HEADINGS))
+    )
     theirs = [row for row in table_rows(results) if row.source == "published"]
     if theirs:
-        console.print(Text(f"published, not measured here: {source(results.level)}", style="bold dim"))
+        console.print(
+            Text(f"published, not measured here: {source(results.level)}", style="bold dim")
+        )
         console.print(_published(theirs))
     for note in notes(results):
         console.print(Text(note, style="dim"))
@@ -36,7 +60,13 @@ def print_missing(results: Results, console: Console) -> None:
     """Name the samples without a prediction."""
     for row in results.rows:
         if row.missing:
-            console.print(Text(f"{system_name(row)}: no prediction for {', '.join(row.missing)}; counted as empty outputs"), soft_wrap=True)
+            console.print(
+                Text(
+                    f"{system_name(row)}: no prediction for {', '.join(row.missing)}; counted as"
+                    " empty outputs"
+                ),
+                soft_wrap=True,
+            )
 
 
 def _new_table(columns: tuple[Column, ...]) -> Table:
@@ -53,11 +83,22 @@ def _measured(results: Results, columns: tuple[Column, ...]) -> Table:
         table.add_row(Text(row.model, style="bold"))
         for name in dict.fromkeys(configuration for _metric, configuration in row.cells):
             table.add_row(
-                f"  {heading(name)}", *(_cell(column, row.cells.get((column.metric, name)), row.marks.get((column.metric, name), "")) for column in columns)
+                f"  {heading(name)}",
+                *(
+                    _cell(
+                        column,
+                        row.cells.get((column.metric, name)),
+                        row.marks.get((column.metric, name), ""),
+                    )
+                    for column in columns
+                ),
             )
     for row in baseline_rows(results):
         name = next(configuration for _metric, configuration in row.cells)
-        table.add_row(Text(row.model, style="italic"), *(_cell(column, row.cells.get((column.metric, name))) for column in columns))
+        table.add_row(
+            Text(row.model, style="italic"),
+            *(_cell(column, row.cells.get((column.metric, name))) for column in columns),
+        )
     return table
 
 
@@ -67,7 +108,13 @@ def _published(rows: list[TableRow]) -> Table:
     table = _new_table(columns)
     table.columns[0].header = "Base/LoRA"
     for row in rows:
-        pairs = ["/".join(column.text(row.cells[column.metric, name].value, source="published") for name in CONFIGURATIONS) for column in columns]
+        pairs = [
+            "/".join(
+                column.text(row.cells[column.metric, name].value, source="published")
+                for name in CONFIGURATIONS
+            )
+            for column in columns
+        ]
         table.add_row(row.model.removesuffix(" (published)"), *pairs, style="dim")
     return table
 

@@ -13,7 +13,9 @@ def quiet_libraries() -> None:
     # It warns that an optional package, with kernels from the hub, is not installed.
     logging.getLogger("bitsandbytes.backends.cpu.ops").setLevel(logging.ERROR)
     # PEFT asks transformers for an attribute by its former name; a user can do nothing about it.
-    warnings.filterwarnings("ignore", message=".*is_gradient_checkpointing.*", category=FutureWarning)
+    warnings.filterwarnings(
+        "ignore", message=".*is_gradient_checkpointing.*", category=FutureWarning
+    )
 
 
 @contextlib.contextmanager

@@ -1,4 +1,5 @@
-"""Loading a candidate: tokenizer and model, 4-bit or 16-bit, on CPU or CUDA, with or without an adapter.
+"""Loading a candidate: tokenizer and model, 4-bit or 16-bit, on CPU or CUDA, with or without an
+adapter.
 
 Only local safetensors files are read, no remote code runs and nothing is downloaded.
 """
@@ -31,30 +32,48 @@ LARGE = 2**30
 
 
 def resolve_device(device: str = "auto") -> torch.device:
-    """The torch device of "auto" (CUDA if there is one, else the CPU), "cpu", "cuda" or "cuda:N"."""
+    """The torch device of "auto" (CUDA if there is one, else the CPU), "cpu", "cuda" or
+    "cuda:N".
+    """
     import torch
 
     if device == "auto":
-        return torch.device("cuda", torch.cuda.current_device()) if torch.cuda.is_available() else torch.device("cpu")
+        return (
+            torch.device("cuda", torch.cuda.current_device())
+            if torch.cuda.is_available()
+            else torch.device("cpu")
+        )
     try:
         chosen = torch.device(device)
     except RuntimeError:
-        raise PlannerError(f"--device {device}: no such device; give auto, cpu, cuda or cuda:N") from None
+        raise PlannerError(
+            f"--device {device}: no such device; give auto, cpu, cuda or cuda:N"
+        ) from None
     if chosen.type not in ("cpu", "cuda"):
         raise PlannerError(f"--device {device}: only cpu and cuda are supported")
     if chosen.type == "cuda" and not torch.cuda.is_available():
-        raise PlannerError(f"--device {device}: torch {torch.__version__} finds no CUDA device; use --device cpu, or see `plannerft doctor`")
+        raise PlannerError(
+            f"--device {device}: torch {torch.__version__} finds no CUDA device; use --device cpu,"
+            " or see `plannerft doctor`"
+        )
     if chosen.type == "cuda" and (chosen.index or 0) >= torch.cuda.device_count():
-        raise PlannerError(f"--device {device}: there are {torch.cuda.device_count()} CUDA devices, numbered from 0")
+        raise PlannerError(
+            f"--device {device}: there are {torch.cuda.device_count()} CUDA devices, numbered"
+            " from 0"
+        )
     return chosen
 
 
 def compute_dtype(device: torch.device) -> torch.dtype:
-    """The dtype that layers compute in: bfloat16 where the hardware multiplies it, else float16 on CUDA, float32 on a CPU."""
+    """The dtype that layers compute in: bfloat16 where the hardware multiplies it, else float16 on
+    CUDA, float32 on a CPU.
+    """
     import torch
 
     if device.type == "cuda":
-        return torch.bfloat16 if torch.cuda.get_device_capability(device) >= (8, 0) else torch.float16
+        return (
+            torch.bfloat16 if torch.cuda.get_device_capability(device) >= (8, 0) else torch.float16
+        )
     return torch.bfloat16 if _cpu_multiplies_bfloat16() else torch.float32
 
 
@@ -68,9 +87,13 @@ def _cpu_multiplies_bfloat16() -> bool:
 
 
 def require_folder(candidate: Candidate) -> Path:
-    """The candidate's folder, checked. Raises PlannerError that says how to get the model when it is not here."""
+    """The candidate's folder, checked. Raises PlannerError that says how to get the model when it
+    is not here.
+    """
     if candidate.folder is None:
-        nor = f", and there is no folder {candidate.name}" if candidate.name == candidate.repo else ""
+        nor = (
+            f", and there is no folder {candidate.name}" if candidate.name == candidate.repo else ""
+        )
         raise PlannerError(f"{candidate.name} is not on this machine{nor}: {how_to_get(candidate)}")
     check_folder(candidate.folder)
     return candidate.folder
@@ -82,7 +105,11 @@ def how_to_get(candidate: Candidate) -> str:
     command = download_command(candidate)
     if command is None:
         return f"this installation lacks its weights; install the package again, or {copy}"
-    licence = f"accept its licence at https://huggingface.co/{candidate.repo}, run `hf auth login`, then " if candidate.gated else ""
+    licence = (
+        f"accept its licence at https://huggingface.co/{candidate.repo}, run `hf auth login`, then "
+        if candidate.gated
+        else ""
+    )
     return f"{licence}run `{command}` (without a network: {copy})"
 
 
@@ -96,27 +123,45 @@ def download_command(candidate: Candidate) -> str | None:
 
 
 def load_tokenizer(candidate: Candidate) -> PreTrainedTokenizerBase:
-    """The candidate's tokenizer, with a padding token and padding on the left, as batched generation needs it."""
+    """The candidate's tokenizer, with a padding token and padding on the left, as batched
+    generation needs it.
+    """
     folder = require_folder(candidate)
     try:
-        tokenizer = _tokenizer_class(folder).from_pretrained(str(folder), local_files_only=True, trust_remote_code=False)
-    except Exception as error:  # the tokenizers library raises bare Exception for a corrupt tokenizer.json
-        raise PlannerError(f"{folder}: the tokenizer cannot be loaded ({_one_line(error)}); download its files again") from error
+        tokenizer = _tokenizer_class(folder).from_pretrained(
+            str(folder), local_files_only=True, trust_remote_code=False
+        )
+    except (
+        Exception
+    ) as error:  # the tokenizers library raises bare Exception for a corrupt tokenizer.json
+        raise PlannerError(
+            f"{folder}: the tokenizer cannot be loaded ({_one_line(error)}); download its files"
+            " again"
+        ) from error
     if tokenizer.pad_token is None:
         vocabulary = tokenizer.get_vocab()
-        tokenizer.pad_token = next((token for token in PAD_TOKENS if token in vocabulary), tokenizer.eos_token)
+        tokenizer.pad_token = next(
+            (token for token in PAD_TOKENS if token in vocabulary), tokenizer.eos_token
+        )
     tokenizer.padding_side = "left"
-    # It warns of prompts that the model cannot hold. We count them ourselves, and say it in one sentence.
+    # It warns of prompts that the model cannot hold. We count them ourselves, and say it in one
+    # sentence.
     tokenizer.deprecation_warnings["sequence-length-is-longer-than-the-specified-maximum"] = True
     return tokenizer
 
 
 def _tokenizer_class(folder: Path) -> Any:
-    """The class that a tokenizer names itself, else the one that finds out. Finding out imports what a model needs, for more than a second."""
+    """The class that a tokenizer names itself, else the one that finds out. Finding out imports
+    what a model needs, for more than a second.
+    """
     import transformers
 
     named = read_config(folder, "tokenizer_config.json").get("tokenizer_class")
-    return transformers.TokenizersBackend if named == "TokenizersBackend" else transformers.AutoTokenizer
+    return (
+        transformers.TokenizersBackend
+        if named == "TokenizersBackend"
+        else transformers.AutoTokenizer
+    )
 
 
 def load_model(
@@ -130,14 +175,17 @@ def load_model(
     vocabulary: Vocabulary | None = None,
     adapters: Mapping[Level, Path] | None = None,
 ) -> PreTrainedModel:
-    """The candidate's model in eval mode, ready to generate or, with `trainable`, to get an adapter (or train `adapter` on).
+    """The candidate's model in eval mode, ready to generate or, with `trainable`, to get an adapter
+    (or train `adapter` on).
 
-    "nf4" stores linear layers as 4-bit NormalFloat with double quantisation; embeddings, output head and norms stay in
-    the compute dtype. "none" keeps everything in the compute dtype. With `adapter` the result is a PeftModel, and the
-    adapter is checked first, against `level` and `vocabulary` too where they are given. `adapters` are several on one
-    base, under the names of their levels, to be changed with `set_adapter`. With `trainable` the 4-bit layers never pack
-    (see `packing`), so that evaluation between training steps leaves gradients whole.
-    Raises PlannerError, one sentence, when anything is missing, unsafe, corrupt, of another base or too large.
+    "nf4" stores linear layers as 4-bit NormalFloat with double quantisation; embeddings, output
+    head and norms stay in the compute dtype. "none" keeps everything in the compute dtype. With
+    `adapter` the result is a PeftModel, and the adapter is checked first, against `level` and
+    `vocabulary` too where they are given. `adapters` are several on one base, under the names of
+    their levels, to be changed with `set_adapter`. With `trainable` the 4-bit layers never pack
+    (see `packing`), so that evaluation between training steps leaves gradients whole. Raises
+    PlannerError, one sentence, when anything is missing, unsafe, corrupt, of another base or too
+    large.
     """
     target = resolve_device(device)
     folder = require_folder(candidate)
@@ -158,14 +206,18 @@ def load_model(
 
 
 def _attach(model: Any, adapters: Mapping[str, Path], trainable: bool) -> Any:
-    """A PeftModel with these adapters by name, the first of them active; the model itself when there are none."""
+    """A PeftModel with these adapters by name, the first of them active; the model itself when
+    there are none.
+    """
     from peft import PeftModel
 
     for name, adapter in adapters.items():
         if isinstance(model, PeftModel):
             model.load_adapter(str(adapter), name, is_trainable=trainable, use_safetensors=True)
         else:
-            model = PeftModel.from_pretrained(model, str(adapter), name, is_trainable=trainable, use_safetensors=True)
+            model = PeftModel.from_pretrained(
+                model, str(adapter), name, is_trainable=trainable, use_safetensors=True
+            )
     return model
 
 
@@ -175,34 +227,54 @@ def _load_base(folder: Path, device: torch.device, quantization: Quantization) -
 
     if (kind := read_config(folder).get("model_type")) not in CONFIG_MAPPING:
         known = f"transformers {transformers.__version__} has no model_type {kind!r}"
-        raise PlannerError(f"{folder}/config.json: {known}; update transformers, or take another model (code that comes with a model is never run)")
+        raise PlannerError(
+            f"{folder}/config.json: {known}; update transformers, or take another model (code that"
+            " comes with a model is never run)"
+        )
     dtype = compute_dtype(device)
     settings: dict[str, Any] = {}
     if quantization == "nf4":
         settings["quantization_config"] = BitsAndBytesConfig(
-            load_in_4bit=True, bnb_4bit_quant_type="nf4", bnb_4bit_use_double_quant=True, bnb_4bit_compute_dtype=dtype
+            load_in_4bit=True,
+            bnb_4bit_quant_type="nf4",
+            bnb_4bit_use_double_quant=True,
+            bnb_4bit_compute_dtype=dtype,
         )
     large = sum(path.stat().st_size for path in folder.glob("*.safetensors")) >= LARGE
     with contextlib.nullcontext() if large else quiet_bars():
         model, report = AutoModelForCausalLM.from_pretrained(
-            str(folder), dtype=dtype, device_map={"": device}, local_files_only=True, trust_remote_code=False,
-            use_safetensors=True, output_loading_info=True, **settings,
-        )  # fmt: skip
+            str(folder),
+            dtype=dtype,
+            device_map={"": device},
+            local_files_only=True,
+            trust_remote_code=False,
+            use_safetensors=True,
+            output_loading_info=True,
+            **settings,
+        )
     # transformers fills missing tensors with random numbers and only warns.
     if report["missing_keys"]:
-        raise PlannerError(f"{folder}: the weights lack {len(report['missing_keys'])} tensors ({min(report['missing_keys'])}, ...); download them again")
+        raise PlannerError(
+            f"{folder}: the weights lack {len(report['missing_keys'])} tensors"
+            f" ({min(report['missing_keys'])}, ...); download them again"
+        )
     # It compares the shapes of 16-bit tensors alone.
     for name, layer in linear_4bit(model) if quantization == "nf4" else ():
-        if (expected := (layer.out_features, layer.in_features)) != tuple(layer.weight.quant_state.shape):
+        if (expected := (layer.out_features, layer.in_features)) != tuple(
+            layer.weight.quant_state.shape
+        ):
             raise PlannerError(
-                f"{folder}: {name} has the shape {list(layer.weight.quant_state.shape)}, but config.json says {list(expected)}; download both again"
+                f"{folder}: {name} has the shape {list(layer.weight.quant_state.shape)}, but"
+                f" config.json says {list(expected)}; download both again"
             )
     return model
 
 
 @contextlib.contextmanager
 def _loading_errors(candidate: Candidate, folder: Path, device: torch.device) -> Iterator[None]:
-    """Turn what the libraries raise for a bad model, a missing library or too little memory into one sentence."""
+    """Turn what the libraries raise for a bad model, a missing library or too little memory into
+    one sentence.
+    """
     import torch
 
     try:
@@ -212,18 +284,24 @@ def _loading_errors(candidate: Candidate, folder: Path, device: torch.device) ->
     except (torch.cuda.OutOfMemoryError, MemoryError) as error:
         raise PlannerError(out_of_memory(candidate, device)) from error
     except ImportError as error:
-        raise PlannerError(f"{candidate.name}: a library is missing ({_one_line(error)}); see `plannerft doctor`") from error
+        raise PlannerError(
+            f"{candidate.name}: a library is missing ({_one_line(error)}); see `plannerft doctor`"
+        ) from error
     except Exception as error:  # the libraries raise anything, down to bare Exception and their own validation errors
         if "allocate memory" in str(error) or "out of memory" in str(error):
             raise PlannerError(out_of_memory(candidate, device)) from error
         raise PlannerError(
-            f"{folder}: the model cannot be loaded ({_one_line(error)}); check its config.json against its weights, or download it again"
+            f"{folder}: the model cannot be loaded ({_one_line(error)}); check its config.json"
+            " against its weights, or download it again"
         ) from error
 
 
 def out_of_memory(candidate: Candidate, device: torch.device) -> str:
     """The sentence for a model that does not fit."""
-    way_out = "close other programs, take a smaller candidate (`plannerft candidates` estimates their memory) or another --device"
+    way_out = (
+        "close other programs, take a smaller candidate (`plannerft candidates` estimates their"
+        " memory) or another --device"
+    )
     return f"{candidate.name} does not fit the memory of {device}; {way_out}"
 
 

@@ -21,7 +21,9 @@ GRADIENT_ERROR = 0.02
 
 @dataclass(frozen=True)
 class FourBitProbe:
-    """Outcome of a 4-bit layer tried on a device. Errors are relative norms; `problem` is None when all is well."""
+    """Outcome of a 4-bit layer tried on a device. Errors are relative norms; `problem` is None when
+    all is well.
+    """
 
     device: str
     dtype: str
@@ -34,7 +36,9 @@ class FourBitProbe:
 
 
 def probe_four_bit(device: str = "auto") -> FourBitProbe:
-    """Quantise a layer to NF4 with double quantisation, multiply with it and take a gradient through it."""
+    """Quantise a layer to NF4 with double quantisation, multiply with it and take a gradient
+    through it.
+    """
     target = resolve_device(device)
     dtype = compute_dtype(target)
     begun = time.perf_counter()
@@ -42,12 +46,27 @@ def probe_four_bit(device: str = "auto") -> FourBitProbe:
         quiet_libraries()
         weight_error, gradient_error, packs = _try_layer(target, dtype)
     except Exception as error:  # whatever goes wrong in a native library is the finding
-        return FourBitProbe(str(target), str(dtype).removeprefix("torch."), problem=f"{type(error).__name__}: {error}".splitlines()[0][:300])
+        return FourBitProbe(
+            str(target),
+            str(dtype).removeprefix("torch."),
+            problem=f"{type(error).__name__}: {error}".splitlines()[0][:300],
+        )
     problem = None
     if not weight_error < WEIGHT_ERROR or not gradient_error < GRADIENT_ERROR:
-        problem = f"wrong results: error {weight_error:.3f} of the product, {gradient_error:.3f} of the gradient"
+        problem = (
+            f"wrong results: error {weight_error:.3f} of the product, {gradient_error:.3f} of the"
+            " gradient"
+        )
     seconds = time.perf_counter() - begun
-    return FourBitProbe(str(target), str(dtype).removeprefix("torch."), weight_error, gradient_error, packs, seconds, problem)
+    return FourBitProbe(
+        str(target),
+        str(dtype).removeprefix("torch."),
+        weight_error,
+        gradient_error,
+        packs,
+        seconds,
+        problem,
+    )
 
 
 def _try_layer(device: torch.device, dtype: torch.dtype) -> tuple[float, float, bool]:
@@ -60,7 +79,9 @@ def _try_layer(device: torch.device, dtype: torch.dtype) -> tuple[float, float, 
 
     generator = torch.Generator().manual_seed(0)
     weight = torch.randn(SIZE, SIZE, generator=generator) / SIZE**0.5
-    layer = Linear4bit(SIZE, SIZE, bias=False, compute_dtype=dtype, compress_statistics=True, quant_type="nf4")
+    layer = Linear4bit(
+        SIZE, SIZE, bias=False, compute_dtype=dtype, compress_statistics=True, quant_type="nf4"
+    )
     layer.load_state_dict({"weight": weight.to(dtype)})
     layer = layer.to(device)
     packs = set_packing(layer, allowed=True) > 0

@@ -1,4 +1,6 @@
-"""The registry of candidates: the published ones, the embedded one, and any local folder or hub id."""
+"""The registry of candidates: the published ones, the embedded one, and any local folder or hub
+id.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,9 @@ Quantization = Literal["nf4", "none"]
 REGISTRY = Path(__file__).parent / "registry.toml"
 HUB_ID = re.compile(r"(?P<repo>[A-Za-z0-9][\w.-]*/[A-Za-z0-9][\w.-]*)(@(?P<revision>[\w./-]+))?")
 STANDIN_KEY = "planner_ft_standin"
-"""In the config.json of a stand-in: true, so that no result made with one passes for the real candidate's."""
+"""In the config.json of a stand-in: true, so that no result made with one passes for the real
+candidate's.
+"""
 
 VOCABULARY_KEY = "planner_ft_vocabulary"
 """In the config.json of an exported model: the bundled vocabulary that it has learned."""
@@ -30,7 +34,9 @@ VOCABULARY_KEY = "planner_ft_vocabulary"
 
 @dataclass(frozen=True)
 class Dimensions:
-    """The sizes of a decoder-only transformer with grouped-query attention and a gated MLP, as in its config.json."""
+    """The sizes of a decoder-only transformer with grouped-query attention and a gated MLP, as in
+    its config.json.
+    """
 
     hidden: int
     intermediate: int
@@ -46,27 +52,43 @@ class Dimensions:
 
     @classmethod
     def from_config(cls, config: dict[str, Any]) -> Dimensions | None:
-        """The dimensions in a config.json, or None when it is of an architecture that has no such fields."""
+        """The dimensions in a config.json, or None when it is of an architecture that has no such
+        fields.
+        """
         try:
             heads, hidden = int(config["num_attention_heads"]), int(config["hidden_size"])
             return cls(
-                hidden=hidden, intermediate=int(config["intermediate_size"]), layers=int(config["num_hidden_layers"]),
-                heads=heads, kv_heads=int(config.get("num_key_value_heads") or heads),
-                head_dim=int(config.get("head_dim") or hidden // heads), vocabulary=int(config["vocab_size"]),
-                tied=bool(config.get("tie_word_embeddings", False)), context=int(config["max_position_embeddings"]),
-                attention_bias=bool(config.get("attention_bias", config.get("model_type") == "qwen2")),
-            )  # fmt: skip
+                hidden=hidden,
+                intermediate=int(config["intermediate_size"]),
+                layers=int(config["num_hidden_layers"]),
+                heads=heads,
+                kv_heads=int(config.get("num_key_value_heads") or heads),
+                head_dim=int(config.get("head_dim") or hidden // heads),
+                vocabulary=int(config["vocab_size"]),
+                tied=bool(config.get("tie_word_embeddings", False)),
+                context=int(config["max_position_embeddings"]),
+                attention_bias=bool(
+                    config.get("attention_bias", config.get("model_type") == "qwen2")
+                ),
+            )
         except (KeyError, TypeError, ValueError, ZeroDivisionError):
             return None
 
     @property
     def linear_shapes(self) -> tuple[tuple[int, int], ...]:
-        """(in, out) of the seven linear layers of one block: query, key, value, output, gate, up, down."""
+        """(in, out) of the seven linear layers of one block: query, key, value, output, gate, up,
+        down.
+        """
         query, key = self.heads * self.head_dim, self.kv_heads * self.head_dim
         return (
-            (self.hidden, query), (self.hidden, key), (self.hidden, key), (query, self.hidden),
-            (self.hidden, self.intermediate), (self.hidden, self.intermediate), (self.intermediate, self.hidden),
-        )  # fmt: skip
+            (self.hidden, query),
+            (self.hidden, key),
+            (self.hidden, key),
+            (query, self.hidden),
+            (self.hidden, self.intermediate),
+            (self.hidden, self.intermediate),
+            (self.intermediate, self.hidden),
+        )
 
     @property
     def linear_parameters(self) -> int:
@@ -75,7 +97,9 @@ class Dimensions:
 
     @property
     def other_parameters(self) -> int:
-        """Weights that stay in 16 bits: embeddings, output head where it is not tied, norms and biases."""
+        """Weights that stay in 16 bits: embeddings, output head where it is not tied, norms and
+        biases.
+        """
         biases = (self.heads + 2 * self.kv_heads) * self.head_dim if self.attention_bias else 0
         embeddings = self.vocabulary * self.hidden * (1 if self.tied else 2)
         return embeddings + self.layers * (2 * self.hidden + biases) + self.hidden
@@ -100,9 +124,11 @@ class AdapterDefaults:
 
 @dataclass(frozen=True)
 class Candidate:
-    """A language model that can be prompted, fine-tuned and benchmarked, and where on this machine it lies.
+    """A language model that can be prompted, fine-tuned and benchmarked, and where on this machine
+    it lies.
 
-    `folder` is None when it is not here. `vocabulary` names the vocabulary that it was pretrained on.
+    `folder` is None when it is not here. `vocabulary` names the vocabulary that it was pretrained
+    on.
     """
 
     name: str
@@ -121,7 +147,9 @@ class Candidate:
 
     @property
     def parameters(self) -> int | None:
-        """Number of weights, or None while neither the registry nor a config.json tells the dimensions."""
+        """Number of weights, or None while neither the registry nor a config.json tells the
+        dimensions.
+        """
         return self.dimensions.parameters if self.dimensions else None
 
     @property
@@ -136,19 +164,32 @@ class Candidate:
 
     @property
     def reference(self) -> str:
-        """What plain transformers and PEFT load it by: the hub id of a model from the hub, else its folder, from here where it lies below."""
+        """What plain transformers and PEFT load it by: the hub id of a model from the hub, else its
+        folder, from here where it lies below.
+        """
         if self.repo and self.source in (None, "hub cache"):
             return self.repo
         here = Path.cwd()
-        return self.name if self.folder is None else str(self.folder.relative_to(here) if self.folder.is_relative_to(here) else self.folder)
+        return (
+            self.name
+            if self.folder is None
+            else str(
+                self.folder.relative_to(here) if self.folder.is_relative_to(here) else self.folder
+            )
+        )
 
     def adapter_defaults(self, level: Level) -> AdapterDefaults:
         """Its deviations from the published adapter settings at `level`."""
         return self.adapter.get(level, AdapterDefaults())
 
     def knows(self, vocabulary: Vocabulary) -> bool:
-        """Whether it was pretrained on exactly this vocabulary and so need not be told it in the prompt."""
-        return self.vocabulary == vocabulary.name and load_vocabulary(self.vocabulary).sha256 == vocabulary.sha256
+        """Whether it was pretrained on exactly this vocabulary and so need not be told it in the
+        prompt.
+        """
+        return (
+            self.vocabulary == vocabulary.name
+            and load_vocabulary(self.vocabulary).sha256 == vocabulary.sha256
+        )
 
 
 def all_candidates() -> list[Candidate]:
@@ -159,18 +200,23 @@ def all_candidates() -> list[Candidate]:
 def resolve_candidate(name_or_path: str | Path) -> Candidate:
     """The candidate of a registered name, hub id ("org/name", "org/name@revision") or local folder.
 
-    Resolving loads nothing and succeeds for models that are not on this machine (`folder` is then None). Raises
-    PlannerError for a name that is none of these.
+    Resolving loads nothing and succeeds for models that are not on this machine (`folder` is then
+    None). Raises PlannerError for a name that is none of these.
     """
     text = str(name_or_path).strip()
     for candidate in _registered():
-        if text.lower() in {name.lower() for name in (candidate.name, candidate.published, candidate.repo) if name}:
+        if text.lower() in {
+            name.lower() for name in (candidate.name, candidate.published, candidate.repo) if name
+        }:
             return _locate(candidate)
     path = Path(text).expanduser()
     if text and path.is_dir():
         return _from_folder(path.resolve())
     if text.startswith((".", "/", "~")):
-        raise PlannerError(f"{text}: no such folder; give one with config.json, tokenizer and weights, or a name that `plannerft candidates` lists")
+        raise PlannerError(
+            f"{text}: no such folder; give one with config.json, tokenizer and weights, or a name"
+            " that `plannerft candidates` lists"
+        )
     if match := HUB_ID.fullmatch(text):
         return _from_hub(match["repo"], match["revision"])
     raise PlannerError(_unknown(text))
@@ -179,9 +225,15 @@ def resolve_candidate(name_or_path: str | Path) -> Candidate:
 def _unknown(text: str) -> str:
     names = [candidate.name for candidate in _registered()]
     by_lower = {name.lower(): name for name in names}
-    close = [by_lower[name] for name in difflib.get_close_matches(text.lower(), by_lower, n=3, cutoff=0.5)]
+    close = [
+        by_lower[name]
+        for name in difflib.get_close_matches(text.lower(), by_lower, n=3, cutoff=0.5)
+    ]
     hint = f"did you mean {' or '.join(close)}?" if close else f"there are {', '.join(names)}"
-    return f"unknown candidate {text!r}: {hint} A local folder (./folder) or a hub id (org/name) works, too"
+    return (
+        f"unknown candidate {text!r}: {hint} A local folder (./folder) or a hub id (org/name)"
+        " works, too"
+    )
 
 
 @functools.cache
@@ -193,26 +245,42 @@ def _entry(entry: dict[str, Any]) -> Candidate:
     values = dict(entry)
     if "dimensions" in values:
         values["dimensions"] = Dimensions(**values["dimensions"])
-    values["adapter"] = {level: AdapterDefaults(**settings) for level, settings in values.get("adapter", {}).items()}
+    values["adapter"] = {
+        level: AdapterDefaults(**settings) for level, settings in values.get("adapter", {}).items()
+    }
     return Candidate(**values)
 
 
 def _locate(candidate: Candidate) -> Candidate:
-    """The candidate with the folder it lies in; what the config.json there says overrules the registry."""
+    """The candidate with the folder it lies in; what the config.json there says overrules the
+    registry.
+    """
     folder, source = find_folder(candidate.name, candidate.repo, candidate.revision)
     if folder is None:
         return candidate
     config = read_config(folder)
     dimensions = Dimensions.from_config(config) or candidate.dimensions
-    return replace(candidate, folder=folder, source=source, chat=_chat(folder), dimensions=dimensions, is_standin=bool(config.get(STANDIN_KEY)))
+    return replace(
+        candidate,
+        folder=folder,
+        source=source,
+        chat=_chat(folder),
+        dimensions=dimensions,
+        is_standin=bool(config.get(STANDIN_KEY)),
+    )
 
 
 def _from_folder(folder: Path) -> Candidate:
     config = read_config(folder)
     return Candidate(
-        name=folder.name, chat=_chat(folder), vocabulary=config.get(VOCABULARY_KEY), dimensions=Dimensions.from_config(config),
-        folder=folder, source="path", is_standin=bool(config.get(STANDIN_KEY)),
-    )  # fmt: skip
+        name=folder.name,
+        chat=_chat(folder),
+        vocabulary=config.get(VOCABULARY_KEY),
+        dimensions=Dimensions.from_config(config),
+        folder=folder,
+        source="path",
+        is_standin=bool(config.get(STANDIN_KEY)),
+    )
 
 
 def _from_hub(repo: str, revision: str | None) -> Candidate:
@@ -225,7 +293,17 @@ def _from_hub(repo: str, revision: str | None) -> Candidate:
 def _chat(folder: Path) -> Chat:
     """The kind of chat template in a folder, told by its marks."""
     template = folder / "chat_template.jinja"
-    text = read_text(template) if template.is_file() else str(read_config(folder, "tokenizer_config.json").get("chat_template") or "")
+    text = (
+        read_text(template)
+        if template.is_file()
+        else str(read_config(folder, "tokenizer_config.json").get("chat_template") or "")
+    )
     if not text:
         return "plain"
-    return "llama3" if "<|start_header_id|>" in text else "chatml" if "<|im_start|>" in text else "other"
+    return (
+        "llama3"
+        if "<|start_header_id|>" in text
+        else "chatml"
+        if "<|im_start|>" in text
+        else "other"
+    )

@@ -9,8 +9,11 @@ from planner_ft.support.errors import GateError, IncompleteError, PlannerError
 
 
 def main() -> None:
-    """Entry point. A user's mistake prints one sentence and exits with 2; `--debug` shows the traceback instead."""
-    # OpenMP threads that wait should sleep: spinning ones make a shared machine ten times slower. Read when torch is imported.
+    """Entry point. A user's mistake prints one sentence and exits with 2; `--debug` shows the
+    traceback instead.
+    """
+    # OpenMP threads that wait should sleep: spinning ones make a shared machine ten times slower.
+    # Read when torch is imported.
     os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
     from planner_ft.cli.app import app
 

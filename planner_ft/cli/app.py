@@ -25,8 +25,14 @@ app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
-    help="Fine-tune small language models into mission planners for unmanned surface vehicles, and measure them honestly.",
-    epilog="First steps: plannerft gen-data, plannerft train --level mission, plannerft bench --level mission. --debug shows tracebacks.",
+    help=(
+        "Fine-tune small language models into mission planners for unmanned surface vehicles, and"
+        " measure them honestly."
+    ),
+    epilog=(
+        "First steps: plannerft gen-data, plannerft train --level mission, plannerft bench --level"
+        " mission. --debug shows tracebacks."
+    ),
 )
 
 
@@ -39,9 +45,31 @@ def _version(value: bool) -> None:
 
 
 @app.callback()
-def options(version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")] = False) -> None:
+def options(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_version, is_eager=True, help="Show the version and exit."
+        ),
+    ] = False,
+) -> None:
     """Options of every command."""
 
 
-for command in (plan, review, verify, gen_data, validate, candidates, train, bench, score, compare, report, export, vocabulary, doctor):
+for command in (
+    plan,
+    review,
+    verify,
+    gen_data,
+    validate,
+    candidates,
+    train,
+    bench,
+    score,
+    compare,
+    report,
+    export,
+    vocabulary,
+    doctor,
+):
     app.command(command.__name__.replace("_", "-"))(command)

@@ -13,15 +13,26 @@ if TYPE_CHECKING:
 
 def candidates(
     names: Annotated[
-        list[str] | None, typer.Argument(help="Only these: names, hub ids (org/name) or folders. Default: every registered one.", show_default=False)
+        list[str] | None,
+        typer.Argument(
+            help="Only these: names, hub ids (org/name) or folders. Default: every registered one.",
+            show_default=False,
+        ),
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
 ) -> None:
-    """List the models that can be trained and benchmarked: size, licence, estimated memory, and where they are or how to get them."""
+    """List the models that can be trained and benchmarked: size, licence, estimated memory, and
+    where they are or how to get them.
+    """
     from planner_ft.candidates import all_candidates, resolve_candidate
     from planner_ft.candidates.listing import describe
 
-    descriptions = [describe(candidate) for candidate in ([resolve_candidate(name) for name in names] if names else all_candidates())]
+    descriptions = [
+        describe(candidate)
+        for candidate in (
+            [resolve_candidate(name) for name in names] if names else all_candidates()
+        )
+    ]
     if json:
         from json import dumps
 
@@ -31,21 +42,39 @@ def candidates(
 
     console = Console(highlight=False)
     console.print(_table(descriptions))
-    console.print("Estimates: 4-bit weights, batch size 1; to train an adapter on 1024 tokens, to run it on 2048 tokens. * with gradient checkpointing.")
+    console.print(
+        "Estimates: 4-bit weights, batch size 1; to train an adapter on 1024 tokens, to run it on"
+        " 2048 tokens. * with gradient checkpointing."
+    )
     for description in descriptions:
-        if note := description["problem"] or (description["get"] if not description["command"] else None):
+        if note := description["problem"] or (
+            description["get"] if not description["command"] else None
+        ):
             console.print(f"{description['name']}: {note}", style="yellow", soft_wrap=True)
-    _print_downloads(console, [description for description in descriptions if description["command"]])
+    _print_downloads(
+        console, [description for description in descriptions if description["command"]]
+    )
 
 
 def _print_downloads(console: Console, missing: list[dict[str, Any]]) -> None:
     if not missing:
         return
-    gated = " (gated ones: first accept the licence at https://huggingface.co/REPOSITORY and run `hf auth login`)"
-    console.print(f"\nTo get one that is not here{gated if any(description['gated'] for description in missing) else ''}:", soft_wrap=True)
+    gated = (
+        " (gated ones: first accept the licence at https://huggingface.co/REPOSITORY and run `hf"
+        " auth login`)"
+    )
+    console.print(
+        "\nTo get one that is not"
+        f" here{gated if any(description['gated'] for description in missing) else ''}:",
+        soft_wrap=True,
+    )
     for description in missing:
         console.print(f"  {description['command']}", soft_wrap=True, markup=False)
-    console.print("Without a network, copy it to a sub-folder of its name in a folder that PLANNERFT_MODELS names.", soft_wrap=True)
+    console.print(
+        "Without a network, copy it to a sub-folder of its name in a folder that PLANNERFT_MODELS"
+        " names.",
+        soft_wrap=True,
+    )
 
 
 def _table(descriptions: list[dict[str, Any]]) -> Table:
@@ -59,8 +88,19 @@ def _table(descriptions: list[dict[str, Any]]) -> Table:
     table.add_column("licence", overflow="fold")
     table.add_column("here", overflow="fold")
     for description in descriptions:
-        licence = description["licence"].replace(" Community", "").replace(" License", "").replace(" (non-commercial)", "")
-        table.add_row(description["name"], _count(description["parameters"]), *_memory(description["memory"]), licence, _here(description))
+        licence = (
+            description["licence"]
+            .replace(" Community", "")
+            .replace(" License", "")
+            .replace(" (non-commercial)", "")
+        )
+        table.add_row(
+            description["name"],
+            _count(description["parameters"]),
+            *_memory(description["memory"]),
+            licence,
+            _here(description),
+        )
     return table
 
 
@@ -69,7 +109,11 @@ def _here(description: dict[str, Any]) -> str:
         return "[red]incomplete[/red]"
     if description["standin"]:
         return "[yellow]stand-in[/yellow]"
-    return f"[green]{description['source']}[/green]" if description["here"] else f"no{', gated' if description['gated'] else ''}"
+    return (
+        f"[green]{description['source']}[/green]"
+        if description["here"]
+        else f"no{', gated' if description['gated'] else ''}"
+    )
 
 
 def _count(parameters: int | None) -> str:
@@ -87,4 +131,9 @@ def _memory(memory: dict[str, Any] | None) -> tuple[str, str, str, str]:
     gpus = train if saving == [f"{gpu}*" for gpu in train] else [*train, *saving]
     infer = [gpu for gpu, fits in memory["infer_fits"].items() if fits == "yes"][:1]
     amount = f"{memory['train_gib']:.1f} {memory['train_checkpointing_gib']:.1f}*"
-    return amount, " ".join(gpus).replace(" GB", "") or "larger", f"{memory['infer_gib']:.1f}", "".join(infer).replace(" GB", "") or "larger"
+    return (
+        amount,
+        " ".join(gpus).replace(" GB", "") or "larger",
+        f"{memory['infer_gib']:.1f}",
+        "".join(infer).replace(" GB", "") or "larger",
+    )

@@ -7,8 +7,11 @@ from typing import Annotated, Any
 import typer
 
 
-def doctor(json: Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")] = False) -> None:
-    """Check this installation: versions, devices, 4-bit support (tried, not assumed), disk, caches, vocabulary, candidates.
+def doctor(
+    json: Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")] = False,
+) -> None:
+    """Check this installation: versions, devices, 4-bit support (tried, not assumed), disk, caches,
+    vocabulary, candidates.
 
     The report is plain text to paste into an issue. It exits with 0; warnings stand at the end.
     """
@@ -31,5 +34,9 @@ def doctor(json: Annotated[bool, typer.Option("--json", help="Print JSON instead
 
 def _text(value: Any) -> str:
     if isinstance(value, dict):
-        return ", ".join(f"{name} {_text(item)}" for name, item in value.items() if item is not None and item is not False)
+        return ", ".join(
+            f"{name} {_text(item)}"
+            for name, item in value.items()
+            if item is not None and item is not False
+        )
     return "not set" if value is None else "yes" if value is True else str(value)

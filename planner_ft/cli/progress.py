@@ -1,4 +1,6 @@
-"""Progress of a benchmark run: bars with the time left on a terminal, lines now and then elsewhere."""
+"""Progress of a benchmark run: bars with the time left on a terminal, lines now and then
+elsewhere.
+"""
 
 from __future__ import annotations
 
@@ -24,12 +26,17 @@ EVERY = 30.0
 
 @contextlib.contextmanager
 def interruptible(folder: Path | None) -> Iterator[Report]:
-    """Show progress of the block; after Ctrl-C say what is kept and how to go on, and exit with 130."""
+    """Show progress of the block; after Ctrl-C say what is kept and how to go on, and exit with
+    130.
+    """
     from rich.console import Console
 
     console = Console(stderr=True, highlight=False)
     try:
-        with _not_swallowed() as stopped, _bars(console) if console.is_terminal else _lines(console) as report:
+        with (
+            _not_swallowed() as stopped,
+            _bars(console) if console.is_terminal else _lines(console) as report,
+        ):
 
             def reporting(label: str, done: int, total: int) -> None:
                 if stopped():
@@ -38,13 +45,17 @@ def interruptible(folder: Path | None) -> Iterator[Report]:
 
             yield reporting
     except KeyboardInterrupt:
-        console.print(f"interrupted{f'; {_kept(folder)}' if folder else ''}", soft_wrap=True, markup=False)
+        console.print(
+            f"interrupted{f'; {_kept(folder)}' if folder else ''}", soft_wrap=True, markup=False
+        )
         raise typer.Exit(130) from None
 
 
 @contextlib.contextmanager
 def _not_swallowed() -> Iterator[Callable[[], bool]]:
-    """Yield a function that says whether Ctrl-C was pressed: libraries swallow a KeyboardInterrupt while they load."""
+    """Yield a function that says whether Ctrl-C was pressed: libraries swallow a KeyboardInterrupt
+    while they load.
+    """
     pressed = threading.Event()
     if threading.current_thread() is not threading.main_thread():
         yield pressed.is_set
@@ -65,7 +76,16 @@ def _not_swallowed() -> Iterator[Callable[[], bool]]:
 
 @contextlib.contextmanager
 def _bars(console: Console) -> Iterator[Report]:
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        SpinnerColumn,
+        TaskID,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
 
     columns = (
         SpinnerColumn(),
@@ -104,7 +124,9 @@ def _lines(console: Console) -> Iterator[Report]:
         last = now
         left = (now - started) / (done - before) * (total - done) if done > before else None
         rest = f", {left:.0f} s left" if left else ""
-        console.print(f"{label}{f' {done}/{total}' if total else ''}{rest}", soft_wrap=True, markup=False)
+        console.print(
+            f"{label}{f' {done}/{total}' if total else ''}{rest}", soft_wrap=True, markup=False
+        )
 
     yield report
 
@@ -112,5 +134,7 @@ def _lines(console: Console) -> Iterator[Report]:
 def _kept(folder: Path) -> str:
     from planner_ft.benchmark.runner import resume_hint
 
-    arguments = [argument for argument in sys.argv[1:] if argument not in ("--overwrite", "--resume")]
+    arguments = [
+        argument for argument in sys.argv[1:] if argument not in ("--overwrite", "--resume")
+    ]
     return f"{resume_hint(folder)}; go on with: {shlex.join(['plannerft', *arguments, '--resume'])}"

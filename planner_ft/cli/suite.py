@@ -19,36 +19,66 @@ EVERY = 30.0
 """Seconds between lines where there is no terminal."""
 
 
-def bench_suite(path: Path, out: Path | None, values: dict[str, Any], *, resume: bool, overwrite: bool, finish: Callable[[Path], None] | None = None) -> None:
-    """Run a suite, print its overview, call `finish` with its folder, and exit with 1 when a candidate could not be measured."""
+def bench_suite(
+    path: Path,
+    out: Path | None,
+    values: dict[str, Any],
+    *,
+    resume: bool,
+    overwrite: bool,
+    finish: Callable[[Path], None] | None = None,
+) -> None:
+    """Run a suite, print its overview, call `finish` with its folder, and exit with 1 when a
+    candidate could not be measured.
+    """
     from planner_ft.benchmark.suite.definition import load_suite
     from planner_ft.benchmark.suite.run import run_suite
     from planner_ft.benchmark.suite.units import Flags
     from planner_ft.support.errors import IncompleteError, PlannerError
 
     if resume and overwrite:
-        raise PlannerError("--resume keeps former results and --overwrite removes them: give one of them")
+        raise PlannerError(
+            "--resume keeps former results and --overwrite removes them: give one of them"
+        )
     suite = load_suite(path)
     folder = out or Path("eval/runs") / path.stem
     try:
         with _shown() as report:
-            parts = run_suite(suite, folder, Flags(**values), report, resume=resume, overwrite=overwrite)
+            parts = run_suite(
+                suite, folder, Flags(**values), report, resume=resume, overwrite=overwrite
+            )
     except KeyboardInterrupt:
-        again = [argument for argument in sys.argv[1:] if argument not in ("--overwrite", "--resume")]
-        typer.echo(f"interrupted; go on with: {shlex.join(['plannerft', *again, '--resume'])}", err=True)
+        again = [
+            argument for argument in sys.argv[1:] if argument not in ("--overwrite", "--resume")
+        ]
+        typer.echo(
+            f"interrupted; go on with: {shlex.join(['plannerft', *again, '--resume'])}", err=True
+        )
         raise typer.Exit(130) from None
     typer.echo((folder / "table.md").read_text(encoding="utf-8"))
-    typer.echo(f"{folder}/: table.md, table.csv, table.tex, results.json; a folder for each of {', '.join(part.part.name for part in parts)}")
+    typer.echo(
+        f"{folder}/: table.md, table.csv, table.tex, results.json; a folder for each of"
+        f" {', '.join(part.part.name for part in parts)}"
+    )
     if finish is not None:
         finish(folder)
-    failed = [f"{entry.candidate} {entry.configuration} ({part.part.name})" for part in parts for entry in part.failed]
+    failed = [
+        f"{entry.candidate} {entry.configuration} ({part.part.name})"
+        for part in parts
+        for entry in part.failed
+    ]
     if failed:
-        raise IncompleteError(f"{len(failed)} of the suite could not be measured: {', '.join(failed)}; the reasons are in {folder / 'table.md'}")
+        raise IncompleteError(
+            f"{len(failed)} of the suite could not be measured: {', '.join(failed)}; the reasons"
+            f" are in {folder / 'table.md'}"
+        )
 
 
 @contextlib.contextmanager
 def _shown() -> Iterator[Callable[[State], None]]:
-    """Show where a suite stands: one line that changes on a terminal, a line now and then elsewhere."""
+    """Show where a suite stands: one line that changes on a terminal, a line now and then
+    elsewhere.
+    """
     from rich.console import Console
 
     console = Console(stderr=True, highlight=False)

@@ -9,10 +9,23 @@ import typer
 
 
 def vocabulary(
-    vocabulary: Annotated[str, typer.Option(help="Vocabulary: a bundled name or a TOML file.")] = "usv",
-    schemas: Annotated[Path | None, typer.Option(help="Write the JSON Schemas into this folder.", show_default=False)] = None,
-    docs: Annotated[Path | None, typer.Option(help="Write the documentation page to this file.", show_default=False)] = None,
-    check: Annotated[bool, typer.Option("--check", help="Write nothing; exit with 1 when a schema or the page is stale.")] = False,
+    vocabulary: Annotated[
+        str, typer.Option(help="Vocabulary: a bundled name or a TOML file.")
+    ] = "usv",
+    schemas: Annotated[
+        Path | None,
+        typer.Option(help="Write the JSON Schemas into this folder.", show_default=False),
+    ] = None,
+    docs: Annotated[
+        Path | None,
+        typer.Option(help="Write the documentation page to this file.", show_default=False),
+    ] = None,
+    check: Annotated[
+        bool,
+        typer.Option(
+            "--check", help="Write nothing; exit with 1 when a schema or the page is stale."
+        ),
+    ] = False,
 ) -> None:
     """Show the vocabulary, or write the schemas and the documentation page that derive from it."""
     from planner_ft.support.files import write_text
@@ -23,9 +36,14 @@ def vocabulary(
     definition = load_vocabulary(vocabulary)
     if check:
         folder, page = schemas or Path("schemas"), docs or Path("docs") / "vocabulary.md"
-        stale = [str(folder / name) for name in stale_schemas(folder, definition)] + ([str(page)] if stale_page(page, definition) else [])
+        stale = [str(folder / name) for name in stale_schemas(folder, definition)] + (
+            [str(page)] if stale_page(page, definition) else []
+        )
         for name in stale:
-            typer.echo(f"{name}: stale; write it again with plannerft vocabulary --schemas {folder} --docs {page}")
+            typer.echo(
+                f"{name}: stale; write it again with plannerft vocabulary --schemas {folder} --docs"
+                f" {page}"
+            )
         raise typer.Exit(1 if stale else 0)
     if schemas is not None:
         for path in write_schemas(schemas, definition):

@@ -1,4 +1,6 @@
-"""What a record of the curated mission set must also hold: texts, and nothing said that is lost, nothing written that was not said."""
+"""What a record of the curated mission set must also hold: texts, and nothing said that is lost,
+nothing written that was not said.
+"""
 
 from __future__ import annotations
 
@@ -15,16 +17,31 @@ UNUSED = frozenset({"rule.correction", "rule.exclusion", "rule.search-on-request
 """Tags of commands that say values which the plan does not take over."""
 
 
-def completeness_problems(level: Level, record: dict[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
-    """What is missing in a record whose plan is strictly valid; at task level nothing more is asked."""
+def completeness_problems(
+    level: Level, record: dict[str, Any], vocabulary: Vocabulary
+) -> Iterator[str]:
+    """What is missing in a record whose plan is strictly valid; at task level nothing more is
+    asked.
+    """
     if level == "task":
         return
     expected = record["expected"]
     tasks = expected["tasks"]
-    yield from (f"expected: tasks[{index}] {task['title']}: task_prompt is empty" for index, task in enumerate(tasks) if not task["task_prompt"].strip())
+    yield from (
+        f"expected: tasks[{index}] {task['title']}: task_prompt is empty"
+        for index, task in enumerate(tasks)
+        if not task["task_prompt"].strip()
+    )
     if not tasks and not expected["constraints"]:
         yield "expected: an empty task list needs a constraint that says why"
-    if any(value == list(vocabulary.unresolved) for task in tasks for value in task["parameters"].values()) and not expected["assumptions"]:
+    if (
+        any(
+            value == list(vocabulary.unresolved)
+            for task in tasks
+            for value in task["parameters"].values()
+        )
+        and not expected["assumptions"]
+    ):
         yield "expected: a plan with an unresolved place needs an assumption about it"
     for index, (task, following) in enumerate(itertools.pairwise(tasks)):
         if (task["title"], task["parameters"]) == (following["title"], following["parameters"]):
@@ -38,25 +55,64 @@ def completeness_problems(level: Level, record: dict[str, Any], vocabulary: Voca
 def _invented_numbers(record: dict[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
     """Numbers in the plan's texts that neither the command nor a parameter has."""
     expected = record["expected"]
-    texts = {f"tasks[{index}].task_prompt": task["task_prompt"] for index, task in enumerate(expected["tasks"])}
-    texts |= {f"{key}[{index}]": text for key in MISSION_KEYS[1:] for index, text in enumerate(expected[key])}
-    said = compact_json([[task["parameters"] for task in expected["tasks"]], vocabulary.home, vocabulary.unresolved])
-    known = {abs(number) for quantity in (*quantities(record["prompt"]), *quantities(said)) for number in (quantity.value, quantity.said)}
+    texts = {
+        f"tasks[{index}].task_prompt": task["task_prompt"]
+        for index, task in enumerate(expected["tasks"])
+    }
+    texts |= {
+        f"{key}[{index}]": text
+        for key in MISSION_KEYS[1:]
+        for index, text in enumerate(expected[key])
+    }
+    said = compact_json(
+        [[task["parameters"] for task in expected["tasks"]], vocabulary.home, vocabulary.unresolved]
+    )
+    known = {
+        abs(number)
+        for quantity in (*quantities(record["prompt"]), *quantities(said))
+        for number in (quantity.value, quantity.said)
+    }
     for where, text in texts.items():
         digits = [quantity for quantity in quantities(text) if text[quantity.start].isdigit()]
-        invented = [quantity.said for quantity in digits if not {abs(quantity.said), abs(quantity.value)} & known]
-        yield from (f"expected: {where}: {number:g} is neither in the command nor in a parameter" for number in invented)
+        invented = [
+            quantity.said
+            for quantity in digits
+            if not {abs(quantity.said), abs(quantity.value)} & known
+        ]
+        yield from (
+            f"expected: {where}: {number:g} is neither in the command nor in a parameter"
+            for number in invented
+        )
 
 
 def _lost_values(record: dict[str, Any]) -> Iterator[str]:
-    """Quantities with a unit, and coordinates in brackets, that the command states and neither a parameter nor a constraint has."""
+    """Quantities with a unit, and coordinates in brackets, that the command states and neither a
+    parameter nor a constraint has.
+    """
     expected, prompt = record["expected"], record["prompt"]
     values = [value for task in expected["tasks"] for value in task["parameters"].values()]
-    numbers = [number for value in values for number in (value if isinstance(value, list) else [value]) if isinstance(number, int | float)]
-    numbers += [quantity.value for text in (*expected["assumptions"], *expected["constraints"]) for quantity in quantities(text)]
+    numbers = [
+        number
+        for value in values
+        for number in (value if isinstance(value, list) else [value])
+        if isinstance(number, int | float)
+    ]
+    numbers += [
+        quantity.value
+        for text in (*expected["assumptions"], *expected["constraints"])
+        for quantity in quantities(text)
+    ]
     for quantity in quantities(prompt):
         if quantity.unit and not any(close(quantity.value, number) for number in numbers):
-            yield f"expected: {prompt[quantity.start : quantity.end]!r} of the command stands in no parameter and no constraint"
+            yield (
+                f"expected: {prompt[quantity.start : quantity.end]!r} of the command stands in no"
+                " parameter and no constraint"
+            )
     for x, y, start, end in positions(prompt):
-        if prompt[start - 1 : start] in ("[", "(") and not ([x, y] in values or {x, y} <= set(numbers)):
-            yield f"expected: the coordinates {prompt[start:end]!r} of the command stand in no parameter and no constraint"
+        if prompt[start - 1 : start] in ("[", "(") and not (
+            [x, y] in values or {x, y} <= set(numbers)
+        ):
+            yield (
+                f"expected: the coordinates {prompt[start:end]!r} of the command stand in no"
+                " parameter and no constraint"
+            )

@@ -35,7 +35,9 @@ Messages = Callable[[Level, Record, Vocabulary], list[dict[str, str]]]
 
 @dataclass(frozen=True)
 class GenerationSettings:
-    """What to generate. A count of None is the published one; `source` is the folder of the curated mission set."""
+    """What to generate. A count of None is the published one; `source` is the folder of the curated
+    mission set.
+    """
 
     level: str = "all"
     out: Path = Path("data")
@@ -58,7 +60,11 @@ class GenerationSettings:
             if count is not None and count < 1:
                 raise PlannerError(f"--{split} {count}: at least one record is needed")
         if self.synthetic is not None and (self.synthetic < 1 or self.level == "task"):
-            wrong = "it belongs to the mission level" if self.level == "task" else "at least one record is needed"
+            wrong = (
+                "it belongs to the mission level"
+                if self.level == "task"
+                else "at least one record is needed"
+            )
             raise PlannerError(f"--synthetic {self.synthetic}: {wrong}")
         if self.seed < 0:
             raise PlannerError(f"--seed {self.seed}: must be 0 or more")
@@ -69,13 +75,19 @@ class GenerationSettings:
 
     def counts(self, level: Level) -> dict[Split, int | None]:
         """Records asked for, by split; None where no flag says it."""
-        counts: dict[Split, int | None] = {"train": self.train, "validation": self.validation, "test": self.test}
+        counts: dict[Split, int | None] = {
+            "train": self.train,
+            "validation": self.validation,
+            "test": self.test,
+        }
         return {**counts, "test_unseen": self.test} if level == "task" else counts
 
 
 @dataclass
 class Generated:
-    """The result for one level: where it lies, records by split, whether it was written or found up to date, seconds by stage."""
+    """The result for one level: where it lies, records by split, whether it was written or found up
+    to date, seconds by stage.
+    """
 
     level: Level
     folder: Path
@@ -84,32 +96,54 @@ class Generated:
     seconds: dict[str, float] = field(default_factory=dict)
 
 
-def generate(settings: GenerationSettings, progress: Progress = lambda _label, _done, _total: None, messages: Messages | None = None) -> list[Generated]:
-    """Generate, check and write the data of each level; `messages` turns a record into the chat form that `chat` asks for.
+def generate(
+    settings: GenerationSettings,
+    progress: Progress = lambda _label, _done, _total: None,
+    messages: Messages | None = None,
+) -> list[Generated]:
+    """Generate, check and write the data of each level; `messages` turns a record into the chat
+    form that `chat` asks for.
 
-    Nothing is written before everything is made, and existing files that would change are kept unless `overwrite` is
-    set. Raises PlannerError when the curated source is faulty, counts cannot be met, or the folder cannot be written.
+    Nothing is written before everything is made, and existing files that would change are kept
+    unless `overwrite` is set. Raises PlannerError when the curated source is faulty, counts cannot
+    be met, or the folder cannot be written.
     """
     vocabulary = load_vocabulary(settings.vocabulary)
     check_writable(settings.out)
     results, folders = [], []
     for level in settings.levels:
-        result, folder = _make(level, settings, vocabulary, progress, messages if settings.chat else None)
+        result, folder = _make(
+            level, settings, vocabulary, progress, messages if settings.chat else None
+        )
         results.append(result)
         folders.append(folder)
     if settings.synthetic:
         started = time.perf_counter()
-        folders.append(synthetic_folder(settings.out, vocabulary, settings.seed, settings.synthetic, progress))
+        folders.append(
+            synthetic_folder(settings.out, vocabulary, settings.seed, settings.synthetic, progress)
+        )
         seconds = {"sampling and validation": time.perf_counter() - started}
-        results.append(Generated("mission", settings.out / FOLDER, {"train": settings.synthetic}, seconds=seconds))
+        results.append(
+            Generated(
+                "mission", settings.out / FOLDER, {"train": settings.synthetic}, seconds=seconds
+            )
+        )
     started = time.perf_counter()
-    for result, written in zip(results, write_folders(folders, overwrite=settings.overwrite), strict=True):
+    for result, written in zip(
+        results, write_folders(folders, overwrite=settings.overwrite), strict=True
+    ):
         result.written = written
     results[-1].seconds["writing"] = time.perf_counter() - started
     return results
 
 
-def _make(level: Level, settings: GenerationSettings, vocabulary: Vocabulary, progress: Progress, messages: Messages | None) -> tuple[Generated, DataFolder]:
+def _make(
+    level: Level,
+    settings: GenerationSettings,
+    vocabulary: Vocabulary,
+    progress: Progress,
+    messages: Messages | None,
+) -> tuple[Generated, DataFolder]:
     result = Generated(level, settings.out / level, {})
     clock = _Clock(result.seconds)
     source = find_source(settings.source) if level == "mission" else None
@@ -123,22 +157,42 @@ def _make(level: Level, settings: GenerationSettings, vocabulary: Vocabulary, pr
     leakage = leakage_report(level, splits, lambda step: progress(f"{level}: {step}", 0, 0))
     clock.stop("leakage report")
     seed = settings.seed if source is None else None
-    texts = {f"{split}.jsonl": _lines(canonical_record(level, record, vocabulary) for record in records) for split, records in splits.items()}
+    texts = {
+        f"{split}.jsonl": _lines(canonical_record(level, record, vocabulary) for record in records)
+        for split, records in splits.items()
+    }
     texts["leakage.json"] = indented_json(leakage)
     texts["README.md"] = dataset_card(level, splits, vocabulary, leakage, seed)
     if messages is not None:
         for split, records in splits.items():
-            texts[f"chat/{split}.jsonl"] = _lines(compact_json({"id": record["id"], "messages": messages(level, record, vocabulary)}) for record in records)
+            texts[f"chat/{split}.jsonl"] = _lines(
+                compact_json({"id": record["id"], "messages": messages(level, record, vocabulary)})
+                for record in records
+            )
     clock.stop("card and serialisation")
-    configuration = {"level": level, "counts": result.counts, "vocabulary": vocabulary.name, "vocabulary_sha256": vocabulary.sha256}
+    configuration = {
+        "level": level,
+        "counts": result.counts,
+        "vocabulary": vocabulary.name,
+        "vocabulary_sha256": vocabulary.sha256,
+    }
     if level == "task":
         configuration["phrases_sha256"] = sha256_text(compact_json(vocabulary.phrases))
-    inputs: dict[str, Path | str] = {split: source / f"{split}.jsonl" for split in splits} if source else {}
-    manifest = build_manifest("data", seed=seed, configuration={**configuration, "chat": messages is not None}, inputs=inputs)
+    inputs: dict[str, Path | str] = (
+        {split: source / f"{split}.jsonl" for split in splits} if source else {}
+    )
+    manifest = build_manifest(
+        "data",
+        seed=seed,
+        configuration={**configuration, "chat": messages is not None},
+        inputs=inputs,
+    )
     return result, DataFolder(result.folder, texts, manifest, source)
 
 
-def _sampled(settings: GenerationSettings, vocabulary: Vocabulary, progress: Progress) -> dict[str, list[Record]]:
+def _sampled(
+    settings: GenerationSettings, vocabulary: Vocabulary, progress: Progress
+) -> dict[str, list[Record]]:
     splits: dict[str, list[Record]] = {}
     defaults = DEFAULT_COUNTS["task"]
     for split, asked in settings.counts("task").items():

@@ -1,8 +1,10 @@
-"""How much of a test split is already in the training split: duplicates, near duplicates, and a retrieval baseline.
+"""How much of a test split is already in the training split: duplicates, near duplicates, and a
+retrieval baseline.
 
-Near duplicates are found with MinHash (Broder 1997): signatures of word-pair shingles, compared by locality-sensitive
-hashing in bands and verified by their exact Jaccard similarity. The baseline answers a test prompt with the expected plan
-of the most similar training prompt (TF-IDF over words and word pairs, cosine): a model has to be better than that.
+Near duplicates are found with MinHash (Broder 1997): signatures of word-pair shingles, compared by
+locality-sensitive hashing in bands and verified by their exact Jaccard similarity. The baseline
+answers a test prompt with the expected plan of the most similar training prompt (TF-IDF over words
+and word pairs, cosine): a model has to be better than that.
 """
 
 from __future__ import annotations
@@ -34,7 +36,9 @@ Shingles = frozenset[int]
 
 @dataclass(frozen=True)
 class Overlap:
-    """Between two splits: records of the first whose prompt, as written or masked, (nearly) occurs in the second."""
+    """Between two splits: records of the first whose prompt, as written or masked, (nearly) occurs
+    in the second.
+    """
 
     split: str
     other: str
@@ -50,7 +54,9 @@ class Overlap:
 
 @dataclass(frozen=True)
 class Baseline:
-    """Nearest-neighbour retrieval from the training split: mean name-set F1, share of exact name sequences and of exact plans."""
+    """Nearest-neighbour retrieval from the training split: mean name-set F1, share of exact name
+    sequences and of exact plans.
+    """
 
     split: str
     n: int
@@ -61,46 +67,75 @@ class Baseline:
     """Median cosine similarity to the nearest training prompt."""
 
 
-def leakage_report(level: Level, splits: Mapping[str, Records], progress: Callable[[str], None] = lambda _step: None) -> dict[str, Any]:
-    """Overlaps between all pairs of splits and the baseline on every split but train, as JSON values."""
+def leakage_report(
+    level: Level,
+    splits: Mapping[str, Records],
+    progress: Callable[[str], None] = lambda _step: None,
+) -> dict[str, Any]:
+    """Overlaps between all pairs of splits and the baseline on every split but train, as JSON
+    values.
+    """
     names = list(splits)
     written = {name: [str(record["prompt"]) for record in splits[name]] for name in names}
-    families = {name: {record["family"] for record in splits[name] if "family" in record} for name in names}
+    families = {
+        name: {record["family"] for record in splits[name] if "family" in record} for name in names
+    }
     masked = {name: [mask(text) for text in texts] for name, texts in written.items()}
     progress("near duplicates")
     near, near_masked = _near_pairs(written), _near_pairs(masked)
     overlaps = [
         Overlap(
-            split=second, other=first,
-            exact=_shared(written[second], written[first]), near=len(near[second, first]),
-            exact_masked=_shared(masked[second], masked[first]), near_masked=len(near_masked[second, first]),
+            split=second,
+            other=first,
+            exact=_shared(written[second], written[first]),
+            near=len(near[second, first]),
+            exact_masked=_shared(masked[second], masked[first]),
+            near_masked=len(near_masked[second, first]),
             families=len(families[second] & families[first]),
-            examples=tuple((str(splits[second][here]["id"]), str(splits[first][there]["id"])) for here, there in list(near[second, first].items())[:5]),
+            examples=tuple(
+                (str(splits[second][here]["id"]), str(splits[first][there]["id"]))
+                for here, there in list(near[second, first].items())[:5]
+            ),
         )
-        for position, second in enumerate(names) for first in names[:position]
-    ]  # fmt: skip
+        for position, second in enumerate(names)
+        for first in names[:position]
+    ]
     progress("nearest-neighbour baseline")
-    baselines = [nearest_neighbour(level, name, splits["train"], splits[name]) for name in names if name != "train"]
+    baselines = [
+        nearest_neighbour(level, name, splits["train"], splits[name])
+        for name in names
+        if name != "train"
+    ]
     return {
         "level": level,
         "method": {
-            "shingles": "word pairs, lower case", "minhash": {"permutations": BANDS * ROWS, "bands": BANDS}, "near": NEAR,
-            "masked": "numbers and names replaced by a placeholder", "baseline": "most similar training prompt, TF-IDF of words and word pairs, cosine",
+            "shingles": "word pairs, lower case",
+            "minhash": {"permutations": BANDS * ROWS, "bands": BANDS},
+            "near": NEAR,
+            "masked": "numbers and names replaced by a placeholder",
+            "baseline": "most similar training prompt, TF-IDF of words and word pairs, cosine",
         },
         "counts": {name: len(records) for name, records in splits.items()},
-        "duplicates_within": {name: len(texts) - len(set(texts)) for name, texts in written.items()},
+        "duplicates_within": {
+            name: len(texts) - len(set(texts)) for name, texts in written.items()
+        },
         "overlaps": [asdict(overlap) for overlap in overlaps],
         "baseline": [asdict(baseline) for baseline in baselines],
         "memory_test": {baseline.split: baseline.sequence >= MEMORY_TEST for baseline in baselines},
-    }  # fmt: skip
+    }
 
 
 def near_duplicate(prompt: str, records: Records) -> str | None:
-    """The id of the first record whose prompt, as written or masked, is that one or nearly so (see NEAR); None where none is."""
+    """The id of the first record whose prompt, as written or masked, is that one or nearly so (see
+    NEAR); None where none is.
+    """
     wanted = [_shingles(text) for text in (prompt, mask(prompt))]
     for record in records:
         text = str(record["prompt"])
-        if any(jaccard(mine, _shingles(other)) >= NEAR for mine, other in zip(wanted, (text, mask(text)), strict=True)):
+        if any(
+            jaccard(mine, _shingles(other)) >= NEAR
+            for mine, other in zip(wanted, (text, mask(text)), strict=True)
+        ):
             return str(record["id"])
     return None
 
@@ -121,26 +156,36 @@ def _shared(texts: Sequence[str], others: Sequence[str]) -> int:
 
 
 def _near_pairs(splits: Mapping[str, Sequence[str]]) -> dict[tuple[str, str], dict[int, int]]:
-    """For each pair of splits (later, earlier): index of a text to the index of its most similar near duplicate."""
+    """For each pair of splits (later, earlier): index of a text to the index of its most similar
+    near duplicate.
+    """
     shingles = {name: [_shingles(text) for text in texts] for name, texts in splits.items()}
     signatures = {name: _band_keys(sets) for name, sets in shingles.items()}
     names = list(splits)
     return {
-        (second, first): _matches(shingles[second], signatures[second], shingles[first], signatures[first])
-        for position, second in enumerate(names) for first in names[:position]
-    }  # fmt: skip
+        (second, first): _matches(
+            shingles[second], signatures[second], shingles[first], signatures[first]
+        )
+        for position, second in enumerate(names)
+        for first in names[:position]
+    }
 
 
 def _shingles(text: str) -> Shingles:
     words = shingle_words(text)
-    return frozenset(zlib.crc32(f"{first} {second}".encode()) for first, second in zip(["^", *words], [*words, "$"], strict=True))
+    return frozenset(
+        zlib.crc32(f"{first} {second}".encode())
+        for first, second in zip(["^", *words], [*words, "$"], strict=True)
+    )
 
 
 def _band_keys(sets: Sequence[Shingles]) -> npt.NDArray[np.uint64]:
     """MinHash signatures folded into one key per band: (texts, bands)."""
     if not sets:
         return np.zeros((0, BANDS), np.uint64)
-    unique, inverse = np.unique(np.fromiter((item for items in sets for item in items), np.uint64), return_inverse=True)
+    unique, inverse = np.unique(
+        np.fromiter((item for items in sets for item in items), np.uint64), return_inverse=True
+    )
     starts = np.cumsum([0, *(len(items) for items in sets[:-1])])
     random = np.random.default_rng(0x5EED)
     factors, offsets = random.integers(1, 1 << 31, (2, BANDS * ROWS), dtype=np.uint64)
@@ -154,7 +199,12 @@ def _band_keys(sets: Sequence[Shingles]) -> npt.NDArray[np.uint64]:
     return keys
 
 
-def _matches(sets: Sequence[Shingles], keys: npt.NDArray[np.uint64], other_sets: Sequence[Shingles], other_keys: npt.NDArray[np.uint64]) -> dict[int, int]:
+def _matches(
+    sets: Sequence[Shingles],
+    keys: npt.NDArray[np.uint64],
+    other_sets: Sequence[Shingles],
+    other_keys: npt.NDArray[np.uint64],
+) -> dict[int, int]:
     buckets: list[dict[int, list[int]]] = [{} for _ in range(BANDS)]
     distinct: dict[Shingles, int] = {}
     for index, row in enumerate(other_keys.tolist()):
@@ -164,8 +214,13 @@ def _matches(sets: Sequence[Shingles], keys: npt.NDArray[np.uint64], other_sets:
             buckets[band].setdefault(key, []).append(index)
     found = {}
     for index, row in enumerate(keys.tolist()):
-        candidates = sorted({other for band, key in enumerate(row) for other in buckets[band].get(key, ())})
-        best = max(((jaccard(sets[index], other_sets[other]), -other) for other in candidates), default=(0.0, 0))
+        candidates = sorted(
+            {other for band, key in enumerate(row) for other in buckets[band].get(key, ())}
+        )
+        best = max(
+            ((jaccard(sets[index], other_sets[other]), -other) for other in candidates),
+            default=(0.0, 0),
+        )
         if best[0] >= NEAR:
             found[index] = -best[1]
     return found
@@ -181,15 +236,32 @@ def jaccard(first: Shingles, second: Shingles) -> float:
 
 
 def nearest_neighbour(level: Level, split: str, train: Records, test: Records) -> Baseline:
-    """Score the expected plan of the most similar training prompt as the answer to each test prompt."""
-    neighbours, similarities = _nearest([_terms(record) for record in train], [_terms(record) for record in test])
+    """Score the expected plan of the most similar training prompt as the answer to each test
+    prompt.
+    """
+    neighbours, similarities = _nearest(
+        [_terms(record) for record in train], [_terms(record) for record in test]
+    )
     scores = []
     for record, neighbour in zip(test, neighbours, strict=True):
-        expected, answer = (list(named_entries(level, item["expected"])) for item in (record, train[neighbour]))
+        expected, answer = (
+            list(named_entries(level, item["expected"])) for item in (record, train[neighbour])
+        )
         names, answered = [name for name, _ in expected], [name for name, _ in answer]
-        scores.append((set_f1(answered, names), float(names == answered), float(expected == answer)))
-    f1, sequence, plan = (round(float(mean), 4) for mean in np.mean(scores, axis=0)) if scores else (0.0, 0.0, 0.0)
-    return Baseline(split, len(test), f1, sequence, plan, round(float(np.median(similarities)), 4) if similarities else 0.0)
+        scores.append(
+            (set_f1(answered, names), float(names == answered), float(expected == answer))
+        )
+    f1, sequence, plan = (
+        (round(float(mean), 4) for mean in np.mean(scores, axis=0)) if scores else (0.0, 0.0, 0.0)
+    )
+    return Baseline(
+        split,
+        len(test),
+        f1,
+        sequence,
+        plan,
+        round(float(np.median(similarities)), 4) if similarities else 0.0,
+    )
 
 
 def set_f1(answered: Sequence[str], expected: Sequence[str]) -> float:
@@ -203,16 +275,26 @@ def _terms(record: Mapping[str, Any]) -> Counter[str]:
     return Counter([*words, *(f"{first} {second}" for first, second in itertools.pairwise(words))])
 
 
-def _nearest(documents: Sequence[Counter[str]], queries: Sequence[Counter[str]]) -> tuple[list[int], list[float]]:
-    """Index and cosine similarity of the nearest document for each query; the first one where several are as near."""
+def _nearest(
+    documents: Sequence[Counter[str]], queries: Sequence[Counter[str]]
+) -> tuple[list[int], list[float]]:
+    """Index and cosine similarity of the nearest document for each query; the first one where
+    several are as near.
+    """
     postings: dict[str, list[int]] = {}
     counts: dict[str, list[int]] = {}
     for index, document in enumerate(documents):
         for term, count in document.items():
             postings.setdefault(term, []).append(index)
             counts.setdefault(term, []).append(count)
-    rarity = {term: np.log((1 + len(documents)) / (1 + len(found))) + 1 for term, found in postings.items()}
-    weights = {term: (np.array(found), np.array(counts[term]) * rarity[term]) for term, found in postings.items()}
+    rarity = {
+        term: np.log((1 + len(documents)) / (1 + len(found))) + 1
+        for term, found in postings.items()
+    }
+    weights = {
+        term: (np.array(found), np.array(counts[term]) * rarity[term])
+        for term, found in postings.items()
+    }
     norms = np.zeros(len(documents))
     for found, weight in weights.values():
         norms[found] += weight**2

@@ -1,4 +1,6 @@
-"""English numerals and units in a row of tokens: "ninety-five", "one point two", "a hundred and twenty metres"."""
+"""English numerals and units in a row of tokens: "ninety-five", "one point two", "a hundred and
+twenty metres".
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,10 @@ UNITS: dict[str, tuple[str, float]] = {
     **dict.fromkeys(("h", "hr", "hrs", "hour", "hours"), ("s", 3600.0)),
     **dict.fromkeys(("day", "days"), ("s", 86400.0)),
     **dict.fromkeys(("m", "metre", "metres", "meter", "meters"), ("m", 1.0)),
-    **dict.fromkeys(("km", "kilometre", "kilometres", "kilometer", "kilometers", "klick", "klicks"), ("m", 1000.0)),
+    **dict.fromkeys(
+        ("km", "kilometre", "kilometres", "kilometer", "kilometers", "klick", "klicks"),
+        ("m", 1000.0),
+    ),
     **dict.fromkeys(("cm", "centimetre", "centimetres", "centimeter", "centimeters"), ("m", 0.01)),
     **dict.fromkeys(("mm", "millimetre", "millimetres", "millimeter", "millimeters"), ("m", 0.001)),
     **dict.fromkeys(("nm", "nmi", "mile", "miles"), ("m", 1852.0)),
@@ -31,7 +36,22 @@ UNITS: dict[str, tuple[str, float]] = {
 """Word to the unit that parameters have and the factor to it."""
 
 ONES = (
-    *("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve", "thirteen"),
+    *(
+        "zero",
+        "one",
+        "two",
+        "three",
+        "four",
+        "five",
+        "six",
+        "seven",
+        "eight",
+        "nine",
+        "ten",
+        "eleven",
+        "twelve",
+        "thirteen",
+    ),
     *("fourteen", "fifteen", "sixteen", "seventeen", "eighteen", "nineteen"),
 )
 TENS = ("twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
@@ -48,13 +68,30 @@ FRACTIONS = {"half": 0.5, "quarter": 0.25, "third": 1 / 3}
 PARTS = {**FRACTIONS, "quarters": 0.25, "thirds": 1 / 3}
 ORDINALS = {
     name: 1 / value
-    for value, names in enumerate(("fifth", "sixth", "seventh", "eighth", "ninth", "tenth", "eleventh", "twelfth", "thirteenth", "fourteenth", "fifteenth"), 5)
+    for value, names in enumerate(
+        (
+            "fifth",
+            "sixth",
+            "seventh",
+            "eighth",
+            "ninth",
+            "tenth",
+            "eleventh",
+            "twelfth",
+            "thirteenth",
+            "fourteenth",
+            "fifteenth",
+        ),
+        5,
+    )
     for name in (names, f"{names}s")
-} | {"twentieth": 0.05, "twentieths": 0.05, "third": 1 / 3, "thirds": 1 / 3}  # fmt: skip
+} | {"twentieth": 0.05, "twentieths": 0.05, "third": 1 / 3, "thirds": 1 / 3}
 """Parts of a unit: "a tenth of an hour". Elsewhere these words count steps."""
 AND = ("and", "n", "&")
 BESIDE_UNIT = ("-", "of", "a", "an", "full", "whole", "good", "solid", "nautical")
-"""Words that may stand between a number and its unit: "ten-minute", "half an hour", "a full hour"."""
+"""Words that may stand between a number and its unit: "ten-minute", "half an hour", "a full
+hour".
+"""
 
 _MIXED = {"1/2": 0.5, "1/4": 0.25, "3/4": 0.75}
 
@@ -69,12 +106,16 @@ Token = tuple[str, int, int]
 
 
 def signed(digits: str) -> float:
-    """The number that `digits` say; its minus may be a dash. Raises ValueError for anything else."""
+    """The number that `digits` say; its minus may be a dash. Raises ValueError for anything
+    else.
+    """
     return float(digits.replace("−", "-").replace("–", "-"))
 
 
 def tokenize(text: str) -> list[Token]:
-    """Numbers, words and signs of a text; digits and letters that stand together ("5m", "39E") are apart."""
+    """Numbers, words and signs of a text; digits and letters that stand together ("5m", "39E") are
+    apart.
+    """
     return [(match.group().lower(), match.start(), match.end()) for match in _TOKEN.finditer(text)]
 
 
@@ -84,7 +125,9 @@ def word_at(tokens: list[Token], index: int) -> str:
 
 
 def number_at(tokens: list[Token], index: int) -> tuple[float, int]:
-    """The number that begins at `index` and how many tokens it takes; no token where no number begins."""
+    """The number that begins at `index` and how many tokens it takes; no token where no number
+    begins.
+    """
     word, following = word_at(tokens, index), word_at(tokens, index + 1)
     if word[:1].isdigit() or (word[:1] == "." and word[1:].isdigit()):
         above, _, below = word.replace(",", "").partition("/")
@@ -93,7 +136,11 @@ def number_at(tokens: list[Token], index: int) -> tuple[float, int]:
         return _and_a_half(tokens, index, float(above) / float(below or 1), 1)
     if word in FRACTIONS:
         dozen = index + 1 + (following in ("a", "of"))
-        return (12 * FRACTIONS[word], dozen + 1 - index) if word_at(tokens, dozen) == "dozen" else (FRACTIONS[word], 1)
+        return (
+            (12 * FRACTIONS[word], dozen + 1 - index)
+            if word_at(tokens, dozen) == "dozen"
+            else (FRACTIONS[word], 1)
+        )
     if word in ("a", "an", "per", "each", "every"):
         if _is_part(tokens, index + 1):
             return ORDINALS[following], 2
@@ -114,15 +161,25 @@ def number_at(tokens: list[Token], index: int) -> tuple[float, int]:
 
 def _is_part(tokens: list[Token], index: int) -> bool:
     """Whether an ordinal stands for a part of a unit: "tenth of an hour", "eighth of a turn"."""
-    return word_at(tokens, index) in ORDINALS and word_at(tokens, index + 1) == "of" and word_at(tokens, index + 2) in ("a", "an", "the")
+    return (
+        word_at(tokens, index) in ORDINALS
+        and word_at(tokens, index + 1) == "of"
+        and word_at(tokens, index + 2) in ("a", "an", "the")
+    )
 
 
 def _spelled_out(tokens: list[Token], index: int) -> tuple[float, int] | None:
-    """Digits as they are read over the radio: "one two zero", "minus two five"; two with a unit behind them may be "two five minute holds"."""
+    """Digits as they are read over the radio: "one two zero", "minus two five"; two with a unit
+    behind them may be "two five minute holds".
+    """
     digits = ""
     while SMALL.get(word_at(tokens, index + len(digits)), 10) < 10:
         digits += str(int(SMALL[word_at(tokens, index + len(digits))]))
-    two = len(digits) == 2 and digits[0] != "0" and (digits[1] == "0" or unit_at(tokens, index + 2)[0] is None)
+    two = (
+        len(digits) == 2
+        and digits[0] != "0"
+        and (digits[1] == "0" or unit_at(tokens, index + 2)[0] is None)
+    )
     return (float(digits), len(digits)) if len(digits) >= 3 or two else None
 
 
@@ -148,7 +205,9 @@ def _in_words(tokens: list[Token], index: int, current: float) -> tuple[float, i
 
 
 def _joins(current: float, following: float, total: float) -> bool:
-    """Whether `following` continues the number: five after twenty, twenty after a hundred, six after a thousand."""
+    """Whether `following` continues the number: five after twenty, twenty after a hundred, six
+    after a thousand.
+    """
     if current == 0:
         return total > 0
     if current >= 100 and current % 100 == 0:
@@ -170,13 +229,20 @@ def _and_a_half(tokens: list[Token], index: int, value: float, used: int) -> tup
 
 
 def half_behind(tokens: list[Token], index: int) -> tuple[float, int]:
-    """What "and a half" adds when it stands at `index`, and its tokens; "and half" does as well, and so do "and three quarters", "and two thirds"."""
+    """What "and a half" adds when it stands at `index`, and its tokens; "and half" does as well,
+    and so do "and three quarters", "and two thirds".
+    """
     if word_at(tokens, index) not in AND:
         return 0.0, 0
-    several, part = {"three": 3, "two": 2}.get(word_at(tokens, index + 1), 0), word_at(tokens, index + 2)
+    several, part = (
+        {"three": 3, "two": 2}.get(word_at(tokens, index + 1), 0),
+        word_at(tokens, index + 2),
+    )
     if several and part in ("quarters", "thirds", "quarter", "third") and several * PARTS[part] < 1:
         # "And three quarters of a turn" is something else.
-        whole = word_at(tokens, index + 3) not in ("of", "turn", "turns", "circle", "circles") and (part.endswith("s") or unit_of(word_at(tokens, index + 3)))
+        whole = word_at(tokens, index + 3) not in ("of", "turn", "turns", "circle", "circles") and (
+            part.endswith("s") or unit_of(word_at(tokens, index + 3))
+        )
         return (several * PARTS[part], 3) if whole else (0.0, 0)
     if word_at(tokens, index + 1) in _MIXED:
         return _MIXED[word_at(tokens, index + 1)], 2
@@ -184,11 +250,17 @@ def half_behind(tokens: list[Token], index: int) -> tuple[float, int]:
     if word_at(tokens, place + 1) in ("a", "an"):
         # "Nine minutes and half an hour" are two.
         return 0.0, 0
-    return (FRACTIONS[word_at(tokens, place)], place + 1 - index) if word_at(tokens, place) in FRACTIONS else (0.0, 0)
+    return (
+        (FRACTIONS[word_at(tokens, place)], place + 1 - index)
+        if word_at(tokens, place) in FRACTIONS
+        else (0.0, 0)
+    )
 
 
 def unit_at(tokens: list[Token], index: int) -> tuple[tuple[str, float] | None, int]:
-    """The unit at `index`, with its factor, and the index behind it; words that may stand before it are passed over."""
+    """The unit at `index`, with its factor, and the index behind it; words that may stand before it
+    are passed over.
+    """
     passed = 0
     while word_at(tokens, index) in BESIDE_UNIT and passed < 3:
         index, passed = index + 1, passed + 1
@@ -207,6 +279,8 @@ def unit_of(word: str) -> tuple[str, float] | None:
     for name, unit in UNITS.items():
         if len(name) < 4 or name[0] != word[0]:
             continue
-        if sorted(word) == sorted(name) or (limit and len(name) >= 5 and edit_distance(word, name, limit) <= limit):
+        if sorted(word) == sorted(name) or (
+            limit and len(name) >= 5 and edit_distance(word, name, limit) <= limit
+        ):
             return unit
     return None

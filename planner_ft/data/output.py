@@ -18,9 +18,11 @@ MANIFEST = "manifest.json"
 
 @dataclass(frozen=True)
 class DataFolder:
-    """Files of a level by name below `folder`, and the manifest that goes with them, without its outputs.
+    """Files of a level by name below `folder`, and the manifest that goes with them, without its
+    outputs.
 
-    Where `source` is the folder itself, its curated files are left alone as long as they say the same.
+    Where `source` is the folder itself, its curated files are left alone as long as they say the
+    same.
     """
 
     folder: Path
@@ -32,14 +34,18 @@ class DataFolder:
 def write_folders(folders: Sequence[DataFolder], *, overwrite: bool) -> list[bool]:
     """Write the folders; for each, whether anything was written or it was up to date.
 
-    Raises PlannerError, before anything is written, when a file exists that says something else and `overwrite` is not set.
+    Raises PlannerError, before anything is written, when a file exists that says something else and
+    `overwrite` is not set.
     """
     pending = [_pending(folder) for folder in folders]
     for folder, (texts, replaced) in zip(folders, pending, strict=True):
         if replaced and folder.source is not None and _same_folder(folder.source, folder.folder):
             _refuse_cut(folder, texts)
         if replaced and not overwrite:
-            raise PlannerError(f"{folder.folder}: {replaced[0]} exists and is different; give another --out, or --overwrite to replace it")
+            raise PlannerError(
+                f"{folder.folder}: {replaced[0]} exists and is different; give another --out, or"
+                " --overwrite to replace it"
+            )
     written = []
     for folder, (texts, _replaced) in zip(folders, pending, strict=True):
         if texts:
@@ -55,7 +61,9 @@ def _pending(folder: DataFolder) -> tuple[dict[str, str], list[str]]:
     for name, text in folder.texts.items():
         path = folder.folder / name
         present = _present(path)
-        if present == text or (present is not None and in_place and _same_records(present, text, name)):
+        if present == text or (
+            present is not None and in_place and _same_records(present, text, name)
+        ):
             continue
         texts[name] = text
         if present is not None:
@@ -80,14 +88,23 @@ def _same_records(present: str, text: str, name: str) -> bool:
     """Whether a curated file differs from its canonical text in white space alone."""
     if "/" in name or not name.endswith(".jsonl"):
         return False
-    return "".join(f"{compact_json(json.loads(line))}\n" for line in present.split("\n") if line.strip()) == text
+    return (
+        "".join(
+            f"{compact_json(json.loads(line))}\n" for line in present.split("\n") if line.strip()
+        )
+        == text
+    )
 
 
 def _refuse_cut(folder: DataFolder, texts: dict[str, str]) -> None:
     for name, text in texts.items():
-        present = _present(folder.folder / name) if "/" not in name and name.endswith(".jsonl") else None
+        present = (
+            _present(folder.folder / name) if "/" not in name and name.endswith(".jsonl") else None
+        )
         if present is not None and present.count("\n") > text.count("\n"):
-            raise PlannerError(f"{folder.folder / name} is the curated source and would be cut; give another --out")
+            raise PlannerError(
+                f"{folder.folder / name} is the curated source and would be cut; give another --out"
+            )
 
 
 def check_writable(folder: Path) -> None:
@@ -100,7 +117,9 @@ def check_writable(folder: Path) -> None:
 
 
 def _write(folder: DataFolder, texts: dict[str, str]) -> None:
-    """Stage all files beside the target, then move them in: a full disk leaves the target as it was."""
+    """Stage all files beside the target, then move them in: a full disk leaves the target as it
+    was.
+    """
     staging = folder.folder.parent / f".{folder.folder.name}.{os.getpid()}.staging"
     try:
         for name, text in texts.items():
@@ -111,7 +130,9 @@ def _write(folder: DataFolder, texts: dict[str, str]) -> None:
             (folder.folder / name).parent.mkdir(parents=True, exist_ok=True)
             (staging / name).replace(folder.folder / name)
     except OSError as error:
-        raise PlannerError(f"{folder.folder}: cannot be written ({error.strerror or error}); choose another --out") from None
+        raise PlannerError(
+            f"{folder.folder}: cannot be written ({error.strerror or error}); choose another --out"
+        ) from None
     except PlannerError as error:
         raise PlannerError(str(error).replace(str(staging), str(folder.folder))) from None
     finally:
@@ -120,4 +141,7 @@ def _write(folder: DataFolder, texts: dict[str, str]) -> None:
 
 def _digests(folder: DataFolder, texts: dict[str, str]) -> dict[str, str]:
     """SHA-256 of every file as it lies in the folder afterwards."""
-    return {name: sha256_text(text) if name in texts else sha256_file(folder.folder / name) for name, text in folder.texts.items()}
+    return {
+        name: sha256_text(text) if name in texts else sha256_file(folder.folder / name)
+        for name, text in folder.texts.items()
+    }

@@ -13,7 +13,9 @@ def words(text: str) -> list[str]:
 
 
 def edit_distance(first: str, second: str, limit: int) -> int:
-    """Levenshtein distance with transpositions, or `limit` + 1 as soon as it is larger than `limit`."""
+    """Levenshtein distance with transpositions, or `limit` + 1 as soon as it is larger than
+    `limit`.
+    """
     if abs(len(first) - len(second)) > limit:
         return limit + 1
     before: list[int] = []
@@ -21,7 +23,9 @@ def edit_distance(first: str, second: str, limit: int) -> int:
     for row, letter in enumerate(first, 1):
         current = [row]
         for column, other in enumerate(second, 1):
-            cost = min(previous[column] + 1, current[-1] + 1, previous[column - 1] + (letter != other))
+            cost = min(
+                previous[column] + 1, current[-1] + 1, previous[column - 1] + (letter != other)
+            )
             if row > 1 and column > 1 and letter == second[column - 2] and first[row - 2] == other:
                 cost = min(cost, before[column - 2] + 1)
             current.append(cost)
@@ -34,13 +38,23 @@ def edit_distance(first: str, second: str, limit: int) -> int:
 def says(text: str, phrase: str, *, misspelt: bool) -> list[str]:
     """Words of `phrase` that do not occur in `text`, also not with a possessive or plural ending.
 
-    With `misspelt`, a word also counts when the text has one that differs from it as a misspelling or a shortening does.
+    With `misspelt`, a word also counts when the text has one that differs from it as a misspelling
+    or a shortening does.
     """
-    said = {part for word in words(text) for part in (word, word.removesuffix("'s"), word.rstrip("'"), *re.split(r"[-'.]", word))}
+    said = {
+        part
+        for word in words(text)
+        for part in (word, word.removesuffix("'s"), word.rstrip("'"), *re.split(r"[-'.]", word))
+    }
     missing = []
     for word in words(phrase):
         parts = {word, *(re.split(r"[-.]", word) if "-" in word else ())}
-        if word in said or f"{word}s" in said or word.removesuffix("s") in said or (parts - {word} and parts - {word} <= said):
+        if (
+            word in said
+            or f"{word}s" in said
+            or word.removesuffix("s") in said
+            or (parts - {word} and parts - {word} <= said)
+        ):
             continue
         if not (misspelt and any(_resembles(other, word) for other in said)):
             missing.append(word)
@@ -56,7 +70,11 @@ def _resembles(written: str, meant: str) -> bool:
         return True
     # Shortened as in text messages: the consonants in order, nothing else ("thrml" for thermal).
     letters = iter(meant)
-    return written[0] == meant[0] and len(written) * 2 >= len(meant) and all(letter in letters for letter in written)
+    return (
+        written[0] == meant[0]
+        and len(written) * 2 >= len(meant)
+        and all(letter in letters for letter in written)
+    )
 
 
 NUMBER, NAME = "#", "@"
@@ -76,10 +94,19 @@ def shingle_words(text: str) -> list[str]:
 
 
 def mask(text: str) -> str:
-    """The text with its numbers, in figures or words, and its names replaced: what is left is the phrasing.
+    """The text with its numbers, in figures or words, and its names replaced: what is left is the
+    phrasing.
 
-    Names are capitalised words inside a sentence and codes of letters and digits; runs of numbers become one.
+    Names are capitalised words inside a sentence and codes of letters and digits; runs of numbers
+    become one.
     """
     text = _NAME.sub(NAME, _NUMBER.sub(NUMBER, _CODE.sub(NAME, text)))
-    masked = [NUMBER if word.lower() in _NUMBER_WORDS else word for word in re.findall(r"[#@]|[^\W_]+(?:['’][^\W_]+)*", text)]
-    return " ".join(word for index, word in enumerate(masked) if index == 0 or word not in (NUMBER, NAME) or word != masked[index - 1])
+    masked = [
+        NUMBER if word.lower() in _NUMBER_WORDS else word
+        for word in re.findall(r"[#@]|[^\W_]+(?:['’][^\W_]+)*", text)
+    ]
+    return " ".join(
+        word
+        for index, word in enumerate(masked)
+        if index == 0 or word not in (NUMBER, NAME) or word != masked[index - 1]
+    )

@@ -1,6 +1,8 @@
-"""Drafts: tokens that are likely to follow, proposed without the model and verified by it in one forward pass.
+"""Drafts: tokens that are likely to follow, proposed without the model and verified by it in one
+forward pass.
 
-A draft changes no answer. Where the model chooses another token, the rest of the draft is taken back.
+A draft changes no answer. Where the model chooses another token, the rest of the draft is taken
+back.
 """
 
 from __future__ import annotations
@@ -11,7 +13,9 @@ from collections.abc import Callable, Hashable, Iterable, Sequence
 LONGEST_MATCH = 4
 """Tokens at the end of the answer that are looked up at most. The longest match wins."""
 LONGEST_DRAFT = 7
-"""With the token that was chosen, eight positions: on a CPU a pass over eight costs little more than over one."""
+"""With the token that was chosen, eight positions: on a CPU a pass over eight costs little more
+than over one.
+"""
 START = -1
 """Stands before an answer in the phrase book."""
 
@@ -19,7 +23,9 @@ Likeness = Callable[[int], Hashable]
 
 
 class PhraseBook:
-    """What follows what in plans of a level: the most frequent token after every one to LONGEST_MATCH tokens of `answers`."""
+    """What follows what in plans of a level: the most frequent token after every one to
+    LONGEST_MATCH tokens of `answers`.
+    """
 
     def __init__(self, answers: Iterable[Sequence[int]] = ()) -> None:
         counts: dict[tuple[int, ...], Counter[int]] = defaultdict(Counter)
@@ -28,18 +34,28 @@ class PhraseBook:
             for end in range(1, len(tokens)):
                 for start in range(max(0, end - LONGEST_MATCH), end):
                     counts[tokens[start:end]][tokens[end]] += 1
-        self.followers = {before: follower for before, found in counts.items() for follower, _count in found.most_common(1)}
+        self.followers = {
+            before: follower
+            for before, found in counts.items()
+            for follower, _count in found.most_common(1)
+        }
 
 
 class Drafter:
     """Drafts for one answer, from what followed its last tokens where they stood before.
 
-    First in the prompt and the answer so far (prompt look-up): a plan copies names, phrases and numbers from the command
-    and repeats its own structure. `likeness` maps a token to what is compared there, so that a word at the start of a
-    string matches the one after a space. Then in the phrase book.
+    First in the prompt and the answer so far (prompt look-up): a plan copies names, phrases and
+    numbers from the command and repeats its own structure. `likeness` maps a token to what is
+    compared there, so that a word at the start of a string matches the one after a space. Then in
+    the phrase book.
     """
 
-    def __init__(self, prompt: Sequence[int], likeness: Likeness = lambda token: token, book: PhraseBook | None = None) -> None:
+    def __init__(
+        self,
+        prompt: Sequence[int],
+        likeness: Likeness = lambda token: token,
+        book: PhraseBook | None = None,
+    ) -> None:
         self.likeness = likeness
         self.book = book or PhraseBook()
         self.likes: list[Hashable] = []

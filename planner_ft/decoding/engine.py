@@ -35,8 +35,8 @@ from planner_ft.vocabulary.plans import Level, without_working
 class Speed:
     """What saves forward passes; an answer does not depend on it.
 
-    `fast_forward` feeds tokens that a constraint forces together with the choice before them, `drafting` has likely
-    tokens verified by the model (see `drafting`).
+    `fast_forward` feeds tokens that a constraint forces together with the choice before them,
+    `drafting` has likely tokens verified by the model (see `drafting`).
     """
 
     fast_forward: bool = True
@@ -45,12 +45,15 @@ class Speed:
 
 @dataclass
 class Engine:
-    """Model and tokenizer of a candidate. One base serves both levels and every configuration: adapters are switched, none is on for base.
+    """Model and tokenizer of a candidate. One base serves both levels and every configuration:
+    adapters are switched, none is on for base.
 
-    `lean` holds the lean forms of a small model (see `lean`) by adapter, None for the base; where it is empty, `model`
-    decodes, a model of transformers. `width` is the size of the logits. `adapters` are the levels that have one,
-    `threads` the CPU threads that it decodes with; None leaves torch's number. At strength grounded a mission plan that lacks
-    something of its command gets a `second_look`, and a skill sequence that leaves out a skill which is asked for is written again.
+    `lean` holds the lean forms of a small model (see `lean`) by adapter, None for the base; where
+    it is empty, `model` decodes, a model of transformers. `width` is the size of the logits.
+    `adapters` are the levels that have one, `threads` the CPU threads that it decodes with; None
+    leaves torch's number. At strength grounded a mission plan that lacks something of its command
+    gets a `second_look`, and a skill sequence that leaves out a skill which is asked for is written
+    again.
     """
 
     model: Any
@@ -82,75 +85,172 @@ class Engine:
     ) -> Engine:
         """Load a candidate, with the adapters of the levels that are given one.
 
-        `max_new_tokens` limits every answer; None takes the level's default. `lean` asks for the lean forward pass; None
-        takes it for small models on a CPU, which are then read without transformers where that can be. A model that has no
-        lean form decodes as it is. Raises PlannerError when the candidate cannot be loaded.
+        `max_new_tokens` limits every answer; None takes the level's default. `lean` asks for the
+        lean forward pass; None takes it for small models on a CPU, which are then read without
+        transformers where that can be. A model that has no lean form decodes as it is. Raises
+        PlannerError when the candidate cannot be loaded.
         """
-        tokenizer, target, given = load_tokenizer(candidate), resolve_device(device).type, adapters or {}
+        tokenizer, target, given = (
+            load_tokenizer(candidate),
+            resolve_device(device).type,
+            adapters or {},
+        )
         # A stand-in stands for a large candidate and takes its way.
-        wants_lean = is_small(candidate, target) and not candidate.is_standin if lean is None else lean
-        direct = read_directly(candidate, given, quantization=quantization, vocabulary=vocabulary) if wants_lean and target == "cpu" else None
+        wants_lean = (
+            is_small(candidate, target) and not candidate.is_standin if lean is None else lean
+        )
+        direct = (
+            read_directly(candidate, given, quantization=quantization, vocabulary=vocabulary)
+            if wants_lean and target == "cpu"
+            else None
+        )
         if direct is not None:
             model, forms, more_ends, width = None, direct.forms, direct.end_ids, direct.tokens
         else:
-            model = load_model(candidate, device=device, quantization=quantization, adapters=given, vocabulary=vocabulary)
+            model = load_model(
+                candidate,
+                device=device,
+                quantization=quantization,
+                adapters=given,
+                vocabulary=vocabulary,
+            )
             forms = _lean_forms(model, given) if wants_lean else {}
             more_ends, width = named_ends(model), model.config.get_text_config().vocab_size
         ends, pad = end_ids(tokenizer, more_ends), int(tokenizer.pad_token_id)
-        limits = {level: Limits(ends, pad, max_new_tokens or default) for level, default in MAX_NEW_TOKENS.items()}
-        return cls(model, forms, tokenizer, width, vocabulary, limits, frozenset(given), threads, speed or Speed())
+        limits = {
+            level: Limits(ends, pad, max_new_tokens or default)
+            for level, default in MAX_NEW_TOKENS.items()
+        }
+        return cls(
+            model,
+            forms,
+            tokenizer,
+            width,
+            vocabulary,
+            limits,
+            frozenset(given),
+            threads,
+            speed or Speed(),
+        )
 
-    def query(self, level: Level, record: dict[str, Any], *, with_vocabulary: bool = False) -> Query:
-        """A question to the agent of a level. `with_vocabulary` is for base models, which have not learned it."""
-        return Query(level, record, tuple(render_prompt(level, record, self.tokenizer, self.vocabulary, with_vocabulary=with_vocabulary)))
+    def query(
+        self, level: Level, record: dict[str, Any], *, with_vocabulary: bool = False
+    ) -> Query:
+        """A question to the agent of a level. `with_vocabulary` is for base models, which have not
+        learned it.
+        """
+        return Query(
+            level,
+            record,
+            tuple(
+                render_prompt(
+                    level, record, self.tokenizer, self.vocabulary, with_vocabulary=with_vocabulary
+                )
+            ),
+        )
 
     def answer(self, query: Query, configuration: Configuration) -> Generation:
         """The answer to one query."""
         return next(answer for _index, answer in self.answers([query], configuration, batch_size=1))
 
     def answers(
-        self, queries: Sequence[Query], configuration: Configuration, *, batch_size: int = 16, sampling: Sampling | None = None
+        self,
+        queries: Sequence[Query],
+        configuration: Configuration,
+        *,
+        batch_size: int = 16,
+        sampling: Sampling | None = None,
     ) -> Iterator[tuple[int, Generation]]:
-        """Yield (index of the query, answer) as answers are completed: greedy ones, or drawn with `sampling`. The queries are of one level.
+        """Yield (index of the query, answer) as answers are completed: greedy ones, or drawn with
+        `sampling`. The queries are of one level.
 
-        Raises PlannerError when the level has no adapter that the configuration needs, or the token limit is too small for its strength.
+        Raises PlannerError when the level has no adapter that the configuration needs, or the token
+        limit is too small for its strength.
         """
         if queries:
             level = _only_level(queries)
             with self.configured(level, configuration) as decoder:
-                yield from generate_unordered(decoder, queries, self.limits[level], self.method(level, configuration, sampling), batch_size=batch_size)
+                yield from generate_unordered(
+                    decoder,
+                    queries,
+                    self.limits[level],
+                    self.method(level, configuration, sampling),
+                    batch_size=batch_size,
+                )
 
-    def latencies(self, queries: Sequence[Query], configuration: Configuration, *, sampling: Sampling | None = None) -> Iterator[tuple[int, Latency]]:
-        """Yield (index of the query, latency), one query at a time. The queries are of one level."""
+    def latencies(
+        self,
+        queries: Sequence[Query],
+        configuration: Configuration,
+        *,
+        sampling: Sampling | None = None,
+    ) -> Iterator[tuple[int, Latency]]:
+        """Yield (index of the query, latency), one query at a time. The queries are of one
+        level.
+        """
         if queries:
             level = _only_level(queries)
             with self.configured(level, configuration) as decoder:
-                yield from measure_latency(decoder, queries, self.limits[level], self.method(level, configuration, sampling))
+                yield from measure_latency(
+                    decoder,
+                    queries,
+                    self.limits[level],
+                    self.method(level, configuration, sampling),
+                )
 
-    def method(self, level: Level, configuration: Configuration, sampling: Sampling | None = None) -> Method:
+    def method(
+        self, level: Level, configuration: Configuration, sampling: Sampling | None = None
+    ) -> Method:
         """How the answers of a configuration are generated."""
         constraint, drafting = self._factory(level, configuration.strength), self.speed.drafting
-        look = self._second_look if self.second_look and level == "mission" and configuration.strength == "grounded" else None
-        mend = functools.partial(self._mending, constraint) if self.second_look and constraint is not None else None
-        return Method(constraint, self.speed.fast_forward, drafting, self._likeness, self._book(level) if drafting else None, sampling, look, mend)
+        look = (
+            self._second_look
+            if self.second_look and level == "mission" and configuration.strength == "grounded"
+            else None
+        )
+        mend = (
+            functools.partial(self._mending, constraint)
+            if self.second_look and constraint is not None
+            else None
+        )
+        return Method(
+            constraint,
+            self.speed.fast_forward,
+            drafting,
+            self._likeness,
+            self._book(level) if drafting else None,
+            sampling,
+            look,
+            mend,
+        )
 
-    def _mending(self, factory: Factory, record: dict[str, Any], ids: Sequence[int]) -> ConstraintFactory | None:
+    def _mending(
+        self, factory: Factory, record: dict[str, Any], ids: Sequence[int]
+    ) -> ConstraintFactory | None:
         """What an answer is to be written again with, if it is."""
         return factory.mending(record, self._decoded(ids[:-1]))
 
     def text(self, answer: Generation) -> str:
-        """The raw text of an answer, without the token that ended it and without its working; other special tokens stay visible."""
+        """The raw text of an answer, without the token that ended it and without its working; other
+        special tokens stay visible.
+        """
         return without_working(self._whole_text(answer))[0]
 
     def working(self, answer: Generation) -> str:
-        """The sums that a model wrote before a skill sequence (see `planner_ft.data.task.working`)."""
+        """The sums that a model wrote before a skill sequence (see
+        `planner_ft.data.task.working`).
+        """
         return without_working(self._whole_text(answer))[1]
 
     def _whole_text(self, answer: Generation) -> str:
         return self._decoded(answer.ids[:-1] if answer.finish_reason == "stop" else answer.ids)
 
     def _decoded(self, ids: Sequence[int]) -> str:
-        return str(self.tokenizer.decode(list(ids), skip_special_tokens=False, clean_up_tokenization_spaces=False))
+        return str(
+            self.tokenizer.decode(
+                list(ids), skip_special_tokens=False, clean_up_tokenization_spaces=False
+            )
+        )
 
     def release(self) -> None:
         """Give the model's memory back."""
@@ -167,7 +267,10 @@ class Engine:
     def configured(self, level: Level, configuration: Configuration) -> Iterator[Decoder]:
         """The model with the adapter of the level, or none, as the configuration says."""
         if configuration.adapter and level not in self.adapters:
-            raise PlannerError(f"configuration {configuration.name} needs an adapter of the {level} level; give --adapter")
+            raise PlannerError(
+                f"configuration {configuration.name} needs an adapter of the {level} level; give"
+                " --adapter"
+            )
         adapter = level if configuration.adapter else None
         with limited_threads(self.threads):
             if self.lean:
@@ -175,20 +278,32 @@ class Engine:
                 return
             if adapter:
                 self.model.set_adapter(adapter, inference_mode=True)
-            with contextlib.nullcontext() if adapter or not self.adapters else self.model.disable_adapter():
+            with (
+                contextlib.nullcontext()
+                if adapter or not self.adapters
+                else self.model.disable_adapter()
+            ):
                 yield ModelDecoder(self.model, self.limits[level].pad_id)
 
     def _factory(self, level: Level, strength: Strength) -> Factory | None:
         if (level, strength) not in self.factories:
             limits = self.limits[level]
             self.factories[level, strength] = constraint_factory(
-                self.tokenizer, level, self.vocabulary, strength, end_ids=limits.end_ids, limit=limits.max_new_tokens, n_vocab=self.width
+                self.tokenizer,
+                level,
+                self.vocabulary,
+                strength,
+                end_ids=limits.end_ids,
+                limit=limits.max_new_tokens,
+                n_vocab=self.width,
             )
         return self.factories[level, strength]
 
     def _book(self, level: Level) -> PhraseBook:
         if level not in self.books:
-            self.books[level] = phrase_book(level, self.tokenizer, self.vocabulary, self.limits[level].end_ids[0])
+            self.books[level] = phrase_book(
+                level, self.tokenizer, self.vocabulary, self.limits[level].end_ids[0]
+            )
         return self.books[level]
 
     @functools.cached_property
@@ -197,7 +312,9 @@ class Engine:
         from planner_ft.document.lacking import count_lacking
 
         def lacks(record: dict[str, Any], ids: Sequence[int]) -> int | None:
-            return count_lacking(str(record.get("prompt", "")), self._decoded(ids[:-1]), self.vocabulary)
+            return count_lacking(
+                str(record.get("prompt", "")), self._decoded(ids[:-1]), self.vocabulary
+            )
 
         return SecondLook(lacks)
 
@@ -227,14 +344,18 @@ def _only_level(queries: Sequence[Query]) -> Level:
 
 
 def is_small(candidate: Candidate, device: str) -> bool:
-    """Whether a candidate is so small, on a CPU, that a token's time goes to everything but the multiplications."""
+    """Whether a candidate is so small, on a CPU, that a token's time goes to everything but the
+    multiplications.
+    """
     from planner_ft.training.model import SMALL_MODEL
 
     return device == "cpu" and (candidate.parameters or SMALL_MODEL) < SMALL_MODEL
 
 
 def decoding_threads(candidate: Candidate, device: str) -> int | None:
-    """CPU threads to decode with: one for small models, as in training, where a busy core would hold up every operation."""
+    """CPU threads to decode with: one for small models, as in training, where a busy core would
+    hold up every operation.
+    """
     return 1 if is_small(candidate, device) else None
 
 
@@ -252,7 +373,9 @@ def limited_threads(threads: int | None) -> Iterator[None]:
 
 
 def end_ids(tokenizer: Any, more: Iterable[int] = ()) -> tuple[int, ...]:
-    """Tokens that end an answer: those of the prompt's form, then `more`, which the model's generation settings name."""
+    """Tokens that end an answer: those of the prompt's form, then `more`, which the model's
+    generation settings name.
+    """
     return tuple(dict.fromkeys([*end_of_turn_ids(tokenizer), *more]))
 
 

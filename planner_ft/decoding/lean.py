@@ -1,13 +1,15 @@
 """A lean forward pass for small models on a CPU.
 
-A model of a few million weights spends most of a token's time between the multiplications: in wrappers, masks and
-hundreds of small operations. This decoder computes what transformers' Llama and Qwen2 compute, on dense weights (see
-`dense`), with the fewest operations: queries, keys and values in one multiplication, gate and up in another. Norms,
-rotary positions, attention and the sums between layers are computed in float32, the multiplications in the model's dtype.
+A model of a few million weights spends most of a token's time between the multiplications: in
+wrappers, masks and hundreds of small operations. This decoder computes what transformers' Llama and
+Qwen2 compute, on dense weights (see `dense`), with the fewest operations: queries, keys and values
+in one multiplication, gate and up in another. Norms, rotary positions, attention and the sums
+between layers are computed in float32, the multiplications in the model's dtype.
 
-Attention runs over queries and keys in blocks of a fixed size. So a position's logits do not depend on how many positions
-share its pass or on the other rows of the batch, even in bfloat16 where the CPU multiplies it (oneDNN's kernels give a
-row the same numbers whatever rows stand beside it): drafting, fast-forward and batches then change not one bit.
+Attention runs over queries and keys in blocks of a fixed size. So a position's logits do not depend
+on how many positions share its pass or on the other rows of the batch, even in bfloat16 where the
+CPU multiplies it (oneDNN's kernels give a row the same numbers whatever rows stand beside it):
+drafting, fast-forward and batches then change not one bit.
 """
 
 from __future__ import annotations
@@ -31,7 +33,9 @@ ROPE_TYPES = ("default", "linear", "llama3")
 
 @dataclass(frozen=True)
 class Layer:
-    """Weights of one layer: rows of `qkv` are query, key and value heads, those of `gate_up` the two halves of the feed-forward part."""
+    """Weights of one layer: rows of `qkv` are query, key and value heads, those of `gate_up` the
+    two halves of the feed-forward part.
+    """
 
     norm: Tensor
     qkv: Tensor
@@ -62,7 +66,9 @@ class LeanDecoder:
 
     @classmethod
     def of(cls, model: Any, adapter: Level | None = None) -> LeanDecoder | None:
-        """The lean form of a model of transformers, as it is without an adapter or with one of those that it holds; None where there is no such form."""
+        """The lean form of a model of transformers, as it is without an adapter or with one of
+        those that it holds; None where there is no such form.
+        """
         base = model.get_base_model() if hasattr(model, "get_base_model") else model
         config = base.config
         if not _is_plain(config):
@@ -75,10 +81,17 @@ class LeanDecoder:
         if bias is not None or type(base.model.embed_tokens) is not torch.nn.Embedding:
             return None
         return cls(
-            layers, base.model.embed_tokens.weight.detach(), base.model.norm.weight.float(), head, base.model.rotary_emb,
-            config.num_attention_heads, config.num_key_value_heads, layers[0].out.shape[1] // config.num_attention_heads,
-            config.rms_norm_eps, config.max_position_embeddings,
-        )  # fmt: skip
+            layers,
+            base.model.embed_tokens.weight.detach(),
+            base.model.norm.weight.float(),
+            head,
+            base.model.rotary_emb,
+            config.num_attention_heads,
+            config.num_key_value_heads,
+            layers[0].out.shape[1] // config.num_attention_heads,
+            config.rms_norm_eps,
+            config.max_position_embeddings,
+        )
 
     def start(self, rows: int) -> LeanPasses:
         return LeanPasses(self, rows)
@@ -88,7 +101,9 @@ class LeanDecoder:
         return rms_norm(states, weight.shape, weight, self.epsilon).to(self.head.dtype)
 
     def angles(self, positions: int) -> tuple[Tensor, Tensor]:
-        """Cosine and sine of the rotary positions, (positions, 1, head size); the first half of the sine is negative, as rotation by `roll` wants it."""
+        """Cosine and sine of the rotary positions, (positions, 1, head size); the first half of the
+        sine is negative, as rotation by `roll` wants it.
+        """
         cosine, sine = self.rotary(self.norm, torch.arange(positions)[None])
         sine[..., : self.head_size // 2] *= -1
         return cosine[0, :, None], sine[0, :, None]
@@ -98,7 +113,13 @@ def _is_plain(config: Any) -> bool:
     """Whether a configuration asks for nothing that this module does not compute."""
     rope = (getattr(config, "rope_parameters", None) or {}).get("rope_type", "default")
     full = all(kind == "full_attention" for kind in getattr(config, "layer_types", None) or ())
-    return config.model_type in MODEL_TYPES and config.hidden_act == "silu" and rope in ROPE_TYPES and full and not getattr(config, "use_sliding_window", False)
+    return (
+        config.model_type in MODEL_TYPES
+        and config.hidden_act == "silu"
+        and rope in ROPE_TYPES
+        and full
+        and not getattr(config, "use_sliding_window", False)
+    )
 
 
 def _layer(layer: Any, adapter: Level | None) -> Layer:
@@ -106,7 +127,16 @@ def _layer(layer: Any, adapter: Level | None) -> Layer:
     qkv, qkv_bias = _joined([attention.q_proj, attention.k_proj, attention.v_proj], adapter)
     gate_up, gate_up_bias = _joined([feed.gate_proj, feed.up_proj], adapter)
     out, down = dense_weight(attention.o_proj, adapter), dense_weight(feed.down_proj, adapter)
-    return Layer(layer.input_layernorm.weight.float(), qkv, qkv_bias, *out, layer.post_attention_layernorm.weight.float(), gate_up, gate_up_bias, *down)
+    return Layer(
+        layer.input_layernorm.weight.float(),
+        qkv,
+        qkv_bias,
+        *out,
+        layer.post_attention_layernorm.weight.float(),
+        gate_up,
+        gate_up_bias,
+        *down,
+    )
 
 
 def _joined(layers: Sequence[Any], adapter: Level | None) -> tuple[Tensor, Tensor | None]:
@@ -114,4 +144,9 @@ def _joined(layers: Sequence[Any], adapter: Level | None) -> tuple[Tensor, Tenso
     weights, biases = zip(*(dense_weight(layer, adapter) for layer in layers), strict=True)
     if all(bias is None for bias in biases):
         return torch.cat(weights), None
-    return torch.cat(weights), torch.cat([weight.new_zeros(len(weight)) if bias is None else bias for weight, bias in zip(weights, biases, strict=True)])
+    return torch.cat(weights), torch.cat(
+        [
+            weight.new_zeros(len(weight)) if bias is None else bias
+            for weight, bias in zip(weights, biases, strict=True)
+        ]
+    )

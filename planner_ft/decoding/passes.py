@@ -1,4 +1,6 @@
-"""Forward passes over the rows of a batch, their keys and values kept: for any model of transformers."""
+"""Forward passes over the rows of a batch, their keys and values kept: for any model of
+transformers.
+"""
 
 from __future__ import annotations
 
@@ -10,16 +12,22 @@ import torch
 from torch import Tensor
 
 SHARED = 16
-"""Tokens that prompts must have in common for a pass of their own: below it, the pass costs more than it saves."""
+"""Tokens that prompts must have in common for a pass of their own: below it, the pass costs more
+than it saves.
+"""
 
 
 class Passes(Protocol):
-    """The forward passes of one batch. `wide`: after its prompt, a row may be fed several tokens at a time and have some taken back."""
+    """The forward passes of one batch. `wide`: after its prompt, a row may be fed several tokens at
+    a time and have some taken back.
+    """
 
     wide: bool
 
     def run(self, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:
-        """Feed each row its next tokens; return the logits after the last `wanted` of them (at least 1), row by row: (sum of wanted, tokens)."""
+        """Feed each row its next tokens; return the logits after the last `wanted` of them (at
+        least 1), row by row: (sum of wanted, tokens).
+        """
 
     def forget(self, counts: Sequence[int]) -> None:
         """Take back the last tokens of each row."""
@@ -29,7 +37,9 @@ class Passes(Protocol):
 
 
 class Decoder(Protocol):
-    """A model that batches are started on. `context` is the number of positions that it can hold, None where it does not say."""
+    """A model that batches are started on. `context` is the number of positions that it can hold,
+    None where it does not say.
+    """
 
     @property
     def context(self) -> int | None: ...
@@ -39,14 +49,17 @@ class Decoder(Protocol):
 
 
 class ModelDecoder:
-    """A model of transformers, with whatever adapter is active. Shorter prompts of a batch are padded on the left."""
+    """A model of transformers, with whatever adapter is active. Shorter prompts of a batch are
+    padded on the left.
+    """
 
     def __init__(self, model: Any, pad_id: int) -> None:
         self.model = model
         self.pad_id = pad_id
         self.context: int | None = getattr(model.config, "max_position_embeddings", None)
         base = model.get_base_model() if hasattr(model, "get_base_model") else model
-        # The last positions' logits alone, if the model can: with a vocabulary of 128k that saves gigabytes.
+        # The last positions' logits alone, if the model can: with a vocabulary of 128k that saves
+        # gigabytes.
         self.trims_logits = "logits_to_keep" in inspect.signature(base.forward).parameters
 
     def start(self, rows: int) -> Passes:
@@ -54,9 +67,11 @@ class ModelDecoder:
 
 
 class _ModelPasses:
-    """A single row is fed as it comes; in a batch all rows are fed one token at a time, so that their positions stay aligned.
+    """A single row is fed as it comes; in a batch all rows are fed one token at a time, so that
+    their positions stay aligned.
 
-    What all prompts of a batch begin with (the instruction, and a base model's vocabulary, most of its prompt) is computed once.
+    What all prompts of a batch begin with (the instruction, and a base model's vocabulary, most of
+    its prompt) is computed once.
     """
 
     def __init__(self, decoder: ModelDecoder, rows: int) -> None:
@@ -66,7 +81,10 @@ class _ModelPasses:
         self.device = decoder.model.device
         self.cache = new_cache(decoder.model.config)
         # Layers that keep a window or a state cannot be taken back.
-        self.wide = rows == 1 and all(getattr(layer, "is_croppable", True) and not layer.is_sliding for layer in self.cache.layers)
+        self.wide = rows == 1 and all(
+            getattr(layer, "is_croppable", True) and not layer.is_sliding
+            for layer in self.cache.layers
+        )
         self.mask = torch.zeros(rows, 0, dtype=torch.long, device=self.device)
 
     def run(self, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:
@@ -91,7 +109,9 @@ class _ModelPasses:
         self.cache.batch_select_indices(index)
 
     def _begin_together(self, feeds: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
-        """Compute the common beginning of all prompts for one row, copy it to the others, and return what is left of each, a token at least."""
+        """Compute the common beginning of all prompts for one row, copy it to the others, and
+        return what is left of each, a token at least.
+        """
         from planner_ft.decoding.cache import BlockLayer
 
         count = min(min(_common(feeds[0], feed), len(feed) - 1) for feed in feeds)
@@ -105,18 +125,33 @@ class _ModelPasses:
 
     def _forward(self, ids: Tensor, mask: Tensor, positions: Tensor, wanted: int) -> Tensor:
         options = {"logits_to_keep": wanted} if self.decoder.trims_logits else {}
-        output = self.decoder.model(input_ids=ids, attention_mask=mask, position_ids=positions, past_key_values=self.cache, use_cache=True, **options)
+        output = self.decoder.model(
+            input_ids=ids,
+            attention_mask=mask,
+            position_ids=positions,
+            past_key_values=self.cache,
+            use_cache=True,
+            **options,
+        )
         logits: Tensor = output.logits
         return logits
 
     def _padded(self, feeds: Sequence[Sequence[int]]) -> tuple[Tensor, Tensor]:
         """Ids padded on the left, and their mask."""
         width = max(len(feed) for feed in feeds)
-        ids = torch.tensor([[self.decoder.pad_id] * (width - len(feed)) + list(feed) for feed in feeds], device=self.device)
-        mask = torch.tensor([[0] * (width - len(feed)) + [1] * len(feed) for feed in feeds], device=self.device)
+        ids = torch.tensor(
+            [[self.decoder.pad_id] * (width - len(feed)) + list(feed) for feed in feeds],
+            device=self.device,
+        )
+        mask = torch.tensor(
+            [[0] * (width - len(feed)) + [1] * len(feed) for feed in feeds], device=self.device
+        )
         return ids, mask
 
 
 def _common(one: Sequence[int], other: Sequence[int]) -> int:
     """With how many equal tokens two prompts begin."""
-    return next((place for place, (a, b) in enumerate(zip(one, other, strict=False)) if a != b), min(len(one), len(other)))
+    return next(
+        (place for place, (a, b) in enumerate(zip(one, other, strict=False)) if a != b),
+        min(len(one), len(other)),
+    )

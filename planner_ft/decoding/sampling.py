@@ -1,7 +1,9 @@
-"""Sampling an answer instead of taking the most probable tokens: for runs that ask the same thing several times.
+"""Sampling an answer instead of taking the most probable tokens: for runs that ask the same thing
+several times.
 
-Every token of an answer has its own random number, which depends on seed, repeat, sample and place alone. So an answer depends on
-none of what the batch holds, how large it is and what was drafted or forced, as long as the logits do not.
+Every token of an answer has its own random number, which depends on seed, repeat, sample and place
+alone. So an answer depends on none of what the batch holds, how large it is and what was drafted or
+forced, as long as the logits do not.
 """
 
 from __future__ import annotations
@@ -25,9 +27,11 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Sampling:
-    """Tokens are drawn at `temperature` (above 0) from the most probable ones that together hold `top_p` of the probability.
+    """Tokens are drawn at `temperature` (above 0) from the most probable ones that together hold
+    `top_p` of the probability.
 
-    `repeat` counts from 1: each repeat of a sample has its own random numbers. Raises PlannerError for settings out of range.
+    `repeat` counts from 1: each repeat of a sample has its own random numbers. Raises PlannerError
+    for settings out of range.
     """
 
     temperature: float
@@ -37,17 +41,23 @@ class Sampling:
 
     def __post_init__(self) -> None:
         if not 0 < self.temperature <= 10:
-            raise PlannerError(f"--temperature {self.temperature:g}: must be above 0 and at most 10")
+            raise PlannerError(
+                f"--temperature {self.temperature:g}: must be above 0 and at most 10"
+            )
         if not 0 < self.top_p <= 1:
             raise PlannerError(f"--top-p {self.top_p:g}: must be above 0 and at most 1")
 
     def seed_of(self, name: str) -> int:
         """The seed of one answer, of 128 bits; `name` tells it from those to other samples."""
-        return int.from_bytes(hashlib.sha256(f"{self.seed}\0{self.repeat}\0{name}".encode()).digest()[:16])
+        return int.from_bytes(
+            hashlib.sha256(f"{self.seed}\0{self.repeat}\0{name}".encode()).digest()[:16]
+        )
 
     def sampler(self, name: str, longest: int) -> Sampler:
         """The random numbers of one answer of at most `longest` tokens."""
-        return Sampler(self.temperature, self.top_p, np.random.default_rng(self.seed_of(name)).random(longest))
+        return Sampler(
+            self.temperature, self.top_p, np.random.default_rng(self.seed_of(name)).random(longest)
+        )
 
 
 @dataclass(frozen=True)
@@ -59,23 +69,38 @@ class Sampler:
     numbers: Floats
 
     def draw(self, place: int, logits: Tensor, allowed: Mask | None = None) -> int:
-        """The token at a place of the answer from its logits, shape (tokens); with `allowed`, one of those that a constraint allows.
+        """The token at a place of the answer from its logits, shape (tokens); with `allowed`, one
+        of those that a constraint allows.
 
-        By inversion over token ids, in float64: where rounding swaps two tokens of like probability, what is drawn stays the same.
+        By inversion over token ids, in float64: where rounding swaps two tokens of like
+        probability, what is drawn stays the same.
         """
-        scores = np.nan_to_num(logits.detach().double().cpu().numpy(), nan=-HUGE, posinf=HUGE, neginf=-HUGE)
-        usable = np.full(len(scores), True) if allowed is None else np.unpackbits(allowed.view(np.uint8), bitorder="little")[: len(scores)] == 1
+        scores = np.nan_to_num(
+            logits.detach().double().cpu().numpy(), nan=-HUGE, posinf=HUGE, neginf=-HUGE
+        )
+        usable = (
+            np.full(len(scores), True)
+            if allowed is None
+            else np.unpackbits(allowed.view(np.uint8), bitorder="little")[: len(scores)] == 1
+        )
         if not usable.any():
             raise RuntimeError("the constraint allows no token")
-        weights = np.where(usable, np.exp(np.minimum(scores - scores[usable].max(), 0) / self.temperature), 0)
+        weights = np.where(
+            usable, np.exp(np.minimum(scores - scores[usable].max(), 0) / self.temperature), 0
+        )
         weights = weights if self.top_p == 1 else _nucleus(weights, self.top_p)
         cumulative = weights.cumsum()
         # Rounding may put the number at the very end, where tokens without any weight may stand.
-        return min(int(np.searchsorted(cumulative, self.numbers[place] * cumulative[-1], side="right")), int(np.flatnonzero(weights)[-1]))
+        return min(
+            int(np.searchsorted(cumulative, self.numbers[place] * cumulative[-1], side="right")),
+            int(np.flatnonzero(weights)[-1]),
+        )
 
 
 def _nucleus(weights: Floats, top_p: float) -> Floats:
-    """The smallest set of tokens that holds `top_p` of the probability (Holtzman et al. 2020), the others at 0."""
+    """The smallest set of tokens that holds `top_p` of the probability (Holtzman et al. 2020), the
+    others at 0.
+    """
     order = np.argsort(-weights, kind="stable")
     before = weights[order].cumsum() - weights[order]
     kept = order[before < top_p * weights.sum()]

@@ -1,8 +1,9 @@
 """The plan as a document: one JSON object that review, approval, verification and export read.
 
-`build` makes it of what was planned, `edits` changes it as an operator asks, `revise` recomputes what derives (what the command lacks, where
-values come from, warnings, estimates, the digest), `differences` compares it with what the model proposed, `files` reads and writes it.
-Whether a document is approved stands in the approval log (planner_ft.review), never in the document.
+`build` makes it of what was planned, `edits` changes it as an operator asks, `revise` recomputes
+what derives (what the command lacks, where values come from, warnings, estimates, the digest),
+`differences` compares it with what the model proposed, `files` reads and writes it. Whether a
+document is approved stands in the approval log (planner_ft.review), never in the document.
 """
 
 from planner_ft.document.build import build

@@ -17,7 +17,8 @@ NO = re.compile(r"^no\W+", re.IGNORECASE)
 class Clause:
     """A clause of a command from `start` to `end`.
 
-    `excluded`: where what it rules out begins, before `start` where it only tells of something; `corrected`: the next words take it back.
+    `excluded`: where what it rules out begins, before `start` where it only tells of something;
+    `corrected`: the next words take it back.
     """
 
     start: int
@@ -38,11 +39,21 @@ def read_clauses(command: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
         excluded = words["exclusion"].search(text)
         behind = command[end : end + 24].lstrip(" ,.;:!?-")
         corrected = any(words["correction"].match(said) for said in (behind, NO.sub("", behind)))
-        found.append(Clause(start, end, text, start - 1 if told else start + excluded.start() if excluded else None, corrected))
+        found.append(
+            Clause(
+                start,
+                end,
+                text,
+                start - 1 if told else start + excluded.start() if excluded else None,
+                corrected,
+            )
+        )
     return tuple(found)
 
 
-def said_apart(command: str, wanted: re.Pattern[str], vocabulary: Vocabulary) -> list[tuple[int, int]]:
+def said_apart(
+    command: str, wanted: re.Pattern[str], vocabulary: Vocabulary
+) -> list[tuple[int, int]]:
     """Where a command says words that nothing rules out."""
     return [span for clause in read_clauses(command, vocabulary) for span in _said(clause, wanted)]
 

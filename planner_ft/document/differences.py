@@ -15,7 +15,9 @@ MISSING = "nothing"
 
 @dataclass(frozen=True)
 class Difference:
-    """One change: to which task (None: to the plan), of what, from which value to which; `text` says it in a sentence."""
+    """One change: to which task (None: to the plan), of what, from which value to which; `text`
+    says it in a sentence.
+    """
 
     task: str | None
     kind: Literal["added", "removed", "moved", "parameter", "prompt", "skills", "located"]
@@ -35,15 +37,38 @@ def differences(document: PlanDocument) -> list[Difference]:
 
 
 def compare(before: dict[str, Any], after: dict[str, Any]) -> list[Difference]:
-    """The differences between two plans of one command ({"tasks", "located"}), whose tasks are the same when their ids are."""
-    old, new = {task["id"]: task for task in before["tasks"]}, {task["id"]: task for task in after["tasks"]}
+    """The differences between two plans of one command ({"tasks", "located"}), whose tasks are the
+    same when their ids are.
+    """
+    old, new = (
+        {task["id"]: task for task in before["tasks"]},
+        {task["id"]: task for task in after["tasks"]},
+    )
     found = list(_located(before["located"], after["located"]))
     for ident, task in old.items():
         if ident not in new:
-            found.append(Difference(ident, "removed", task["title"], task["parameters"], None, f"{_called(task)}: removed"))
+            found.append(
+                Difference(
+                    ident,
+                    "removed",
+                    task["title"],
+                    task["parameters"],
+                    None,
+                    f"{_called(task)}: removed",
+                )
+            )
     for number, task in enumerate(after["tasks"], start=1):
         if task["id"] not in old:
-            found.append(Difference(task["id"], "added", task["title"], None, task["parameters"], f"task {number}, {task['title']}: added"))
+            found.append(
+                Difference(
+                    task["id"],
+                    "added",
+                    task["title"],
+                    None,
+                    task["parameters"],
+                    f"task {number}, {task['title']}: added",
+                )
+            )
         else:
             found += _within(number, old[task["id"]], task)
     return found + list(_moved(before["tasks"], after["tasks"]))
@@ -54,25 +79,52 @@ def _within(number: int, old: dict[str, Any], new: dict[str, Any]) -> Iterator[D
     for name in dict.fromkeys((*old["parameters"], *new["parameters"])):
         before, after = old["parameters"].get(name), new["parameters"].get(name)
         if before != after:
-            yield Difference(new["id"], "parameter", name, before, after, f"{where}: {name} {_shown(before)} -> {_shown(after)}")
+            yield Difference(
+                new["id"],
+                "parameter",
+                name,
+                before,
+                after,
+                f"{where}: {name} {_shown(before)} -> {_shown(after)}",
+            )
     if old["task_prompt"] != new["task_prompt"]:
         text = f'{where}: prompt "{old["task_prompt"]}" -> "{new["task_prompt"]}"'
-        yield Difference(new["id"], "prompt", "task_prompt", old["task_prompt"], new["task_prompt"], text)
+        yield Difference(
+            new["id"], "prompt", "task_prompt", old["task_prompt"], new["task_prompt"], text
+        )
     if old["skill_sequence"] != new["skill_sequence"]:
         text = f"{where}: skills {_steps(old['skill_sequence'])} -> {_steps(new['skill_sequence'])}"
-        yield Difference(new["id"], "skills", "skill_sequence", old["skill_sequence"], new["skill_sequence"], text)
+        yield Difference(
+            new["id"],
+            "skills",
+            "skill_sequence",
+            old["skill_sequence"],
+            new["skill_sequence"],
+            text,
+        )
 
 
 def _located(old: dict[str, Any], new: dict[str, Any]) -> Iterator[Difference]:
     for name in dict.fromkeys((*old, *new)):
         if old.get(name) != new.get(name):
-            yield Difference(None, "located", name, old.get(name), new.get(name), f"{name}: {_shown(old.get(name))} -> {_shown(new.get(name))}")
+            yield Difference(
+                None,
+                "located",
+                name,
+                old.get(name),
+                new.get(name),
+                f"{name}: {_shown(old.get(name))} -> {_shown(new.get(name))}",
+            )
 
 
 def _moved(old: Tasks, new: Tasks) -> Iterator[Difference]:
-    """The tasks that stand elsewhere among those that both plans have: as few as explain the new order."""
+    """The tasks that stand elsewhere among those that both plans have: as few as explain the new
+    order.
+    """
     common = {task["id"] for task in old} & {task["id"] for task in new}
-    places = {task["id"]: index for index, task in enumerate(task for task in old if task["id"] in common)}
+    places = {
+        task["id"]: index for index, task in enumerate(task for task in old if task["id"] in common)
+    }
     row = [task["id"] for task in new if task["id"] in common]
     kept = {row[index] for index in _longest_rising([places[ident] for ident in row])}
     at = {task["id"]: number for number, task in enumerate(new, start=1)}
@@ -80,7 +132,14 @@ def _moved(old: Tasks, new: Tasks) -> Iterator[Difference]:
     titles = {task["id"]: task["title"] for task in new}
     for ident in row:
         if ident not in kept:
-            yield Difference(ident, "moved", titles[ident], was[ident], at[ident], f"{titles[ident]}: moved from place {was[ident]} to {at[ident]}")
+            yield Difference(
+                ident,
+                "moved",
+                titles[ident],
+                was[ident],
+                at[ident],
+                f"{titles[ident]}: moved from place {was[ident]} to {at[ident]}",
+            )
 
 
 def _longest_rising(values: Sequence[int]) -> list[int]:

@@ -1,4 +1,6 @@
-"""The digest of a plan document: SHA-256 over its canonical form (RFC 8785), so that anybody can compute it."""
+"""The digest of a plan document: SHA-256 over its canonical form (RFC 8785), so that anybody can
+compute it.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,9 @@ LARGEST = 2**53 - 1
 
 
 def canonical(value: Any) -> bytes:
-    """A JSON value in the canonical form of RFC 8785; whole numbers beyond 2^53 - 1 as the floating-point numbers that they are to most readers."""
+    """A JSON value in the canonical form of RFC 8785; whole numbers beyond 2^53 - 1 as the
+    floating-point numbers that they are to most readers.
+    """
     return rfc8785.dumps(_exact(value))
 
 
@@ -27,7 +31,9 @@ def document_digest(document: dict[str, Any]) -> str:
 
 
 def altered(document: dict[str, Any]) -> bool:
-    """Whether a document is not what its digest says: changed by hand, or by a program that does not know it."""
+    """Whether a document is not what its digest says: changed by hand, or by a program that does
+    not know it.
+    """
     return document.get("digest") != document_digest(document)
 
 

@@ -1,4 +1,6 @@
-"""An operator's changes to a plan document. Each is checked before it takes effect; the last one can be taken back."""
+"""An operator's changes to a plan document. Each is checked before it takes effect; the last one
+can be taken back.
+"""
 
 from __future__ import annotations
 
@@ -28,24 +30,39 @@ LONGEST_SHOWN = 120
 MOST_TASKS = 1000
 
 
-def apply(document: PlanDocument, edit: Edit, vocabulary: Vocabulary, by: str | None = None) -> PlanDocument:
+def apply(
+    document: PlanDocument, edit: Edit, vocabulary: Vocabulary, by: str | None = None
+) -> PlanDocument:
     """The document with one edit made, recorded and all that derives recomputed.
 
-    Raises PlannerError when it cannot be made, and for a document that was altered outside: its new digest would hide that (see `adopt`).
+    Raises PlannerError when it cannot be made, and for a document that was altered outside: its new
+    digest would hide that (see `adopt`).
     """
     if altered(document):
-        raise PlannerError("the plan was altered outside of the review and has not the content of its digest; adopt it as it is, or take the file as it was")
+        raise PlannerError(
+            "the plan was altered outside of the review and has not the content of its digest;"
+            " adopt it as it is, or take the file as it was"
+        )
     return revise(_applied(document, _record(edit, by), vocabulary), vocabulary)
 
 
 def adopt(document: PlanDocument, vocabulary: Vocabulary, by: str | None = None) -> PlanDocument:
-    """A document that was altered outside, its tasks as they stand recorded as an edit. Raises PlannerError when they are not valid."""
-    tasks = [{key: value for key, value in task.items() if key not in ("sources", "waits_for")} for task in document["tasks"]]
-    return revise(_applied(document, _record({"kind": "replace", "tasks": tasks}, by), vocabulary), vocabulary)
+    """A document that was altered outside, its tasks as they stand recorded as an edit. Raises
+    PlannerError when they are not valid.
+    """
+    tasks = [
+        {key: value for key, value in task.items() if key not in ("sources", "waits_for")}
+        for task in document["tasks"]
+    ]
+    return revise(
+        _applied(document, _record({"kind": "replace", "tasks": tasks}, by), vocabulary), vocabulary
+    )
 
 
 def undo(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
-    """The document without its last edit: the proposal with the edits before it made again. Raises PlannerError when there is none."""
+    """The document without its last edit: the proposal with the edits before it made again. Raises
+    PlannerError when there is none.
+    """
     if not document["edits"]:
         raise PlannerError("there is no edit to take back; the plan is as it was proposed")
     undone = {**document, **copy.deepcopy(document["proposed"]), "edits": []}
@@ -58,7 +75,9 @@ def _record(edit: Edit, by: str | None) -> dict[str, Any]:
     return {"time": datetime.now(UTC).isoformat(timespec="seconds"), "by": by, "edit": edit}
 
 
-def _applied(document: PlanDocument, record: dict[str, Any], vocabulary: Vocabulary) -> PlanDocument:
+def _applied(
+    document: PlanDocument, record: dict[str, Any], vocabulary: Vocabulary
+) -> PlanDocument:
     edit = copy.deepcopy(record["edit"])
     kind = edit.get("kind") if isinstance(edit, dict) else None
     if not isinstance(kind, str) or kind not in KINDS:
@@ -70,22 +89,35 @@ def _applied(document: PlanDocument, record: dict[str, Any], vocabulary: Vocabul
     for key, (types, what) in keys.items():
         if key not in edit or not isinstance(edit[key], types) or isinstance(edit[key], bool):
             raise PlannerError(f"edit {kind}: {key} must be {what}")
-    edited = {**document, "tasks": copy.deepcopy(document["tasks"]), "located": dict(document["located"])}
+    edited = {
+        **document,
+        "tasks": copy.deepcopy(document["tasks"]),
+        "located": dict(document["located"]),
+    }
     change(edited, edit, vocabulary)
     return {**edited, "edits": [*document["edits"], {**record, "edit": edit}]}
 
 
-# ---------------------------------------------------------------- the kinds of edits: each changes `document`, which is a copy
+# ---------------------------------------------------------------- the kinds of edits: each changes
+# `document`, which is a copy
 
 
 def _locate(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
-    name, position = edit["name"], _value(edit["position"], Parameter("position", "position", "m"), "position")
+    name, position = (
+        edit["name"],
+        _value(edit["position"], Parameter("position", "position", "m"), "position"),
+    )
     if position == list(vocabulary.unresolved):
         raise PlannerError(f"{name}: {position} stands for an unknown place; give where it is")
     found = tasks_at(name, document["tasks"], vocabulary)
     if not found:
-        known = [*(place.name for place in places_of(document["tasks"], vocabulary)), *document["located"]]
-        raise PlannerError(f"{_short(name)}: no such place is open; there is {', '.join(known) or 'none'}")
+        known = [
+            *(place.name for place in places_of(document["tasks"], vocabulary)),
+            *document["located"],
+        ]
+        raise PlannerError(
+            f"{_short(name)}: no such place is open; there is {', '.join(known) or 'none'}"
+        )
     for task, parameter in found:
         task["parameters"][parameter] = position
         task["located"] = {**task.get("located", {}), parameter: name}
@@ -131,24 +163,45 @@ def _move(document: PlanDocument, edit: Edit, _vocabulary: Vocabulary) -> None:
 def _insert(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
     title = edit["title"]
     if title not in vocabulary.task:
-        raise PlannerError(f"{_short(title)}: is no task of this vehicle; there is {', '.join(vocabulary.task)}")
+        raise PlannerError(
+            f"{_short(title)}: is no task of this vehicle; there is {', '.join(vocabulary.task)}"
+        )
     if len(document["tasks"]) >= MOST_TASKS:
-        raise PlannerError(f"insert {title}: the plan has {MOST_TASKS} tasks, and no more fit; plan two missions")
+        raise PlannerError(
+            f"insert {title}: the plan has {MOST_TASKS} tasks, and no more fit; plan two missions"
+        )
     given = edit.get("parameters", {})
     if not isinstance(given, dict):
         raise PlannerError("edit insert: parameters must be an object")
-    parameters = {name: _value(value, _known(vocabulary.task[title], title, name), name) for name, value in given.items()}
-    taken = [int(task["id"][1:]) for task in (*document["tasks"], *document["proposed"]["tasks"]) if task["id"][1:].isdecimal()]
-    inserted = [int(record["edit"]["id"][1:]) for record in document["edits"] if "id" in record["edit"]]
+    parameters = {
+        name: _value(value, _known(vocabulary.task[title], title, name), name)
+        for name, value in given.items()
+    }
+    taken = [
+        int(task["id"][1:])
+        for task in (*document["tasks"], *document["proposed"]["tasks"])
+        if task["id"][1:].isdecimal()
+    ]
+    inserted = [
+        int(record["edit"]["id"][1:]) for record in document["edits"] if "id" in record["edit"]
+    ]
     edit["id"] = f"t{max([*taken, *inserted], default=0) + 1}"
-    task = {"id": edit["id"], "title": title, "parameters": parameters, "task_prompt": _prompt_text(edit.get("task_prompt", "")), "skill_sequence": None}
+    task = {
+        "id": edit["id"],
+        "title": title,
+        "parameters": parameters,
+        "task_prompt": _prompt_text(edit.get("task_prompt", "")),
+        "skill_sequence": None,
+    }
     _check(task, vocabulary)
     document["tasks"].insert(_index(edit["at"], len(document["tasks"])), task)
 
 
 def _skills(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
     task = _task(document, edit)
-    found = plan_problems("task", {"skill_sequence": edit["skill_sequence"]}, vocabulary, strict=True)
+    found = plan_problems(
+        "task", {"skill_sequence": edit["skill_sequence"]}, vocabulary, strict=True
+    )
     if found:
         raise PlannerError(f"skills of {task['id']}: {found[0]}")
     task["skill_sequence"] = copy.deepcopy(edit["skill_sequence"])
@@ -169,7 +222,10 @@ def _skill(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
         raise PlannerError(f"{where}: the task has {len(steps)} steps")
     skills = [skill for role, skill in step_skills(steps[edit["step"]]) if role == edit["role"]]
     if not 0 <= edit["index"] < len(skills):
-        raise PlannerError(f"{where}: has {len(skills)} {edit['role']} skills, and none of number {edit['index'] + 1}")
+        raise PlannerError(
+            f"{where}: has {len(skills)} {edit['role']} skills, and none of number"
+            f" {edit['index'] + 1}"
+        )
     skill = skills[edit["index"]]
     parameter = _known(vocabulary.skill[skill["name"]], skill["name"], edit["name"])
     if edit.get("value") is None:
@@ -197,7 +253,9 @@ def _replace(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None
 TEXT: tuple[type, str] = (str, "a text")
 WHOLE: tuple[type, str] = (int, "a whole number")
 TASK: Mapping[str, tuple[type, str]] = {"task": (str, "the id of a task")}
-KINDS: dict[str, tuple[Mapping[str, tuple[type, str]], Callable[[PlanDocument, Edit, Vocabulary], None]]] = {
+KINDS: dict[
+    str, tuple[Mapping[str, tuple[type, str]], Callable[[PlanDocument, Edit, Vocabulary], None]]
+] = {
     "locate": ({"name": TEXT, "position": (list, "a position [x, y]")}, _locate),
     "parameter": ({**TASK, "name": TEXT}, _parameter),
     "prompt": ({**TASK, "text": TEXT}, _prompt),
@@ -209,7 +267,12 @@ KINDS: dict[str, tuple[Mapping[str, tuple[type, str]], Callable[[PlanDocument, E
     "skill": ({**TASK, "step": WHOLE, "role": TEXT, "index": WHOLE, "name": TEXT}, _skill),
 }
 """Per kind of edit the keys that it needs, and what makes it."""
-OPTIONAL = {"parameter": ("value",), "insert": ("parameters", "task_prompt", "id"), "skills": ("assumptions",), "skill": ("value",)}
+OPTIONAL = {
+    "parameter": ("value",),
+    "insert": ("parameters", "task_prompt", "id"),
+    "skills": ("assumptions",),
+    "skill": ("value",),
+}
 """Keys that an edit may have besides; the id of an inserted task is always given anew."""
 
 
@@ -221,19 +284,27 @@ def _task(document: PlanDocument, edit: Edit) -> dict[str, Any]:
         if task["id"] == edit["task"]:
             found: dict[str, Any] = task
             return found
-    raise PlannerError(f"task {_short(edit['task'])}: is not in the plan; there is {', '.join(task['id'] for task in document['tasks']) or 'none'}")
+    raise PlannerError(
+        f"task {_short(edit['task'])}: is not in the plan; there is"
+        f" {', '.join(task['id'] for task in document['tasks']) or 'none'}"
+    )
 
 
 def _known(owner: Task | Skill, title: str, name: str) -> Parameter:
     if name not in owner.by_name:
-        raise PlannerError(f"{_short(name)}: is no parameter of {title}; there is {', '.join(owner.by_name) or 'none'}")
+        raise PlannerError(
+            f"{_short(name)}: is no parameter of {title}; there is"
+            f" {', '.join(owner.by_name) or 'none'}"
+        )
     return owner.by_name[name]
 
 
 def _value(value: Any, parameter: Parameter, name: str) -> Any:
     problem = value_problem(value, parameter)
     if problem:
-        raise PlannerError(f"{name}: {_short(problem)}{f' ({parameter.unit})' if parameter.unit else ''}")
+        raise PlannerError(
+            f"{name}: {_short(problem)}{f' ({parameter.unit})' if parameter.unit else ''}"
+        )
     return canonical_value(value)
 
 
@@ -260,10 +331,18 @@ def _index(index: int, count: int) -> int:
 
 def _check(task: dict[str, Any], vocabulary: Vocabulary) -> None:
     """Raises PlannerError when a task lacks a parameter that it needs."""
-    entry = {"title": task["title"], "parameters": task["parameters"], "task_prompt": task["task_prompt"]}
-    found = plan_problems("mission", {"tasks": [entry], "assumptions": [], "constraints": []}, vocabulary, strict=True)
+    entry = {
+        "title": task["title"],
+        "parameters": task["parameters"],
+        "task_prompt": task["task_prompt"],
+    }
+    found = plan_problems(
+        "mission", {"tasks": [entry], "assumptions": [], "constraints": []}, vocabulary, strict=True
+    )
     if found:
-        raise PlannerError(f"{task['id']}: {found[0].removeprefix('tasks[0]: ')}; give it, or remove the task")
+        raise PlannerError(
+            f"{task['id']}: {found[0].removeprefix('tasks[0]: ')}; give it, or remove the task"
+        )
 
 
 def _outdate(task: dict[str, Any]) -> None:
@@ -275,4 +354,6 @@ def _outdate(task: dict[str, Any]) -> None:
 def _forget_places(document: PlanDocument) -> None:
     """Drop located places that no task is at any more."""
     used = {name for task in document["tasks"] for name in task.get("located", {}).values()}
-    document["located"] = {name: place for name, place in document["located"].items() if name in used}
+    document["located"] = {
+        name: place for name, place in document["located"].items() if name in used
+    }

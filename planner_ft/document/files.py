@@ -17,7 +17,9 @@ from planner_ft.vocabulary.document_schema import FORMAT, VERSION, frame_schema
 from planner_ft.vocabulary.plans import plan_problems
 
 PlanDocument = dict[str, Any]
-"""A plan document (schemas/plan.schema.json). Nobody changes one in place: what changes it returns another."""
+"""A plan document (schemas/plan.schema.json). Nobody changes one in place: what changes it returns
+another.
+"""
 LARGEST_FILE = 64 * 2**20
 """Bytes of a file that is read at most: a plan of 500 tasks has about 2 MB."""
 
@@ -25,54 +27,90 @@ LARGEST_FILE = 64 * 2**20
 def read_document(path: Path | str, vocabulary: Vocabulary | None = None) -> PlanDocument:
     """The document in a file; without `vocabulary` that of the bundled vocabulary that it names.
 
-    A wrong digest is no error here: `altered` tells. Raises PlannerError for a file that is missing, cut, no plan, of another version or made
-    with another vocabulary.
+    A wrong digest is no error here: `altered` tells. Raises PlannerError for a file that is
+    missing, cut, no plan, of another version or made with another vocabulary.
     """
     path = Path(path)
     if path.is_file() and path.stat().st_size > LARGEST_FILE:
         raise PlannerError(
-            f"{path}: has {path.stat().st_size} bytes, more than the {LARGEST_FILE} of any plan; give the file that `plannerft plan --out` wrote"
+            f"{path}: has {path.stat().st_size} bytes, more than the {LARGEST_FILE} of any plan;"
+            " give the file that `plannerft plan --out` wrote"
         )
     document = _plan_in(path)
     vocabulary = vocabulary or vocabulary_of(document, path)
     _check_vocabulary(document, vocabulary, path)
     problem = document_problem(document, vocabulary)
     if problem is not None:
-        raise PlannerError(f"{path}: {problem}; take the file as `plannerft plan` or `plannerft review` wrote it")
+        raise PlannerError(
+            f"{path}: {problem}; take the file as `plannerft plan` or `plannerft review` wrote it"
+        )
     return document
 
 
 def document_problem(document: Any, vocabulary: Vocabulary) -> str | None:
     """Where and why a value is no plan document (schemas/plan.schema.json), or None when it is one.
 
-    JSON Schema checks the frame; tasks and their steps are checked as plans are, which takes a fraction of the time.
+    JSON Schema checks the frame; tasks and their steps are checked as plans are, which takes a
+    fraction of the time.
     """
     found = jsonschema.exceptions.best_match(_frame().iter_errors(document))
     if found is not None:
-        where = "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in found.absolute_path).lstrip(".")
+        where = "".join(
+            f"[{key}]" if isinstance(key, int) else f".{key}" for key in found.absolute_path
+        ).lstrip(".")
         return f"{where or 'the document'}: {_short(found.message)}"
-    for where, tasks in (("tasks", document["tasks"]), ("proposed.tasks", document["proposed"]["tasks"])):
+    for where, tasks in (
+        ("tasks", document["tasks"]),
+        ("proposed.tasks", document["proposed"]["tasks"]),
+    ):
         for index, task in enumerate(tasks):
-            entry = {"title": task["title"], "parameters": task["parameters"], "task_prompt": task["task_prompt"]}
-            problems = plan_problems("mission", {"tasks": [entry], "assumptions": [], "constraints": []}, vocabulary, strict=True)
-            problems += plan_problems("task", {"skill_sequence": task["skill_sequence"] or []}, vocabulary, strict=True)
+            entry = {
+                "title": task["title"],
+                "parameters": task["parameters"],
+                "task_prompt": task["task_prompt"],
+            }
+            problems = plan_problems(
+                "mission",
+                {"tasks": [entry], "assumptions": [], "constraints": []},
+                vocabulary,
+                strict=True,
+            )
+            problems += plan_problems(
+                "task", {"skill_sequence": task["skill_sequence"] or []}, vocabulary, strict=True
+            )
             if problems:
-                return f"{where}[{index}]: {_short(problems[0].removeprefix('tasks[0].').removeprefix('tasks[0]: '))}"
+                return (
+                    f"{where}[{index}]:"
+                    f" {_short(problems[0].removeprefix('tasks[0].').removeprefix('tasks[0]: '))}"
+                )
     return None
 
 
 def vocabulary_of(document: PlanDocument, path: Path | str) -> Vocabulary:
-    """The bundled vocabulary that a document names. Raises PlannerError when there is none of that name."""
-    name = document.get("vocabulary", {}).get("name") if isinstance(document.get("vocabulary"), dict) else None
+    """The bundled vocabulary that a document names. Raises PlannerError when there is none of that
+    name.
+    """
+    name = (
+        document.get("vocabulary", {}).get("name")
+        if isinstance(document.get("vocabulary"), dict)
+        else None
+    )
     if not isinstance(name, str):
-        raise PlannerError(f"{path}: names no vocabulary; take the file as `plannerft plan` wrote it")
+        raise PlannerError(
+            f"{path}: names no vocabulary; take the file as `plannerft plan` wrote it"
+        )
     if name not in bundled_vocabularies():
-        raise PlannerError(f"{path}: was made with the vocabulary {name!r}, which is not bundled; give its file with --vocabulary")
+        raise PlannerError(
+            f"{path}: was made with the vocabulary {name!r}, which is not bundled; give its file"
+            " with --vocabulary"
+        )
     return load_vocabulary(name)
 
 
 def write_document(path: Path | str, document: PlanDocument) -> PlanDocument:
-    """Write a document atomically, with its digest; returns what was written. Raises PlannerError when it cannot be written."""
+    """Write a document atomically, with its digest; returns what was written. Raises PlannerError
+    when it cannot be written.
+    """
     written = {**document, "digest": document_digest(document)}
     write_json(path, written)
     return written
@@ -81,9 +119,15 @@ def write_document(path: Path | str, document: PlanDocument) -> PlanDocument:
 def _plan_in(path: Path) -> PlanDocument:
     document = read_json(path)
     if not isinstance(document, dict) or document.get("format") != FORMAT:
-        raise PlannerError(f"{path}: is no plan document; write one with `plannerft plan COMMAND --out {path.name}`")
+        raise PlannerError(
+            f"{path}: is no plan document; write one with `plannerft plan COMMAND --out"
+            f" {path.name}`"
+        )
     if document.get("version") != VERSION:
-        raise PlannerError(f"{path}: is of version {document.get('version')!r}, and this program reads version {VERSION}; plan the command again")
+        raise PlannerError(
+            f"{path}: is of version {document.get('version')!r}, and this program reads version"
+            f" {VERSION}; plan the command again"
+        )
     return document
 
 
@@ -92,7 +136,9 @@ def _check_vocabulary(document: PlanDocument, vocabulary: Vocabulary, path: Path
     if not isinstance(made, dict) or made.get("sha256") != vocabulary.sha256:
         name = made.get("name") if isinstance(made, dict) else None
         other = f"another vocabulary ({name!r}, other content) than {vocabulary.name!r}"
-        raise PlannerError(f"{path}: was made with {other}; give its file with --vocabulary, or plan again")
+        raise PlannerError(
+            f"{path}: was made with {other}; give its file with --vocabulary, or plan again"
+        )
 
 
 @cache

@@ -1,7 +1,9 @@
-"""What a command says and what it lacks: objective, target or place, sensors and data, operational constraints.
+"""What a command says and what it lacks: objective, target or place, sensors and data, operational
+constraints.
 
-The words stand in english.toml and in NAME.ontology.toml beside the vocabulary's definition. What is missing becomes a question to the
-operator and blocks nothing: most real commands lack one or two of the four. A command in another language mostly shows its numbers alone.
+The words stand in english.toml and in NAME.ontology.toml beside the vocabulary's definition. What
+is missing becomes a question to the operator and blocks nothing: most real commands lack one or two
+of the four. A command in another language mostly shows its numbers alone.
 """
 
 from __future__ import annotations
@@ -21,12 +23,17 @@ LONGEST_NAME = 7
 """Words of a noun phrase that are looked at."""
 _WORD = re.compile(r"[^\W_][\w'’-]*")
 _LINK = re.compile(r"\s+(?:of|with)\s+(?=\w)")
-_PLACED = re.compile(r"\s*,?\s*(?:(?:is|lying|located|somewhere|right|last seen|centred|centered)\s+)?(?:at|near|around|on|in)?\s*[\[(]?\s*$")
+_PLACED = re.compile(
+    r"\s*,?\s*(?:(?:is|lying|located|somewhere|right|last"
+    r" seen|centred|centered)\s+)?(?:at|near|around|on|in)?\s*[\[(]?\s*$"
+)
 _NAME = re.compile(r"\s+((?:[A-Z][\w-]*|\d+)(?:\s+(?:[A-Z][\w-]*|\d+))?)(?!\w)")
 
 
 def check(command: str, vocabulary: Vocabulary) -> dict[str, Any]:
-    """{"elements": [{"element", "start", "end", "text"}], "missing": [element], "questions": [text]} of a command, elements in its order."""
+    """{"elements": [{"element", "start", "end", "text"}], "missing": [element], "questions":
+    [text]} of a command, elements in its order.
+    """
     spoken = language(vocabulary)
     read = read_clauses(command, vocabulary)
     found: dict[str, list[Span]] = {
@@ -35,10 +42,15 @@ def check(command: str, vocabulary: Vocabulary) -> dict[str, Any]:
         "sensor": _merged(_sensors(read, spoken)),
         "constraint": _merged(_constraints(read, spoken)),
     }
-    elements = sorted((start, end, element) for element in ELEMENTS for start, end in found[element])
+    elements = sorted(
+        (start, end, element) for element in ELEMENTS for start, end in found[element]
+    )
     missing = [element for element in ELEMENTS if not found[element]]
     return {
-        "elements": [{"element": element, "start": start, "end": end, "text": command[start:end]} for start, end, element in elements],
+        "elements": [
+            {"element": element, "start": start, "end": end, "text": command[start:end]}
+            for start, end, element in elements
+        ],
         "missing": missing,
         "questions": [spoken.questions[element] for element in missing],
     }
@@ -47,7 +59,11 @@ def check(command: str, vocabulary: Vocabulary) -> dict[str, Any]:
 def _objectives(read: Iterable[Clause], spoken: Language) -> Iterator[Span]:
     """The words that ask for a task, and verbs that an instruction begins with."""
     for clause in read:
-        for words in (*(ask.said for ask in spoken.asks), spoken.words["verb"], spoken.words["impossible"]):
+        for words in (
+            *(ask.said for ask in spoken.asks),
+            spoken.words["verb"],
+            spoken.words["impossible"],
+        ):
             for match in words.finditer(clause.text):
                 if clause.excluded is None or clause.start + match.start() <= clause.excluded:
                     yield clause.start + match.start(), clause.start + match.end()
@@ -56,7 +72,11 @@ def _objectives(read: Iterable[Clause], spoken: Language) -> Iterator[Span]:
 def _sensors(read: Iterable[Clause], spoken: Language) -> Iterator[Span]:
     for clause in read:
         for match in spoken.sensors.finditer(clause.text):
-            if clause.excluded is None or clause.start + match.start() <= clause.excluded or spoken.words["exclusion"].match(match[0]):
+            if (
+                clause.excluded is None
+                or clause.start + match.start() <= clause.excluded
+                or spoken.words["exclusion"].match(match[0])
+            ):
                 yield clause.start + match.start(), clause.start + match.end()
 
 
@@ -69,18 +89,26 @@ def _constraints(read: Iterable[Clause], spoken: Language) -> Iterator[Span]:
 
 
 def _targets(command: str, spoken: Language) -> Iterator[Span]:
-    """Coordinates with the name before them, noun phrases, numbered and named things, and words for where the vehicle is."""
+    """Coordinates with the name before them, noun phrases, numbered and named things, and words for
+    where the vehicle is.
+    """
     for offset, text in pieces(command):
         named = [*_noun_phrases(text, spoken), *_names(text, spoken)]
         places = [span for _x, _y, span in find_places(text) if is_place(text, span[0], span[1])]
         here = [match.span() for match in spoken.words["here"].finditer(text)]
         before = {start: _before(text, start, named) for start, _end in places}
-        for start, end in (*named, *((before[start], _closed(text, end)) for start, end in places), *here):
+        for start, end in (
+            *named,
+            *((before[start], _closed(text, end)) for start, end in places),
+            *here,
+        ):
             yield start + offset, end + offset
 
 
 def _noun_phrases(text: str, spoken: Language) -> list[Span]:
-    """Phrases from "the" or "a" to a word that ends them, unless their noun is a time, a sensor or a task."""
+    """Phrases from "the" or "a" to a word that ends them, unless their noun is a time, a sensor or
+    a task.
+    """
     found: list[Span] = []
     for match in spoken.words["determiner"].finditer(text):
         if found and match.start() < found[-1][1]:
@@ -98,7 +126,12 @@ def _phrase_end(text: str, start: int, spoken: Language) -> int | None:
     for _number in range(LONGEST_NAME):
         match = re.compile(r"\s+").match(text, start)
         word = _WORD.match(text, match.end()) if match else None
-        if word is None or spoken.words["boundary"].fullmatch(word[0]) or word[0] in ("of", "with") or spoken.words["determiner"].fullmatch(word[0]):
+        if (
+            word is None
+            or spoken.words["boundary"].fullmatch(word[0])
+            or word[0] in ("of", "with")
+            or spoken.words["determiner"].fullmatch(word[0])
+        ):
             break
         end = start = word.end()
     return end
@@ -117,7 +150,9 @@ def _linked(text: str, end: int, spoken: Language) -> int:
 def _is_nothing(phrase: str, spoken: Language) -> bool:
     words = phrase.split()
     last = words[-1]
-    return any(pattern.fullmatch(last) for pattern in (spoken.words["nothing"], spoken.sensors)) or any(ask.said.fullmatch(last) for ask in spoken.asks)
+    return any(
+        pattern.fullmatch(last) for pattern in (spoken.words["nothing"], spoken.sensors)
+    ) or any(ask.said.fullmatch(last) for ask in spoken.asks)
 
 
 def _names(text: str, spoken: Language) -> list[Span]:

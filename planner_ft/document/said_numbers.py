@@ -16,18 +16,29 @@ EXACT = 1e-4
 """Relative: how far converted values may lie off what was said, beside their rounding."""
 ROUNDED = 0.0051
 WRITTEN, BARE, IN_PAIR, AS_BEFORE, REREAD = range(5)
-"""How plainly words say a number: with its unit, without, as half of a pair, in the unit of another number, in another reading of the text."""
+"""How plainly words say a number: with its unit, without, as half of a pair, in the unit of another
+number, in another reading of the text.
+"""
 
 BEARING = re.compile(
-    r"(?i:(?<![\w-])(?:(?:north|south|east|west)[ -]?){1,3}(?:erly|wards?|ern|[ -]?bound)?(?![\w-]))|\b(?:[NSEW]{1,3}|[ns][ns]?[ew]|[ew][ns][ew])\b",
+    r"(?i:(?<![\w-])(?:(?:north|south|east|west)[ -]?){1,3}(?:erly|wards?|ern|["
+    r" -]?bound)?(?![\w-]))|\b(?:[NSEW]{1,3}|[ns][ns]?[ew]|[ew][ns][ew])\b"
 )
 _BEARING_ENDING = re.compile(r"(?:erly|wards?|ern|[ -]?bound)$")
 _SIGN = re.compile(r"(?:[-−–]|\b(?:minus|negative)\s+)$", re.IGNORECASE)
-_WAY = re.compile(r"\s*(?:m(?:et(?:re|er)s?)?)?\s*(?:(?:to the |due )?(?:east|west|north|south)(?:ings?|wards?)?|[EWNSewns])\b")
+_WAY = re.compile(
+    r"\s*(?:m(?:et(?:re|er)s?)?)?\s*(?:(?:to the |due"
+    r" )?(?:east|west|north|south)(?:ings?|wards?)?|[EWNSewns])\b"
+)
 _OPENED = re.compile(r"[\[(]\s*(?:[-−–]|minus |negative )?$")
-_LED = re.compile(r"\b(?:at|to|near|around|from|on|cent(?:re|er)|@)\W{0,3}(?:[-−–]|minus |negative )?$", re.IGNORECASE)
+_LED = re.compile(
+    r"\b(?:at|to|near|around|from|on|cent(?:re|er)|@)\W{0,3}(?:[-−–]|minus |negative )?$",
+    re.IGNORECASE,
+)
 _PLAIN = re.compile(r"\d+(?:\.\d+)?\s*(?:,\s*|\s)(?:[-−–]|minus |negative )?\d+(?:\.\d+)?")
-_AXES = re.compile(r"(?<![a-z])y\s?[=:]?\s?(?:[-−–]|minus )?\d|\d\s?(?:east|west|north|south)\b.*\d", re.IGNORECASE)
+_AXES = re.compile(
+    r"(?<![a-z])y\s?[=:]?\s?(?:[-−–]|minus )?\d|\d\s?(?:east|west|north|south)\b.*\d", re.IGNORECASE
+)
 
 
 @dataclass(frozen=True, order=True)
@@ -48,26 +59,43 @@ def lookup(found: list[Found], value: float) -> list[Found]:
     """The plainest of the sorted entries that say a value."""
     margin = max(ROUNDED, 2 * EXACT * abs(value))
     first = bisect.bisect_left(found, value - margin, key=lambda item: item.value)
-    fitting = [item for item in itertools.takewhile(lambda item: item.value <= value + margin, found[first:]) if same(value, item.value)]
+    fitting = [
+        item
+        for item in itertools.takewhile(lambda item: item.value <= value + margin, found[first:])
+        if same(value, item.value)
+    ]
     best = min((item.rank for item in fitting), default=0)
     return [item for item in fitting if item.rank == best]
 
 
 def find_numbers(text: str, unit: str | None, *, bearing: bool, thorough: bool) -> Iterator[Found]:
-    """What a text says in a unit. `bearing` takes compass directions, too; `thorough` other readings: misspelt, without an article."""
+    """What a text says in a unit. `bearing` takes compass directions, too; `thorough` other
+    readings: misspelt, without an article.
+    """
     pairs = sorted({(start, end) for _x, _y, start, end in positions(text)})
     for quantity in summed(quantities(text)):
-        span = (_sign_start(text, quantity.start) if quantity.said < 0 else quantity.start, quantity.end)
+        span = (
+            _sign_start(text, quantity.start) if quantity.said < 0 else quantity.start,
+            quantity.end,
+        )
         if quantity.unit == unit:
-            yield Found(quantity.value, WRITTEN if unit is not None else IN_PAIR if _within(pairs, span[0]) else BARE, span)
+            yield Found(
+                quantity.value,
+                WRITTEN if unit is not None else IN_PAIR if _within(pairs, span[0]) else BARE,
+                span,
+            )
         elif quantity.unit is None:
             yield Found(quantity.value, IN_PAIR if _within(pairs, span[0]) else BARE, span)
             # "0.25 overlap"; "for an hour and ten minutes, a reading every five"
-            factors = {"%": ((100, BARE),), "s": ((60, AS_BEFORE), (3600, AS_BEFORE))}.get(unit or "", ())
+            factors = {"%": ((100, BARE),), "s": ((60, AS_BEFORE), (3600, AS_BEFORE))}.get(
+                unit or "", ()
+            )
             yield from (Found(factor * quantity.value, rank, span) for factor, rank in factors)
     if bearing:
         named = ((match, bearing_of(match[0])) for match in BEARING.finditer(text))
-        yield from (Found(angle, WRITTEN, match.span()) for match, angle in named if angle is not None)
+        yield from (
+            Found(angle, WRITTEN, match.span()) for match, angle in named if angle is not None
+        )
     if thorough:
         yield from _reread(text, unit)
 
@@ -75,16 +103,31 @@ def find_numbers(text: str, unit: str | None, *, bearing: bool, thorough: bool) 
 def _reread(text: str, unit: str | None) -> Iterator[Found]:
     for other in rewritings(text)[1:]:
         for quantity in summed(quantities(other)):
-            span = _original(text, other, (quantity.start, quantity.end)) if quantity.unit in (unit, None) else None
+            span = (
+                _original(text, other, (quantity.start, quantity.end))
+                if quantity.unit in (unit, None)
+                else None
+            )
             if span is not None:
                 yield Found(quantity.value, REREAD + (quantity.unit is None), span)
 
 
 def _original(text: str, rewritten: str, span: Span) -> Span | None:
-    """A span of a rewriting in the text itself: what is the same before and behind stays where it is."""
-    before = next((index for index, (one, other) in enumerate(zip(text, rewritten, strict=False)) if one != other), min(len(text), len(rewritten)))
+    """A span of a rewriting in the text itself: what is the same before and behind stays where it
+    is.
+    """
+    before = next(
+        (
+            index
+            for index, (one, other) in enumerate(zip(text, rewritten, strict=False))
+            if one != other
+        ),
+        min(len(text), len(rewritten)),
+    )
     most = min(len(text), len(rewritten)) - before
-    behind = next((index for index in range(most) if text[-1 - index] != rewritten[-1 - index]), most)
+    behind = next(
+        (index for index in range(most) if text[-1 - index] != rewritten[-1 - index]), most
+    )
     shift = len(text) - len(rewritten)
     start = span[0] if span[0] <= before else max(span[0] + shift, before)
     end = span[1] + shift if span[1] >= len(rewritten) - behind else len(text) - behind
@@ -113,18 +156,24 @@ def bearing_of(words: str) -> float | None:
 
 
 def find_places(text: str) -> Iterator[tuple[float, float, Span]]:
-    """(x, y, words) of the pairs that can be coordinates: both numbers, with their signs and directions."""
+    """(x, y, words) of the pairs that can be coordinates: both numbers, with their signs and
+    directions.
+    """
     for x, y, start, end in positions(text):
         yield x, y, (_sign_start(text, start), _way_end(text, start, end))
 
 
 def is_place(text: str, start: int, end: int) -> bool:
-    """Whether two neighbouring numbers are certainly coordinates: in brackets, with axes or directions, or behind a word like "at"."""
+    """Whether two neighbouring numbers are certainly coordinates: in brackets, with axes or
+    directions, or behind a word like "at".
+    """
     before = text[max(0, start - 16) : start]
     if _OPENED.search(before):
         return True
     said = text[start:end]
-    return (_LED.search(before) is not None and _PLAIN.fullmatch(said) is not None) or _AXES.search(said) is not None
+    return (_LED.search(before) is not None and _PLAIN.fullmatch(said) is not None) or _AXES.search(
+        said
+    ) is not None
 
 
 def _within(spans: list[Span], place: int) -> bool:
@@ -138,6 +187,8 @@ def _sign_start(text: str, start: int) -> int:
 
 
 def _way_end(text: str, start: int, end: int) -> int:
-    """The end of a coordinate with its direction, where the one before has a direction, too: "120 east 45 north", but not "40, 40 due east"."""
+    """The end of a coordinate with its direction, where the one before has a direction, too: "120
+    east 45 north", but not "40, 40 due east".
+    """
     way = _WAY.match(text, end) if BEARING.search(text, start, end) else None
     return way.end() if way else end

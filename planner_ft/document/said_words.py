@@ -17,7 +17,9 @@ FARTHEST = 120
 MOST_PLACES = 100
 """Places of a word that are looked at."""
 FEW_WORDS = 400
-"""Different words up to which each can be a misspelling of another; of more, only those that are not known."""
+"""Different words up to which each can be a misspelling of another; of more, only those that are
+not known.
+"""
 _WORD = re.compile(r"[^\W_]+(?:[-'’.][^\W_]+)*")
 
 
@@ -30,7 +32,12 @@ class WordIndex:
         self._spans: dict[str, list[Span]] = defaultdict(list)
         for match in _WORD.finditer(text):
             word = match[0].lower().replace("’", "'")
-            for form in {word, word.removesuffix("'s"), word.rstrip("'"), *re.split(r"[-'.]", word)}:
+            for form in {
+                word,
+                word.removesuffix("'s"),
+                word.rstrip("'"),
+                *re.split(r"[-'.]", word),
+            }:
                 self._spans[form].append(match.span())
 
     def states(self, text: str) -> bool:
@@ -38,7 +45,9 @@ class WordIndex:
         return all(self.places(word) for word in words(text))
 
     def spans(self, text: str) -> list[tuple[Span, ...]]:
-        """The places of a text: where it stands word for word, else its words near each other; none where half of them are not said."""
+        """The places of a text: where it stands word for word, else its words near each other; none
+        where half of them are not said.
+        """
         whole = self._whole(normalised(text))
         if whole:
             return [(span,) for span in whole]
@@ -52,7 +61,12 @@ class WordIndex:
 
     def _exact(self, word: str) -> list[Span]:
         forms = (word, f"{word}s", word.removesuffix("s"))
-        found = [span for form in dict.fromkeys(forms) if form in self._spans for span in self._spans[form][:MOST_PLACES]]
+        found = [
+            span
+            for form in dict.fromkeys(forms)
+            if form in self._spans
+            for span in self._spans[form][:MOST_PLACES]
+        ]
         parts = re.split(r"[-.]", word) if "-" in word else []
         if not found and parts and all(part in self._spans for part in parts):
             found = [span for part in parts for span in self._spans[part][:MOST_PLACES]]
@@ -60,11 +74,20 @@ class WordIndex:
 
     @functools.cached_property
     def _uncertain(self) -> list[str]:
-        return list(self._spans) if len(self._spans) <= FEW_WORDS else [word for word in self._spans if not is_known(word)]
+        return (
+            list(self._spans)
+            if len(self._spans) <= FEW_WORDS
+            else [word for word in self._spans if not is_known(word)]
+        )
 
     def _misspelt(self, word: str) -> list[Span]:
         if word not in self._corrected:
-            self._corrected[word] = sorted(span for other in self._uncertain if other and not says(other, word, misspelt=True) for span in self._spans[other])
+            self._corrected[word] = sorted(
+                span
+                for other in self._uncertain
+                if other and not says(other, word, misspelt=True)
+                for span in self._spans[other]
+            )
         return self._corrected[word][:MOST_PLACES]
 
     @functools.cached_property
@@ -76,7 +99,9 @@ class WordIndex:
         start = self._lower.find(wanted) if wanted and len(self._lower) == len(self.text) else -1
         while start >= 0 and len(found) < MOST_PLACES:
             end = start + len(wanted)
-            if not (self._lower[start - 1 : start].isalnum() or self._lower[end : end + 1].isalnum()):
+            if not (
+                self._lower[start - 1 : start].isalnum() or self._lower[end : end + 1].isalnum()
+            ):
                 found.append((start, end))
             start = self._lower.find(wanted, end)
         return found
@@ -93,7 +118,9 @@ class WordIndex:
 
 
 def _nearest(options: list[list[Span]]) -> list[Span]:
-    """One place per word so that they stand near each other: all near one of the last word, mostly a noun."""
+    """One place per word so that they stand near each other: all near one of the last word, mostly
+    a noun.
+    """
     best: list[Span] = []
     for anchor in options[-1]:
         chosen = [_near(places, anchor) for places in options]

@@ -1,8 +1,10 @@
-"""The track of a plan: where its skills take the vehicle, leg by leg, in local metres (x east, y north).
+"""The track of a plan: where its skills take the vehicle, leg by leg, in local metres (x east, y
+north).
 
-It is read from the skill sequences by what the vocabulary's motion file says that skills do. A task without skills moves as its parameters
-say where they say it (a transit to a place); every other one is open. The vehicle starts at home with its bow to the north, and goes
-straight. Wind, current and obstacles are not known here.
+It is read from the skill sequences by what the vocabulary's motion file says that skills do. A task
+without skills moves as its parameters say where they say it (a transit to a place); every other one
+is open. The vehicle starts at home with its bow to the north, and goes straight. Wind, current and
+obstacles are not known here.
 """
 
 from __future__ import annotations
@@ -25,7 +27,9 @@ MOST_TURNS = 10
 
 @dataclass(frozen=True)
 class Leg:
-    """One movement or hold of a step (from 0) of a task. `seconds` is None for a hold until a stop condition, and where no speed is known."""
+    """One movement or hold of a step (from 0) of a task. `seconds` is None for a hold until a stop
+    condition, and where no speed is known.
+    """
 
     task: str
     step: int
@@ -66,7 +70,9 @@ class Target:
 
 @dataclass(frozen=True)
 class Track:
-    """Legs in the order of the plan. `open` are the tasks whose movement is not known, wholly or in part."""
+    """Legs in the order of the plan. `open` are the tasks whose movement is not known, wholly or in
+    part.
+    """
 
     legs: tuple[Leg, ...]
     circles: tuple[Circle, ...]
@@ -96,7 +102,11 @@ def track(document: Mapping[str, Any], vocabulary: Vocabulary) -> Track:
 def place_of(task: Mapping[str, Any], vocabulary: Vocabulary) -> Point | None:
     """Where a task takes place; None where it has no place, or one that is not known."""
     known = vocabulary.task.get(str(task["title"]))
-    value = task["parameters"].get(known.position_parameter) if known and known.position_parameter else None
+    value = (
+        task["parameters"].get(known.position_parameter)
+        if known and known.position_parameter
+        else None
+    )
     return None if value is None or tuple(value) == vocabulary.unresolved else _point(value)
 
 
@@ -108,11 +118,15 @@ def is_open(task: Mapping[str, Any], vocabulary: Vocabulary) -> bool:
 
 
 class _Pen:
-    """Draws task after task from where the vehicle is: `here` is None while that is not known, `heading` in degrees from north."""
+    """Draws task after task from where the vehicle is: `here` is None while that is not known,
+    `heading` in degrees from north.
+    """
 
     def __init__(self, vocabulary: Vocabulary, vehicle: Mapping[str, Any]) -> None:
         self.vocabulary = vocabulary
-        self.cruise_speed, self.turn_rate, self.orbit_angle = (vehicle.get(name) for name in ("cruise_speed", "turn_rate", "orbit_angle"))
+        self.cruise_speed, self.turn_rate, self.orbit_angle = (
+            vehicle.get(name) for name in ("cruise_speed", "turn_rate", "orbit_angle")
+        )
         self.here: Point | None = vocabulary.home
         self.heading = 0.0
         self.legs: list[Leg] = []
@@ -149,7 +163,12 @@ class _Pen:
         if motion is None:
             self._leave_open(task)
         elif motion.kind == "go":
-            self._go(task, number, skill["name"], _point((motion.value("x", given), motion.value("y", given))))
+            self._go(
+                task,
+                number,
+                skill["name"],
+                _point((motion.value("x", given), motion.value("y", given))),
+            )
             self.heading = _number(motion.value("heading", given), self.heading)
         elif motion.kind == "arc":
             self._arc(task, number, skill["name"], motion, given)
@@ -157,7 +176,13 @@ class _Pen:
             self._turn(task, number, skill["name"], motion, given)
         else:
             time = motion.value("time", given)
-            self._stay(task, number, skill["name"], "drift" if motion.kind == "drift" else "hold", None if time is None else float(time))
+            self._stay(
+                task,
+                number,
+                skill["name"],
+                "drift" if motion.kind == "drift" else "hold",
+                None if time is None else float(time),
+            )
 
     def _go(self, task: Mapping[str, Any], step: int, skill: str, goal: Point) -> None:
         length = math.inf if self.here is None else math.dist(self.here, goal)
@@ -170,8 +195,16 @@ class _Pen:
             self._add(task, step, skill, "go", (self.here, goal), length)
         self.here = goal
 
-    def _arc(self, task: Mapping[str, Any], step: int, skill: str, motion: Motion, given: Mapping[str, Any]) -> None:
-        """A circle around the task's centre, to which the vehicle first goes straight; without a centre, a curve from where it heads.
+    def _arc(
+        self,
+        task: Mapping[str, Any],
+        step: int,
+        skill: str,
+        motion: Motion,
+        given: Mapping[str, Any],
+    ) -> None:
+        """A circle around the task's centre, to which the vehicle first goes straight; without a
+        centre, a curve from where it heads.
 
         How far round a centre is the vehicle's own affair where the skill does not say.
         """
@@ -189,13 +222,22 @@ class _Pen:
             start = bearing(center, self.here) if math.dist(center, self.here) > 0 else self.heading
         drawn = math.copysign(min(abs(angle), 360.0 * MOST_TURNS), angle)
         count = max(1, math.ceil(abs(drawn) / ARC_STEP))
-        curve = [_offset(center, start + drawn * index / count, radius) for index in range(count + 1)]
+        curve = [
+            _offset(center, start + drawn * index / count, radius) for index in range(count + 1)
+        ]
         approach = math.dist(self.here, curve[0])
         points = (self.here, *curve) if approach > 0.01 else tuple(curve)
         self._add(task, step, skill, "arc", points, approach + math.radians(abs(angle)) * radius)
         self.here, self.heading = curve[-1], (start + angle + side) % 360
 
-    def _turn(self, task: Mapping[str, Any], step: int, skill: str, motion: Motion, given: Mapping[str, Any]) -> None:
+    def _turn(
+        self,
+        task: Mapping[str, Any],
+        step: int,
+        skill: str,
+        motion: Motion,
+        given: Mapping[str, Any],
+    ) -> None:
         if motion.kind == "turn-to":
             heading = _number(motion.value("heading", given), self.heading)
             angle = abs((heading - self.heading + 180) % 360 - 180)
@@ -205,12 +247,32 @@ class _Pen:
         self.heading = heading % 360
         self._stay(task, step, skill, "turn", angle / self.turn_rate if self.turn_rate else None)
 
-    def _stay(self, task: Mapping[str, Any], step: int, skill: str, kind: LegKind, seconds: float | None) -> None:
+    def _stay(
+        self, task: Mapping[str, Any], step: int, skill: str, kind: LegKind, seconds: float | None
+    ) -> None:
         points = () if self.here is None else (self.here,)
         self.legs.append(Leg(task["id"], step, skill, kind, points, 0.0, seconds))
 
-    def _add(self, task: Mapping[str, Any], step: int, skill: str, kind: LegKind, points: tuple[Point, ...], metres: float) -> None:
-        self.legs.append(Leg(task["id"], step, skill, kind, points, metres, metres / self._speed if self._speed else None))
+    def _add(
+        self,
+        task: Mapping[str, Any],
+        step: int,
+        skill: str,
+        kind: LegKind,
+        points: tuple[Point, ...],
+        metres: float,
+    ) -> None:
+        self.legs.append(
+            Leg(
+                task["id"],
+                step,
+                skill,
+                kind,
+                points,
+                metres,
+                metres / self._speed if self._speed else None,
+            )
+        )
 
     def _leave_open(self, task: Mapping[str, Any]) -> None:
         if task["id"] not in self.open[-1:]:
@@ -224,7 +286,9 @@ def bearing(start: Point, goal: Point) -> float:
 
 def _offset(base: Point, direction: float, length: float) -> Point:
     angle = math.radians(direction)
-    return round(base[0] + length * math.sin(angle), 3), round(base[1] + length * math.cos(angle), 3)
+    return round(base[0] + length * math.sin(angle), 3), round(
+        base[1] + length * math.cos(angle), 3
+    )
 
 
 def _point(value: Any) -> Point:
@@ -238,7 +302,11 @@ def _number(value: Any, otherwise: float) -> float:
 def _stated_speed(task: Mapping[str, Any], vocabulary: Vocabulary) -> float | None:
     """The speed that a task's parameters say, by their unit."""
     known = vocabulary.task.get(task["title"])
-    speeds = [task["parameters"].get(item.name) for item in known.parameters if item.unit == "m/s"] if known else []
+    speeds = (
+        [task["parameters"].get(item.name) for item in known.parameters if item.unit == "m/s"]
+        if known
+        else []
+    )
     return next((speed for speed in speeds if speed), None)
 
 
@@ -247,7 +315,12 @@ def _circles(tasks: list[dict[str, Any]], vocabulary: Vocabulary) -> Iterator[Ci
         standoff = vocabulary.motion.standoff(task["title"])
         center = place_of(task, vocabulary)
         if standoff and center and standoff.radius in task["parameters"]:
-            yield Circle(task["id"], center, task["parameters"][standoff.radius], task["parameters"].get(standoff.arc) if standoff.arc else None)
+            yield Circle(
+                task["id"],
+                center,
+                task["parameters"][standoff.radius],
+                task["parameters"].get(standoff.arc) if standoff.arc else None,
+            )
 
 
 def _boundaries(tasks: list[dict[str, Any]], vocabulary: Vocabulary) -> Iterator[Boundary]:
@@ -255,7 +328,11 @@ def _boundaries(tasks: list[dict[str, Any]], vocabulary: Vocabulary) -> Iterator
         for number, step in enumerate(task.get("skill_sequence") or ()):
             for skill in step["filter_skills"]:
                 motion = vocabulary.motion.of(skill["name"])
-                polygon = motion.value("polygon", skill["parameters"]) if motion and motion.kind == "boundary" else None
+                polygon = (
+                    motion.value("polygon", skill["parameters"])
+                    if motion and motion.kind == "boundary"
+                    else None
+                )
                 if polygon:
                     yield Boundary(task["id"], number, tuple(_point(corner) for corner in polygon))
 

@@ -16,7 +16,9 @@ SHOWN_PROBLEMS, SHOWN_TEXT = 5, 400
 
 
 def plan_tree(document: PlanDocument) -> str:
-    """The plan, what it takes for granted, what is open and what it cost, one line each. Control characters are spelt out."""
+    """The plan, what it takes for granted, what is open and what it cost, one line each. Control
+    characters are spelt out.
+    """
     return "\n".join(map(plain, _lines(document)))
 
 
@@ -25,7 +27,10 @@ def _lines(document: PlanDocument) -> Iterator[str]:
     yield from task_tree(document)
     yield from _list_lines("Assumptions", document["assumptions"])
     yield from _list_lines("Constraints", document["constraints"])
-    open_places = [f"{place['name']}: task{'s' if len(place['tasks']) > 1 else ''} {_numbers(place['tasks'])}" for place in document["open_places"]]
+    open_places = [
+        f"{place['name']}: task{'s' if len(place['tasks']) > 1 else ''} {_numbers(place['tasks'])}"
+        for place in document["open_places"]
+    ]
     yield from _list_lines('Open places (fill in with --locate "NAME=x,y")', open_places)
     yield from _list_lines("Warnings", [warning["text"] for warning in document["warnings"]])
     yield ""
@@ -35,13 +40,22 @@ def _lines(document: PlanDocument) -> Iterator[str]:
 
 
 def task_tree(document: PlanDocument) -> Iterator[str]:
-    """The lines of the tasks with their skills, or what is wrong with the Mission Agent's answer."""
+    """The lines of the tasks with their skills, or what is wrong with the Mission Agent's
+    answer.
+    """
     if "problems" in document:
-        yield from _invalid("the Mission Agent's answer is not a valid plan", document["problems"], document["output"])
+        yield from _invalid(
+            "the Mission Agent's answer is not a valid plan",
+            document["problems"],
+            document["output"],
+        )
     elif not document["tasks"]:
         yield "no tasks"
     if document["located"]:
-        yield f"Located: {', '.join(f'{name} at {compact_json(position)}' for name, position in document['located'].items())}"
+        yield (
+            "Located:"
+            f" {', '.join(f'{name} at {compact_json(position)}' for name, position in document['located'].items())}"
+        )
     for number, task in enumerate(document["tasks"], start=1):
         yield from _task_lines(number, task)
 
@@ -52,7 +66,9 @@ def _task_lines(number: int, task: dict[str, Any]) -> Iterator[str]:
     if "waits_for" in task:
         yield f"{INDENT}(skills wait for the position of {task['waits_for']})"
     if "problems" in task:
-        yield from _invalid(f"{INDENT}the Task Agent's answer is not a valid plan", task["problems"], task["output"])
+        yield from _invalid(
+            f"{INDENT}the Task Agent's answer is not a valid plan", task["problems"], task["output"]
+        )
     if task.get("stale"):
         yield f"{INDENT}(the skills were planned before the task was edited)"
     for place, step in enumerate(task["skill_sequence"] or (), start=1):
@@ -63,12 +79,16 @@ def _task_lines(number: int, task: dict[str, Any]) -> Iterator[str]:
 def _step(step: dict[str, Any]) -> str:
     """The navigation skill, filters after "|", what gathers data after "+"."""
     signs = {"navigation": "", "filter": " | ", "perception": " + "}
-    return "".join(signs[role] + call(skill["name"], skill["parameters"]) for role, skill in step_skills(step))
+    return "".join(
+        signs[role] + call(skill["name"], skill["parameters"]) for role, skill in step_skills(step)
+    )
 
 
 def call(name: str, parameters: dict[str, Any]) -> str:
     """A task or skill as it is called: "GoToXY(x=12, y=-4)"."""
-    return f"{name}({', '.join(f'{key}={compact_json(value)}' for key, value in parameters.items())})"
+    return (
+        f"{name}({', '.join(f'{key}={compact_json(value)}' for key, value in parameters.items())})"
+    )
 
 
 def _list_lines(heading: str, items: Iterable[str]) -> Iterator[str]:
@@ -81,12 +101,17 @@ def _list_lines(heading: str, items: Iterable[str]) -> Iterator[str]:
 def _use(use: dict[str, Any]) -> str:
     adapter = f"adapter {use['adapter']}" if use["adapter"] else "no adapter"
     loaded = f" (loaded in {use['load_seconds']:.1f} s)" if use["load_seconds"] else ""
-    did = f"{use['queries']} answer{'s' if use['queries'] != 1 else ''}, {use['tokens']} tokens, {use['forward_passes']} forward passes, {use['seconds']:.2f} s"
+    did = (
+        f"{use['queries']} answer{'s' if use['queries'] != 1 else ''}, {use['tokens']} tokens,"
+        f" {use['forward_passes']} forward passes, {use['seconds']:.2f} s"
+    )
     return f"{use['candidate']} {use['configuration']}, {adapter}: {did}{loaded}"
 
 
 def plain(line: str) -> str:
-    """The line with control characters (a command may bring some) as escapes, so that none reaches a terminal."""
+    """The line with control characters (a command may bring some) as escapes, so that none reaches
+    a terminal.
+    """
     return "".join(char if char.isprintable() else repr(char)[1:-1] for char in line)
 
 
@@ -99,4 +124,6 @@ def _invalid(what: str, problems: Iterable[str], text: str) -> Iterator[str]:
     listed = list(problems)
     more = f" (and {len(listed) - SHOWN_PROBLEMS} more)" if len(listed) > SHOWN_PROBLEMS else ""
     yield f"{what}: {'; '.join(listed[:SHOWN_PROBLEMS])}{more}"
-    yield f"{INDENT}{text[:SHOWN_TEXT]}{f' ... ({len(text)} characters; --json prints all)' if len(text) > SHOWN_TEXT else ''}"
+    yield (
+        f"{INDENT}{text[:SHOWN_TEXT]}{f' ... ({len(text)} characters; --json prints all)' if len(text) > SHOWN_TEXT else ''}"
+    )

@@ -1,4 +1,6 @@
-"""The vehicle's profile: the figures that estimates of a plan rest on, and the area that the vehicle may be in."""
+"""The vehicle's profile: the figures that estimates of a plan rest on, and the area that the
+vehicle may be in.
+"""
 
 from __future__ import annotations
 
@@ -13,14 +15,20 @@ from planner_ft.support.files import read_text
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import VEHICLE
 
-AMOUNTS = {"cruise_speed": "m/s", "endurance": "s", "turn_rate": "degrees per second", "orbit_angle": "degrees"}
+AMOUNTS = {
+    "cruise_speed": "m/s",
+    "endurance": "s",
+    "turn_rate": "degrees per second",
+    "orbit_angle": "degrees",
+}
 LARGEST = 1e9
 FULL_CIRCLE = 360
 
 
 @dataclass(frozen=True)
 class Vehicle:
-    """`cruise_speed` in m/s, `endurance` in seconds, `turn_rate` in degrees per second, `area` in local metres (None: anywhere).
+    """`cruise_speed` in m/s, `endurance` in seconds, `turn_rate` in degrees per second, `area` in
+    local metres (None: anywhere).
 
     `orbit_angle` (degrees) is how far the vehicle goes round a target when nobody says how far.
     """
@@ -46,7 +54,8 @@ class Vehicle:
 
 
 def load_vehicle(path: Path | str | None, vocabulary: Vocabulary) -> Vehicle:
-    """The profile in a TOML file; without a path NAME.vehicle.toml beside the vocabulary's definition. What a file leaves out is as there.
+    """The profile in a TOML file; without a path NAME.vehicle.toml beside the vocabulary's
+    definition. What a file leaves out is as there.
 
     Raises PlannerError that names the file and what is wrong.
     """
@@ -54,7 +63,10 @@ def load_vehicle(path: Path | str | None, vocabulary: Vocabulary) -> Vehicle:
     if path is None:
         if not own:
             beside = f"{vocabulary.path.stem if vocabulary.path else vocabulary.name}{VEHICLE}"
-            raise PlannerError(f"vocabulary {vocabulary.name}: has no vehicle profile; write {beside} beside its definition, or give one with --vehicle FILE")
+            raise PlannerError(
+                f"vocabulary {vocabulary.name}: has no vehicle profile; write {beside} beside its"
+                " definition, or give one with --vehicle FILE"
+            )
         return _built(own, f"{vocabulary.name}{VEHICLE}")
     try:
         raw = tomllib.loads(read_text(path))
@@ -64,11 +76,19 @@ def load_vehicle(path: Path | str | None, vocabulary: Vocabulary) -> Vehicle:
 
 
 def check_area(corners: Any) -> tuple[tuple[float, float], ...]:
-    """The corners of an area as pairs of metres. Raises PlannerError when they are no polygon without crossing sides."""
+    """The corners of an area as pairs of metres. Raises PlannerError when they are no polygon
+    without crossing sides.
+    """
     from shapely import Polygon
 
-    if not isinstance(corners, list | tuple) or len(corners) < 3 or not all(map(_is_position, corners)):
-        raise PlannerError(f"area = {corners!r}: must be a list of at least three positions [x, y] in local metres")
+    if (
+        not isinstance(corners, list | tuple)
+        or len(corners) < 3
+        or not all(map(_is_position, corners))
+    ):
+        raise PlannerError(
+            f"area = {corners!r}: must be a list of at least three positions [x, y] in local metres"
+        )
     area = tuple((float(x), float(y)) for x, y in corners)
     if not Polygon(area).is_valid:
         raise PlannerError("area: its sides cross or touch each other; give its corners in order")
@@ -79,17 +99,28 @@ def _built(raw: dict[str, Any], where: str) -> Vehicle:
     raw = {"orbit_angle": FULL_CIRCLE, **raw}
     unknown = [key for key in raw if key not in ("name", *AMOUNTS, "area")]
     if unknown:
-        raise PlannerError(f"{where}: unknown key {unknown[0]!r}; there is name, {', '.join(AMOUNTS)}, area")
+        raise PlannerError(
+            f"{where}: unknown key {unknown[0]!r}; there is name, {', '.join(AMOUNTS)}, area"
+        )
     if not isinstance(raw.get("name"), str) or not raw["name"].strip():
         raise PlannerError(f"{where}: name must be a text")
     for key, unit in AMOUNTS.items():
         if not _is_number(raw.get(key)) or not 0 < raw[key] <= LARGEST:
-            raise PlannerError(f"{where}: {key} = {raw.get(key)!r} must be a number above 0 ({unit})")
+            raise PlannerError(
+                f"{where}: {key} = {raw.get(key)!r} must be a number above 0 ({unit})"
+            )
     try:
         area = None if raw.get("area") is None else check_area(raw["area"])
     except PlannerError as error:
         raise PlannerError(f"{where}: {error}") from None
-    return Vehicle(raw["name"].strip(), raw["cruise_speed"], raw["endurance"], raw["turn_rate"], raw["orbit_angle"], area)
+    return Vehicle(
+        raw["name"].strip(),
+        raw["cruise_speed"],
+        raw["endurance"],
+        raw["turn_rate"],
+        raw["orbit_angle"],
+        area,
+    )
 
 
 def _is_number(value: Any) -> bool:
@@ -97,4 +128,9 @@ def _is_number(value: Any) -> bool:
 
 
 def _is_position(value: Any) -> bool:
-    return isinstance(value, list | tuple) and len(value) == 2 and all(map(_is_number, value)) and max(map(abs, value)) <= LARGEST
+    return (
+        isinstance(value, list | tuple)
+        and len(value) == 2
+        and all(map(_is_number, value))
+        and max(map(abs, value)) <= LARGEST
+    )

@@ -1,7 +1,8 @@
 """Names and values as BehaviorTree.CPP 4 reads them from XML attributes.
 
-Sources: the library's rules for names (https://github.com/BehaviorTree/BehaviorTree.CPP, docs/name_validation_rules.md) and for lists in
-ports, whose entries are set apart by ";" (https://www.behaviortree.dev/docs/tutorial-basics/tutorial_03_generic_ports).
+Sources: the library's rules for names (https://github.com/BehaviorTree/BehaviorTree.CPP,
+docs/name_validation_rules.md) and for lists in ports, whose entries are set apart by ";"
+(https://www.behaviortree.dev/docs/tutorial-basics/tutorial_03_generic_ports).
 """
 
 from __future__ import annotations
@@ -26,7 +27,9 @@ PORT_TYPES: dict[ParameterType, str] = {
     "texts": "std::vector<std::string>",
 }
 RESERVED = frozenset({"name", "ID"})
-"""What an attribute of a node means to the library itself; all else that it reserves begins with "_"."""
+"""What an attribute of a node means to the library itself; all else that it reserves begins with
+"_".
+"""
 
 UNREADABLE = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ufffe\uffff\ud800-\udfff]")
 POINTER_FORM = "its braces became parentheses: in an attribute they would name a blackboard entry"
@@ -34,7 +37,9 @@ UNREADABLE_FORM = "its control characters were replaced: XML has none"
 
 
 def plain_name(text: str, taken: Iterable[str] = ()) -> str:
-    """A name for a node, a tree, a port or a blackboard entry: ASCII letters, digits and "_", a letter first, none of `taken`."""
+    """A name for a node, a tree, a port or a blackboard entry: ASCII letters, digits and "_", a
+    letter first, none of `taken`.
+    """
     ascii_only = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode()
     name = re.sub(r"[^A-Za-z0-9_]+", "_", ascii_only).strip("_") or "unnamed"
     name = name if name[0].isalpha() else f"n_{name}"
@@ -52,7 +57,9 @@ def plain_names(texts: Iterable[str], taken: Iterable[str] = ()) -> dict[str, st
 
 
 def readable(text: str) -> tuple[str, str]:
-    """(the text as an attribute can hold it, how that differs from what was said; "" where it does not)."""
+    """(the text as an attribute can hold it, how that differs from what was said; "" where it does
+    not).
+    """
     clean = UNREADABLE.sub("\ufffd", text)
     form = UNREADABLE_FORM if clean != text else ""
     inner = clean.strip(" ")
@@ -63,7 +70,9 @@ def readable(text: str) -> tuple[str, str]:
 
 
 def attribute(value: Any) -> tuple[str, str]:
-    """(a parameter's value as an attribute's text, how that differs from the value; "" where it does not)."""
+    """(a parameter's value as an attribute's text, how that differs from the value; "" where it
+    does not).
+    """
     if isinstance(value, str):
         return readable(value)
     if isinstance(value, int | float) and not isinstance(value, bool):
@@ -71,7 +80,14 @@ def attribute(value: Any) -> tuple[str, str]:
     if isinstance(value, list) and all(isinstance(item, str) for item in value):
         return _texts(value)
     if isinstance(value, list):
-        return ";".join(_number(number) for item in value for number in (item if isinstance(item, list) else [item])), ""
+        return (
+            ";".join(
+                _number(number)
+                for item in value
+                for number in (item if isinstance(item, list) else [item])
+            ),
+            "",
+        )
     return readable(compact_json(value))
 
 

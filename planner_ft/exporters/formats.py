@@ -37,8 +37,8 @@ DRAFT = "DRAFT - NOT APPROVED"
 class Handover:
     """A plan on its way to a vehicle.
 
-    `origin` is where [0, 0] lies, None where the format does not need it and it was not given. `approval` says in one sentence who
-    approved the plan and when; it is None for a draft.
+    `origin` is where [0, 0] lies, None where the format does not need it and it was not given.
+    `approval` says in one sentence who approved the plan and when; it is None for a draft.
     """
 
     document: dict[str, Any]
@@ -66,15 +66,29 @@ class Handover:
 
     @functools.cached_property
     def blocked(self) -> tuple[int, str] | None:
-        """(index from 0 of the first task that waits for a place or for its skills, why), None where none does.
+        """(index from 0 of the first task that waits for a place or for its skills, why), None
+        where none does.
 
-        A format that cannot wait carries no task from here on. A task that says its movement without skills (a transit) waits for none.
+        A format that cannot wait carries no task from here on. A task that says its movement
+        without skills (a transit) waits for none.
         """
         for index, task in enumerate(self.document["tasks"]):
             if task.get("waits_for"):
-                return index, f'{task["id"]} waits for "{task["waits_for"]}", and the format cannot wait: plan again when it is located'
+                return (
+                    index,
+                    (
+                        f'{task["id"]} waits for "{task["waits_for"]}", and the format cannot wait:'
+                        " plan again when it is located"
+                    ),
+                )
             if task["skill_sequence"] is None and task["id"] in self.track.open:
-                return index, f"{task['id']} has no skills, and the format cannot go on without its movement: plan its skills first"
+                return (
+                    index,
+                    (
+                        f"{task['id']} has no skills, and the format cannot go on without its"
+                        " movement: plan its skills first"
+                    ),
+                )
         return None
 
     @property
@@ -99,8 +113,8 @@ class Written:
 class Format:
     """A way to hand a plan over.
 
-    `extension` begins with a dot. `write` may raise PlannerError for a plan that the format cannot take at all. `Handover.origin` is
-    never None for a format that `needs_origin`.
+    `extension` begins with a dot. `write` may raise PlannerError for a plan that the format cannot
+    take at all. `Handover.origin` is never None for a format that `needs_origin`.
     """
 
     name: str
@@ -116,7 +130,9 @@ def format_names() -> list[str]:
 
 
 def load_format(name: str) -> Format:
-    """A format by its name. Raises PlannerError when there is none, or when one that a package adds cannot be loaded."""
+    """A format by its name. Raises PlannerError when there is none, or when one that a package adds
+    cannot be loaded.
+    """
     bundled = BUNDLED.get(name)
     entry = EntryPoint(name, bundled, GROUP) if bundled else _added().get(name)
     if entry is None:
@@ -124,9 +140,15 @@ def load_format(name: str) -> Format:
     try:
         loaded = entry.load()
     except (ImportError, AttributeError) as error:
-        raise PlannerError(f"--format {name}: {entry.value} cannot be loaded ({error}); install what it needs, or the package that adds it anew") from error
+        raise PlannerError(
+            f"--format {name}: {entry.value} cannot be loaded ({error}); install what it needs, or"
+            " the package that adds it anew"
+        ) from error
     if not isinstance(loaded, Format):
-        raise PlannerError(f"--format {name}: {entry.value} is no planner_ft.exporters.Format; ask whoever wrote it")
+        raise PlannerError(
+            f"--format {name}: {entry.value} is no planner_ft.exporters.Format; ask whoever"
+            " wrote it"
+        )
     return loaded
 
 

@@ -1,7 +1,9 @@
-"""The format `geojson`: a plan for maps (RFC 7946: longitude before latitude, polygons counter-clockwise, lines cut at the antimeridian).
+"""The format `geojson`: a plan for maps (RFC 7946: longitude before latitude, polygons
+counter-clockwise, lines cut at the antimeridian).
 
-Features by their property `kind`: `plan` and `task` hold everything that the plan says, `waypoint`, `target`, `boundary`, `area`, `grid`
-and `stand-off` what a map shows of it. Every geometry stands in local metres beside it (`local`).
+Features by their property `kind`: `plan` and `task` hold everything that the plan says, `waypoint`,
+`target`, `boundary`, `area`, `grid` and `stand-off` what a map shows of it. Every geometry stands
+in local metres beside it (`local`).
 """
 
 from __future__ import annotations
@@ -19,8 +21,27 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
 Feature = dict[str, Any]
-PLAN_KEYS = ("command", "vehicle", "assumptions", "constraints", "open_places", "located", "problems", "warnings")
-TASK_KEYS = ("title", "parameters", "task_prompt", "skill_sequence", "waits_for", "stale", "located", "assumptions", "problems")
+PLAN_KEYS = (
+    "command",
+    "vehicle",
+    "assumptions",
+    "constraints",
+    "open_places",
+    "located",
+    "problems",
+    "warnings",
+)
+TASK_KEYS = (
+    "title",
+    "parameters",
+    "task_prompt",
+    "skill_sequence",
+    "waits_for",
+    "stale",
+    "located",
+    "assumptions",
+    "problems",
+)
 CORNERS = 72
 """Of a circle."""
 DIGITS = 9
@@ -35,7 +56,10 @@ def write(handover: Handover) -> Written:
     for path in ledger.items:
         ledger.carry(*path)
     features = list(_Drawing(handover).features())
-    return Written(indented_json({"type": "FeatureCollection", "name": handover.name, "features": features}), ledger.close())
+    return Written(
+        indented_json({"type": "FeatureCollection", "name": handover.name, "features": features}),
+        ledger.close(),
+    )
 
 
 class _Drawing:
@@ -56,13 +80,29 @@ class _Drawing:
             yield from self._grid(task, legs)
         for target in self.track.targets:
             points = [] if target.position is None else [target.position]
-            yield self._feature("target", points, name=target.name, task=target.task, located=target.position is not None)
+            yield self._feature(
+                "target",
+                points,
+                name=target.name,
+                task=target.task,
+                located=target.position is not None,
+            )
         for boundary in self.track.boundaries:
-            yield self._feature("boundary", boundary.polygon, ring=True, task=boundary.task, step=boundary.step + 1)
+            yield self._feature(
+                "boundary", boundary.polygon, ring=True, task=boundary.task, step=boundary.step + 1
+            )
         if self.document["vehicle"]["area"]:
             yield self._feature("area", self.document["vehicle"]["area"], ring=True)
         for circle in self.track.circles:
-            yield self._feature("stand-off", _corners(circle), ring=True, task=circle.task, center=list(circle.center), radius=circle.radius, arc=circle.arc)
+            yield self._feature(
+                "stand-off",
+                _corners(circle),
+                ring=True,
+                task=circle.task,
+                center=list(circle.center),
+                radius=circle.radius,
+                arc=circle.arc,
+            )
 
     @property
     def _legs(self) -> dict[str, list[Leg]]:
@@ -91,7 +131,14 @@ class _Drawing:
 
     def _waypoint(self, leg: Leg) -> Feature:
         return self._feature(
-            "waypoint", [leg.points[-1]], task=leg.task, step=leg.step + 1, skill=leg.skill, motion=leg.kind, metres=leg.metres, seconds=leg.seconds
+            "waypoint",
+            [leg.points[-1]],
+            task=leg.task,
+            step=leg.step + 1,
+            skill=leg.skill,
+            motion=leg.kind,
+            metres=leg.metres,
+            seconds=leg.seconds,
         )
 
     def _grid(self, task: dict[str, Any], legs: Sequence[Leg]) -> Iterator[Feature]:
@@ -100,13 +147,24 @@ class _Drawing:
 
         known = self.handover.vocabulary.task.get(task["title"])
         hull = shapely.MultiPoint([leg.points[-1] for leg in legs if leg.kind == "go"]).convex_hull
-        if known and known.pattern == LAWNMOWER and isinstance(hull, shapely.Polygon) and not hull.is_empty:
+        if (
+            known
+            and known.pattern == LAWNMOWER
+            and isinstance(hull, shapely.Polygon)
+            and not hull.is_empty
+        ):
             yield self._feature("grid", hull.exterior.coords[:-1], ring=True, task=task["id"])
 
-    def _feature(self, kind: str, points: Sequence[Sequence[float]], *, ring: bool = False, **properties: Any) -> Feature:
+    def _feature(
+        self, kind: str, points: Sequence[Sequence[float]], *, ring: bool = False, **properties: Any
+    ) -> Feature:
         local = [list(point) for point in points]
         geometry = _geometry([self._place(x, y) for x, y in local], ring) if local else None
-        return {"type": "Feature", "geometry": geometry, "properties": {"kind": kind, **properties, "local": local}}
+        return {
+            "type": "Feature",
+            "geometry": geometry,
+            "properties": {"kind": kind, **properties, "local": local},
+        }
 
     def _place(self, x: float, y: float) -> tuple[float, float]:
         """Longitude and latitude; the longitude goes on beyond 180 degrees, as the way does."""
@@ -127,12 +185,16 @@ def _geometry(places: list[tuple[float, float]], ring: bool) -> dict[str, Any]:
     else:
         shape = shapely.LineString(places)
     west, _south, east, _north = shape.bounds
-    told: dict[str, Any] = shapely.geometry.mapping(shape if west >= -180 and east <= 180 else _cut(shape))
+    told: dict[str, Any] = shapely.geometry.mapping(
+        shape if west >= -180 and east <= 180 else _cut(shape)
+    )
     return told
 
 
 def _cut(shape: BaseGeometry) -> BaseGeometry:
-    """A geometry whose longitudes go beyond 180 degrees as its parts on either side, all within -180 and 180."""
+    """A geometry whose longitudes go beyond 180 degrees as its parts on either side, all within
+    -180 and 180.
+    """
     import shapely
     from shapely.affinity import translate
 
@@ -141,18 +203,27 @@ def _cut(shape: BaseGeometry) -> BaseGeometry:
     for turn in (-1, 0, 1):
         window = shapely.box(360 * turn - 180, -90, 360 * turn + 180, 90)
         pieces = shapely.get_parts(translate(whole.intersection(window), -360 * turn))
-        parts += [piece for piece in pieces if piece.geom_type == shape.geom_type and not piece.is_empty]
+        parts += [
+            piece for piece in pieces if piece.geom_type == shape.geom_type and not piece.is_empty
+        ]
     if not parts:
         # A polygon without an inside.
         return translate(shape, -360 * round(shape.bounds[0] / 360))
-    several = {"Point": shapely.MultiPoint, "LineString": shapely.MultiLineString, "Polygon": shapely.MultiPolygon}[shape.geom_type]
+    several = {
+        "Point": shapely.MultiPoint,
+        "LineString": shapely.MultiLineString,
+        "Polygon": shapely.MultiPolygon,
+    }[shape.geom_type]
     return shapely.orient_polygons(parts[0] if len(parts) == 1 else several(parts))
 
 
 def _corners(circle: Circle) -> list[Point]:
     x, y = circle.center
     angles = [2 * math.pi * index / CORNERS for index in range(CORNERS)]
-    return [(x + circle.radius * math.cos(angle), y + circle.radius * math.sin(angle)) for angle in angles]
+    return [
+        (x + circle.radius * math.cos(angle), y + circle.radius * math.sin(angle))
+        for angle in angles
+    ]
 
 
 FORMAT = Format("geojson", ".geojson", "GeoJSON for maps", needs_origin=True, write=write)

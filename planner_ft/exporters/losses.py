@@ -13,9 +13,20 @@ def loss_summary(account: Account) -> str:
     """One line: how much of the plan is in the file, and which tasks do not move as planned."""
     lost, changed = len(account.lost_paths), len(account.changed_paths)
     total = len(account.carried) + lost
-    still = sorted({int(path[1]) + 1 for path in account.lost_paths if path[4:] == ("navigation_skill", "name")})
-    movements = f"; MOVEMENTS LOST in task{'s' if len(still) > 1 else ''} {ranges(still)}" if still else ""
-    return f"{len(account.carried)} of {total} entries carried, {changed} of them in another form; {lost} lost{movements}"
+    still = sorted(
+        {
+            int(path[1]) + 1
+            for path in account.lost_paths
+            if path[4:] == ("navigation_skill", "name")
+        }
+    )
+    movements = (
+        f"; MOVEMENTS LOST in task{'s' if len(still) > 1 else ''} {ranges(still)}" if still else ""
+    )
+    return (
+        f"{len(account.carried)} of {total} entries carried, {changed} of them in another form;"
+        f" {lost} lost{movements}"
+    )
 
 
 def loss_lines(account: Account) -> Iterator[str]:
@@ -26,7 +37,11 @@ def loss_lines(account: Account) -> Iterator[str]:
 
 def loss_report(handover: Handover, written: Format, file: str, account: Account) -> str:
     """The report as Markdown."""
-    parts = [f"# What {_cell(file)} does not hold", f"{_cell(written.description)}. {_cell(handover.mark)}.", loss_summary(account) + "."]
+    parts = [
+        f"# What {_cell(file)} does not hold",
+        f"{_cell(written.description)}. {_cell(handover.mark)}.",
+        loss_summary(account) + ".",
+    ]
     parts += _section("Lost", "Why", account.lost)
     parts += _section("Carried in another form", "How", account.changed)
     return "\n\n".join(parts) + "\n"
@@ -35,7 +50,9 @@ def loss_report(handover: Handover, written: Format, file: str, account: Account
 def _section(title: str, column: str, losses: Sequence[Loss]) -> list[str]:
     if not losses:
         return []
-    rows = [f"| {loss.task or 'plan'} | {_cell(loss.what)} | {_cell(loss.why)} |" for loss in losses]
+    rows = [
+        f"| {loss.task or 'plan'} | {_cell(loss.what)} | {_cell(loss.why)} |" for loss in losses
+    ]
     return [f"## {title}", "\n".join([f"| Task | What | {column} |", "|---|---|---|", *rows])]
 
 

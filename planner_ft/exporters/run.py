@@ -1,4 +1,6 @@
-"""Handing a plan over: read it, look up its approval, write the file and the report of what it does not hold."""
+"""Handing a plan over: read it, look up its approval, write the file and the report of what it does
+not hold.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +26,9 @@ REPORT = ".losses.md"
 class HandoverSettings:
     """The plan file, the formats by name ("all": every one), and where [0, 0] lies.
 
-    `out` is the file of a single format, by default the plan's name with the format's extension. `log` is the approval log, by default the one
-    beside the plan; `draft` hands a plan over that is not approved, and marks it. `vocabulary` is the file of a vocabulary that is not bundled.
+    `out` is the file of a single format, by default the plan's name with the format's extension.
+    `log` is the approval log, by default the one beside the plan; `draft` hands a plan over that is
+    not approved, and marks it. `vocabulary` is the file of a vocabulary that is not bundled.
     """
 
     plan: Path
@@ -49,9 +52,11 @@ class HandedOver:
 
 
 def hand_over(settings: HandoverSettings) -> list[HandedOver]:
-    """Write an approved plan in every format that was asked for, each with its report; all are made before any is written.
+    """Write an approved plan in every format that was asked for, each with its report; all are made
+    before any is written.
 
-    Raises PlannerError for a plan that is not approved (without `draft`), and for what a format cannot take.
+    Raises PlannerError for a plan that is not approved (without `draft`), and for what a format
+    cannot take.
     """
     formats = _formats(settings)
     vocabulary = load_vocabulary(settings.vocabulary) if settings.vocabulary else None
@@ -68,15 +73,25 @@ def hand_over(settings: HandoverSettings) -> list[HandedOver]:
 
 
 def _formats(settings: HandoverSettings) -> list[Format]:
-    names = dict.fromkeys(name for given in settings.formats for name in (format_names() if given == ALL else [given]))
+    names = dict.fromkeys(
+        name for given in settings.formats for name in (format_names() if given == ALL else [given])
+    )
     if not names:
-        raise PlannerError(f"--format: say for which vehicle; there is {', '.join(format_names())}, or all")
+        raise PlannerError(
+            f"--format: say for which vehicle; there is {', '.join(format_names())}, or all"
+        )
     formats = [load_format(name) for name in names]
     if settings.out is not None and len(formats) > 1:
-        raise PlannerError(f"--out {settings.out}: names one file, and {len(formats)} formats are asked for; leave it out, or give one --format")
+        raise PlannerError(
+            f"--out {settings.out}: names one file, and {len(formats)} formats are asked for; leave"
+            " it out, or give one --format"
+        )
     needing = next((chosen.name for chosen in formats if chosen.needs_origin), None)
     if needing and settings.origin is None:
-        raise PlannerError(f"--format {needing}: needs --origin LAT,LON, where the plan's [0, 0] lies, such as 59.9075,10.7231")
+        raise PlannerError(
+            f"--format {needing}: needs --origin LAT,LON, where the plan's [0, 0] lies, such as"
+            " 59.9075,10.7231"
+        )
     return formats
 
 
@@ -85,22 +100,34 @@ def _handover(settings: HandoverSettings, vocabulary: Vocabulary | None) -> Hand
     approval = approval_of(document, settings.log or log_beside(settings.plan))
     if approval.status != "approved" and not settings.draft:
         raise PlannerError(
-            f"{settings.plan}: {approval.text}; approve it with `plannerft review {settings.plan}`, or give --draft for a file that is marked {DRAFT}"
+            f"{settings.plan}: {approval.text}; approve it with `plannerft review {settings.plan}`,"
+            f" or give --draft for a file that is marked {DRAFT}"
         )
     told = f"{approval.text}; digest {approval.digest}" if approval.status == "approved" else None
-    return Handover(document, vocabulary or load_vocabulary(document["vocabulary"]["name"]), settings.origin, told)
+    return Handover(
+        document,
+        vocabulary or load_vocabulary(document["vocabulary"]["name"]),
+        settings.origin,
+        told,
+    )
 
 
 def _file(settings: HandoverSettings, chosen: Format, *, draft: bool) -> Path:
-    """Where a format goes. A draft's own name says so, too: some ground stations show no more of a mission than that."""
-    file = settings.out or settings.plan.with_name(f"{settings.plan.stem}{'.DRAFT' if draft else ''}{chosen.extension}")
+    """Where a format goes. A draft's own name says so, too: some ground stations show no more of a
+    mission than that.
+    """
+    file = settings.out or settings.plan.with_name(
+        f"{settings.plan.stem}{'.DRAFT' if draft else ''}{chosen.extension}"
+    )
     if file.resolve() == settings.plan.resolve():
         raise PlannerError(f"--out {file}: is the plan itself; give another file")
     for path in (file, file.with_name(file.name + REPORT)):
         if path.is_dir():
             raise PlannerError(f"--out {path}: is a folder; give a file")
         if path.exists() and not settings.overwrite:
-            raise PlannerError(f"{path}: exists; give --overwrite to replace it, or another file with --out")
+            raise PlannerError(
+                f"{path}: exists; give --overwrite to replace it, or another file with --out"
+            )
     return file
 
 

@@ -1,7 +1,8 @@
-"""A candidate with its adapter as one model that other programs load: a transformers folder in full precision, and a GGUF file.
+"""A candidate with its adapter as one model that other programs load: a transformers folder in full
+precision, and a GGUF file.
 
-`run.export` does it: `merge` folds the adapter in, `check` compares answers before and after, `gguf_tokens` and `gguf_file`
-write the model as llama.cpp reads it.
+`run.export` does it: `merge` folds the adapter in, `check` compares answers before and after,
+`gguf_tokens` and `gguf_file` write the model as llama.cpp reads it.
 """
 
 from planner_ft.model_export.run import Exported, export

@@ -22,24 +22,42 @@ TOKEN_CHECKS = 1000
 
 @dataclass(frozen=True)
 class Agreement:
-    """How far two models agree: `same` of `count` greedy answers, and the largest difference of a logit on those answers."""
+    """How far two models agree: `same` of `count` greedy answers, and the largest difference of a
+    logit on those answers.
+    """
 
     count: int
     same: int
     largest_logit_difference: float
 
     def to_json(self) -> dict[str, Any]:
-        return {"commands": self.count, "same_answers": self.same, "largest_logit_difference": self.largest_logit_difference, "dtype": "float32"}
+        return {
+            "commands": self.count,
+            "same_answers": self.same,
+            "largest_logit_difference": self.largest_logit_difference,
+            "dtype": "float32",
+        }
 
 
-def check_records(level: Level, vocabulary: Vocabulary, count: int, data: Path | None = None) -> list[dict[str, Any]]:
-    """The first records of `data`, or of the level's validation set: the curated commands, sampled tasks. Raises PlannerError."""
+def check_records(
+    level: Level, vocabulary: Vocabulary, count: int, data: Path | None = None
+) -> list[dict[str, Any]]:
+    """The first records of `data`, or of the level's validation set: the curated commands, sampled
+    tasks. Raises PlannerError.
+    """
     if data is not None:
         records = read_jsonl(data)[:count]
         for number, record in enumerate(records, 1):
-            missing = [key for key in (("prompt",) if level == "mission" else ("prompt", "task")) if not isinstance(record.get(key), str)]
+            missing = [
+                key
+                for key in (("prompt",) if level == "mission" else ("prompt", "task"))
+                if not isinstance(record.get(key), str)
+            ]
             if missing:
-                raise PlannerError(f"{data}: record {number} has no {missing[0]}; give commands of the {level} level")
+                raise PlannerError(
+                    f"{data}: record {number} has no {missing[0]}; give commands of the {level}"
+                    " level"
+                )
         return records
     if level == "mission":
         return read_jsonl(find_source() / "validation.jsonl")[:count]
@@ -48,8 +66,12 @@ def check_records(level: Level, vocabulary: Vocabulary, count: int, data: Path |
     return list(itertools.islice(sample_tasks(vocabulary, SEED, count, "validation"), count))
 
 
-def token_records(level: Level, vocabulary: Vocabulary, records: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """These records and a thousand drawn ones, to compare the ids of their prompts in two tokenizers."""
+def token_records(
+    level: Level, vocabulary: Vocabulary, records: Sequence[dict[str, Any]]
+) -> list[dict[str, Any]]:
+    """These records and a thousand drawn ones, to compare the ids of their prompts in two
+    tokenizers.
+    """
     if level == "task":
         return [*records, *check_records(level, vocabulary, TOKEN_CHECKS)]
     if vocabulary.name != DEFAULT:  # commands are drawn for the default vehicle alone
@@ -62,10 +84,29 @@ def token_records(level: Level, vocabulary: Vocabulary, records: Sequence[dict[s
 class Answers:
     """Greedy answers of a float32 model, and the logits along them."""
 
-    def __init__(self, level: Level, records: Sequence[dict[str, Any]], tokenizer: Any, vocabulary: Vocabulary, *, with_vocabulary: bool) -> None:
+    def __init__(
+        self,
+        level: Level,
+        records: Sequence[dict[str, Any]],
+        tokenizer: Any,
+        vocabulary: Vocabulary,
+        *,
+        with_vocabulary: bool,
+    ) -> None:
         from planner_ft.decoding.generate import Query
 
-        self.queries = [Query(level, record, tuple(render_prompt(level, record, tokenizer, vocabulary, with_vocabulary=with_vocabulary))) for record in records]
+        self.queries = [
+            Query(
+                level,
+                record,
+                tuple(
+                    render_prompt(
+                        level, record, tokenizer, vocabulary, with_vocabulary=with_vocabulary
+                    )
+                ),
+            )
+            for record in records
+        ]
         self.level = level
         self.tokenizer = tokenizer
 
@@ -76,25 +117,49 @@ class Answers:
         from planner_ft.decoding.limits import MAX_NEW_TOKENS, Limits
         from planner_ft.decoding.passes import ModelDecoder
 
-        limits = Limits(end_ids(self.tokenizer, named_ends(model)), int(self.tokenizer.pad_token_id), MAX_NEW_TOKENS[self.level])
-        return [answer.ids for answer in generate(ModelDecoder(model, limits.pad_id), self.queries, limits, batch_size=1)]
+        limits = Limits(
+            end_ids(self.tokenizer, named_ends(model)),
+            int(self.tokenizer.pad_token_id),
+            MAX_NEW_TOKENS[self.level],
+        )
+        return [
+            answer.ids
+            for answer in generate(
+                ModelDecoder(model, limits.pad_id), self.queries, limits, batch_size=1
+            )
+        ]
 
     def logits(self, model: Any, answers: Sequence[Sequence[int]]) -> list[Any]:
         """The logits after each position of prompt and answer: tensors (positions, tokens)."""
         import torch
 
         with torch.inference_mode():
-            return [model(input_ids=torch.tensor([[*query.prompt, *ids]])).logits[0] for query, ids in zip(self.queries, answers, strict=True)]
+            return [
+                model(input_ids=torch.tensor([[*query.prompt, *ids]])).logits[0]
+                for query, ids in zip(self.queries, answers, strict=True)
+            ]
 
 
-def agreement(answers: Answers, expected: Sequence[tuple[int, ...]], logits: Sequence[Any], model: Any) -> Agreement:
-    """Compare a model with the answers and logits of another. Raises PlannerError when an answer differs."""
+def agreement(
+    answers: Answers, expected: Sequence[tuple[int, ...]], logits: Sequence[Any], model: Any
+) -> Agreement:
+    """Compare a model with the answers and logits of another. Raises PlannerError when an answer
+    differs.
+    """
     found = answers.of(model)
-    largest = max(float((one - other).abs().max()) for one, other in zip(logits, answers.logits(model, expected), strict=True))
-    result = Agreement(len(expected), sum(one == other for one, other in zip(expected, found, strict=True)), largest)
+    largest = max(
+        float((one - other).abs().max())
+        for one, other in zip(logits, answers.logits(model, expected), strict=True)
+    )
+    result = Agreement(
+        len(expected),
+        sum(one == other for one, other in zip(expected, found, strict=True)),
+        largest,
+    )
     if result.same < result.count:
         raise PlannerError(
-            f"{result.count - result.same} of {result.count} answers differ between the adapter and the merged weights (logits by up to {largest:.3g}), "
-            "so nothing was written; give other commands with --check-data, or serve base and adapter as they are"
+            f"{result.count - result.same} of {result.count} answers differ between the adapter and"
+            f" the merged weights (logits by up to {largest:.3g}), so nothing was written; give"
+            " other commands with --check-data, or serve base and adapter as they are"
         )
     return result

@@ -1,10 +1,13 @@
-"""A byte-level BPE tokenizer as llama.cpp takes it: tokens, their types, merges, and the name of a way to split text.
+"""A byte-level BPE tokenizer as llama.cpp takes it: tokens, their types, merges, and the name of a
+way to split text.
 
-llama.cpp knows a fixed list of ways to split text before merging ("pre-tokenizers", `llama-vocab.cpp`). Two of them are
-those of Llama 3 and Qwen2. Any other tokenizer is given the one that splits least, "superbpe" (runs of digits are cut off
-from the rest and into threes), since merges of text that was learned in pieces seldom cross their borders; tokens that hold
-digits and something else, which it would tear apart, become user-defined tokens: those are found in the text before it
-is split. Whether the ids are the same is then tried out on commands, and a tokenizer for which they are not is refused.
+llama.cpp knows a fixed list of ways to split text before merging ("pre-tokenizers",
+`llama-vocab.cpp`). Two of them are those of Llama 3 and Qwen2. Any other tokenizer is given the one
+that splits least, "superbpe" (runs of digits are cut off from the rest and into threes), since
+merges of text that was learned in pieces seldom cross their borders; tokens that hold digits and
+something else, which it would tear apart, become user-defined tokens: those are found in the text
+before it is split. Whether the ids are the same is then tried out on commands, and a tokenizer for
+which they are not is refused.
 """
 
 from __future__ import annotations
@@ -19,7 +22,10 @@ from typing import Any
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
 
-LLAMA_3 = r"(?i:'s|'t|'re|'ve|'m|'ll|'d)|[^\r\n\p{L}\p{N}]?\p{L}+|\p{N}{1,3}| ?[^\s\p{L}\p{N}]+[\r\n]*|\s*[\r\n]+|\s+(?!\S)|\s+"
+LLAMA_3 = (
+    r"(?i:'s|'t|'re|'ve|'m|'ll|'d)|[^\r\n\p{L}\p{N}]?\p{L}+|\p{N}{1,3}|"
+    r" ?[^\s\p{L}\p{N}]+[\r\n]*|\s*[\r\n]+|\s+(?!\S)|\s+"
+)
 QWEN_2 = LLAMA_3.replace(r"\p{N}{1,3}", r"\p{N}")
 KNOWN = {LLAMA_3: "llama-bpe", QWEN_2: "qwen2"}
 """Names of llama.cpp's splits by their pattern."""
@@ -43,7 +49,8 @@ SHORT = 32
 
 @dataclass(frozen=True)
 class TokenTable:
-    """`tokens` and `kinds` by id, `merges` as "LEFT RIGHT" in order, and `split`, the name in tokenizer.ggml.pre.
+    """`tokens` and `kinds` by id, `merges` as "LEFT RIGHT" in order, and `split`, the name in
+    tokenizer.ggml.pre.
 
     `added` are the texts that became user-defined tokens beyond the tokenizer's own, by id.
     """
@@ -56,7 +63,9 @@ class TokenTable:
 
     @property
     def long_words(self) -> int:
-        """Tokens with letters that are longer than SHORT; in byte-level BPE a character stands for a byte."""
+        """Tokens with letters that are longer than SHORT; in byte-level BPE a character stands for
+        a byte.
+        """
         return sum(
             len(token) > SHORT and kind == Kind.NORMAL and any("a" <= sign <= "z" for sign in token)
             for token, kind in zip(self.tokens, self.kinds, strict=True)
@@ -64,18 +73,30 @@ class TokenTable:
 
 
 def token_table(path: Path, size: int) -> TokenTable:
-    """The table of a tokenizer.json for a model with `size` tokens. Raises PlannerError when it is no byte-level BPE."""
+    """The table of a tokenizer.json for a model with `size` tokens. Raises PlannerError when it is
+    no byte-level BPE.
+    """
     settings = read_json(path)
     model = settings.get("model", {})
-    if model.get("type") != "BPE" or not _is_byte_level(settings) or model.get("byte_fallback") or settings.get("normalizer") not in (None, {"type": "NFC"}):
-        raise PlannerError(f"{path}: only byte-level BPE tokenizers are written as GGUF here; {CONVERTER}")
+    if (
+        model.get("type") != "BPE"
+        or not _is_byte_level(settings)
+        or model.get("byte_fallback")
+        or settings.get("normalizer") not in (None, {"type": "NFC"})
+    ):
+        raise PlannerError(
+            f"{path}: only byte-level BPE tokenizers are written as GGUF here; {CONVERTER}"
+        )
     split = KNOWN.get(_pattern(settings) or "", LEAST)
     added = _torn_apart(settings) if split == LEAST else {}
     tokens, kinds = [f"[PAD{number}]" for number in range(size)], [Kind.UNUSED] * size
     for text, number in model["vocab"].items():
         tokens[number], kinds[number] = text, Kind.NORMAL
     for entry in settings["added_tokens"]:
-        tokens[entry["id"]], kinds[entry["id"]] = entry["content"], Kind.CONTROL if entry["special"] else Kind.USER_DEFINED
+        tokens[entry["id"]], kinds[entry["id"]] = (
+            entry["content"],
+            (Kind.CONTROL if entry["special"] else Kind.USER_DEFINED),
+        )
     for number, text in added.items():
         tokens[number], kinds[number] = text, Kind.USER_DEFINED
     merges = [merge if isinstance(merge, str) else " ".join(merge) for merge in model["merges"]]
@@ -83,21 +104,30 @@ def token_table(path: Path, size: int) -> TokenTable:
 
 
 def check_ids(path: Path, table: TokenTable, texts: Iterable[str]) -> int:
-    """The number of texts, each with the same ids in both tokenizers. Raises PlannerError, with the first text that differs.
+    """The number of texts, each with the same ids in both tokenizers. Raises PlannerError, with the
+    first text that differs.
 
     llama.cpp's way is computed with the tokenizers library: the same merges after the other split.
     """
     from tokenizers import Tokenizer
 
     settings = read_json(path)
-    ours, theirs = Tokenizer.from_str(json.dumps(settings)), Tokenizer.from_str(json.dumps(_as_split(settings, table)))
+    ours, theirs = (
+        Tokenizer.from_str(json.dumps(settings)),
+        Tokenizer.from_str(json.dumps(_as_split(settings, table))),
+    )
     # The library gives the added texts new ids.
     back = {theirs.token_to_id(text): number for number, text in table.added.items()}
     count = 0
     for count, text in enumerate(texts, 1):  # noqa: B007
         found = theirs.encode(text, add_special_tokens=False).ids
-        if ours.encode(text, add_special_tokens=False).ids != [back.get(number, number) for number in found]:
-            raise PlannerError(f"{path}: no way in which llama.cpp splits text gives this tokenizer's ids for {text[:80]!r}; {CONVERTER}, if it knows one")
+        if ours.encode(text, add_special_tokens=False).ids != [
+            back.get(number, number) for number in found
+        ]:
+            raise PlannerError(
+                f"{path}: no way in which llama.cpp splits text gives this tokenizer's ids for"
+                f" {text[:80]!r}; {CONVERTER}, if it knows one"
+            )
     return count
 
 
@@ -105,15 +135,38 @@ def _as_split(settings: dict[str, Any], table: TokenTable) -> dict[str, Any]:
     """A tokenizer.json that splits as the table says."""
     if table.split != LEAST:
         return settings
-    splits = [{"type": "Split", "pattern": {"Regex": pattern}, "behavior": "Isolated", "invert": False} for pattern in LEAST_PATTERNS]
-    byte_level = {"type": "ByteLevel", "add_prefix_space": False, "trim_offsets": True, "use_regex": False}
-    form = {"single_word": False, "lstrip": False, "rstrip": False, "normalized": False, "special": False}
-    more = [{"id": len(table.tokens) + place, "content": text, **form} for place, text in enumerate(table.added.values())]
-    return {**settings, "pre_tokenizer": {"type": "Sequence", "pretokenizers": [*splits, byte_level]}, "added_tokens": [*settings["added_tokens"], *more]}
+    splits = [
+        {"type": "Split", "pattern": {"Regex": pattern}, "behavior": "Isolated", "invert": False}
+        for pattern in LEAST_PATTERNS
+    ]
+    byte_level = {
+        "type": "ByteLevel",
+        "add_prefix_space": False,
+        "trim_offsets": True,
+        "use_regex": False,
+    }
+    form = {
+        "single_word": False,
+        "lstrip": False,
+        "rstrip": False,
+        "normalized": False,
+        "special": False,
+    }
+    more = [
+        {"id": len(table.tokens) + place, "content": text, **form}
+        for place, text in enumerate(table.added.values())
+    ]
+    return {
+        **settings,
+        "pre_tokenizer": {"type": "Sequence", "pretokenizers": [*splits, byte_level]},
+        "added_tokens": [*settings["added_tokens"], *more],
+    }
 
 
 def _torn_apart(settings: dict[str, Any]) -> dict[int, str]:
-    """Tokens with digits and other characters that the tokenizer itself can produce, as text by id."""
+    """Tokens with digits and other characters that the tokenizer itself can produce, as text by
+    id.
+    """
     from tokenizers import Tokenizer
 
     tokenizer = Tokenizer.from_str(json.dumps(settings))
@@ -122,7 +175,11 @@ def _torn_apart(settings: dict[str, Any]) -> dict[int, str]:
     for token, number in settings["model"]["vocab"].items():
         text = tokenizer.decode([number], skip_special_tokens=False)
         mixed = any(sign.isnumeric() for sign in text) and not text.isnumeric() and "�" not in text
-        if mixed and token not in own and tokenizer.encode(text, add_special_tokens=False).ids == [number]:
+        if (
+            mixed
+            and token not in own
+            and tokenizer.encode(text, add_special_tokens=False).ids == [number]
+        ):
             found[number] = text
     return found
 
@@ -133,10 +190,15 @@ def _steps(settings: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def _is_byte_level(settings: dict[str, Any]) -> bool:
-    return any(step.get("type") == "ByteLevel" and not step.get("add_prefix_space") for step in _steps(settings))
+    return any(
+        step.get("type") == "ByteLevel" and not step.get("add_prefix_space")
+        for step in _steps(settings)
+    )
 
 
 def _pattern(settings: dict[str, Any]) -> str | None:
     """The one pattern that a tokenizer splits by."""
-    patterns = [step["pattern"].get("Regex") for step in _steps(settings) if step.get("type") == "Split"]
+    patterns = [
+        step["pattern"].get("Regex") for step in _steps(settings) if step.get("type") == "Split"
+    ]
     return patterns[0] if len(patterns) == 1 else None

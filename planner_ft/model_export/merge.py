@@ -17,8 +17,12 @@ from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level
 
 
-def load_full(candidate: Candidate, adapter: Path | None, level: Level, vocabulary: Vocabulary) -> Any:
-    """The candidate's model in float32 on the CPU, with the adapter beside its weights if there is one. Raises PlannerError."""
+def load_full(
+    candidate: Candidate, adapter: Path | None, level: Level, vocabulary: Vocabulary
+) -> Any:
+    """The candidate's model in float32 on the CPU, with the adapter beside its weights if there is
+    one. Raises PlannerError.
+    """
     import torch
     from transformers import AutoModelForCausalLM
 
@@ -28,20 +32,34 @@ def load_full(candidate: Candidate, adapter: Path | None, level: Level, vocabula
     quiet_libraries()
     try:
         with quiet_bars():
-            model = AutoModelForCausalLM.from_pretrained(str(folder), dtype=torch.float32, local_files_only=True, trust_remote_code=False, use_safetensors=True)
+            model = AutoModelForCausalLM.from_pretrained(
+                str(folder),
+                dtype=torch.float32,
+                local_files_only=True,
+                trust_remote_code=False,
+                use_safetensors=True,
+            )
             if adapter is not None:
                 from peft import PeftModel
 
                 model = PeftModel.from_pretrained(model, str(adapter), use_safetensors=True)
     except MemoryError as error:
-        raise PlannerError(f"{candidate.name} does not fit the memory in float32; close other programs, or export on a larger machine") from error
+        raise PlannerError(
+            f"{candidate.name} does not fit the memory in float32; close other programs, or export"
+            " on a larger machine"
+        ) from error
     except (OSError, ValueError, RuntimeError) as error:
-        raise PlannerError(f"{folder}: the model cannot be loaded ({' '.join(str(error).split())[:200]}); check its files") from error
+        raise PlannerError(
+            f"{folder}: the model cannot be loaded ({' '.join(str(error).split())[:200]}); check"
+            " its files"
+        ) from error
     return model.eval()
 
 
 def merged(model: Any) -> Any:
-    """The model with its adapter folded into its weights (W + alpha / r * B A); a model without one as it is. Raises PlannerError."""
+    """The model with its adapter folded into its weights (W + alpha / r * B A); a model without one
+    as it is. Raises PlannerError.
+    """
     if not hasattr(model, "merge_and_unload"):
         return model
     try:
@@ -50,11 +68,13 @@ def merged(model: Any) -> Any:
         raise PlannerError(f"the adapter cannot be merged ({error}); train it again") from error
 
 
-def save_full(model: Any, candidate: Candidate, told_by_heart: Vocabulary | None, folder: Path) -> None:
+def save_full(
+    model: Any, candidate: Candidate, told_by_heart: Vocabulary | None, folder: Path
+) -> None:
     """Write weights, tokenizer, chat template and generation settings as a transformers folder.
 
-    `told_by_heart` is the vocabulary that the model has learned; config.json names it, so that the benchmark does not put
-    it into prompts.
+    `told_by_heart` is the vocabulary that the model has learned; config.json names it, so that the
+    benchmark does not put it into prompts.
     """
     with quiet_bars():
         model.save_pretrained(str(folder), safe_serialization=True)
@@ -64,14 +84,19 @@ def save_full(model: Any, candidate: Candidate, told_by_heart: Vocabulary | None
     tokenizer.chat_template = with_fixed_date(tokenizer.chat_template)
     tokenizer.save_pretrained(str(folder))
     if told_by_heart is not None and _is_bundled(told_by_heart):
-        write_json(folder / "config.json", {**read_json(folder / "config.json"), VOCABULARY_KEY: told_by_heart.name})
+        write_json(
+            folder / "config.json",
+            {**read_json(folder / "config.json"), VOCABULARY_KEY: told_by_heart.name},
+        )
 
 
 def with_fixed_date(template: Any) -> Any:
     """A chat template that writes the date we train with where it would write today's (Llama 3)."""
     if not isinstance(template, str) or "date_string" not in template:
         return template
-    fixed = f'{{%- if not date_string is defined %}}{{%- set date_string = "{TODAY}" %}}{{%- endif %}}'
+    fixed = (
+        f'{{%- if not date_string is defined %}}{{%- set date_string = "{TODAY}" %}}{{%- endif %}}'
+    )
     return template if template.startswith(fixed) else fixed + template
 
 

@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 CUT_NOTE = "The answer met its limit of tokens"
 """How the note on an answer that was ended at the limit begins."""
 Progress = Callable[[str, int, int], None]
-"""Called with what is being done, how many of it are done and how many there are in all (0: not known)."""
+"""Called with what is being done, how many of it are done and how many there are in all (0: not
+known).
+"""
 
 
 def silent(_label: str, _done: int, _total: int) -> None:
@@ -31,11 +33,17 @@ def silent(_label: str, _done: int, _total: int) -> None:
 class Agents:
     """Loads the agents' bases as they are needed and asks them.
 
-    Agents of one base share it, with an adapter each. Of two bases the first is released before the second is loaded: the reference
-    hardware has 6 GB for both.
+    Agents of one base share it, with an adapter each. Of two bases the first is released before the
+    second is loaded: the reference hardware has 6 GB for both.
     """
 
-    def __init__(self, agents: Mapping[Level, Agent], vocabulary: Vocabulary, device: str = "auto", progress: Progress = silent) -> None:
+    def __init__(
+        self,
+        agents: Mapping[Level, Agent],
+        vocabulary: Vocabulary,
+        device: str = "auto",
+        progress: Progress = silent,
+    ) -> None:
         """Raises PlannerError for a device that there is not."""
         self.agents = agents
         self.vocabulary = vocabulary
@@ -49,7 +57,11 @@ class Agents:
         """The engine that answers for an agent, loaded if it is not. Raises PlannerError."""
         if self._engine is None or level not in self._serves:
             self.release()
-            self._serves = tuple(other for other, agent in self.agents.items() if agent.base == self.agents[level].base)
+            self._serves = tuple(
+                other
+                for other, agent in self.agents.items()
+                if agent.base == self.agents[level].base
+            )
             started = time.perf_counter()
             self._engine = self._loaded(self.agents[level])
             self.load_seconds[level] = time.perf_counter() - started
@@ -66,13 +78,21 @@ class Agents:
         engine, agent = self.load(level), self.agents[level]
         query = engine.query(level, record, with_vocabulary=agent.with_vocabulary)
         generation = engine.answer(query, agent.configuration)
-        return read_answer(level, engine.text(generation), generation, len(query.prompt), self.vocabulary)
+        return read_answer(
+            level, engine.text(generation), generation, len(query.prompt), self.vocabulary
+        )
 
     def use(self, level: Level, answers: list[Answer]) -> AgentUse:
         """What the agent did to give these answers."""
         agent = self.agents[level]
         adapter = str(agent.adapter) if agent.adapter else None
-        return AgentUse.of(agent.candidate.row_name, agent.configuration.name, adapter, self.load_seconds[level], answers)
+        return AgentUse.of(
+            agent.candidate.row_name,
+            agent.configuration.name,
+            adapter,
+            self.load_seconds[level],
+            answers,
+        )
 
     def peak_memory(self) -> int:
         """Most bytes in use so far: on the GPU, else in this process."""
@@ -82,23 +102,46 @@ class Agents:
         from planner_ft.decoding.engine import Engine, decoding_threads
 
         self._progress(f"{agent.candidate.name}: loading", 0, 0)
-        adapters = {level: adapter for level in self._serves if (adapter := self.agents[level].adapter)}
+        adapters = {
+            level: adapter for level in self._serves if (adapter := self.agents[level].adapter)
+        }
         return Engine.load(
-            agent.candidate, self.vocabulary, adapters=adapters or None, device=str(self.device),
-            quantization=agent.quantization, threads=decoding_threads(agent.candidate, self.device.type),
-        )  # fmt: skip
+            agent.candidate,
+            self.vocabulary,
+            adapters=adapters or None,
+            device=str(self.device),
+            quantization=agent.quantization,
+            threads=decoding_threads(agent.candidate, self.device.type),
+        )
 
 
-def read_answer(level: Level, text: str, generation: Generation, prompt_tokens: int, vocabulary: Vocabulary) -> Answer:
-    """The plan of a generated text, None with the problems when it does not parse or is not strictly valid."""
+def read_answer(
+    level: Level, text: str, generation: Generation, prompt_tokens: int, vocabulary: Vocabulary
+) -> Answer:
+    """The plan of a generated text, None with the problems when it does not parse or is not
+    strictly valid.
+    """
     parsed = parse_output(text)
-    problems = plan_problems(level, parsed.plan, vocabulary, strict=True) if parsed.plan is not None else [parsed.problem or "no plan"]
+    problems = (
+        plan_problems(level, parsed.plan, vocabulary, strict=True)
+        if parsed.plan is not None
+        else [parsed.problem or "no plan"]
+    )
     if generation.finish_reason == "length":
         problems.insert(0, f"cut at the limit of {len(generation.ids)} tokens")
     notes = list(generation.notes)
     if generation.cut:
-        notes.append(f"{CUT_NOTE} and was ended after {len(generation.ids)}; something may be missing.")
+        notes.append(
+            f"{CUT_NOTE} and was ended after {len(generation.ids)}; something may be missing."
+        )
     return Answer(
-        text, None if problems else parsed.plan, (generation.error,) if generation.error else tuple(problems), tuple(notes),
-        prompt_tokens, len(generation.ids), generation.forward_passes, generation.seconds, generation.cut or generation.finish_reason == "length",
-    )  # fmt: skip
+        text,
+        None if problems else parsed.plan,
+        (generation.error,) if generation.error else tuple(problems),
+        tuple(notes),
+        prompt_tokens,
+        len(generation.ids),
+        generation.forward_passes,
+        generation.seconds,
+        generation.cut or generation.finish_reason == "length",
+    )

@@ -1,7 +1,8 @@
 """The places that a mission plan leaves open: their names, and filling them in.
 
-A task at a place that the command gives no coordinates for holds the vocabulary's unresolved location ([-99, -99]). The place is
-called by the target of the search that is to find it; a place that nothing searches (a berth) by the words of the task prompt.
+A task at a place that the command gives no coordinates for holds the vocabulary's unresolved
+location ([-99, -99]). The place is called by the target of the search that is to find it; a place
+that nothing searches (a berth) by the words of the task prompt.
 """
 
 from __future__ import annotations
@@ -20,7 +21,10 @@ from planner_ft.vocabulary.plans import canonical_value
 
 Position = tuple[float, float]
 
-PLACE_WORDS = re.compile(r"\b(?:at|to|alongside|into|for|on|in)\s+(?P<place>.+?)(?=\s+(?:once|before|after|and|then|with|by)\b|[.,;:]|$)", re.IGNORECASE)
+PLACE_WORDS = re.compile(
+    r"\b(?:at|to|alongside|into|for|on|in)\s+(?P<place>.+?)(?=\s+(?:once|before|after|and|then|with|by)\b|[.,;:]|$)",
+    re.IGNORECASE,
+)
 ARTICLE = re.compile(r"^(?:the|an?|our|your|that|this)\s+", re.IGNORECASE)
 
 
@@ -33,7 +37,9 @@ class OpenPlace:
 
 
 def open_places(plan: dict[str, Any], vocabulary: Vocabulary) -> list[OpenPlace]:
-    """The places that a mission plan leaves open, in the order of the first task that needs each."""
+    """The places that a mission plan leaves open, in the order of the first task that needs
+    each.
+    """
     needed: dict[str, list[int]] = {}
     searched: list[str] = []
     for number, entry in enumerate(plan["tasks"], start=1):
@@ -53,7 +59,10 @@ def parse_location(text: str) -> tuple[str, Position]:
     except ValueError:
         x = y = math.nan
     if not equals or not name.strip() or not (math.isfinite(x) and math.isfinite(y)):
-        raise PlannerError(f'--locate {text}: expected "NAME=x,y" in metres east and north of home, such as "green buoy=120,-35"')
+        raise PlannerError(
+            f'--locate {text}: expected "NAME=x,y" in metres east and north of home, such as "green'
+            ' buoy=120,-35"'
+        )
     return name.strip(), (x, y)
 
 
@@ -66,51 +75,81 @@ def parse_locations(texts: Sequence[str]) -> dict[str, Position]:
     return locations
 
 
-def resolve(plan: dict[str, Any], locations: Mapping[str, Position], vocabulary: Vocabulary) -> dict[str, Any]:
+def resolve(
+    plan: dict[str, Any], locations: Mapping[str, Position], vocabulary: Vocabulary
+) -> dict[str, Any]:
     """The plan with the named places filled in; other places stay open.
 
-    A name matches without regard to case and article, and so does a part of it that fits only one place. Raises PlannerError for a name
-    that the plan does not leave open, for a place that is named twice, and for the position that stands for an unknown place.
+    A name matches without regard to case and article, and so does a part of it that fits only one
+    place. Raises PlannerError for a name that the plan does not leave open, for a place that is
+    named twice, and for the position that stands for an unknown place.
     """
     places = open_places(plan, vocabulary)
     filled = copy.deepcopy(plan)
     named: dict[OpenPlace, str] = {}
     for name, position in locations.items():
         if tuple(position) == tuple(vocabulary.unresolved):
-            raise PlannerError(f"--locate {name}: {list(vocabulary.unresolved)} stands for an unknown place; give where it is")
+            raise PlannerError(
+                f"--locate {name}: {list(vocabulary.unresolved)} stands for an unknown place; give"
+                " where it is"
+            )
         place = _matching(name, places)
         if (other := named.setdefault(place, name)) != name:
-            raise PlannerError(f'--locate {name}: "{place.name}" is located by "{other}" already; leave one of them out')
+            raise PlannerError(
+                f'--locate {name}: "{place.name}" is located by "{other}" already; leave one of'
+                " them out"
+            )
         for number in place.tasks:
             entry = filled["tasks"][number - 1]
-            entry["parameters"][vocabulary.task[entry["title"]].position_parameter] = canonical_value([float(value) for value in position])
+            entry["parameters"][vocabulary.task[entry["title"]].position_parameter] = (
+                canonical_value([float(value) for value in position])
+            )
     return filled
 
 
 def _matching(name: str, places: Sequence[OpenPlace]) -> OpenPlace:
     wanted = _plain(name)
-    found = [place for place in places if _plain(place.name) == wanted] or [place for place in places if wanted in _plain(place.name)]
+    found = [place for place in places if _plain(place.name) == wanted] or [
+        place for place in places if wanted in _plain(place.name)
+    ]
     if len(found) == 1:
         return found[0]
     names = ", ".join(f'"{place.name}"' for place in found or places)
     if not places:
-        raise PlannerError(f"--locate {name}: the plan of this command leaves no place open; plan without it to see")
-    raise PlannerError(f"--locate {name}: {'fits several places' if found else 'no such place is open'}; there is {names}")
+        raise PlannerError(
+            f"--locate {name}: the plan of this command leaves no place open; plan without it"
+            " to see"
+        )
+    raise PlannerError(
+        f"--locate {name}: {'fits several places' if found else 'no such place is open'}; there is"
+        f" {names}"
+    )
 
 
 def is_open(entry: Mapping[str, Any], vocabulary: Vocabulary) -> bool:
     """Whether a task is at a place that nobody has given coordinates for."""
     parameter = vocabulary.task[entry["title"]].position_parameter
-    return parameter is not None and list(entry["parameters"].get(parameter, ())) == list(vocabulary.unresolved)
+    return parameter is not None and list(entry["parameters"].get(parameter, ())) == list(
+        vocabulary.unresolved
+    )
 
 
 def _search_target(entry: dict[str, Any], vocabulary: Vocabulary) -> str:
-    texts = [parameter.name for parameter in vocabulary.task[entry["title"]].parameters if parameter.type == "text"]
-    return next((str(entry["parameters"][name]) for name in texts if name in entry["parameters"]), entry["title"])
+    texts = [
+        parameter.name
+        for parameter in vocabulary.task[entry["title"]].parameters
+        if parameter.type == "text"
+    ]
+    return next(
+        (str(entry["parameters"][name]) for name in texts if name in entry["parameters"]),
+        entry["title"],
+    )
 
 
 def _name_of(entry: dict[str, Any], searched: Sequence[str], vocabulary: Vocabulary) -> str:
-    """The searched target that the task prompt speaks of, else the last one; a berth, which is never searched, in the prompt's own words."""
+    """The searched target that the task prompt speaks of, else the last one; a berth, which is
+    never searched, in the prompt's own words.
+    """
     prompt = entry["task_prompt"]
     spoken = [target for target in searched if target.lower() in prompt.lower()]
     if spoken:

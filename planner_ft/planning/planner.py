@@ -21,7 +21,9 @@ from planner_ft.vocabulary import load_vocabulary
 
 @dataclass(frozen=True)
 class TasksKnown:
-    """The Mission Agent has answered: its tasks, without skills; those at an open place say what they wait for."""
+    """The Mission Agent has answered: its tasks, without skills; those at an open place say what
+    they wait for.
+    """
 
     tasks: tuple[PlannedTask, ...]
 
@@ -55,22 +57,39 @@ class Planner:
         """Checks the settings and loads nothing yet. Raises PlannerError."""
         self.settings = settings
         self.vocabulary = load_vocabulary(settings.vocabulary)
-        self.agents = Agents(choose_agents(settings, self.vocabulary), self.vocabulary, settings.device, progress)
+        self.agents = Agents(
+            choose_agents(settings, self.vocabulary), self.vocabulary, settings.device, progress
+        )
         self._progress = progress
 
     @classmethod
-    def load(cls, candidate: str = PlanSettings.candidate, *, progress: Progress = silent, **settings: Any) -> Planner:
-        """A planner with the Mission Agent's base loaded; the keywords are the fields of PlanSettings. Raises PlannerError."""
+    def load(
+        cls,
+        candidate: str = PlanSettings.candidate,
+        *,
+        progress: Progress = silent,
+        **settings: Any,
+    ) -> Planner:
+        """A planner with the Mission Agent's base loaded; the keywords are the fields of
+        PlanSettings. Raises PlannerError.
+        """
         planner = cls(PlanSettings(candidate, **settings), progress)
         planner.agents.load("mission")
         return planner
 
-    def plan(self, command: str, locations: Mapping[str, Position] | None = None, on_event: OnEvent = unwatched) -> Planned:
-        """The plan of a command. `locations` are positions (metres east and north of home) of places that the command leaves open.
+    def plan(
+        self,
+        command: str,
+        locations: Mapping[str, Position] | None = None,
+        on_event: OnEvent = unwatched,
+    ) -> Planned:
+        """The plan of a command. `locations` are positions (metres east and north of home) of
+        places that the command leaves open.
 
-        `on_event` hears of the tasks as soon as they are known, and then of the skills of each. What it raises ends planning.
-        An answer that is not valid is part of what comes back (see `Planned.valid`). Raises PlannerError for a command that is empty or
-        too long, and for a location that the plan does not leave open.
+        `on_event` hears of the tasks as soon as they are known, and then of the skills of each.
+        What it raises ends planning. An answer that is not valid is part of what comes back (see
+        `Planned.valid`). Raises PlannerError for a command that is empty or too long, and for a
+        location that the plan does not leave open.
         """
         mission = self._mission(check_command(command))
         tasks: tuple[PlannedTask, ...] = ()
@@ -81,21 +100,34 @@ class Planner:
             tasks = self._tasks(filled, places, on_event)
         answers = {"mission": [mission], "task": [task.answer for task in tasks if task.answer]}
         return Planned(
-            command, mission, tasks, tuple(places),
-            located={name: list(position) for name, position in (locations or {}).items()} if mission.plan is not None else {},
+            command,
+            mission,
+            tasks,
+            tuple(places),
+            located={name: list(position) for name, position in (locations or {}).items()}
+            if mission.plan is not None
+            else {},
             usage={level: self.agents.use(level, answers[level]) for level in self.agents.agents},
-            peak_memory=self.agents.peak_memory(), manifest=self._manifest(),
-        )  # fmt: skip
+            peak_memory=self.agents.peak_memory(),
+            manifest=self._manifest(),
+        )
 
     def skills(self, task: Mapping[str, Any]) -> Answer:
-        """The Task Agent's answer for one task of a plan alone: its `title`, `parameters` and `task_prompt`.
+        """The Task Agent's answer for one task of a plan alone: its `title`, `parameters` and
+        `task_prompt`.
 
-        An answer that is not valid comes back with its problems. Raises PlannerError without a Task Agent, and for a task whose place is open.
+        An answer that is not valid comes back with its problems. Raises PlannerError without a Task
+        Agent, and for a task whose place is open.
         """
         if "task" not in self.agents.agents:
-            raise PlannerError(f"{task['title']}: there is no Task Agent with --mission-only; leave the flag out")
+            raise PlannerError(
+                f"{task['title']}: there is no Task Agent with --mission-only; leave the flag out"
+            )
         if is_open(task, self.vocabulary):
-            raise PlannerError(f"{task['title']}: its place is open, and skills to nowhere would be worth nothing; say where it is first")
+            raise PlannerError(
+                f"{task['title']}: its place is open, and skills to nowhere would be worth nothing;"
+                " say where it is first"
+            )
         self.agents.load("task")
         return self._skills(task)
 
@@ -106,7 +138,12 @@ class Planner:
     def __enter__(self) -> Planner:
         return self
 
-    def __exit__(self, _kind: type[BaseException] | None, _error: BaseException | None, _trace: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        _kind: type[BaseException] | None,
+        _error: BaseException | None,
+        _trace: TracebackType | None,
+    ) -> None:
         self.close()
 
     def _mission(self, command: str) -> Answer:
@@ -114,18 +151,32 @@ class Planner:
         self._progress("Mission Agent", 0, 0)
         answer = self.agents.ask("mission", {"prompt": command})
         if not answer.tokens:
-            raise PlannerError(f"{self.agents.agents['mission'].candidate.name}: {'; '.join(answer.problems)}; shorten the command, or take another candidate")
+            raise PlannerError(
+                f"{self.agents.agents['mission'].candidate.name}: {'; '.join(answer.problems)};"
+                " shorten the command, or take another candidate"
+            )
         return answer
 
-    def _tasks(self, plan: dict[str, Any], places: Sequence[OpenPlace], on_event: OnEvent) -> tuple[PlannedTask, ...]:
+    def _tasks(
+        self, plan: dict[str, Any], places: Sequence[OpenPlace], on_event: OnEvent
+    ) -> tuple[PlannedTask, ...]:
         """Every task, with its skills unless it waits for a place or there is no Task Agent."""
         waiting = {number: place.name for place in places for number in place.tasks}
         planned = [
-            PlannedTask(entry["title"], entry["parameters"], entry["task_prompt"], waits_for=waiting.get(number))
+            PlannedTask(
+                entry["title"],
+                entry["parameters"],
+                entry["task_prompt"],
+                waits_for=waiting.get(number),
+            )
             for number, entry in enumerate(plan["tasks"], start=1)
         ]
         on_event(TasksKnown(tuple(planned)))
-        asked = [number for number in range(1, len(planned) + 1) if number not in waiting] if "task" in self.agents.agents else []
+        asked = (
+            [number for number in range(1, len(planned) + 1) if number not in waiting]
+            if "task" in self.agents.agents
+            else []
+        )
         for done, number in enumerate(asked):
             self.agents.load("task")
             self._progress("Task Agent", done, len(asked))
@@ -136,24 +187,47 @@ class Planner:
         return tuple(planned)
 
     def _skills(self, entry: Mapping[str, Any]) -> Answer:
-        return self.agents.ask("task", {"task": entry["title"], "parameters": entry["parameters"], "prompt": entry["task_prompt"]})
+        return self.agents.ask(
+            "task",
+            {
+                "task": entry["title"],
+                "parameters": entry["parameters"],
+                "prompt": entry["task_prompt"],
+            },
+        )
 
     def _manifest(self) -> dict[str, Any]:
         """What the plan depended on."""
         vocabulary = self.vocabulary
-        configuration = {"decoding": "greedy", "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256}}
+        configuration = {
+            "decoding": "greedy",
+            "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
+        }
         agents = {level: agent.record() for level, agent in self.agents.agents.items()}
-        return build_manifest("plan", seed=None, configuration=configuration, device=str(self.agents.device), agents=agents)
+        return build_manifest(
+            "plan",
+            seed=None,
+            configuration=configuration,
+            device=str(self.agents.device),
+            agents=agents,
+        )
 
 
 def check_command(command: str) -> str:
-    """The command itself. Raises PlannerError when there is none in it, or when it is no Unicode text."""
+    """The command itself. Raises PlannerError when there is none in it, or when it is no Unicode
+    text.
+    """
     if not command.strip():
-        raise PlannerError('the command is empty; say what is to be done, such as plannerft plan "Find the red buoy and come home."')
+        raise PlannerError(
+            'the command is empty; say what is to be done, such as plannerft plan "Find the red'
+            ' buoy and come home."'
+        )
     try:
         command.encode()
     except UnicodeEncodeError as error:
-        raise PlannerError(f"the command is not UTF-8 text (character {error.start + 1}); write it as UTF-8") from None
+        raise PlannerError(
+            f"the command is not UTF-8 text (character {error.start + 1}); write it as UTF-8"
+        ) from None
     return command
 
 
@@ -163,11 +237,16 @@ def read_command(stream: Any) -> str:
     try:
         return data.decode("utf-8-sig").strip()
     except UnicodeDecodeError as error:
-        raise PlannerError(f"the command on standard input is not UTF-8 text (byte {error.start}); write it as UTF-8") from None
+        raise PlannerError(
+            f"the command on standard input is not UTF-8 text (byte {error.start}); write it as"
+            " UTF-8"
+        ) from None
 
 
 def new_file(path: Path, *, overwrite: bool) -> Path:
-    """The path itself. Raises PlannerError when there is a file already that is not to be replaced, or a folder, or nothing can be written there."""
+    """The path itself. Raises PlannerError when there is a file already that is not to be replaced,
+    or a folder, or nothing can be written there.
+    """
     if path.is_dir():
         raise PlannerError(f"--out {path}: is a folder; give a file")
     if path.exists() and not overwrite:
@@ -176,4 +255,6 @@ def new_file(path: Path, *, overwrite: bool) -> Path:
         with tempfile.TemporaryFile(dir=nearest_folder(path.parent)):
             return path
     except OSError as error:
-        raise PlannerError(f"--out {path}: cannot be written ({error.strerror}); choose another folder") from None
+        raise PlannerError(
+            f"--out {path}: cannot be written ({error.strerror}); choose another folder"
+        ) from None

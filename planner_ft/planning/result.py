@@ -13,8 +13,9 @@ from planner_ft.planning.locations import OpenPlace
 class Answer:
     """One answer of an agent, and what it cost.
 
-    `plan` is None when the text does not parse or is not strictly valid: `problems` says why. `cut` is True when the answer met the
-    token limit. `seconds` is the time from prompt ids to the complete answer.
+    `plan` is None when the text does not parse or is not strictly valid: `problems` says why. `cut`
+    is True when the answer met the token limit. `seconds` is the time from prompt ids to the
+    complete answer.
     """
 
     text: str
@@ -32,7 +33,8 @@ class Answer:
 class AgentUse:
     """What one agent did in all.
 
-    `load_seconds` is the time to load its base, 0 where the other agent's serves it too; `seconds` leaves it out.
+    `load_seconds` is the time to load its base, 0 where the other agent's serves it too; `seconds`
+    leaves it out.
     """
 
     candidate: str
@@ -46,21 +48,35 @@ class AgentUse:
     seconds: float
 
     @classmethod
-    def of(cls, candidate: str, configuration: str, adapter: str | None, load_seconds: float, answers: Iterable[Answer]) -> AgentUse:
+    def of(
+        cls,
+        candidate: str,
+        configuration: str,
+        adapter: str | None,
+        load_seconds: float,
+        answers: Iterable[Answer],
+    ) -> AgentUse:
         """Sums over `answers`."""
         given = list(answers)
         return cls(
-            candidate, configuration, adapter, round(load_seconds, 3), len(given),
-            prompt_tokens=sum(answer.prompt_tokens for answer in given), tokens=sum(answer.tokens for answer in given),
-            forward_passes=sum(answer.forward_passes for answer in given), seconds=round(sum(answer.seconds for answer in given), 3),
-        )  # fmt: skip
+            candidate,
+            configuration,
+            adapter,
+            round(load_seconds, 3),
+            len(given),
+            prompt_tokens=sum(answer.prompt_tokens for answer in given),
+            tokens=sum(answer.tokens for answer in given),
+            forward_passes=sum(answer.forward_passes for answer in given),
+            seconds=round(sum(answer.seconds for answer in given), 3),
+        )
 
 
 @dataclass(frozen=True)
 class PlannedTask:
     """A task of the mission with its skills.
 
-    `answer` is None where the Task Agent was not asked: because the task's place is open, which `waits_for` names, or at all.
+    `answer` is None where the Task Agent was not asked: because the task's place is open, which
+    `waits_for` names, or at all.
     """
 
     title: str
@@ -74,9 +90,10 @@ class PlannedTask:
 class Planned:
     """A command with everything that was planned for it.
 
-    `mission` is the Mission Agent's answer as it was, `tasks` have the places filled in that were given (`located`). `open_places` are those
-    that no position is known for. `peak_memory` is the most memory of the whole process, in bytes (of the GPU, where there is one);
-    `manifest` says what the plan depended on.
+    `mission` is the Mission Agent's answer as it was, `tasks` have the places filled in that were
+    given (`located`). `open_places` are those that no position is known for. `peak_memory` is the
+    most memory of the whole process, in bytes (of the GPU, where there is one); `manifest` says
+    what the plan depended on.
     """
 
     command: str
@@ -91,7 +108,9 @@ class Planned:
     @property
     def valid(self) -> bool:
         """Whether every answer parses and is strictly valid."""
-        return self.mission.plan is not None and all(task.answer is None or task.answer.plan is not None for task in self.tasks)
+        return self.mission.plan is not None and all(
+            task.answer is None or task.answer.plan is not None for task in self.tasks
+        )
 
     @property
     def complete(self) -> bool:

@@ -26,9 +26,10 @@ DEFAULT_CANDIDATE = "embedded"
 class PlanSettings:
     """What planning is asked to do; what is None is chosen.
 
-    `mission_candidate` and `task_candidate` overrule `candidate` for one agent, and so do the configurations. An adapter that is not
-    given is looked for where `plannerft train` writes it, then in the package. The default configuration is the strongest, with the adapter
-    where there is one. With `mission_only` there is no Task Agent.
+    `mission_candidate` and `task_candidate` overrule `candidate` for one agent, and so do the
+    configurations. An adapter that is not given is looked for where `plannerft train` writes it,
+    then in the package. The default configuration is the strongest, with the adapter where there is
+    one. With `mission_only` there is no Task Agent.
     """
 
     candidate: str = DEFAULT_CANDIDATE
@@ -52,7 +53,9 @@ class PlanSettings:
 
 @dataclass(frozen=True)
 class Agent:
-    """One of the two agents: a candidate in a configuration. `with_vocabulary` says whether its prompt lists the vocabulary."""
+    """One of the two agents: a candidate in a configuration. `with_vocabulary` says whether its
+    prompt lists the vocabulary.
+    """
 
     level: Level
     candidate: Candidate
@@ -67,7 +70,9 @@ class Agent:
         return self.candidate.folder, self.quantization
 
     def record(self) -> dict[str, Any]:
-        """Everything that its answers depend on beside command, vocabulary and device, for the manifest."""
+        """Everything that its answers depend on beside command, vocabulary and device, for the
+        manifest.
+        """
         folder = self.candidate.folder
         return {
             "candidate": self.candidate.name,
@@ -76,46 +81,82 @@ class Agent:
             "quantization": self.quantization,
             "weights_sha256": weights_sha256(folder) if folder else None,
             "adapter": str(self.adapter) if self.adapter else None,
-            "adapter_sha256": sha256_tree(self.adapter, (WEIGHTS, CONFIG)) if self.adapter else None,
+            "adapter_sha256": (
+                sha256_tree(self.adapter, (WEIGHTS, CONFIG)) if self.adapter else None
+            ),
             "prompt_format": PROMPT_VERSION,
             "vocabulary_in_the_prompt": self.with_vocabulary,
         }
 
 
 def choose_agents(settings: PlanSettings, vocabulary: Vocabulary) -> dict[Level, Agent]:
-    """The agents that the settings ask for, checked as far as that goes without loading a model. Raises PlannerError."""
+    """The agents that the settings ask for, checked as far as that goes without loading a model.
+    Raises PlannerError.
+    """
     levels = LEVELS[:1] if settings.mission_only else LEVELS
     asked = _asked(settings)
-    unused = [f"--{level}-{what}" for level in LEVELS if level not in levels for what, value in asked[level].items() if value is not None]
+    unused = [
+        f"--{level}-{what}"
+        for level in LEVELS
+        if level not in levels
+        for what, value in asked[level].items()
+        if value is not None
+    ]
     if unused:
-        raise PlannerError(f"{', '.join(unused)}: there is no Task Agent with --mission-only; leave one of them out")
+        raise PlannerError(
+            f"{', '.join(unused)}: there is no Task Agent with --mission-only; leave one of"
+            " them out"
+        )
     return {level: _agent(level, settings, asked[level], vocabulary) for level in levels}
 
 
 def _asked(settings: PlanSettings) -> dict[Level, dict[str, Any]]:
-    return {level: {what: getattr(settings, f"{level}_{what}") for what in ("candidate", "adapter", "configuration")} for level in LEVELS}
+    return {
+        level: {
+            what: getattr(settings, f"{level}_{what}")
+            for what in ("candidate", "adapter", "configuration")
+        }
+        for level in LEVELS
+    }
 
 
-def _agent(level: Level, settings: PlanSettings, asked: Mapping[str, Any], vocabulary: Vocabulary) -> Agent:
+def _agent(
+    level: Level, settings: PlanSettings, asked: Mapping[str, Any], vocabulary: Vocabulary
+) -> Agent:
     candidate = resolve_candidate(asked["candidate"] or settings.candidate)
     require_folder(candidate)
     wanted = asked["configuration"] or settings.configuration
     configuration = parse_configuration(wanted) if wanted else None
     if asked["adapter"] and configuration and not configuration.adapter:
-        raise PlannerError(f"--{level}-adapter {asked['adapter']}: configuration {configuration.name} uses no adapter; leave one of them out")
-    adapter = None if configuration and not configuration.adapter else _adapter(level, candidate, asked["adapter"], vocabulary)
+        raise PlannerError(
+            f"--{level}-adapter {asked['adapter']}: configuration {configuration.name} uses no"
+            " adapter; leave one of them out"
+        )
+    adapter = (
+        None
+        if configuration and not configuration.adapter
+        else _adapter(level, candidate, asked["adapter"], vocabulary)
+    )
     chosen = configuration or Configuration(adapter is not None, STRENGTHS[-1])
     if chosen.adapter and adapter is None:
-        train = f"train one with `plannerft train --level {level} --candidate {candidate.name}`, name one with --{level}-adapter"
+        train = (
+            f"train one with `plannerft train --level {level} --candidate {candidate.name}`, name"
+            f" one with --{level}-adapter"
+        )
         base = Configuration(False, chosen.strength).name
-        raise PlannerError(f"configuration {chosen.name}: {candidate.name} has no adapter of the {level} level here; {train}, or give --configuration {base}")
+        raise PlannerError(
+            f"configuration {chosen.name}: {candidate.name} has no adapter of the {level} level"
+            f" here; {train}, or give --configuration {base}"
+        )
     # A fine-tuned model has learned the vocabulary, and so has one that was pretrained on it.
     with_vocabulary = not chosen.adapter and not candidate.knows(vocabulary)
     quantization = settings.quantization or candidate.adapter_defaults(level).quantization or "nf4"
     return Agent(level, candidate, chosen, adapter, quantization, with_vocabulary)
 
 
-def _adapter(level: Level, candidate: Candidate, asked: Path | str | None, vocabulary: Vocabulary) -> Path | None:
+def _adapter(
+    level: Level, candidate: Candidate, asked: Path | str | None, vocabulary: Vocabulary
+) -> Path | None:
     """The adapter of an agent, checked; None where none is asked for and none is there."""
     adapter = Path(asked) if asked else find_adapter(candidate, level, vocabulary)
     if adapter is not None:

@@ -1,1 +1,3 @@
-"""Making the embedded candidate: tokenizer, corpus of synthetic (command, plan) text, pretraining loop."""
+"""Making the embedded candidate: tokenizer, corpus of synthetic (command, plan) text, pretraining
+loop.
+"""

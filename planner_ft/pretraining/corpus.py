@@ -1,7 +1,8 @@
-"""The pretraining corpus: synthetic samples of both levels, rendered, tokenised and batched by length.
+"""The pretraining corpus: synthetic samples of both levels, rendered, tokenised and batched by
+length.
 
-Only the training families of the generators are drawn: the curated mission set and the task level's `test_unseen`
-families never enter.
+Only the training families of the generators are drawn: the curated mission set and the task level's
+`test_unseen` families never enter.
 """
 
 from __future__ import annotations
@@ -32,10 +33,14 @@ if TYPE_CHECKING:
 
 IGNORE = -100
 HANDED_DOWN, HANDED_DOWN_SEED = 0.1, 50_000_000
-"""Share of the task inputs that come from missions, and what keeps those missions apart from the mission samples."""
+"""Share of the task inputs that come from missions, and what keeps those missions apart from the
+mission samples.
+"""
 DRILL_SEED = 70_000_000
 CUT = 0.6
-"""Share of the samples with a working that end behind it: the plan takes most of the tokens and has little left to learn."""
+"""Share of the samples with a working that end behind it: the plan takes most of the tokens and has
+little left to learn.
+"""
 WIDTH_STEP = 8
 """Batches are this many positions wide, or a multiple."""
 Sample = tuple[NDArray[np.int64], int]
@@ -44,7 +49,8 @@ Sample = tuple[NDArray[np.int64], int]
 
 @dataclass(frozen=True)
 class Rows:
-    """A batch of samples, padded on the right: arrays int64 of shape (samples, width); `labels` are IGNORE outside answers.
+    """A batch of samples, padded on the right: arrays int64 of shape (samples, width); `labels` are
+    IGNORE outside answers.
 
     `tokens` counts what is no padding.
     """
@@ -54,22 +60,38 @@ class Rows:
     tokens: int
 
 
-def stream(vocabulary: Vocabulary, seed: int, mission_share: float, unfamiliar_share: float = 0.0) -> Iterator[tuple[Level, dict[str, Any]]]:
-    """Endless mixed samples of both levels; some of the task inputs are those that a Mission Agent hands down.
+def stream(
+    vocabulary: Vocabulary, seed: int, mission_share: float, unfamiliar_share: float = 0.0
+) -> Iterator[tuple[Level, dict[str, Any]]]:
+    """Endless mixed samples of both levels; some of the task inputs are those that a Mission Agent
+    hands down.
 
-    With a probability of `unfamiliar_share` a sample's target gets a name that the generators do not know, where it has one that can be changed.
+    With a probability of `unfamiliar_share` a sample's target gets a name that the generators do
+    not know, where it has one that can be changed.
     """
     missions, tasks = sample_missions(seed), sample_tasks(vocabulary, seed, None, "train")
     handed_down = handed_down_tasks(vocabulary, seed + HANDED_DOWN_SEED)
     draw, words = np.random.default_rng(seed), Random(f"{seed} unfamiliar")
     while True:
         level: Level = "mission" if draw.random() < mission_share else "task"
-        record = next(missions if level == "mission" else handed_down if draw.random() < HANDED_DOWN else tasks)
-        changed = with_unfamiliar_words(record, vocabulary, words) if words.random() < unfamiliar_share else None
+        record = next(
+            missions
+            if level == "mission"
+            else handed_down
+            if draw.random() < HANDED_DOWN
+            else tasks
+        )
+        changed = (
+            with_unfamiliar_words(record, vocabulary, words)
+            if words.random() < unfamiliar_share
+            else None
+        )
         yield level, changed or record
 
 
-def tokenizer_texts(vocabulary: Vocabulary, seed: int, count: int, mission_share: float) -> Iterator[str]:
+def tokenizer_texts(
+    vocabulary: Vocabulary, seed: int, count: int, mission_share: float
+) -> Iterator[str]:
     """Texts of `count` samples to train the tokenizer on: each input and each answer."""
     samples = stream(vocabulary, seed, mission_share)
     for _ in range(count):
@@ -79,30 +101,58 @@ def tokenizer_texts(vocabulary: Vocabulary, seed: int, count: int, mission_share
 
 
 def encoded(
-    tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, seed: int, mission_share: float, longest: int, unfamiliar_share: float = 0.0
+    tokenizer: PreTrainedTokenizerBase,
+    vocabulary: Vocabulary,
+    *,
+    seed: int,
+    mission_share: float,
+    longest: int,
+    unfamiliar_share: float = 0.0,
 ) -> Iterator[Encoded | None]:
     """Endless rendered samples; None stands for one of more than `longest` tokens."""
     for level, record in stream(vocabulary, seed, mission_share, unfamiliar_share):
         yield _encoded(tokenizer, vocabulary, level, record, longest)
 
 
-def drills(tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, seed: int, longest: int) -> Iterator[Encoded]:
-    """Endless samples of the task level that have a working; up to its end they are practice in sums for few tokens."""
+def drills(
+    tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, seed: int, longest: int
+) -> Iterator[Encoded]:
+    """Endless samples of the task level that have a working; up to its end they are practice in
+    sums for few tokens.
+    """
     for record in sample_tasks(vocabulary, seed + DRILL_SEED, None, "train"):
-        sample = _encoded(tokenizer, vocabulary, "task", record, longest) if working_of(record, vocabulary) else None
+        sample = (
+            _encoded(tokenizer, vocabulary, "task", record, longest)
+            if working_of(record, vocabulary)
+            else None
+        )
         if sample is not None and sample.worked is not None:
             yield sample
 
 
-def _encoded(tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, level: Level, record: dict[str, Any], longest: int) -> Encoded | None:
+def _encoded(
+    tokenizer: PreTrainedTokenizerBase,
+    vocabulary: Vocabulary,
+    level: Level,
+    record: dict[str, Any],
+    longest: int,
+) -> Encoded | None:
     rendered = render_sample(level, record, tokenizer, vocabulary)
     ids, prompt = np.array(rendered.input_ids, dtype=np.int64), rendered.prompt_length
     worked = _worked(tokenizer, answer_text(level, record, vocabulary), ids[prompt:])
-    return Encoded(level, user_text(level, record, vocabulary), ids, prompt, worked and prompt + worked) if len(ids) <= longest else None
+    return (
+        Encoded(
+            level, user_text(level, record, vocabulary), ids, prompt, worked and prompt + worked
+        )
+        if len(ids) <= longest
+        else None
+    )
 
 
 def _worked(tokenizer: PreTrainedTokenizerBase, answer: str, ids: NDArray[np.int64]) -> int | None:
-    """How many tokens of an answer are its working; None without one, or where a token spans its end."""
+    """How many tokens of an answer are its working; None without one, or where a token spans its
+    end.
+    """
     plan, working = without_working(answer)
     if not working:
         return None
@@ -125,15 +175,23 @@ def encode_shard(
 ) -> dict[str, int]:
     """Write `count` tokenised samples as one .npz file; return counts.
 
-    Samples over `longest` tokens are left out and counted, those that `emphasis` passes over are drawn again and counted. Of those with a working,
-    some end behind it (`CUT`); behind each sample comes a drill, with a probability of `drill_share`, which is counted apart.
+    Samples over `longest` tokens are left out and counted, those that `emphasis` passes over are
+    drawn again and counted. Of those with a working, some end behind it (`CUT`); behind each sample
+    comes a drill, with a probability of `drill_share`, which is counted apart.
     """
     draw = np.random.default_rng(seed)
     ids: list[NDArray[np.uint16]] = []
     prompts: list[int] = []
     left_out = passed_over = drilled = 0
     practice = drills(tokenizer, vocabulary, seed=seed, longest=longest)
-    drawn = encoded(tokenizer, vocabulary, seed=seed, mission_share=mission_share, longest=longest, unfamiliar_share=unfamiliar_share)
+    drawn = encoded(
+        tokenizer,
+        vocabulary,
+        seed=seed,
+        mission_share=mission_share,
+        longest=longest,
+        unfamiliar_share=unfamiliar_share,
+    )
     for sample in drawn:
         if sample is None:
             left_out += 1
@@ -152,8 +210,19 @@ def encode_shard(
             break
     lengths = np.array([len(item) for item in ids], dtype=np.int32)
     with atomic_writer(path, "wb") as stream_:
-        np.savez(stream_, ids=np.concatenate(ids), lengths=lengths, prompts=np.array(prompts, dtype=np.int32))
-    return {"samples": len(ids) - drilled, "tokens": int(lengths.sum()), "left_out": left_out, "passed_over": passed_over, "drills": drilled}
+        np.savez(
+            stream_,
+            ids=np.concatenate(ids),
+            lengths=lengths,
+            prompts=np.array(prompts, dtype=np.int32),
+        )
+    return {
+        "samples": len(ids) - drilled,
+        "tokens": int(lengths.sum()),
+        "left_out": left_out,
+        "passed_over": passed_over,
+        "drills": drilled,
+    }
 
 
 def load_shard(path: Path) -> list[Sample]:
@@ -161,26 +230,35 @@ def load_shard(path: Path) -> list[Sample]:
     with np.load(path) as data:
         ends = np.cumsum(data["lengths"])
         ids = data["ids"].astype(np.int64)
-        return [(ids[end - length : end], int(prompt)) for end, length, prompt in zip(ends, data["lengths"], data["prompts"], strict=True)]
+        return [
+            (ids[end - length : end], int(prompt))
+            for end, length, prompt in zip(ends, data["lengths"], data["prompts"], strict=True)
+        ]
 
 
 def batched(samples: list[Sample], batch_tokens: int, pad: int, seed: int) -> list[Rows]:
-    """All samples in batches of about `batch_tokens` tokens, samples of like length together, in an order drawn from `seed`.
+    """All samples in batches of about `batch_tokens` tokens, samples of like length together, in an
+    order drawn from `seed`.
 
-    Attention then costs what the samples cost: on a CPU, rows of many packed samples spend half of the time on pairs of tokens that do
-    not see each other.
+    Attention then costs what the samples cost: on a CPU, rows of many packed samples spend half of
+    the time on pairs of tokens that do not see each other.
     """
     rng = np.random.default_rng(seed)
     by_width: dict[int, list[int]] = {}
     for index in rng.permutation(len(samples)):
-        by_width.setdefault(-(-len(samples[index][0]) // WIDTH_STEP) * WIDTH_STEP, []).append(int(index))
+        by_width.setdefault(-(-len(samples[index][0]) // WIDTH_STEP) * WIDTH_STEP, []).append(
+            int(index)
+        )
     rows, waiting = [], list[int]()
     for width in sorted(by_width):
         # What fills no batch at its own width waits for the next one.
         members = waiting + by_width[width]
         size = max(1, batch_tokens // width)
         whole = len(members) // size * size
-        rows += [rows_of([samples[index] for index in members[start : start + size]], width, pad) for start in range(0, whole, size)]
+        rows += [
+            rows_of([samples[index] for index in members[start : start + size]], width, pad)
+            for start in range(0, whole, size)
+        ]
         waiting = members[whole:]
     if waiting:
         rows.append(rows_of([samples[index] for index in waiting], max(by_width), pad))

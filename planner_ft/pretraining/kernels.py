@@ -1,7 +1,9 @@
-"""Attention and loss of the pretraining loop, written for one processor core: library products and reductions on pieces that stay in its cache.
+"""Attention and loss of the pretraining loop, written for one processor core: library products and
+reductions on pieces that stay in its cache.
 
-The compiler's own kernels for softmax over rows of varying length run several times slower there, so both are custom operators that it
-passes by. `CAUSAL` is the name under which a transformers model finds the attention.
+The compiler's own kernels for softmax over rows of varying length run several times slower there,
+so both are custom operators that it passes by. `CAUSAL` is the name under which a transformers
+model finds the attention.
 """
 
 from __future__ import annotations
@@ -21,8 +23,11 @@ _BIAS = torch.full((LONGEST, LONGEST), float("-inf")).triu(1)
 
 
 @torch.library.custom_op("planner_ft::causal_attention", mutates_args=())
-def causal_attention(query: Tensor, key: Tensor, value: Tensor, scale: float) -> tuple[Tensor, Tensor]:
-    """Attention of each position to itself and those before it: (batch, heads, length, width) each → the same shape, and the weights.
+def causal_attention(
+    query: Tensor, key: Tensor, value: Tensor, scale: float
+) -> tuple[Tensor, Tensor]:
+    """Attention of each position to itself and those before it: (batch, heads, length, width) each
+    → the same shape, and the weights.
 
     The weights have shape (batch * heads, length, length).
     """
@@ -36,20 +41,30 @@ def causal_attention(query: Tensor, key: Tensor, value: Tensor, scale: float) ->
 @causal_attention.register_fake
 def _(query: Tensor, key: Tensor, value: Tensor, scale: float) -> tuple[Tensor, Tensor]:
     batch, heads, length, width = query.shape
-    return query.new_empty((batch * heads, length, width)), query.new_empty((batch * heads, length, length))
+    return query.new_empty((batch * heads, length, width)), query.new_empty(
+        (batch * heads, length, length)
+    )
 
 
 @torch.library.custom_op("planner_ft::causal_attention_backward", mutates_args=())
-def causal_attention_backward(gradient: Tensor, query: Tensor, key: Tensor, value: Tensor, weights: Tensor, scale: float) -> tuple[Tensor, Tensor, Tensor]:
+def causal_attention_backward(
+    gradient: Tensor, query: Tensor, key: Tensor, value: Tensor, weights: Tensor, scale: float
+) -> tuple[Tensor, Tensor, Tensor]:
     """Gradients of query, key and value, each (batch * heads, length, width)."""
     query, key, value = _flat(query), _flat(key), _flat(value)
     of_weights = torch.bmm(gradient, value.transpose(1, 2))
     of_scores = torch._softmax_backward_data(of_weights, weights, -1, weights.dtype)
-    return torch.bmm(of_scores, key) * scale, torch.bmm(of_scores.transpose(1, 2), query) * scale, torch.bmm(weights.transpose(1, 2), gradient)
+    return (
+        torch.bmm(of_scores, key) * scale,
+        torch.bmm(of_scores.transpose(1, 2), query) * scale,
+        torch.bmm(weights.transpose(1, 2), gradient),
+    )
 
 
 @causal_attention_backward.register_fake
-def _(gradient: Tensor, query: Tensor, key: Tensor, value: Tensor, weights: Tensor, scale: float) -> tuple[Tensor, Tensor, Tensor]:
+def _(
+    gradient: Tensor, query: Tensor, key: Tensor, value: Tensor, weights: Tensor, scale: float
+) -> tuple[Tensor, Tensor, Tensor]:
     return torch.empty_like(gradient), torch.empty_like(gradient), torch.empty_like(gradient)
 
 
@@ -58,7 +73,9 @@ def _remember(ctx: Any, inputs: tuple[Any, ...], output: tuple[Tensor, Tensor]) 
     ctx.save_for_backward(query, key, value, output[1])
 
 
-def _backward(ctx: Any, gradient: Tensor, _of_weights: Tensor | None) -> tuple[Tensor, Tensor, Tensor, None]:
+def _backward(
+    ctx: Any, gradient: Tensor, _of_weights: Tensor | None
+) -> tuple[Tensor, Tensor, Tensor, None]:
     query, key, value, weights = ctx.saved_tensors
     found = causal_attention_backward(gradient.contiguous(), query, key, value, weights, ctx.scale)
     of_query, of_key, of_value = (part.view(query.shape) for part in found)
@@ -69,20 +86,33 @@ torch.library.register_autograd("planner_ft::causal_attention", _backward, setup
 
 
 def register_attention() -> None:
-    """Let transformers' models find the attention under the name `CAUSAL`; padding must stand on the right."""
+    """Let transformers' models find the attention under the name `CAUSAL`; padding must stand on
+    the right.
+    """
     from transformers.modeling_utils import ALL_ATTENTION_FUNCTIONS
 
-    def attend(_module: Any, query: Tensor, key: Tensor, value: Tensor, _mask: Any, scaling: float, **_: Any) -> tuple[Tensor, None]:
+    def attend(
+        _module: Any,
+        query: Tensor,
+        key: Tensor,
+        value: Tensor,
+        _mask: Any,
+        scaling: float,
+        **_: Any,
+    ) -> tuple[Tensor, None]:
         batch, heads, length, width = query.shape
         # Rotary positions leave queries and keys in float32, also where values are bfloat16.
-        attended, _weights = causal_attention(query.to(value.dtype), key.to(value.dtype), value, scaling)
+        attended, _weights = causal_attention(
+            query.to(value.dtype), key.to(value.dtype), value, scaling
+        )
         return attended.view(batch, heads, length, width).transpose(1, 2), None
 
     ALL_ATTENTION_FUNCTIONS.register(CAUSAL, attend)
 
 
 def summed_cross_entropy(hidden: Tensor, weight: Tensor, targets: Tensor) -> Tensor:
-    """Sum of the cross-entropies of `hidden` (n, width) through the output matrix `weight` (vocabulary, width) at `targets` (n,).
+    """Sum of the cross-entropies of `hidden` (n, width) through the output matrix `weight`
+    (vocabulary, width) at `targets` (n,).
 
     Products in bfloat16, the rest in float32. The logits never exist as a whole.
     """
@@ -103,7 +133,12 @@ class _SummedCrossEntropy(torch.autograd.Function):
             logits = torch.mm(piece, outer.t()).float()
             norm = torch.logsumexp(logits, -1, keepdim=True)
             total += (norm - logits.gather(1, wanted)).sum()
-            share = logits.sub_(norm).exp_().scatter_add_(1, wanted, torch.full_like(norm, -1.0)).to(torch.bfloat16)
+            share = (
+                logits.sub_(norm)
+                .exp_()
+                .scatter_add_(1, wanted, torch.full_like(norm, -1.0))
+                .to(torch.bfloat16)
+            )
             torch.mm(share, outer, out=of_hidden[start : start + ROWS])
             of_weight += torch.mm(share.t(), piece)
         ctx.save_for_backward(of_hidden.to(hidden.dtype), of_weight)

@@ -1,7 +1,8 @@
-"""The pretraining loop: batches by length, bf16 autocast, Muon for matrices and AdamW for the rest, resumable.
+"""The pretraining loop: batches by length, bf16 autocast, Muon for matrices and AdamW for the rest,
+resumable.
 
-Started by torchrun with several processes, each takes its share of every batch: the result does not depend on their number,
-up to rounding, and a run may be resumed with another number.
+Started by torchrun with several processes, each takes its share of every batch: the result does not
+depend on their number, up to rounding, and a run may be resumed with another number.
 """
 
 from __future__ import annotations
@@ -58,11 +59,19 @@ def new_model(settings: PretrainSettings, vocabulary_size: int, special: dict[st
     register_attention()
     torch.manual_seed(settings.seed)
     config = LlamaConfig(
-        vocab_size=vocabulary_size, hidden_size=settings.hidden, intermediate_size=settings.feed_forward, num_hidden_layers=settings.layers,
-        num_attention_heads=settings.heads, num_key_value_heads=settings.heads, tie_word_embeddings=True, max_position_embeddings=4096,
-        bos_token_id=special["bos"], eos_token_id=special["eos"], pad_token_id=special["pad"],
+        vocab_size=vocabulary_size,
+        hidden_size=settings.hidden,
+        intermediate_size=settings.feed_forward,
+        num_hidden_layers=settings.layers,
+        num_attention_heads=settings.heads,
+        num_key_value_heads=settings.heads,
+        tie_word_embeddings=True,
+        max_position_embeddings=4096,
+        bos_token_id=special["bos"],
+        eos_token_id=special["eos"],
+        pad_token_id=special["pad"],
         attn_implementation=CAUSAL,
-    )  # fmt: skip
+    )
     return LlamaForCausalLM(config)
 
 
@@ -77,7 +86,9 @@ def batches(shards: list[Path], settings: PretrainSettings, pad: int, skip: int)
     number, epoch = 0, 0
     while True:
         for index, shard in enumerate(shards):
-            for rows in batched(load_shard(shard), settings.batch_tokens, pad, settings.seed + 7919 * epoch + index):
+            for rows in batched(
+                load_shard(shard), settings.batch_tokens, pad, settings.seed + 7919 * epoch + index
+            ):
                 number += 1
                 if number > skip:
                     yield rows
@@ -85,7 +96,8 @@ def batches(shards: list[Path], settings: PretrainSettings, pad: int, skip: int)
 
 
 def completion_loss(model: Any, body: Any, rows: Rows, rank: int = 0, world: int = 1) -> Tensor:
-    """Mean cross-entropy over the answer tokens of a batch; of the rows of this rank only, when there are several.
+    """Mean cross-entropy over the answer tokens of a batch; of the rows of this rank only, when
+    there are several.
 
     The sum over the ranks is the loss of the batch.
     """
@@ -94,13 +106,17 @@ def completion_loss(model: Any, body: Any, rows: Rows, rank: int = 0, world: int
     labels = torch.from_numpy(own.labels).flatten()
     places = (labels != IGNORE).nonzero().squeeze(1)
     with torch.autocast("cpu", dtype=torch.bfloat16):
-        # Padding stands on the right, where no token sees it: attention needs no mask but the causal one.
+        # Padding stands on the right, where no token sees it: attention needs no mask but the
+        # causal one.
         hidden = body(input_ids=torch.from_numpy(own.input_ids), use_cache=False)[0]
-    return summed_cross_entropy(hidden.flatten(0, 1)[places], model.lm_head.weight, labels[places]) / max(1, answers)
+    return summed_cross_entropy(
+        hidden.flatten(0, 1)[places], model.lm_head.weight, labels[places]
+    ) / max(1, answers)
 
 
 def share_of(rows: Rows, rank: int, world: int) -> Rows:
-    """The rows of a batch that a rank computes, two at least: a row without labels stands in where there are too few.
+    """The rows of a batch that a rank computes, two at least: a row without labels stands in where
+    there are too few.
 
     Every rank must have gradients to sum, and the compiled model is made for more rows than one.
     """
@@ -113,22 +129,41 @@ def share_of(rows: Rows, rank: int, world: int) -> Rows:
 
 
 def layer_matrices(model: nn.Module) -> list[nn.Parameter]:
-    """The matrices of the layers: all weights but embeddings, output and norms. They are what 4-bit storage rounds."""
-    return [value for name, value in model.named_parameters() if value.ndim == 2 and "embed" not in name and "lm_head" not in name]
+    """The matrices of the layers: all weights but embeddings, output and norms. They are what 4-bit
+    storage rounds.
+    """
+    return [
+        value
+        for name, value in model.named_parameters()
+        if value.ndim == 2 and "embed" not in name and "lm_head" not in name
+    ]
 
 
 def optimizers(model: nn.Module, settings: PretrainSettings) -> list[torch.optim.Optimizer]:
     """Muon for the layers' matrices, AdamW for embeddings and norms."""
     matrices = layer_matrices(model)
-    others = [value for name, value in model.named_parameters() if value.ndim != 2 or "embed" in name or "lm_head" in name]
+    others = [
+        value
+        for name, value in model.named_parameters()
+        if value.ndim != 2 or "embed" in name or "lm_head" in name
+    ]
     return [
-        torch.optim.Muon(matrices, lr=settings.matrix_lr, weight_decay=settings.weight_decay, momentum=0.95, adjust_lr_fn="match_rms_adamw"),
+        torch.optim.Muon(
+            matrices,
+            lr=settings.matrix_lr,
+            weight_decay=settings.weight_decay,
+            momentum=0.95,
+            adjust_lr_fn="match_rms_adamw",
+        ),
         torch.optim.AdamW(others, lr=settings.other_lr, weight_decay=0.0, betas=(0.9, 0.98)),
     ]
 
 
-def pretrain(model: Any, shards: list[Path], settings: PretrainSettings, *, pad: int, folder: Path) -> dict[str, Any]:
-    """Train until the token budget is spent, resuming from `folder`/checkpoint.pt; return tokens, steps, seconds and loss.
+def pretrain(
+    model: Any, shards: list[Path], settings: PretrainSettings, *, pad: int, folder: Path
+) -> dict[str, Any]:
+    """Train until the token budget is spent, resuming from `folder`/checkpoint.pt; return tokens,
+    steps, seconds and loss.
 
     Logs one JSON line per 20 steps to `folder`/log.jsonl and to the terminal.
     """
@@ -160,7 +195,12 @@ def pretrain(model: Any, shards: list[Path], settings: PretrainSettings, *, pad:
             _log(folder, state, losses[-20:], settings, (state["tokens"] - begin_tokens) / seconds)
         if done or time.monotonic() - saved > settings.checkpoint_seconds:
             if rank == 0:
-                _save(folder, model, optims, {**state, "seconds": state["seconds"] + time.monotonic() - saved})
+                _save(
+                    folder,
+                    model,
+                    optims,
+                    {**state, "seconds": state["seconds"] + time.monotonic() - saved},
+                )
             state["seconds"] += time.monotonic() - saved
             saved = time.monotonic()
         if done:
@@ -182,23 +222,51 @@ def _summed(model: nn.Module, loss: Tensor, world: int) -> float:
         gradients = [value.grad for value in model.parameters() if value.grad is not None]
         message = torch.cat([gradient.flatten() for gradient in gradients] + [loss.reshape(1)])
         torch.distributed.all_reduce(message)
-        for gradient, part in zip(gradients, torch.split(message[:-1], [gradient.numel() for gradient in gradients]), strict=True):
+        for gradient, part in zip(
+            gradients,
+            torch.split(message[:-1], [gradient.numel() for gradient in gradients]),
+            strict=True,
+        ):
             gradient.copy_(part.view_as(gradient))
         loss = message[-1]
     return float(loss)
 
 
-def _log(folder: Path, state: dict[str, Any], losses: list[float], settings: PretrainSettings, rate: float) -> None:
-    line = {"step": state["step"], "tokens": state["tokens"], "loss": round(float(np.mean(losses)), 4), "tokens_per_s": round(rate)}
+def _log(
+    folder: Path,
+    state: dict[str, Any],
+    losses: list[float],
+    settings: PretrainSettings,
+    rate: float,
+) -> None:
+    line = {
+        "step": state["step"],
+        "tokens": state["tokens"],
+        "loss": round(float(np.mean(losses)), 4),
+        "tokens_per_s": round(rate),
+    }
     eta = (settings.tokens - state["tokens"]) / rate / 60
-    print(f"{line['step']:6d}  {line['tokens'] / 1e6:6.2f} M tokens  loss {line['loss']:.4f}  {rate:6.0f} tok/s  {eta:5.1f} min left", flush=True)
+    print(
+        f"{line['step']:6d}  {line['tokens'] / 1e6:6.2f} M tokens  loss {line['loss']:.4f} "
+        f" {rate:6.0f} tok/s  {eta:5.1f} min left",
+        flush=True,
+    )
     with open(folder / "log.jsonl", "a", encoding="utf-8") as stream:
         stream.write(json.dumps(line) + "\n")
 
 
-def _save(folder: Path, model: nn.Module, optims: list[torch.optim.Optimizer], state: dict[str, Any]) -> None:
+def _save(
+    folder: Path, model: nn.Module, optims: list[torch.optim.Optimizer], state: dict[str, Any]
+) -> None:
     temporary = folder / "checkpoint.tmp"
-    torch.save({"model": model.state_dict(), "optimizers": [optim.state_dict() for optim in optims], "state": state}, temporary)
+    torch.save(
+        {
+            "model": model.state_dict(),
+            "optimizers": [optim.state_dict() for optim in optims],
+            "state": state,
+        },
+        temporary,
+    )
     temporary.replace(folder / "checkpoint.pt")
 
 

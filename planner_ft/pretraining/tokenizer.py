@@ -1,8 +1,8 @@
 """The embedded candidate's byte-level BPE tokenizer.
 
-Its pre-tokenizer keeps digits apart (numbers are copied and computed digit by digit), lets the JSON structure between
-two values become one token, and takes the agents' fixed instructions as one token each. Any other text, another
-vehicle's names included, falls back to ordinary byte-level pieces.
+Its pre-tokenizer keeps digits apart (numbers are copied and computed digit by digit), lets the JSON
+structure between two values become one token, and takes the agents' fixed instructions as one token
+each. Any other text, another vehicle's names included, falls back to ordinary byte-level pieces.
 """
 
 from __future__ import annotations
@@ -36,28 +36,51 @@ def pre_token_pattern(vocabulary: Vocabulary) -> str:
     alternatives = "|".join(sorted(keys, key=lambda key: (-len(key), key)))
     unresolved = re.escape(",".join(f"{value:g}" for value in vocabulary.unresolved))
     structure = rf'(?:[{{}}\[\]",]*"(?:{alternatives})":)+[{{\[]*"?'
-    return rf'{unresolved}|{structure}| ?\d| ?[A-Za-z]+| ?[{{}}\[\]",:]+| ?[^\sA-Za-z\d{{}}\[\]",:]+|\s+'
+    return (
+        rf'{unresolved}|{structure}| ?\d| ?[A-Za-z]+| ?[{{}}\[\]",:]+|'
+        r' ?[^\sA-Za-z\d{}\[\]",:]+|\s+'
+    )
 
 
-def train_tokenizer(texts: Iterable[str], vocabulary: Vocabulary, *, size: int = 4096) -> PreTrainedTokenizerFast:
-    """Train the tokenizer on `texts` (prompts and completions). Deterministic for the same texts in the same order."""
+def train_tokenizer(
+    texts: Iterable[str], vocabulary: Vocabulary, *, size: int = 4096
+) -> PreTrainedTokenizerFast:
+    """Train the tokenizer on `texts` (prompts and completions). Deterministic for the same texts in
+    the same order.
+    """
     from tokenizers import AddedToken, Regex, Tokenizer, decoders, models, pre_tokenizers, trainers
     from transformers import PreTrainedTokenizerFast
 
     tokenizer = Tokenizer(models.BPE())
     tokenizer.pre_tokenizer = pre_tokenizers.Sequence(
-        [pre_tokenizers.Split(Regex(pre_token_pattern(vocabulary)), "isolated"), pre_tokenizers.ByteLevel(add_prefix_space=False, use_regex=False)]
+        [
+            pre_tokenizers.Split(Regex(pre_token_pattern(vocabulary)), "isolated"),
+            pre_tokenizers.ByteLevel(add_prefix_space=False, use_regex=False),
+        ]
     )
     tokenizer.decoder = decoders.ByteLevel()
     trainer = trainers.BpeTrainer(
-        vocab_size=size, special_tokens=list(SPECIAL_TOKENS), initial_alphabet=pre_tokenizers.ByteLevel.alphabet(), show_progress=False, max_token_length=120
+        vocab_size=size,
+        special_tokens=list(SPECIAL_TOKENS),
+        initial_alphabet=pre_tokenizers.ByteLevel.alphabet(),
+        show_progress=False,
+        max_token_length=120,
     )
     tokenizer.train_from_iterator(texts, trainer)
     instructions = [system_text(level, vocabulary, with_vocabulary=False) for level in LEVELS]
-    tokenizer.add_tokens([AddedToken(text, normalized=False, special=False) for text in instructions])
-    fast = PreTrainedTokenizerFast(
-        tokenizer_object=tokenizer, bos_token="<|begin|>", eos_token="<|end|>", pad_token="<|pad|>", clean_up_tokenization_spaces=False, model_max_length=4096
+    tokenizer.add_tokens(
+        [AddedToken(text, normalized=False, special=False) for text in instructions]
     )
-    fast.add_special_tokens({"additional_special_tokens": ["<|system|>", "<|user|>", "<|assistant|>"]})
+    fast = PreTrainedTokenizerFast(
+        tokenizer_object=tokenizer,
+        bos_token="<|begin|>",
+        eos_token="<|end|>",
+        pad_token="<|pad|>",
+        clean_up_tokenization_spaces=False,
+        model_max_length=4096,
+    )
+    fast.add_special_tokens(
+        {"additional_special_tokens": ["<|system|>", "<|user|>", "<|assistant|>"]}
+    )
     fast.chat_template = CHAT_TEMPLATE
     return fast

@@ -1,8 +1,10 @@
-"""Samples whose targets go by words that the generators' lists do not have, so that copying is learnt and not the lists.
+"""Samples whose targets go by words that the generators' lists do not have, so that copying is
+learnt and not the lists.
 
-A model that has met every word of its targets many times writes those, and stumbles where an operator's word is none of them: it
-misspells it, or goes on with a piece of another text. Here a word that the input and the plan share, one of those that things are called
-or a name, is replaced in both.
+A model that has met every word of its targets many times writes those, and stumbles where an
+operator's word is none of them: it misspells it, or goes on with a piece of another text. Here a
+word that the input and the plan share, one of those that things are called or a name, is replaced
+in both.
 """
 
 from __future__ import annotations
@@ -27,16 +29,70 @@ single small sound south southern square starboard stern stop stream surface swe
 wide wind yellow
 """
 """Words of places, directions, kinds and devices: they say what is to be done, and stay."""
-_PREFIXES = ("inter", "sub", "over", "under", "hydro", "electro", "aero", "mono", "multi", "semi", "cross", "fore", "out", "up", "trans", "photo")
-_SUFFIXES = ("er", "or", "ing", "ory", "ette", "ment", "age", "ler", "ock", "ard", "ling", "ship", "work", "house", "stone", "way", "let", "ine", "ite")
+_PREFIXES = (
+    "inter",
+    "sub",
+    "over",
+    "under",
+    "hydro",
+    "electro",
+    "aero",
+    "mono",
+    "multi",
+    "semi",
+    "cross",
+    "fore",
+    "out",
+    "up",
+    "trans",
+    "photo",
+)
+_SUFFIXES = (
+    "er",
+    "or",
+    "ing",
+    "ory",
+    "ette",
+    "ment",
+    "age",
+    "ler",
+    "ock",
+    "ard",
+    "ling",
+    "ship",
+    "work",
+    "house",
+    "stone",
+    "way",
+    "let",
+    "ine",
+    "ite",
+)
 _ACCENTS = {
-    "a": "àáâãäåæăą", "c": "çčć", "d": "đð", "e": "èéêëęě", "g": "ğ", "i": "ìíîïı", "l": "ł", "n": "ñńň", "o": "òóôõöøőœ", "r": "ř", "s": "šśşß",
-    "t": "țþ", "u": "ùúûüűů", "y": "ýÿ", "z": "žźż",
-}  # fmt: skip
+    "a": "àáâãäåæăą",
+    "c": "çčć",
+    "d": "đð",
+    "e": "èéêëęě",
+    "g": "ğ",
+    "i": "ìíîïı",
+    "l": "ł",
+    "n": "ñńň",
+    "o": "òóôõöøőœ",
+    "r": "ř",
+    "s": "šśşß",
+    "t": "țþ",
+    "u": "ùúûüűů",
+    "y": "ýÿ",
+    "z": "žźż",
+}
 
 
-def with_unfamiliar_words(record: dict[str, Any], vocabulary: Vocabulary, rng: Random) -> dict[str, Any] | None:
-    """`record`, of either level, with one or two words of its targets replaced wherever they stand; None where it has none to replace."""
+def with_unfamiliar_words(
+    record: dict[str, Any], vocabulary: Vocabulary, rng: Random
+) -> dict[str, Any] | None:
+    """`record`, of either level, with one or two words of its targets replaced wherever they stand;
+    None where it has none to replace.
+    """
     words = _shared_words(record, vocabulary)
     if not words:
         return None
@@ -46,17 +102,26 @@ def with_unfamiliar_words(record: dict[str, Any], vocabulary: Vocabulary, rng: R
         # "Trawlers" at the beginning of a sentence is the same word.
         text = unfamiliar_word(word, rng)
         forms = {word + end: text + end for end in ("", "s")}
-        forms |= {form[0].upper() + form[1:]: other[0].upper() + other[1:] for form, other in forms.items()}
+        forms |= {
+            form[0].upper() + form[1:]: other[0].upper() + other[1:]
+            for form, other in forms.items()
+        }
         pattern = re.compile(rf"(?<!\w)({'|'.join(map(re.escape, forms))})(?!\w)")
         changed = _replaced(changed, pattern, forms)
     return changed
 
 
 def unfamiliar_word(word: str, rng: Random) -> str:
-    """Another word, made up or of a foreign spelling, that can stand where `word` does: a name for a name, "an" stays "an"."""
+    """Another word, made up or of a foreign spelling, that can stand where `word` does: a name for
+    a name, "an" stays "an".
+    """
     for _ in range(50):
         found = _name(rng) if word[0].isupper() else _noun(rng)
-        if (found[0].lower() in "aeio") == (word[0].lower() in "aeio") and found[0].isascii() and not found.lower().startswith(("u", "eu", "one", "hon")):
+        if (
+            (found[0].lower() in "aeio") == (word[0].lower() in "aeio")
+            and found[0].isascii()
+            and not found.lower().startswith(("u", "eu", "one", "hon"))
+        ):
             return found
     return word
 
@@ -73,7 +138,11 @@ def _noun(rng: Random) -> str:
     if roll < 0.5:
         return rng.choice(things) + rng.choice(things)
     if roll < 0.65:
-        return rng.choice(_PREFIXES) + rng.choice(things) + (rng.choice(_SUFFIXES) if rng.random() < 0.4 else "")
+        return (
+            rng.choice(_PREFIXES)
+            + rng.choice(things)
+            + (rng.choice(_SUFFIXES) if rng.random() < 0.4 else "")
+        )
     word = pseudo_word(rng) if roll < 0.85 else rng.choice(things) + rng.choice(_SUFFIXES)
     return _accented(word, rng) if rng.random() < 0.25 else word
 
@@ -89,22 +158,48 @@ def _accented(word: str, rng: Random) -> str:
 
 @functools.cache
 def _things() -> tuple[str, ...]:
-    words = (Path(planner_ft.data.__file__).parent / "things.txt").read_text(encoding="utf-8").split()
-    return tuple(dict.fromkeys(word for word in words if len(word) > 3 and word not in _STAYING.split() and not word.startswith(("u", "eu", "one", "hon"))))
+    words = (
+        (Path(planner_ft.data.__file__).parent / "things.txt").read_text(encoding="utf-8").split()
+    )
+    return tuple(
+        dict.fromkeys(
+            word
+            for word in words
+            if len(word) > 3
+            and word not in _STAYING.split()
+            and not word.startswith(("u", "eu", "one", "hon"))
+        )
+    )
 
 
 def _shared_words(record: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
-    """The words that stand in a told parameter of the plan and in the prompt, and that mean a thing or are a name; in the order of the plan."""
-    meant, things, prompt = _vocabulary_words(vocabulary), frozenset(_things()), set(_WORD.findall(record["prompt"]))
-    found = dict.fromkeys(word for text in _told(record["expected"]) for word in _WORD.findall(text))
-    return [word for word in found if word in prompt and word.lower() not in meant and (word in things or (word[0].isupper() and not word.isupper()))]
+    """The words that stand in a told parameter of the plan and in the prompt, and that mean a thing
+    or are a name; in the order of the plan.
+    """
+    meant, things, prompt = (
+        _vocabulary_words(vocabulary),
+        frozenset(_things()),
+        set(_WORD.findall(record["prompt"])),
+    )
+    found = dict.fromkeys(
+        word for text in _told(record["expected"]) for word in _WORD.findall(text)
+    )
+    return [
+        word
+        for word in found
+        if word in prompt
+        and word.lower() not in meant
+        and (word in things or (word[0].isupper() and not word.isupper()))
+    ]
 
 
 @functools.cache
 def _vocabulary_words(vocabulary: Vocabulary) -> frozenset[str]:
     """The words that the names of tasks and skills are made of, in lower case."""
     names = [task.title for task in vocabulary.tasks] + [skill.name for skill in vocabulary.skills]
-    return frozenset(_STAYING.split()) | {part.lower() for name in names for part in re.findall(r"[A-Z]+(?![a-z])|[A-Z][a-z]+", name)}
+    return frozenset(_STAYING.split()) | {
+        part.lower() for name in names for part in re.findall(r"[A-Z]+(?![a-z])|[A-Z][a-z]+", name)
+    }
 
 
 def _told(expected: dict[str, Any]) -> Iterator[str]:
@@ -124,7 +219,9 @@ def _strings(value: Any) -> Iterator[str]:
 
 
 def _replaced(value: Any, pattern: re.Pattern[str], forms: dict[str, str]) -> Any:
-    """`value` with the words replaced in its strings; names of tasks and skills have no such word."""
+    """`value` with the words replaced in its strings; names of tasks and skills have no such
+    word.
+    """
     if isinstance(value, str):
         return pattern.sub(lambda match: forms[match[0]], value)
     if isinstance(value, dict):

@@ -1,8 +1,8 @@
 """Rendering a sample into ids and completion mask together.
 
-Prompt and completion are tokenised apart and joined, so that the ids a model was trained on are exactly the ids that
-it is given when it generates. Chat candidates use their tokenizer's chat template, base models a plain form that ends
-with their end-of-text token.
+Prompt and completion are tokenised apart and joined, so that the ids a model was trained on are
+exactly the ids that it is given when it generates. Chat candidates use their tokenizer's chat
+template, base models a plain form that ends with their end-of-text token.
 """
 
 from __future__ import annotations
@@ -19,20 +19,24 @@ if TYPE_CHECKING:
     from transformers import PreTrainedTokenizerBase
 
 PROMPT_VERSION = 2
-"""Counts up with every change of the rendered text, so that cached predictions are not reused across it."""
+"""Counts up with every change of the rendered text, so that cached predictions are not reused
+across it.
+"""
 
 PROBE = "\x02probe\x03"
 
 TODAY = "26 Jul 2024"
-"""The date that Llama 3 templates write into the system message. They would take today's: another prompt every day."""
+"""The date that Llama 3 templates write into the system message. They would take today's: another
+prompt every day.
+"""
 
 
 @dataclass(frozen=True)
 class Rendered:
     """One sample as token ids.
 
-    `input_ids` and `completion_mask` have the same length; the mask is 1 on the answer and its end-of-turn token, 0 on
-    the prompt. `prompt_length` is the number of leading prompt ids.
+    `input_ids` and `completion_mask` have the same length; the mask is 1 on the answer and its
+    end-of-turn token, 0 on the prompt. `prompt_length` is the number of leading prompt ids.
     """
 
     input_ids: list[int]
@@ -40,18 +44,32 @@ class Rendered:
     prompt_length: int
 
 
-def render_prompt(level: Level, record: dict[str, Any], tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, with_vocabulary: bool) -> list[int]:
-    """Ids of the prompt, up to where the answer begins. `with_vocabulary` is for base models, which have not learned it."""
+def render_prompt(
+    level: Level,
+    record: dict[str, Any],
+    tokenizer: PreTrainedTokenizerBase,
+    vocabulary: Vocabulary,
+    *,
+    with_vocabulary: bool,
+) -> list[int]:
+    """Ids of the prompt, up to where the answer begins. `with_vocabulary` is for base models, which
+    have not learned it.
+    """
     system = system_text(level, vocabulary, with_vocabulary=with_vocabulary)
     user = user_text(level, record, vocabulary)
     if tokenizer.chat_template:
         messages = [{"role": "system", "content": system}, {"role": "user", "content": PROBE}]
-        text = str(tokenizer.apply_chat_template(messages, tokenize=False, add_generation_prompt=True, date_string=TODAY))
+        text = str(
+            tokenizer.apply_chat_template(
+                messages, tokenize=False, add_generation_prompt=True, date_string=TODAY
+            )
+        )
     else:
         text = _bos(tokenizer) + PLAIN_FORM.format(system=system, user=PROBE)
     before, after = text.split(PROBE)
-    # The template or _bos already wrote the beginning-of-text token: special tokens must not be added again. What the
-    # operator wrote is text: "<|eot_id|>" in a command is spelt out and ends nothing.
+    # The template or _bos already wrote the beginning-of-text token: special tokens must not be
+    # added again. What the operator wrote is text: "<|eot_id|>" in a command is spelt out and ends
+    # nothing.
     return [
         *tokenizer.encode(before, add_special_tokens=False),
         *tokenizer.encode(user.strip(), add_special_tokens=False, split_special_tokens=True),
@@ -60,7 +78,12 @@ def render_prompt(level: Level, record: dict[str, Any], tokenizer: PreTrainedTok
 
 
 def render_sample(
-    level: Level, record: dict[str, Any], tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, with_vocabulary: bool = False
+    level: Level,
+    record: dict[str, Any],
+    tokenizer: PreTrainedTokenizerBase,
+    vocabulary: Vocabulary,
+    *,
+    with_vocabulary: bool = False,
 ) -> Rendered:
     """Ids and completion mask of a record with its `expected` plan."""
     prompt = render_prompt(level, record, tokenizer, vocabulary, with_vocabulary=with_vocabulary)
@@ -70,21 +93,30 @@ def render_sample(
 
 
 def end_of_turn_ids(tokenizer: PreTrainedTokenizerBase) -> list[int]:
-    """Ids that end an answer: first the one that is trained, then the end-of-text token where it is another.
+    """Ids that end an answer: first the one that is trained, then the end-of-text token where it is
+    another.
 
-    For chat templates it is the first token that the template writes after the assistant's message. Raises
-    PlannerError when that is not a single special token, since a model could then never learn to stop.
+    For chat templates it is the first token that the template writes after the assistant's message.
+    Raises PlannerError when that is not a single special token, since a model could then never
+    learn to stop.
     """
     eos = tokenizer.eos_token_id
     if not tokenizer.chat_template:
         if not isinstance(eos, int):
-            raise PlannerError("the tokenizer has no end-of-text token; set eos_token in its tokenizer_config.json")
+            raise PlannerError(
+                "the tokenizer has no end-of-text token; set eos_token in its tokenizer_config.json"
+            )
         return [eos]
     messages = [{"role": "user", "content": "?"}, {"role": "assistant", "content": PROBE}]
     after = str(tokenizer.apply_chat_template(messages, tokenize=False)).split(PROBE)[-1]
     ids = tokenizer.encode(after, add_special_tokens=False)
-    if not ids or (ids[0] not in tokenizer.all_special_ids and ids[0] not in tokenizer.added_tokens_decoder):
-        raise PlannerError(f"the chat template ends an answer with {after!r}, which is no special token; the end of a plan cannot be learned")
+    if not ids or (
+        ids[0] not in tokenizer.all_special_ids and ids[0] not in tokenizer.added_tokens_decoder
+    ):
+        raise PlannerError(
+            f"the chat template ends an answer with {after!r}, which is no special token; the end"
+            " of a plan cannot be learned"
+        )
     return list(dict.fromkeys([ids[0], *([eos] if isinstance(eos, int) else [])]))
 
 

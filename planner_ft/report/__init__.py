@@ -1,1 +1,3 @@
-"""Reports of benchmark runs for people who would rather look than read: one HTML file, figures, tables, model cards."""
+"""Reports of benchmark runs for people who would rather look than read: one HTML file, figures,
+tables, model cards.
+"""

@@ -15,23 +15,39 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, read_text, sha256_tree, write_text
 
 CARD = "README.md"
-START, END = "<!-- measured figures, written by plannerft report --card -->", "<!-- end of measured figures -->"
+START, END = (
+    "<!-- measured figures, written by plannerft report --card -->",
+    "<!-- end of measured figures -->",
+)
 TASK_TYPE = "text-generation"
 
 Measured = tuple[TestSet, System]
 
 
 def write_card(adapter: Path, runs: Sequence[Path]) -> int:
-    """Write what these runs measured with exactly this adapter into its card; figures of an earlier call are replaced.
+    """Write what these runs measured with exactly this adapter into its card; figures of an earlier
+    call are replaced.
 
-    Returns how many figures were written. Raises PlannerError when the folder has no card, or no run measured these very weights.
+    Returns how many figures were written. Raises PlannerError when the folder has no card, or no
+    run measured these very weights.
     """
     if not (adapter / CARD).is_file() or not (adapter / WEIGHTS).is_file():
-        raise PlannerError(f"--card {adapter}: no adapter with a model card there ({CARD} and {WEIGHTS} are expected)")
+        raise PlannerError(
+            f"--card {adapter}: no adapter with a model card there ({CARD} and {WEIGHTS} are"
+            " expected)"
+        )
     digest = sha256_tree(adapter, (WEIGHTS, CONFIG))
-    measured = [(tests, system) for tests in load_test_sets(runs) for system in tests.systems if adapter_of(system) == digest]
+    measured = [
+        (tests, system)
+        for tests in load_test_sets(runs)
+        for system in tests.systems
+        if adapter_of(system) == digest
+    ]
     if not measured:
-        raise PlannerError(f"--card {adapter}: no row of these runs was measured with this adapter (its weights have another digest)")
+        raise PlannerError(
+            f"--card {adapter}: no row of these runs was measured with this adapter (its weights"
+            " have another digest)"
+        )
     manifest = read_json(adapter / MANIFEST) if (adapter / MANIFEST).is_file() else {}
     text, count = card_with(read_text(adapter / CARD), measured, _model_name(adapter, manifest))
     write_text(adapter / CARD, text)
@@ -39,7 +55,9 @@ def write_card(adapter: Path, runs: Sequence[Path]) -> int:
 
 
 def adapter_of(system: System) -> str | None:
-    """The digest of the adapter that a row was measured with, as the run recorded it; None without one and for baselines."""
+    """The digest of the adapter that a row was measured with, as the run recorded it; None without
+    one and for baselines.
+    """
     if system.is_baseline:
         return None
     wanted = (system.row.get("candidate"), system.row.get("configuration"))
@@ -50,7 +68,9 @@ def adapter_of(system: System) -> str | None:
 
 
 def card_with(text: str, measured: Sequence[Measured], model: str) -> tuple[str, int]:
-    """A card with its model-index and its section of figures replaced, and the number of figures."""
+    """A card with its model-index and its section of figures replaced, and the number of
+    figures.
+    """
     from huggingface_hub import ModelCard
 
     card = ModelCard(_with_section(text, _section(measured)), ignore_metadata_errors=True)
@@ -60,28 +80,43 @@ def card_with(text: str, measured: Sequence[Measured], model: str) -> tuple[str,
 
 
 def eval_results(tests: TestSet, system: System) -> list[Any]:
-    """A row's figures as huggingface_hub.EvalResult: rates as shares, the interval and the number of samples among the arguments."""
+    """A row's figures as huggingface_hub.EvalResult: rates as shares, the interval and the number
+    of samples among the arguments.
+    """
     from huggingface_hub import EvalResult
 
     vehicle = tests.vocabulary.name if tests.vocabulary else "unknown"
     data = {
-        "dataset_type": f"planner_ft-{vehicle}-{tests.level}", "dataset_name": Path(tests.path).name, "dataset_revision": tests.sha256,
+        "dataset_type": f"planner_ft-{vehicle}-{tests.level}",
+        "dataset_name": Path(tests.path).name,
+        "dataset_revision": tests.sha256,
         "dataset_args": {"samples": tests.n},
-    }  # fmt: skip
+    }
     known = columns()
     found = []
     for name in system.row.get("metrics", {}):
         figure = estimate(system, name)
         if figure.value is None:
             continue
-        interval = None if figure.low is None else {"low": figure.low, "high": figure.high, "confidence": 0.95}
+        interval = (
+            None
+            if figure.low is None
+            else {"low": figure.low, "high": figure.high, "confidence": 0.95}
+        )
         label = column(name, known).heading.removesuffix(" (%)")
         found.append(
             EvalResult(
-                task_type=TASK_TYPE, task_name=f"{tests.level} planning", metric_type=name, metric_name=label, metric_value=figure.value,
-                metric_config=str(system.row.get("configuration")), metric_args=interval, verified=False, **data,
+                task_type=TASK_TYPE,
+                task_name=f"{tests.level} planning",
+                metric_type=name,
+                metric_name=label,
+                metric_value=figure.value,
+                metric_config=str(system.row.get("configuration")),
+                metric_args=interval,
+                verified=False,
+                **data,
             )
-        )  # fmt: skip
+        )
     return found
 
 
@@ -90,14 +125,32 @@ def _section(measured: Sequence[Measured]) -> str:
     tables = []
     for key in dict.fromkeys(tests.key for tests, _system in measured):
         rows = [(tests, system) for tests, system in measured if tests.key == key]
-        names = [name for name in MAIN if any(estimate(system, name).value is not None for _tests, system in rows)]
+        names = [
+            name
+            for name in MAIN
+            if any(estimate(system, name).value is not None for _tests, system in rows)
+        ]
         shown = [column(name, known) for name in names]
         body = tuple(
-            TableRow(heading(str(system.row.get("configuration"))), tuple(figure_cell(one, estimate(system, one.metric)) for one in shown))
+            TableRow(
+                heading(str(system.row.get("configuration"))),
+                tuple(figure_cell(one, estimate(system, one.metric)) for one in shown),
+            )
             for _t, system in rows
         )
         heads = tuple(f"{one.heading} {one.better}".strip() for one in shown)
-        tables.append(markdown_table(Table(key, f"{rows[0][0].title}.", "In brackets 95 % intervals.", "Configuration", heads, body)))
+        tables.append(
+            markdown_table(
+                Table(
+                    key,
+                    f"{rows[0][0].title}.",
+                    "In brackets 95 % intervals.",
+                    "Configuration",
+                    heads,
+                    body,
+                )
+            )
+        )
         tables += [f"- {text}" for text in _limits(rows)]
         tables.append("")
     return "\n".join(["## Measured", "", *tables]).rstrip("\n")
@@ -106,21 +159,36 @@ def _section(measured: Sequence[Measured]) -> str:
 def _limits(rows: Sequence[Measured]) -> list[str]:
     """What the figures do not say, and how the wrong answers were wrong."""
     tests = rows[0][0]
-    found = [f"{tests.n} samples of {Path(tests.path).name} (SHA-256 {tests.sha256[:12]}…): a difference smaller than the intervals is not known."]
+    found = [
+        f"{tests.n} samples of {Path(tests.path).name} (SHA-256 {tests.sha256[:12]}…): a difference"
+        " smaller than the intervals is not known."
+    ]
     for _tests, system in rows:
         failures = {kind: count for kind, count in system.row.get("failures", {}).items() if count}
-        kinds = ", ".join(f"{kind} {count}" for kind, count in sorted(failures.items(), key=lambda entry: (-entry[1], entry[0])))
-        found.append(f"{heading(str(system.row.get('configuration')))}: " + (f"wrong answers by kind: {kinds}." if kinds else "no wrong answer."))
+        kinds = ", ".join(
+            f"{kind} {count}"
+            for kind, count in sorted(failures.items(), key=lambda entry: (-entry[1], entry[0]))
+        )
+        found.append(
+            f"{heading(str(system.row.get('configuration')))}: "
+            + (f"wrong answers by kind: {kinds}." if kinds else "no wrong answer.")
+        )
     return found
 
 
 def _with_section(text: str, section: str) -> str:
-    """The text with the section between the marks replaced, or put before the section on training."""
+    """The text with the section between the marks replaced, or put before the section on
+    training.
+    """
     block = f"{START}\n{section}\n{END}"
     if START in text and END in text:
         return text[: text.index(START)] + block + text[text.index(END) + len(END) :]
     place = text.find("\n## Training\n")
-    return f"{text.rstrip()}\n\n{block}\n" if place < 0 else f"{text[: place + 1]}{block}\n\n{text[place + 1 :]}"
+    return (
+        f"{text.rstrip()}\n\n{block}\n"
+        if place < 0
+        else f"{text[: place + 1]}{block}\n\n{text[place + 1 :]}"
+    )
 
 
 def _model_name(adapter: Path, manifest: Record) -> str:

@@ -1,4 +1,5 @@
-"""What a figure shows, apart from how it is drawn: the page draws it as SVG, figures.py with matplotlib.
+"""What a figure shows, apart from how it is drawn: the page draws it as SVG, figures.py with
+matplotlib.
 
 Every chart has a `name` (file name), a `title` and a `caption` that says what to see in it.
 """
@@ -10,9 +11,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Bar:
-    """A figure with its interval; `second` is shown on an axis of its own. `muted` bars are there for comparison: published, baselines.
+    """A figure with its interval; `second` is shown on an axis of its own. `muted` bars are there
+    for comparison: published, baselines.
 
-    Bars of a `group` (a configuration) have a colour, and their second figures are joined by a line.
+    Bars of a `group` (a configuration) have a colour, and their second figures are joined by a
+    line.
     """
 
     label: str
@@ -46,9 +49,19 @@ class Bars:
         return any(bar.second is not None for bar in self.bars)
 
     def lines(self, group: str) -> list[list[int]]:
-        """Indices of a group's bars with a second figure, measured and compared ones apart: a line joins what was measured alike."""
-        found = [index for index, bar in enumerate(self.bars) if bar.group == group and bar.second is not None]
-        return [run for muted in (False, True) if (run := [index for index in found if self.bars[index].muted == muted])]
+        """Indices of a group's bars with a second figure, measured and compared ones apart: a line
+        joins what was measured alike.
+        """
+        found = [
+            index
+            for index, bar in enumerate(self.bars)
+            if bar.group == group and bar.second is not None
+        ]
+        return [
+            run
+            for muted in (False, True)
+            if (run := [index for index in found if self.bars[index].muted == muted])
+        ]
 
 
 @dataclass(frozen=True)
@@ -93,7 +106,9 @@ class DotRow:
 
 @dataclass(frozen=True)
 class Dots:
-    """Rows with several marks on one axis that starts at 0; `high` is its end, the largest value where it is None."""
+    """Rows with several marks on one axis that starts at 0; `high` is its end, the largest value
+    where it is None.
+    """
 
     name: str
     title: str
@@ -107,7 +122,9 @@ class Dots:
 
 @dataclass(frozen=True)
 class Matrix:
-    """Counts; `counts[row][column]`. `corner` says what rows and columns are. Cells that are None do not apply."""
+    """Counts; `counts[row][column]`. `corner` says what rows and columns are. Cells that are None
+    do not apply.
+    """
 
     name: str
     title: str
@@ -131,7 +148,11 @@ def ticks(high: float, count: int = 5) -> list[float]:
     if high <= 0:
         return [0.0, 1.0]
     magnitude = 10.0 ** _exponent(high / count)
-    step = next(factor * magnitude for factor in (1, 2, 2.5, 5, 10) if factor * magnitude * count >= high * 0.999999)
+    step = next(
+        factor * magnitude
+        for factor in (1, 2, 2.5, 5, 10)
+        if factor * magnitude * count >= high * 0.999999
+    )
     steps = [0.0]
     while steps[-1] < high * 0.999999:
         steps.append(round(len(steps) * step, 10))

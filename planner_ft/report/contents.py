@@ -45,19 +45,31 @@ class Section:
     @property
     def tables(self) -> tuple[Table, ...]:
         """Every table, in the order of the page."""
-        return (self.main, *self.extra, *([self.differences] if self.differences else []), *self.all_metrics)
+        return (
+            self.main,
+            *self.extra,
+            *([self.differences] if self.differences else []),
+            *self.all_metrics,
+        )
 
     @property
     def figures(self) -> tuple[Chart, ...]:
         """Every chart, in the order of the page."""
-        return (*self.charts, *(chart for _name, of_system in self.per_system for chart in of_system))
+        return (
+            *self.charts,
+            *(chart for _name, of_system in self.per_system for chart in of_system),
+        )
 
 
 def section(tests: TestSet) -> Section:
     """The content of a test set's section."""
     found = significance(tests)
     extra = [table for table in (cost_table(tests), group_table(tests)) if table is not None]
-    of_systems = [(system.name, tuple(system_charts(tests, system))) for system in tests.systems if not system.is_baseline]
+    of_systems = [
+        (system.name, tuple(system_charts(tests, system)))
+        for system in tests.systems
+        if not system.is_baseline
+    ]
     return Section(
         tests,
         summary=tuple(_summary(tests, found)),
@@ -76,8 +88,20 @@ def _summary(tests: TestSet, found: Significance) -> list[Sentence]:
     systems = tests.candidates
     failed = [entry for results in tests.results for entry in results.get("failed") or []]
     return [
-        *(Sentence(f"{system.name}.", f"{_in_words(tests, system)} {found.sentences.get(system.name, '')}".strip()) for system in systems),
-        *(Sentence(f"{entry.get('label')}, {heading(str(entry.get('configuration')))}.", f"Not measured: {entry.get('reason')}.") for entry in failed),
+        *(
+            Sentence(
+                f"{system.name}.",
+                f"{_in_words(tests, system)} {found.sentences.get(system.name, '')}".strip(),
+            )
+            for system in systems
+        ),
+        *(
+            Sentence(
+                f"{entry.get('label')}, {heading(str(entry.get('configuration')))}.",
+                f"Not measured: {entry.get('reason')}.",
+            )
+            for entry in failed
+        ),
     ]
 
 
@@ -86,36 +110,67 @@ def _in_words(tests: TestSet, system: System) -> str:
     whole, n = estimate(system, "whole_plan"), int(system.row.get("n", tests.n))
     if whole.value is None:
         return f"{n} answers."
-    span = "" if whole.low is None or whole.high is None else f", 95 % interval {100 * whole.low:.0f} to {100 * whole.high:.0f} %"
+    span = (
+        ""
+        if whole.low is None or whole.high is None
+        else f", 95 % interval {100 * whole.low:.0f} to {100 * whole.high:.0f} %"
+    )
     n *= max((len(lines) for lines in system.repeats.values()), default=1)
-    text = f"{round(whole.value * n)} of {n} plans are right in every name, order and value ({100 * whole.value:.0f} %{span})."
-    failures = sorted(((count, kind) for kind, count in system.row.get("failures", {}).items() if count), key=lambda entry: (-entry[0], entry[1]))
+    text = (
+        f"{round(whole.value * n)} of {n} plans are right in every name, order and value"
+        f" ({100 * whole.value:.0f} %{span})."
+    )
+    failures = sorted(
+        ((count, kind) for kind, count in system.row.get("failures", {}).items() if count),
+        key=lambda entry: (-entry[0], entry[1]),
+    )
     if failures:
         text += " Wrong: " + ", ".join(f"{kind} {count}" for count, kind in failures) + "."
     return text
 
 
 def _notes(tests: TestSet) -> list[str]:
-    return list(dict.fromkeys([*(note for results in tests.results for note in table_notes(as_results(results))), *tests.notes]))
+    return list(
+        dict.fromkeys(
+            [
+                *(note for results in tests.results for note in table_notes(as_results(results))),
+                *tests.notes,
+            ]
+        )
+    )
 
 
 def as_results(record: Record) -> Results:
-    """results.json as an object, as far as the notes of tables need it; what another version recorded beside is left out."""
+    """results.json as an object, as far as the notes of tables need it; what another version
+    recorded beside is left out.
+    """
     rows = [Row(system=_row_system(row), **_row_values(row)) for row in record["rows"]]
     return Results(record["level"], record["data"], tuple(rows), record.get("manifest", {}))
 
 
 def _row_system(row: Record) -> RowSystem:
     known = {field.name for field in fields(RowSystem)}
-    return RowSystem(**{"label": str(row.get("candidate")), **{name: value for name, value in row.items() if name in known}})
+    return RowSystem(
+        **{
+            "label": str(row.get("candidate")),
+            **{name: value for name, value in row.items() if name in known},
+        }
+    )
 
 
 def _row_values(row: Record) -> dict[str, Any]:
-    metrics = {name: Estimate(found.get("value"), found.get("low"), found.get("high")) for name, found in row.get("metrics", {}).items()}
+    metrics = {
+        name: Estimate(found.get("value"), found.get("low"), found.get("high"))
+        for name, found in row.get("metrics", {}).items()
+    }
     return {
-        "n": row.get("n", 0), "metrics": metrics, "failures": row.get("failures", {}), "finish_reasons": row.get("finish_reasons", {}),
-        "missing": tuple(row.get("missing", ())), "latency_n": row.get("latency_n", 0),
-    }  # fmt: skip
+        "n": row.get("n", 0),
+        "metrics": metrics,
+        "failures": row.get("failures", {}),
+        "finish_reasons": row.get("finish_reasons", {}),
+        "missing": tuple(row.get("missing", ())),
+        "latency_n": row.get("latency_n", 0),
+    }
 
 
 def provenance(sets: Sequence[TestSet]) -> list[tuple[str, str]]:
@@ -129,14 +184,23 @@ def provenance(sets: Sequence[TestSet]) -> list[tuple[str, str]]:
 
 
 def _of_run(manifest: Record) -> list[tuple[str, str]]:
-    versions = ", ".join(f"{name} {version}" for name, version in manifest.get("versions", {}).items())
+    versions = ", ".join(
+        f"{name} {version}" for name, version in manifest.get("versions", {}).items()
+    )
     hardware = ", ".join(f"{name} {value}" for name, value in manifest.get("hardware", {}).items())
     jobs = [
-        (f"Adapter of {name}", f"SHA-256 {job['adapter']}") for name, job in manifest.get("jobs", {}).items() if isinstance(job, dict) and job.get("adapter")
+        (f"Adapter of {name}", f"SHA-256 {job['adapter']}")
+        for name, job in manifest.get("jobs", {}).items()
+        if isinstance(job, dict) and job.get("adapter")
     ]
     commit = f"{manifest.get('commit') or 'unknown'}{' with local changes' if manifest.get('dirty') else ''}"
     entries = [
-        ("Command", str(manifest.get("command", ""))), ("Made", str(manifest.get("created", ""))), ("Seed", str(manifest.get("seed", ""))),
-        ("planner_ft", f"{manifest.get('planner_ft', '')}, commit {commit}"), ("Versions", versions), ("Hardware", hardware), *jobs,
-    ]  # fmt: skip
+        ("Command", str(manifest.get("command", ""))),
+        ("Made", str(manifest.get("created", ""))),
+        ("Seed", str(manifest.get("seed", ""))),
+        ("planner_ft", f"{manifest.get('planner_ft', '')}, commit {commit}"),
+        ("Versions", versions),
+        ("Hardware", hardware),
+        *jobs,
+    ]
     return [(name, value) for name, value in entries if value]

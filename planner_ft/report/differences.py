@@ -1,4 +1,6 @@
-"""An expected and a predicted plan side by side: what is the same, changed, missing, added, in another place."""
+"""An expected and a predicted plan side by side: what is the same, changed, missing, added, in
+another place.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,9 @@ Mark = Literal["same", "changed", "moved", "missing", "extra", "substituted"]
 
 @dataclass(frozen=True)
 class Difference:
-    """A line of the comparison: indices into the expected and the predicted entries, and the parameters that differ."""
+    """A line of the comparison: indices into the expected and the predicted entries, and the
+    parameters that differ.
+    """
 
     mark: Mark
     expected: int | None
@@ -30,17 +34,28 @@ class Difference:
 
 
 def entries_of(tests: TestSet, sample: str, system: System | None = None) -> tuple[Entry, ...]:
-    """The entries of a sample's expected plan, or of a system's answer to it: none where it does not parse."""
+    """The entries of a sample's expected plan, or of a system's answer to it: none where it does
+    not parse.
+    """
     if system is None:
         return plan_entries(tests.level, tests.samples.get(sample, {}).get("expected"))
-    return plan_entries(tests.level, parse_output(system.answers.get(sample, {}).get("output")).plan)
+    return plan_entries(
+        tests.level, parse_output(system.answers.get(sample, {}).get("output")).plan
+    )
 
 
-def differences(level: Level, expected: tuple[Entry, ...], predicted: tuple[Entry, ...], vocabulary: Vocabulary) -> list[Difference]:
-    """The lines of a side-by-side view, in the expected order; what was added stands where the answer has it."""
+def differences(
+    level: Level, expected: tuple[Entry, ...], predicted: tuple[Entry, ...], vocabulary: Vocabulary
+) -> list[Difference]:
+    """The lines of a side-by-side view, in the expected order; what was added stands where the
+    answer has it.
+    """
     alignment = align(level, expected, predicted, vocabulary)
     steady = _in_order(alignment.pairs)
-    lines = {pair[0]: _matched(level, alignment, pair, pair in steady, vocabulary) for pair in alignment.pairs}
+    lines = {
+        pair[0]: _matched(level, alignment, pair, pair in steady, vocabulary)
+        for pair in alignment.pairs
+    }
     replaced = _replaced(alignment)
     lines |= {ours: Difference("substituted", ours, theirs) for ours, theirs in replaced}
     taken = {theirs: ours for ours, theirs in [*alignment.pairs, *replaced]}
@@ -52,7 +67,11 @@ def differences(level: Level, expected: tuple[Entry, ...], predicted: tuple[Entr
             after.setdefault(row, []).append(Difference("extra", None, index))
     ordered = after.get(-1, [])
     for index in range(len(expected)):
-        ordered = [*ordered, lines.get(index, Difference("missing", index, None)), *after.get(index, [])]
+        ordered = [
+            *ordered,
+            lines.get(index, Difference("missing", index, None)),
+            *after.get(index, []),
+        ]
     return ordered
 
 
@@ -60,25 +79,41 @@ def _replaced(alignment: Alignment) -> list[Pair]:
     """Indices of missing entries with those that stand for them."""
     free = list(alignment.extra)
     found = []
-    for index, (_expected, predicted) in zip(alignment.missing, substitutions(alignment), strict=False):
-        other = next((other for other in free if predicted is not None and alignment.predicted[other].name == predicted), None)
+    for index, (_expected, predicted) in zip(
+        alignment.missing, substitutions(alignment), strict=False
+    ):
+        other = next(
+            (
+                other
+                for other in free
+                if predicted is not None and alignment.predicted[other].name == predicted
+            ),
+            None,
+        )
         if other is not None:
             free.remove(other)
             found.append((index, other))
     return found
 
 
-def _matched(level: Level, alignment: Alignment, pair: Pair, steady: bool, vocabulary: Vocabulary) -> Difference:
+def _matched(
+    level: Level, alignment: Alignment, pair: Pair, steady: bool, vocabulary: Vocabulary
+) -> Difference:
     ours, theirs = alignment.expected[pair[0]], alignment.predicted[pair[1]]
     changed = changed_parameters(level, ours, theirs, vocabulary)
     if changed:
         return Difference("changed", *pair, changed)
-    same_place = steady if level == "mission" else (ours.step, ours.role) == (theirs.step, theirs.role)
+    same_place = (
+        steady if level == "mission" else (ours.step, ours.role) == (theirs.step, theirs.role)
+    )
     return Difference("same" if same_place else "moved", *pair)
 
 
-def changed_parameters(level: Level, expected: Entry, predicted: Entry, vocabulary: Vocabulary) -> tuple[str, ...]:
-    """The parameters that one has and the other has not, or has with another value, as the benchmark compares values.
+def changed_parameters(
+    level: Level, expected: Entry, predicted: Entry, vocabulary: Vocabulary
+) -> tuple[str, ...]:
+    """The parameters that one has and the other has not, or has with another value, as the
+    benchmark compares values.
 
     An expected entry that states no parameters is not compared.
     """
@@ -88,13 +123,21 @@ def changed_parameters(level: Level, expected: Entry, predicted: Entry, vocabula
 
     def agree(name: str) -> bool:
         both = name in expected.parameters and name in predicted.parameters
-        return both and values_agree(predicted.parameters[name], expected.parameters[name], known.get(name), vocabulary)
+        return both and values_agree(
+            predicted.parameters[name], expected.parameters[name], known.get(name), vocabulary
+        )
 
-    return tuple(name for name in dict.fromkeys([*expected.parameters, *predicted.parameters]) if not agree(name))
+    return tuple(
+        name
+        for name in dict.fromkeys([*expected.parameters, *predicted.parameters])
+        if not agree(name)
+    )
 
 
 def _in_order(pairs: Sequence[Pair]) -> set[Pair]:
-    """The largest set of pairs that stand in the same order on both sides (a longest increasing subsequence): the others have moved."""
+    """The largest set of pairs that stand in the same order on both sides (a longest increasing
+    subsequence): the others have moved.
+    """
     ends: list[int] = []
     last: list[int] = []
     before: list[int | None] = []
@@ -116,4 +159,9 @@ def shown(level: Level, plan: Any, entry: Entry) -> list[Any]:
     if level == "task":
         return [entry.name, entry.parameters, f"{entry.step + 1} {entry.role}", ""]
     prompt = plan["tasks"][entry.step].get("task_prompt")
-    return [entry.name, entry.parameters, str(entry.step + 1), prompt if isinstance(prompt, str) else ""]
+    return [
+        entry.name,
+        entry.parameters,
+        str(entry.step + 1),
+        prompt if isinstance(prompt, str) else "",
+    ]

@@ -21,11 +21,19 @@ def text(value: object) -> Markup:
 
 def join(children: Iterable[object]) -> Markup:
     """Children one after the other; lists are flattened, None is left out."""
-    return Markup("".join(join(child) if isinstance(child, list | tuple) else text(child) for child in children if child is not None))
+    return Markup(
+        "".join(
+            join(child) if isinstance(child, list | tuple) else text(child)
+            for child in children
+            if child is not None
+        )
+    )
 
 
 def tag(name: str, /, *children: object, **attributes: object) -> Markup:
-    """An element. Attribute names lose a last underscore, others become hyphens; None and False leave out, True is bare."""
+    """An element. Attribute names lose a last underscore, others become hyphens; None and False
+    leave out, True is bare.
+    """
     parts = [name]
     for key, value in attributes.items():
         if value is None or value is False:

@@ -16,20 +16,38 @@ from planner_ft.report.charts import number
 from planner_ft.report.runs import System, TestSet
 from planner_ft.report.tables import Cell, Table, TableRow
 
-MAIN = ("f1", "whole_plan", "exact_sequence", "parameters", "hallucination", "schema_valid", "strict_valid", "latency_s", "tokens")
-"""The metrics of the first table: the published five, and those that show whether a plan is right."""
+MAIN = (
+    "f1",
+    "whole_plan",
+    "exact_sequence",
+    "parameters",
+    "hallucination",
+    "schema_valid",
+    "strict_valid",
+    "latency_s",
+    "tokens",
+)
+"""The metrics of the first table: the published five, and those that show whether a plan is
+right.
+"""
 RATES = frozenset(metric.name for metric in CATALOGUE if metric.kind == "rate")
 
 
 def columns() -> dict[str, Column]:
-    """Every column of the benchmark's tables, by metric; the headings of the first tables say most by themselves."""
+    """Every column of the benchmark's tables, by metric; the headings of the first tables say most
+    by themselves.
+    """
     return {one.metric: one for one in (*section_columns(), *layout.COLUMNS, *layout.MORE_COLUMNS)}
 
 
 def column(metric: str, known: dict[str, Column]) -> Column:
     """How a metric is shown; one that the layout does not know by its name, rates in percent."""
     label = metric.replace("_", " ").capitalize()
-    return known.get(metric) or (Column(metric, f"{label} (%)", "", 100, 1, 1) if metric in RATES else Column(metric, label, "", 1, 2))
+    return known.get(metric) or (
+        Column(metric, f"{label} (%)", "", 100, 1, 1)
+        if metric in RATES
+        else Column(metric, label, "", 1, 2)
+    )
 
 
 def estimate(system: System, metric: str) -> Estimate:
@@ -39,27 +57,44 @@ def estimate(system: System, metric: str) -> Estimate:
 
 
 def main_table(tests: TestSet, marks: dict[tuple[str, str], str]) -> Table:
-    """A row per system with the metrics that matter most, published rows beside. `marks` by (system, metric)."""
+    """A row per system with the metrics that matter most, published rows beside. `marks` by
+    (system, metric).
+    """
     known = columns()
-    shown = [column(name, known) for name in MAIN if any(estimate(system, name).value is not None for system in tests.systems)]
+    shown = [
+        column(name, known)
+        for name in MAIN
+        if any(estimate(system, name).value is not None for system in tests.systems)
+    ]
     rows = []
     theirs = published_rows(tests)
     for system in tests.systems:
-        cells = tuple(figure_cell(one, estimate(system, one.metric), marks.get((system.name, one.metric), "")) for one in shown)
+        cells = tuple(
+            figure_cell(one, estimate(system, one.metric), marks.get((system.name, one.metric), ""))
+            for one in shown
+        )
         rows.append(TableRow(system.name, cells, "baseline" if system.is_baseline else "measured"))
         key = (str(system.row.get("published")), str(system.row.get("configuration")))
         if key in theirs:
             rows.append(_published(key, theirs.pop(key), shown))
     rows += [_published(key, figures, shown) for key, figures in theirs.items()]
     heads = tuple(f"{one.heading} {one.better}".strip() for one in shown)
-    return Table(f"{tests.key}-main", "Systems", "In brackets 95 % intervals.", "System", heads, tuple(rows))
+    return Table(
+        f"{tests.key}-main", "Systems", "In brackets 95 % intervals.", "System", heads, tuple(rows)
+    )
 
 
 def metric_tables(tests: TestSet) -> list[Table]:
     """Every metric of the runs, a row each, a column per system, in the sections of table.md."""
     known = columns()
     named = {one.metric for _title, of_section in SECTIONS for one in of_section}
-    others = [name for name in dict.fromkeys(name for system in tests.systems for name in system.row.get("metrics", {})) if name not in named]
+    others = [
+        name
+        for name in dict.fromkeys(
+            name for system in tests.systems for name in system.row.get("metrics", {})
+        )
+        if name not in named
+    ]
     parts = [*SECTIONS, ("Output and cost", tuple(column(name, known) for name in others))]
     tables = [_metric_table(tests, title, of_section) for title, of_section in parts]
     return [table for table in tables if table.rows]
@@ -72,22 +107,56 @@ def _metric_table(tests: TestSet, title: str, shown: Iterable[Column]) -> Table:
         if any(cell.text != layout.NOTHING for cell in cells):
             rows.append(TableRow(f"{one.heading} {one.better}".strip(), cells))
     name = f"{tests.key}-{title.lower().replace(' ', '-')}"
-    return Table(name, title, "", "Metric", tuple(system.name for system in tests.systems), tuple(rows))
+    return Table(
+        name, title, "", "Metric", tuple(system.name for system in tests.systems), tuple(rows)
+    )
 
 
 def cost_table(tests: TestSet) -> Table | None:
-    """Quantiles of latency, time to first token, throughput, loading and memory, as far as they were measured."""
-    found = [(system, system.row["costs"]) for system in tests.systems if isinstance(system.row.get("costs"), dict) and system.row["costs"]]
+    """Quantiles of latency, time to first token, throughput, loading and memory, as far as they
+    were measured.
+    """
+    found = [
+        (system, system.row["costs"])
+        for system in tests.systems
+        if isinstance(system.row.get("costs"), dict) and system.row["costs"]
+    ]
     if not found:
         return None
     rows = []
     for system, costs in found:
         quantiles = costs.get("latency_s") or {}
-        figures = [*(quantiles.get(name) for name, _share in QUANTILES), costs.get("first_token_s"), costs.get("tokens_per_s")]
-        plain = [costs.get("load_s"), _scaled(costs.get("adapter_swap_s"), 1000), _scaled(costs.get("peak_memory_bytes"), 2**-20)]
-        rows.append(TableRow(system.name, (*(_cost(figure or {}) for figure in figures), *(_cost({"value": value}) for value in plain))))
-    heads = (*(f"Latency {name} (s)" for name, _share in QUANTILES), "First token (s)", "Tokens/s", "Load (s)", "Adapter switch (ms)", "Peak memory (MiB)")
-    caption = "One query at a time after a warm-up. In brackets 95 % intervals; – where too few queries were timed to know a bound."
+        figures = [
+            *(quantiles.get(name) for name, _share in QUANTILES),
+            costs.get("first_token_s"),
+            costs.get("tokens_per_s"),
+        ]
+        plain = [
+            costs.get("load_s"),
+            _scaled(costs.get("adapter_swap_s"), 1000),
+            _scaled(costs.get("peak_memory_bytes"), 2**-20),
+        ]
+        rows.append(
+            TableRow(
+                system.name,
+                (
+                    *(_cost(figure or {}) for figure in figures),
+                    *(_cost({"value": value}) for value in plain),
+                ),
+            )
+        )
+    heads = (
+        *(f"Latency {name} (s)" for name, _share in QUANTILES),
+        "First token (s)",
+        "Tokens/s",
+        "Load (s)",
+        "Adapter switch (ms)",
+        "Peak memory (MiB)",
+    )
+    caption = (
+        "One query at a time after a warm-up. In brackets 95 % intervals; – where too few queries"
+        " were timed to know a bound."
+    )
     return Table(f"{tests.key}-cost", "Cost", caption, "System", heads, tuple(rows))
 
 
@@ -103,30 +172,61 @@ def _cost(figure: dict[str, Any]) -> Cell:
 
 def group_table(tests: TestSet) -> Table | None:
     """F1 and whole plans right per group of the data; None where it has no groups."""
-    entries = [entry for results in tests.results for entry in results.get("groups", []) if isinstance(entry, dict) and entry.get("group")]
+    entries = [
+        entry
+        for results in tests.results
+        for entry in results.get("groups", [])
+        if isinstance(entry, dict) and entry.get("group")
+    ]
     if not entries:
         return None
     names = sorted({str(entry["group"]) for entry in entries})
     sizes = {str(entry["group"]): entry.get("n", 0) for entry in entries}
     cells = {
-        (_owner(tests.systems, entry), str(entry["group"])): Cell(_share(entry.get("whole_plan")), heat=_heat(entry.get("whole_plan"))) for entry in entries
+        (_owner(tests.systems, entry), str(entry["group"])): Cell(
+            _share(entry.get("whole_plan")), heat=_heat(entry.get("whole_plan"))
+        )
+        for entry in entries
     }
     rows = tuple(
-        TableRow(system.name, tuple(cells.get((system.name, name), Cell(layout.NOTHING)) for name in names), "baseline" if system.is_baseline else "measured")
+        TableRow(
+            system.name,
+            tuple(cells.get((system.name, name), Cell(layout.NOTHING)) for name in names),
+            "baseline" if system.is_baseline else "measured",
+        )
         for system in tests.systems
     )
-    caption = "Whole plans right (%) by kind of difficulty. Groups are small: they tell where to look, not which system is better."
-    return Table(f"{tests.key}-groups", "By group", caption, "System", tuple(f"{name} (n = {sizes[name]})" for name in names), rows)
+    caption = (
+        "Whole plans right (%) by kind of difficulty. Groups are small: they tell where to look,"
+        " not which system is better."
+    )
+    return Table(
+        f"{tests.key}-groups",
+        "By group",
+        caption,
+        "System",
+        tuple(f"{name} (n = {sizes[name]})" for name in names),
+        rows,
+    )
 
 
 def published_rows(tests: TestSet) -> dict[tuple[str, str], dict[str, float]]:
     """The published figures of this level by (model, configuration).
 
-    None for another vehicle, for stand-ins alone, and beside other data than the level's test split (test.jsonl): they are of the published
-    test set, and neither challenge commands nor unseen phrasings compare with it.
+    None for another vehicle, for stand-ins alone, and beside other data than the level's test split
+    (test.jsonl): they are of the published test set, and neither challenge commands nor unseen
+    phrasings compare with it.
     """
-    vehicle = tests.results[0].get("manifest", {}).get("configuration", {}).get("vocabulary", {}).get("name")
-    real = any(not system.row.get("is_standin") and not system.is_baseline for system in tests.systems)
+    vehicle = (
+        tests.results[0]
+        .get("manifest", {})
+        .get("configuration", {})
+        .get("vocabulary", {})
+        .get("name")
+    )
+    real = any(
+        not system.row.get("is_standin") and not system.is_baseline for system in tests.systems
+    )
     if vehicle != published.VOCABULARY or not real or Path(tests.path).stem != "test":
         return {}
     found: dict[tuple[str, str], dict[str, float]] = {}
@@ -141,7 +241,9 @@ def published_label(key: tuple[str, str]) -> str:
     return f"{key[0]}, {heading(key[1])} (published)"
 
 
-def _published(key: tuple[str, str], figures: dict[str, float], shown: Iterable[Column]) -> TableRow:
+def _published(
+    key: tuple[str, str], figures: dict[str, float], shown: Iterable[Column]
+) -> TableRow:
     cells = []
     for one in shown:
         value = figures.get(one.metric)
@@ -152,13 +254,28 @@ def _published(key: tuple[str, str], figures: dict[str, float], shown: Iterable[
 
 def figure_cell(one: Column, found: Estimate, mark: str = "") -> Cell:
     """A figure with its interval, in the unit of its column."""
-    low, value, high = (None if bound is None else bound * one.scale for bound in (found.low, found.value, found.high))
-    return Cell(one.text(found.value), one.interval(found) if value is not None else "", mark, bounds=(value, low, high))
+    low, value, high = (
+        None if bound is None else bound * one.scale
+        for bound in (found.low, found.value, found.high)
+    )
+    return Cell(
+        one.text(found.value),
+        one.interval(found) if value is not None else "",
+        mark,
+        bounds=(value, low, high),
+    )
 
 
 def _owner(systems: Sequence[System], entry: dict[str, Any]) -> str:
     wanted = (str(entry.get("candidate")), str(entry.get("configuration")))
-    return next((system.name for system in systems if (str(system.row.get("candidate")), str(system.row.get("configuration"))) == wanted), "")
+    return next(
+        (
+            system.name
+            for system in systems
+            if (str(system.row.get("candidate")), str(system.row.get("configuration"))) == wanted
+        ),
+        "",
+    )
 
 
 def _share(value: float | None) -> str:

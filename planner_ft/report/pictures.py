@@ -1,4 +1,6 @@
-"""Charts as PNG and SVG, drawn with matplotlib: colours that colour-blind people can tell apart, letters that stay text."""
+"""Charts as PNG and SVG, drawn with matplotlib: colours that colour-blind people can tell apart,
+letters that stay text.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,14 @@ LONGEST = 44
 """Letters of a label."""
 MARKERS = ("o", "s", "^", "D", "v")
 STYLES = ("-", "--", ":", "-.")
-SETTINGS = {"svg.fonttype": "none", "svg.hashsalt": "planner_ft", "font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True}
+SETTINGS = {
+    "svg.fonttype": "none",
+    "svg.hashsalt": "planner_ft",
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.axisbelow": True,
+}
 
 
 def picture(chart: Chart) -> dict[str, bytes]:
@@ -29,7 +38,10 @@ def picture(chart: Chart) -> dict[str, bytes]:
         # Lay out once, not for each format again.
         figure.draw_without_rendering()
         figure.set_layout_engine("none")
-        return {"png": _saved(figure, "png", {"dpi": 150, "metadata": {"Software": None}}), "svg": _saved(figure, "svg", {"metadata": {"Date": None}})}
+        return {
+            "png": _saved(figure, "png", {"dpi": 150, "metadata": {"Software": None}}),
+            "svg": _saved(figure, "svg", {"metadata": {"Date": None}}),
+        }
 
 
 def _draw(figure: Any, chart: Chart) -> None:
@@ -75,30 +87,68 @@ def _dress(axes: Any, labels: list[str], title: str, axis: str) -> None:
 def _bars(figure: Any, chart: Bars) -> None:
     labels = [bar.label for bar in chart.bars]
     figure.set_size_inches(7.2, 1.5 + 0.28 * len(labels))
-    axes, *others = figure.subplots(1, 2 if chart.has_second else 1, sharey=True, width_ratios=[2, 1] if chart.has_second else [1], squeeze=False)[0]
+    axes, *others = figure.subplots(
+        1,
+        2 if chart.has_second else 1,
+        sharey=True,
+        width_ratios=[2, 1] if chart.has_second else [1],
+        squeeze=False,
+    )[0]
     _dress(axes, labels, chart.title, chart.axis)
     axes.set_xlim(0, 1.1)
     for index, bar in enumerate(chart.bars):
         if bar.value is None:
             continue
-        axes.barh(index, bar.value, height=0.6, color=_colour(chart, bar.group), alpha=0.35 if bar.muted else 1)
+        axes.barh(
+            index,
+            bar.value,
+            height=0.6,
+            color=_colour(chart, bar.group),
+            alpha=0.35 if bar.muted else 1,
+        )
         if bar.low is not None and bar.high is not None:
-            axes.errorbar(bar.value, index, xerr=[[bar.value - bar.low], [bar.high - bar.value]], color="black", capsize=2.5, linewidth=1)
-        axes.annotate(f"{bar.value:.2f}", (max(bar.value, bar.high or 0), index), (4, 0), textcoords="offset points", va="center", fontsize=8)
+            axes.errorbar(
+                bar.value,
+                index,
+                xerr=[[bar.value - bar.low], [bar.high - bar.value]],
+                color="black",
+                capsize=2.5,
+                linewidth=1,
+            )
+        axes.annotate(
+            f"{bar.value:.2f}",
+            (max(bar.value, bar.high or 0), index),
+            (4, 0),
+            textcoords="offset points",
+            va="center",
+            fontsize=8,
+        )
     for second in others:
         second.set_xlabel(chart.second_axis)
         second.grid(axis="x", alpha=0.3)
         second.tick_params(axis="y", length=0)
         for number, group in enumerate(chart.groups):
             for run in chart.lines(group):
-                style = {"marker": MARKERS[number % len(MARKERS)], "alpha": 0.5 if chart.bars[run[0]].muted else 1}
-                second.plot([chart.bars[index].second for index in run], run, STYLES[number % len(STYLES)], color=_colour(chart, group), markersize=4, **style)
+                style = {
+                    "marker": MARKERS[number % len(MARKERS)],
+                    "alpha": 0.5 if chart.bars[run[0]].muted else 1,
+                }
+                second.plot(
+                    [chart.bars[index].second for index in run],
+                    run,
+                    STYLES[number % len(STYLES)],
+                    color=_colour(chart, group),
+                    markersize=4,
+                    **style,
+                )
         second.set_xlim(left=0)
     if len(chart.groups) > 1:
         from matplotlib.patches import Patch
 
         figure.legend(
-            handles=[Patch(color=_colour(chart, group), label=fitted(group)) for group in chart.groups],
+            handles=[
+                Patch(color=_colour(chart, group), label=fitted(group)) for group in chart.groups
+            ],
             loc="outside lower left",
             frameon=False,
             ncols=4,
@@ -116,9 +166,23 @@ def _lines(figure: Any, chart: Lines) -> None:
     for index, series in enumerate(chart.series):
         colour = PALETTE[index % len(PALETTE)]
         x, y = [point.x for point in series.points], [point.y for point in series.points]
-        axes.plot(x, y, STYLES[index % len(STYLES)], marker=MARKERS[index % len(MARKERS)], color=colour, markersize=5, label=fitted(series.label))
+        axes.plot(
+            x,
+            y,
+            STYLES[index % len(STYLES)],
+            marker=MARKERS[index % len(MARKERS)],
+            color=colour,
+            markersize=5,
+            label=fitted(series.label),
+        )
         spread = [point for point in series.points if point.low is not None]
-        axes.vlines([point.x for point in spread], [point.low for point in spread], [point.high for point in spread], color=colour, alpha=0.4)
+        axes.vlines(
+            [point.x for point in spread],
+            [point.low for point in spread],
+            [point.high for point in spread],
+            color=colour,
+            alpha=0.4,
+        )
     axes.set(xlabel=chart.x_axis, ylabel=chart.y_axis)
     axes.set_title(chart.title, loc="left", fontsize=10, fontweight="bold")
     axes.set_ylim(bottom=0)
@@ -134,15 +198,56 @@ def _dots(figure: Any, chart: Dots) -> None:
         if len(known) > 1:
             axes.hlines(index, min(known), max(known), color="#999999", linewidth=1.5, zorder=1)
         if row.note:
-            axes.annotate(row.note, (1.01, index), xycoords=("axes fraction", "data"), va="center", fontsize=8, color="#555555", annotation_clip=False)
+            axes.annotate(
+                row.note,
+                (1.01, index),
+                xycoords=("axes fraction", "data"),
+                va="center",
+                fontsize=8,
+                color="#555555",
+                annotation_clip=False,
+            )
     for mark, label in reversed(list(enumerate(chart.marks))):
-        found = [(row.values[mark], index) for index, row in enumerate(chart.rows) if row.values[mark] is not None]
-        axes.scatter([x for x, _y in found], [y for _x, y in found], s=34, marker=MARKERS[mark], color=PALETTE[mark], label=label, zorder=3)
-    axes.set_xlim(0, (chart.high or ticks(max((value or 0 for row in chart.rows for value in row.values), default=1))[-1]) * 1.02)
+        found = [
+            (row.values[mark], index)
+            for index, row in enumerate(chart.rows)
+            if row.values[mark] is not None
+        ]
+        axes.scatter(
+            [x for x, _y in found],
+            [y for _x, y in found],
+            s=34,
+            marker=MARKERS[mark],
+            color=PALETTE[mark],
+            label=label,
+            zorder=3,
+        )
+    axes.set_xlim(
+        0,
+        (
+            chart.high
+            or ticks(max((value or 0 for row in chart.rows for value in row.values), default=1))[-1]
+        )
+        * 1.02,
+    )
     if chart.note_heading:
-        axes.annotate(chart.note_heading, (1.01, -0.9), xycoords=("axes fraction", "data"), fontsize=8, color="#555555", annotation_clip=False)
+        axes.annotate(
+            chart.note_heading,
+            (1.01, -0.9),
+            xycoords=("axes fraction", "data"),
+            fontsize=8,
+            color="#555555",
+            annotation_clip=False,
+        )
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles[::-1], labels[::-1], loc="outside lower right", frameon=False, ncols=len(labels), fontsize=8)
+    figure.legend(
+        handles[::-1],
+        labels[::-1],
+        loc="outside lower right",
+        frameon=False,
+        ncols=len(labels),
+        fontsize=8,
+    )
 
 
 def _matrix(figure: Any, chart: Matrix) -> None:
@@ -150,11 +255,24 @@ def _matrix(figure: Any, chart: Matrix) -> None:
     axes = figure.subplots()
     values = [[float("nan") if count is None else count for count in row] for row in chart.counts]
     axes.imshow(values, cmap="Blues", vmin=0, vmax=max(chart.largest, 1) * 1.15, aspect="auto")
-    axes.set_xticks(range(len(chart.columns)), [fitted(name) for name in chart.columns], rotation=40, ha="right", rotation_mode="anchor")
+    axes.set_xticks(
+        range(len(chart.columns)),
+        [fitted(name) for name in chart.columns],
+        rotation=40,
+        ha="right",
+        rotation_mode="anchor",
+    )
     axes.set_yticks(range(len(chart.rows)), [fitted(name) for name in chart.rows])
     axes.tick_params(length=0)
     for row, counts in enumerate(chart.counts):
         for column, count in enumerate(counts):
             if count:
-                axes.text(column, row, str(count), ha="center", va="center", color="white" if count > 0.6 * chart.largest else "black")
+                axes.text(
+                    column,
+                    row,
+                    str(count),
+                    ha="center",
+                    va="center",
+                    color="white" if count > 0.6 * chart.largest else "black",
+                )
     axes.set_title(chart.title, loc="left", fontsize=10, fontweight="bold")

@@ -1,4 +1,6 @@
-"""Charts as inline SVG, in a wide form and in a narrow one for phones; colours come from the page's style sheet."""
+"""Charts as inline SVG, in a wide form and in a narrow one for phones; colours come from the page's
+style sheet.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,9 @@ from planner_ft.report.charts import Bar, Bars, Dots, Lines, Point, Series, numb
 from planner_ft.report.markup import Markup, join, tag
 
 WIDE, NARROW = 860, 340
-"""Widths in pixels at which a chart is drawn; letters keep their size because the page shows one or the other."""
+"""Widths in pixels at which a chart is drawn; letters keep their size because the page shows one or
+the other.
+"""
 LETTER = 7.2
 """Mean width of a letter at 12 pixels."""
 COLOURS = 8
@@ -54,13 +58,25 @@ def _colour(chart: Bars, bar: Bar) -> int:
     return chart.groups.index(bar.group) % COLOURS if bar.group else 0
 
 
-def _bar(frame: _Frame, index: int, bar: Bar, colour: int, scale: Callable[[float], float]) -> list[Markup]:
+def _bar(
+    frame: _Frame, index: int, bar: Bar, colour: int, scale: Callable[[float], float]
+) -> list[Markup]:
     y = frame.y(index)
     parts = frame.label(index)
     if bar.value is None:
         return parts
     muted = " muted" if bar.muted else ""
-    parts.append(tag("rect", x=frame.left, y=y - 8, width=max(scale(bar.value) - frame.left, 1), height=16, rx=2, class_=f"bar s{colour}{muted}"))
+    parts.append(
+        tag(
+            "rect",
+            x=frame.left,
+            y=y - 8,
+            width=max(scale(bar.value) - frame.left, 1),
+            height=16,
+            rx=2,
+            class_=f"bar s{colour}{muted}",
+        )
+    )
     end = bar.value
     if bar.low is not None and bar.high is not None:
         parts.append(_whisker(scale(bar.low), scale(bar.high), y))
@@ -70,24 +86,51 @@ def _bar(frame: _Frame, index: int, bar: Bar, colour: int, scale: Callable[[floa
 
 
 def _whisker(low: float, high: float, y: float) -> Markup:
-    return tag("path", d=f"M{low:.1f} {y}H{high:.1f}M{low:.1f} {y - 4}v8M{high:.1f} {y - 4}v8", class_="whisker")
+    return tag(
+        "path",
+        d=f"M{low:.1f} {y}H{high:.1f}M{low:.1f} {y - 4}v8M{high:.1f} {y - 4}v8",
+        class_="whisker",
+    )
 
 
-def _second_line(chart: Bars, run: list[int], frame: _Frame, scale: Callable[[float], float]) -> list[Markup]:
+def _second_line(
+    chart: Bars, run: list[int], frame: _Frame, scale: Callable[[float], float]
+) -> list[Markup]:
     """Marks joined by a line."""
     colour = _colour(chart, chart.bars[run[0]])
     places = [(scale(chart.bars[index].second or 0), frame.y(index)) for index in run]
     path = "L".join(f"{x:.1f} {y:.1f}" for x, y in places)
     muted = " muted" if chart.bars[run[0]].muted else ""
-    parts = [tag("path", d=f"M{path}", class_=f"line s{colour}{muted}", stroke_dasharray=DASHES[colour % len(DASHES)])]
-    return parts + [_mark(colour, x, y, f"{chart.bars[index].label}: {number(chart.bars[index].second)}") for index, (x, y) in zip(run, places, strict=True)]
+    parts = [
+        tag(
+            "path",
+            d=f"M{path}",
+            class_=f"line s{colour}{muted}",
+            stroke_dasharray=DASHES[colour % len(DASHES)],
+        )
+    ]
+    return parts + [
+        _mark(colour, x, y, f"{chart.bars[index].label}: {number(chart.bars[index].second)}")
+        for index, (x, y) in zip(run, places, strict=True)
+    ]
 
 
 def dots(chart: Dots, width: float) -> Markup:
     """Rows of marks joined by a thin line, a legend above."""
     keys = _legend(chart.marks, width)
-    frame = _Frame(width, [row.label for row in chart.rows], top=keys.height + 24, after=max((len(row.note) for row in chart.rows), default=0))
-    steps = ticks(chart.high if chart.high is not None else max((value for row in chart.rows for value in row.values if value is not None), default=1))
+    frame = _Frame(
+        width,
+        [row.label for row in chart.rows],
+        top=keys.height + 24,
+        after=max((len(row.note) for row in chart.rows), default=0),
+    )
+    steps = ticks(
+        chart.high
+        if chart.high is not None
+        else max(
+            (value for row in chart.rows for value in row.values if value is not None), default=1
+        )
+    )
     scale = frame.scale(steps[-1])
     parts = [*keys.parts, *frame.grid(steps, scale, chart.axis)]
     for index, row in enumerate(chart.rows):
@@ -99,11 +142,26 @@ def dots(chart: Dots, width: float) -> Markup:
         # Equal values lie on each other: the first mark is the smallest and is drawn last.
         for mark, value in reversed(list(enumerate(row.values))):
             if value is not None:
-                parts.append(_mark(mark, scale(value), y, f"{row.label}, {chart.marks[mark]}: {number(value)}"))
+                parts.append(
+                    _mark(
+                        mark, scale(value), y, f"{row.label}, {chart.marks[mark]}: {number(value)}"
+                    )
+                )
         if row.note:
-            parts.append(tag("text", row.note, x=width - 2, y=y + 4, class_="tick", text_anchor="end"))
+            parts.append(
+                tag("text", row.note, x=width - 2, y=y + 4, class_="tick", text_anchor="end")
+            )
     if chart.note_heading:
-        parts.append(tag("text", chart.note_heading, x=width - 2, y=frame.top - 8, class_="tick", text_anchor="end"))
+        parts.append(
+            tag(
+                "text",
+                chart.note_heading,
+                x=width - 2,
+                y=frame.top - 8,
+                class_="tick",
+                text_anchor="end",
+            )
+        )
     return frame.svg(parts, chart.title)
 
 
@@ -114,7 +172,8 @@ def lines(chart: Lines, width: float) -> Markup:
     top, left, bottom, right = keys.height + 26, 44.0, 40, width - 10
     height = top + (300 if width > NARROW else 230) + bottom
     steps = ticks(max((point.high or point.y for point in points), default=1))
-    # A single long number of tasks must not squeeze the others: x runs over the numbers that there are.
+    # A single long number of tasks must not squeeze the others: x runs over the numbers that there
+    # are.
     first, last = min(point.x for point in points), max(point.x for point in points)
     span = max(last - first, 1)
 
@@ -127,23 +186,58 @@ def lines(chart: Lines, width: float) -> Markup:
     parts = [*keys.parts, tag("text", chart.y_axis, x=0, y=keys.height + 12, class_="axis")]
     for step in steps:
         parts.append(tag("path", d=f"M{left} {y(step):.1f}H{right}", class_="grid"))
-        parts.append(tag("text", number(step), x=left - 6, y=y(step) + 4, class_="tick", text_anchor="end"))
+        parts.append(
+            tag("text", number(step), x=left - 6, y=y(step) + 4, class_="tick", text_anchor="end")
+        )
     for value in sorted({point.x for point in points}):
-        parts.append(tag("text", number(value), x=x(value), y=height - bottom + 18, class_="tick", text_anchor="middle"))
-    parts.append(tag("text", chart.x_axis, x=(left + right) / 2, y=height - 4, class_="axis", text_anchor="middle"))
+        parts.append(
+            tag(
+                "text",
+                number(value),
+                x=x(value),
+                y=height - bottom + 18,
+                class_="tick",
+                text_anchor="middle",
+            )
+        )
+    parts.append(
+        tag(
+            "text",
+            chart.x_axis,
+            x=(left + right) / 2,
+            y=height - 4,
+            class_="axis",
+            text_anchor="middle",
+        )
+    )
     for index, series in enumerate(chart.series):
         parts += _line(index, series, x, y)
     return _svg(width, height, parts, chart.title)
 
 
-def _line(index: int, series: Series, x: Callable[[float], float], y: Callable[[float], float]) -> list[Markup]:
+def _line(
+    index: int, series: Series, x: Callable[[float], float], y: Callable[[float], float]
+) -> list[Markup]:
     path = "L".join(f"{x(point.x):.1f} {y(point.y):.1f}" for point in series.points)
-    parts = [tag("path", d=f"M{path}", class_=f"line s{index % COLOURS}", stroke_dasharray=DASHES[index % len(DASHES)])]
+    parts = [
+        tag(
+            "path",
+            d=f"M{path}",
+            class_=f"line s{index % COLOURS}",
+            stroke_dasharray=DASHES[index % len(DASHES)],
+        )
+    ]
     for point in series.points:
         if point.low is not None and point.high is not None:
             # Strokes of several series at the same place stand beside each other.
             aside = x(point.x) + 3 * ((index + 1) // 2) * (-1) ** index
-            parts.append(tag("path", d=f"M{aside:.1f} {y(point.low):.1f}V{y(point.high):.1f}", class_=f"spread s{index % COLOURS}"))
+            parts.append(
+                tag(
+                    "path",
+                    d=f"M{aside:.1f} {y(point.low):.1f}V{y(point.high):.1f}",
+                    class_=f"spread s{index % COLOURS}",
+                )
+            )
         parts.append(_mark(index, x(point.x), y(point.y), _point_title(series, point)))
     return parts
 
@@ -161,7 +255,12 @@ def _mark(index: int, x: float, y: float, title: str) -> Markup:
         f"M{x:.1f} {y - 6:.1f}l6 6l-6 6l-6 -6z",
         f"M{x:.1f} {y + 6:.1f}l6 -10h-12z",
     )
-    return tag("path", tag("title", title), d=shapes[index % len(shapes)], class_=f"mark s{index % COLOURS}")
+    return tag(
+        "path",
+        tag("title", title),
+        d=shapes[index % len(shapes)],
+        class_=f"mark s{index % COLOURS}",
+    )
 
 
 class _Legend:
@@ -178,7 +277,10 @@ def _legend(labels: Iterable[str], width: float) -> _Legend:
         needed = 30 + LETTER * len(label)
         if x > 8 and x + needed > width:
             x, y = 8.0, y + 20
-        parts += [_mark(index, x, y, label), tag("text", fitted(label, width - 24), x=x + 12, y=y + 4, class_="key")]
+        parts += [
+            _mark(index, x, y, label),
+            tag("text", fitted(label, width - 24), x=x + 12, y=y + 4, class_="key"),
+        ]
         x += needed
     return _Legend(parts, y + 8 if parts else 0)
 
@@ -207,18 +309,52 @@ class _Frame:
         """The label of a row."""
         label = self.labels[index]
         if self.above:
-            return [tag("text", fitted(label, self.width - 16), x=self.left, y=self.y(index) - 13, class_="label")]
-        return [tag("text", tag("title", label), fitted(label, self.left - 8), x=self.left - 8, y=self.y(index) + 4, class_="label", text_anchor="end")]
+            return [
+                tag(
+                    "text",
+                    fitted(label, self.width - 16),
+                    x=self.left,
+                    y=self.y(index) - 13,
+                    class_="label",
+                )
+            ]
+        return [
+            tag(
+                "text",
+                tag("title", label),
+                fitted(label, self.left - 8),
+                x=self.left - 8,
+                y=self.y(index) + 4,
+                class_="label",
+                text_anchor="end",
+            )
+        ]
 
-    def grid(self, steps: Sequence[float], scale: Callable[[float], float], axis: str) -> list[Markup]:
+    def grid(
+        self, steps: Sequence[float], scale: Callable[[float], float], axis: str
+    ) -> list[Markup]:
         """Vertical lines with their values below, and the name of the axis."""
         bottom = self.top + self.step * len(self.labels) + 4
         parts = []
         for step in steps:
-            parts.append(tag("path", d=f"M{scale(step):.1f} {self.top - 2}V{bottom}", class_="grid"))
-            parts.append(tag("text", number(step), x=scale(step), y=bottom + 15, class_="tick", text_anchor="middle"))
+            parts.append(
+                tag("path", d=f"M{scale(step):.1f} {self.top - 2}V{bottom}", class_="grid")
+            )
+            parts.append(
+                tag(
+                    "text",
+                    number(step),
+                    x=scale(step),
+                    y=bottom + 15,
+                    class_="tick",
+                    text_anchor="middle",
+                )
+            )
         middle = (scale(0) + scale(max(steps))) / 2
-        return [*parts, tag("text", axis, x=middle, y=bottom + 32, class_="axis", text_anchor="middle")]
+        return [
+            *parts,
+            tag("text", axis, x=middle, y=bottom + 32, class_="axis", text_anchor="middle"),
+        ]
 
     def svg(self, parts: list[Markup], title: str) -> Markup:
         return _svg(self.width, self.height, parts, title)
@@ -235,4 +371,12 @@ def fitted(label: str, width: float) -> str:
 
 
 def _svg(width: float, height: float, parts: list[Markup], title: str) -> Markup:
-    return tag("svg", parts, role="img", aria_label=title, viewBox=f"0 0 {width:g} {height:g}", width=width, height=height)
+    return tag(
+        "svg",
+        parts,
+        role="img",
+        aria_label=title,
+        viewBox=f"0 0 {width:g} {height:g}",
+        width=width,
+        height=height,
+    )

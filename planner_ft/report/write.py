@@ -22,17 +22,26 @@ WRITERS = {"md": markdown_table, "csv": csv_table, "tex": latex_table}
 
 
 def write_report(
-    runs: Sequence[Path], out: Path, *, data: Sequence[Path] = (), overwrite: bool = False, title: str = "", pictures: Pictures = "all"
+    runs: Sequence[Path],
+    out: Path,
+    *,
+    data: Sequence[Path] = (),
+    overwrite: bool = False,
+    title: str = "",
+    pictures: Pictures = "all",
 ) -> list[Path]:
     """Report on these runs in `out`: report.html, figures/ and tables/. Returns what was written.
 
-    `pictures` says which charts become files in figures/, which takes most of the time: all of them, those over all systems, or none.
-    Raises PlannerError where a run cannot be read, or where a report is there already and `overwrite` is not given.
+    `pictures` says which charts become files in figures/, which takes most of the time: all of
+    them, those over all systems, or none. Raises PlannerError where a run cannot be read, or where
+    a report is there already and `overwrite` is not given.
     """
     check_out(out, overwrite)
     sets = load_test_sets(runs, data)
     sections = [section(tests) for tests in sets]
-    shown = title or "Benchmark report: " + ", ".join(dict.fromkeys(run.resolve().name for run in runs))
+    shown = title or "Benchmark report: " + ", ".join(
+        dict.fromkeys(run.resolve().name for run in runs)
+    )
     _remove_former(out)
     written = [*_tables(sections, out), *_figures(sections, out, pictures), out / PAGE]
     # Last: where the page is, all of the report is.
@@ -41,12 +50,20 @@ def write_report(
 
 
 def report_beside(folder: Path) -> str:
-    """Write the report of a run into its folder and say so in one line. Never raises: a run is not lost because its report fails."""
+    """Write the report of a run into its folder and say so in one line. Never raises: a run is not
+    lost because its report fails.
+    """
     try:
         write_report([folder], folder, overwrite=True, pictures="overall")
     except Exception as error:
-        return f"{folder / PAGE}: not written ({error or type(error).__name__}); the results are complete, try `plannerft report {folder}`"
-    return f"{folder / PAGE}: tables, figures and every sample; figures of each system: plannerft report {folder} --overwrite"
+        return (
+            f"{folder / PAGE}: not written ({error or type(error).__name__}); the results are"
+            f" complete, try `plannerft report {folder}`"
+        )
+    return (
+        f"{folder / PAGE}: tables, figures and every sample; figures of each system: plannerft"
+        f" report {folder} --overwrite"
+    )
 
 
 def check_pictures(name: str) -> Pictures:
@@ -54,7 +71,10 @@ def check_pictures(name: str) -> Pictures:
     for known in get_args(Pictures):
         if name == known:
             return cast(Pictures, known)
-    raise PlannerError(f"--pictures {name}: must be {', '.join(get_args(Pictures)[:-1])} or {get_args(Pictures)[-1]}")
+    raise PlannerError(
+        f"--pictures {name}: must be {', '.join(get_args(Pictures)[:-1])} or"
+        f" {get_args(Pictures)[-1]}"
+    )
 
 
 def check_out(out: Path, overwrite: bool) -> None:
@@ -62,11 +82,15 @@ def check_out(out: Path, overwrite: bool) -> None:
     if out.exists() and not out.is_dir():
         raise PlannerError(f"--out {out}: is a file; give a folder")
     if (out / PAGE).exists() and not overwrite:
-        raise PlannerError(f"{out / PAGE}: a report is there already; give --overwrite or another --out")
+        raise PlannerError(
+            f"{out / PAGE}: a report is there already; give --overwrite or another --out"
+        )
 
 
 def _remove_former(out: Path) -> None:
-    """Remove what an earlier report wrote, and nothing else: the folders may hold files of the user's."""
+    """Remove what an earlier report wrote, and nothing else: the folders may hold files of the
+    user's.
+    """
     for name in (FIGURES, TABLES):
         for path in (out / name).glob("*"):
             if WRITTEN.fullmatch(path.name):
@@ -75,7 +99,10 @@ def _remove_former(out: Path) -> None:
 
 def _tables(sections: Sequence[Section], out: Path) -> Iterator[Path]:
     for one in sections:
-        for table in [*one.tables, *(matrix_table(chart) for chart in one.figures if isinstance(chart, Matrix))]:
+        for table in [
+            *one.tables,
+            *(matrix_table(chart) for chart in one.figures if isinstance(chart, Matrix)),
+        ]:
             for suffix, writer in WRITERS.items():
                 path = out / TABLES / f"{table.name}.{suffix}"
                 write_text(path, writer(table))

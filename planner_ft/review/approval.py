@@ -1,6 +1,7 @@
 """A person's decision about a plan: approving and rejecting it, in the log.
 
-The log says who a reviewer is by the name that was given. It notices what was changed afterwards; it does not prove who decided.
+The log says who a reviewer is by the name that was given. It notices what was changed afterwards;
+it does not prove who decided.
 """
 
 from __future__ import annotations
@@ -27,68 +28,112 @@ class UnacknowledgedError(PlannerError):
         self.missing = missing
 
 
-def approve(document: PlanDocument, log: Path, reviewer: str, acknowledged: Collection[str] = (), reason: str = "") -> Appended:
-    """Record that `reviewer` approves the plan, with the warnings that they acknowledge by id ("all" for every one).
+def approve(
+    document: PlanDocument,
+    log: Path,
+    reviewer: str,
+    acknowledged: Collection[str] = (),
+    reason: str = "",
+) -> Appended:
+    """Record that `reviewer` approves the plan, with the warnings that they acknowledge by id
+    ("all" for every one).
 
-    Raises PlannerError for an empty name, a plan that is not valid or was altered, warnings that are not acknowledged
-    (UnacknowledgedError) or that the plan does not have, and a log that is broken or cannot be written.
+    Raises PlannerError for an empty name, a plan that is not valid or was altered, warnings that
+    are not acknowledged (UnacknowledgedError) or that the plan does not have, and a log that is
+    broken or cannot be written.
     """
     _check_texts(reviewer, reason)
     if altered(document):
-        raise PlannerError("the plan was altered by hand since it was written, so it cannot be approved; look at it and take the changes over with --adopt")
+        raise PlannerError(
+            "the plan was altered by hand since it was written, so it cannot be approved; look at"
+            " it and take the changes over with --adopt"
+        )
     if not document["valid"]:
-        raise PlannerError("an answer in the plan is not valid, so it cannot be approved; edit the plan, or plan the command again")
+        raise PlannerError(
+            "an answer in the plan is not valid, so it cannot be approved; edit the plan, or plan"
+            " the command again"
+        )
     _check_acknowledged(document, acknowledged)
     told = [{"id": warning["id"], "text": warning["text"]} for warning in document["warnings"]]
     return append(log, _decision("approved", document, reviewer, reason, told))
 
 
 def reject(document: PlanDocument, log: Path, reviewer: str, reason: str) -> Appended:
-    """Record that `reviewer` rejects the plan as it is, which withdraws an approval. Raises PlannerError without a name or a reason."""
+    """Record that `reviewer` rejects the plan as it is, which withdraws an approval. Raises
+    PlannerError without a name or a reason.
+    """
     if not reason.strip():
         raise PlannerError("a rejection needs its reason; give it with --reject REASON")
     _check_texts(reviewer, reason)
     return append(log, _decision("rejected", document, reviewer, reason, []))
 
 
-def _decision(event: str, document: PlanDocument, reviewer: str, reason: str, acknowledged: list[dict[str, str]]) -> dict[str, Any]:
+def _decision(
+    event: str,
+    document: PlanDocument,
+    reviewer: str,
+    reason: str,
+    acknowledged: list[dict[str, str]],
+) -> dict[str, Any]:
     digest = document_digest(document)
     return {
-        "event": event, "reviewer": reviewer.strip(), "reason": reason.strip(), "digest": digest, "plan": {**document, "digest": digest},
-        "acknowledged": acknowledged, "differences": [difference.as_json() for difference in differences(document)], "models": _models(document),
-    }  # fmt: skip
+        "event": event,
+        "reviewer": reviewer.strip(),
+        "reason": reason.strip(),
+        "digest": digest,
+        "plan": {**document, "digest": digest},
+        "acknowledged": acknowledged,
+        "differences": [difference.as_json() for difference in differences(document)],
+        "models": _models(document),
+    }
 
 
 def _models(document: PlanDocument) -> dict[str, Any]:
-    """Per agent what gave its answers: the manifest's record of candidate, configuration and the hashes of weights and adapter."""
+    """Per agent what gave its answers: the manifest's record of candidate, configuration and the
+    hashes of weights and adapter.
+    """
     agents = document.get("manifest", {}).get("agents", {})
     return {agent: {**use, **agents.get(agent, {})} for agent, use in _uses(document).items()}
 
 
 def _uses(document: PlanDocument) -> dict[str, dict[str, Any]]:
-    return {agent: {key: use[key] for key in ("candidate", "configuration", "adapter") if key in use} for agent, use in document.get("usage", {}).items()}
+    return {
+        agent: {key: use[key] for key in ("candidate", "configuration", "adapter") if key in use}
+        for agent, use in document.get("usage", {}).items()
+    }
 
 
 def _check_texts(reviewer: str, reason: str) -> None:
     if not reviewer.strip():
         raise PlannerError("a decision needs the name of who takes it; give --name NAME")
     if not reviewer.isprintable() or len(reviewer) > LONGEST_NAME:
-        raise PlannerError(f"--name {reviewer[:LONGEST_NAME]!r}: must be at most {LONGEST_NAME} printable characters")
+        raise PlannerError(
+            f"--name {reviewer[:LONGEST_NAME]!r}: must be at most {LONGEST_NAME} printable"
+            " characters"
+        )
     try:
         reason.encode()
     except UnicodeEncodeError:
         raise PlannerError("the reason is not UTF-8 text; write it anew") from None
     if len(reason) > LONGEST_REASON:
-        raise PlannerError(f"the reason has {len(reason)} characters; at most {LONGEST_REASON} are recorded, so shorten it")
+        raise PlannerError(
+            f"the reason has {len(reason)} characters; at most {LONGEST_REASON} are recorded, so"
+            " shorten it"
+        )
 
 
 def _check_acknowledged(document: PlanDocument, acknowledged: Collection[str]) -> None:
     ids = [warning["id"] for warning in document["warnings"]]
     unknown = [name for name in acknowledged if name not in (*ids, ALL)]
     if unknown:
-        raise PlannerError(f"--acknowledge {unknown[0]}: the plan has no such warning; it has {', '.join(ids) or 'none'}")
+        raise PlannerError(
+            f"--acknowledge {unknown[0]}: the plan has no such warning; it has"
+            f" {', '.join(ids) or 'none'}"
+        )
     missing = tuple(name for name in ids if name not in acknowledged and ALL not in acknowledged)
     if missing:
         raise UnacknowledgedError(
-            f"{len(missing)} of {len(ids)} warnings are not acknowledged: {', '.join(missing)}; read them, then give --acknowledge ID (or all)", missing
+            f"{len(missing)} of {len(ids)} warnings are not acknowledged: {', '.join(missing)};"
+            " read them, then give --acknowledge ID (or all)",
+            missing,
         )

@@ -1,7 +1,8 @@
 """The chain of records in an approval log, and what breaks it.
 
-A line is the RFC 8785 form of its record. `hash` is the SHA-256 of that form without the member `hash`, `previous` the hash of the line
-before. The head file beside the log holds sequence and hash of the last record, so that lines missing at the end are seen, too.
+A line is the RFC 8785 form of its record. `hash` is the SHA-256 of that form without the member
+`hash`, `previous` the hash of the line before. The head file beside the log holds sequence and hash
+of the last record, so that lines missing at the end are seen, too.
 """
 
 from __future__ import annotations
@@ -21,7 +22,9 @@ START = "0" * 64
 
 @dataclass(frozen=True)
 class Problem:
-    """What breaks the chain, and the line (from 1) where it shows; 0 where it shows at the head file alone."""
+    """What breaks the chain, and the line (from 1) where it shows; 0 where it shows at the head
+    file alone.
+    """
 
     line: int
     text: str
@@ -37,7 +40,8 @@ class Head:
 
 @dataclass(frozen=True)
 class Chain:
-    """A log as it was read: its records (none of a broken chain), what breaks the chain, how many lines there are, and what follows the last
+    """A log as it was read: its records (none of a broken chain), what breaks the chain, how many
+    lines there are, and what follows the last
 
     newline: a line that was never finished.
     """
@@ -67,7 +71,9 @@ def read_chain(data: bytes, head: Head | None) -> Chain:
     if not problems:
         problems += _head_problems([record for record in found if isinstance(record, dict)], head)
     records = () if problems else tuple(record for record in found if isinstance(record, dict))
-    return Chain(records, tuple(sorted(problems, key=lambda problem: problem.line)), len(lines), torn)
+    return Chain(
+        records, tuple(sorted(problems, key=lambda problem: problem.line)), len(lines), torn
+    )
 
 
 def _read_line(line: bytes) -> Record | str:
@@ -78,11 +84,20 @@ def _read_line(line: bytes) -> Record | str:
         return "is no UTF-8 text"
     if problem is not None:
         return f"is {problem}"
-    if not isinstance(value, dict) or not isinstance(value.get("hash"), str) or type(value.get("sequence")) is not int:
+    if (
+        not isinstance(value, dict)
+        or not isinstance(value.get("hash"), str)
+        or type(value.get("sequence")) is not int
+    ):
         return "is no record"
-    # The line is canonical, so that taking the member out of its bytes gives the canonical form without it.
+    # The line is canonical, so that taking the member out of its bytes gives the canonical form
+    # without it.
     content = line.replace(f'"hash":"{value["hash"]}",'.encode(), b"", 1)
-    return value if hashlib.sha256(content).hexdigest() == value["hash"] else f"(record {value['sequence']}) is not what was recorded: its hash does not fit"
+    return (
+        value
+        if hashlib.sha256(content).hexdigest() == value["hash"]
+        else f"(record {value['sequence']}) is not what was recorded: its hash does not fit"
+    )
 
 
 def _line_problems(found: list[Record | str]) -> Iterator[Problem]:
@@ -92,7 +107,9 @@ def _line_problems(found: list[Record | str]) -> Iterator[Problem]:
 
 
 def _order_problems(found: list[Record | str]) -> Iterator[Problem]:
-    """Records that do not follow the line before; a line that was changed itself breaks nothing more."""
+    """Records that do not follow the line before; a line that was changed itself breaks nothing
+    more.
+    """
     places: dict[int, list[int]] = {}
     for number, item in enumerate(found, start=1):
         if isinstance(item, dict):
@@ -105,7 +122,9 @@ def _order_problems(found: list[Record | str]) -> Iterator[Problem]:
                 yield Problem(number, _misplaced(number, item["sequence"], sequence + 1, places))
             elif item["previous"] != previous:
                 yield Problem(
-                    number, f"line {number} (record {item['sequence']}) was recorded after another line than line {number - 1}; line {number - 1} was replaced"
+                    number,
+                    f"line {number} (record {item['sequence']}) was recorded after another line"
+                    f" than line {number - 1}; line {number - 1} was replaced",
                 )
         before = item
 
@@ -113,25 +132,49 @@ def _order_problems(found: list[Record | str]) -> Iterator[Problem]:
 def _misplaced(number: int, sequence: int, expected: int, places: dict[int, list[int]]) -> str:
     holds = f"line {number} holds record {sequence} where record {expected} belongs"
     if expected in places:
-        return f"{holds}, which stands in line {places[expected][0]}; lines changed places or were repeated"
+        return (
+            f"{holds}, which stands in line {places[expected][0]}; lines changed places or were"
+            " repeated"
+        )
     if sequence < expected:
         return f"{holds}; lines changed places or were repeated"
-    missing = f"record {expected} is" if sequence == expected + 1 else f"records {expected} to {sequence - 1} are"
+    missing = (
+        f"record {expected} is"
+        if sequence == expected + 1
+        else f"records {expected} to {sequence - 1} are"
+    )
     return f"{holds}; {missing} missing: lines were removed"
 
 
 def _head_problems(records: list[Record], head: Head | None) -> Iterator[Problem]:
     count = len(records)
     if head is None:
-        # The first record without a head was written by a process that was killed before it could write one.
+        # The first record without a head was written by a process that was killed before it could
+        # write one.
         if count > 1:
-            yield Problem(0, "the head file is missing, so that lines removed at the end would not be seen")
+            yield Problem(
+                0, "the head file is missing, so that lines removed at the end would not be seen"
+            )
     elif head.sequence > count:
-        cut = f"record {head.sequence} is" if head.sequence == count + 1 else f"records {count + 1} to {head.sequence} are"
-        yield Problem(count + 1, f"line {count + 1} is missing: {cut} known to the head file; lines were removed at the end")
+        cut = (
+            f"record {head.sequence} is"
+            if head.sequence == count + 1
+            else f"records {count + 1} to {head.sequence} are"
+        )
+        yield Problem(
+            count + 1,
+            f"line {count + 1} is missing: {cut} known to the head file; lines were removed at"
+            " the end",
+        )
     elif head.sequence < count - 1:
         yield Problem(
-            0, f"the head file ends at record {head.sequence}, the log at record {count}; the head file was replaced by an older one, or lines were added"
+            0,
+            f"the head file ends at record {head.sequence}, the log at record {count}; the head"
+            " file was replaced by an older one, or lines were added",
         )
     elif head.hash != (records[head.sequence - 1]["hash"] if head.sequence else START):
-        yield Problem(head.sequence, f"line {head.sequence} (record {head.sequence}) is not the record that the head file knows; it was replaced")
+        yield Problem(
+            head.sequence,
+            f"line {head.sequence} (record {head.sequence}) is not the record that the head file"
+            " knows; it was replaced",
+        )

@@ -1,4 +1,6 @@
-"""A sketch of a plan's track for a terminal: dots of braille characters, or points where a terminal has none."""
+"""A sketch of a plan's track for a terminal: dots of braille characters, or points where a terminal
+has none.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ MARGIN = 0.05
 
 @dataclass
 class _Canvas:
-    """Dots, 2 by 4 in a character, over a part of the local frame; `marks` are letters that stand over them."""
+    """Dots, 2 by 4 in a character, over a part of the local frame; `marks` are letters that stand
+    over them.
+    """
 
     columns: int
     rows: int
@@ -52,7 +56,9 @@ class _Canvas:
 
     def lines(self, braille: bool) -> Iterator[str]:
         for row in range(self.rows):
-            yield "".join(self._character((column, row), braille) for column in range(self.columns)).rstrip()
+            yield "".join(
+                self._character((column, row), braille) for column in range(self.columns)
+            ).rstrip()
 
     def _character(self, cell: tuple[int, int], braille: bool) -> str:
         if cell in self.marks:
@@ -61,11 +67,20 @@ class _Canvas:
         return " " if not dots else chr(0x2800 + dots) if braille else "."
 
 
-def chart(track: Track, tasks: Sequence[str], home: Point, *, columns: int = 78, rows: int = 22, braille: bool = True) -> list[str]:
-    """The track as lines of text at most `columns` wide, with a scale and what the signs mean; `tasks` are the ids in their order.
+def chart(
+    track: Track,
+    tasks: Sequence[str],
+    home: Point,
+    *,
+    columns: int = 78,
+    rows: int = 22,
+    braille: bool = True,
+) -> list[str]:
+    """The track as lines of text at most `columns` wide, with a scale and what the signs mean;
+    `tasks` are the ids in their order.
 
-    Legs, stand-offs and boundaries are dotted lines; a number is where that task ends, H is home, * a target. Targets without a place are
-    named below.
+    Legs, stand-offs and boundaries are dotted lines; a number is where that task ends, H is home, *
+    a target. Targets without a place are named below.
     """
     shapes = [shape for shape in _shapes(track) if all(map(_drawable, shape))]
     if not any(math.dist(point, home) > 0 for shape in shapes for point in shape):
@@ -81,7 +96,12 @@ def chart(track: Track, tasks: Sequence[str], home: Point, *, columns: int = 78,
     for task, point in _ends(track).items():
         if task in tasks and _drawable(point):
             canvas.mark(point, str(tasks.index(task) + 1))
-    return [*canvas.lines(braille), _scale(canvas.metres, braille), *_known_targets(track), *_open_targets(track)]
+    return [
+        *canvas.lines(braille),
+        _scale(canvas.metres, braille),
+        *_known_targets(track),
+        *_open_targets(track),
+    ]
 
 
 def _shapes(track: Track) -> Iterator[tuple[Point, ...]]:
@@ -90,7 +110,9 @@ def _shapes(track: Track) -> Iterator[tuple[Point, ...]]:
     for circle in track.circles:
         angles = (2 * math.pi * step / CIRCLE_STEPS for step in range(CIRCLE_STEPS + 1))
         (x, y), radius = circle.center, circle.radius
-        yield tuple((x + radius * math.sin(angle), y + radius * math.cos(angle)) for angle in angles)
+        yield tuple(
+            (x + radius * math.sin(angle), y + radius * math.cos(angle)) for angle in angles
+        )
     yield from ((target.position,) for target in track.targets if target.position is not None)
 
 
@@ -103,9 +125,13 @@ def _canvas(points: Sequence[Point], columns: int, rows: int) -> _Canvas:
     west, east = min(x for x, _y in points), max(x for x, _y in points)
     south, north = min(y for _x, y in points), max(y for _x, y in points)
     # Room to the right for the numbers that stand beside points.
-    metres = max((east - west) / (2 * columns - 12), (north - south) / (4 * rows - 4), 1e-6) * (1 + MARGIN)
+    metres = max((east - west) / (2 * columns - 12), (north - south) / (4 * rows - 4), 1e-6) * (
+        1 + MARGIN
+    )
     used = min(rows, math.ceil((north - south) / metres / 4) + 2)
-    return _Canvas(columns, used, west - 2 * metres, north + (4 * used * metres - (north - south)) / 2, metres)
+    return _Canvas(
+        columns, used, west - 2 * metres, north + (4 * used * metres - (north - south)) / 2, metres
+    )
 
 
 def _ends(track: Track) -> dict[str, Point]:
@@ -119,12 +145,20 @@ def _scale(metres: float, braille: bool) -> str:
     power = 10.0 ** math.floor(math.log10(wanted))
     length = max(step * power for step in (1, 2, 5) if step * power <= wanted * 1.0001)
     bar = max(1, round(length / metres / 2))
-    return (f"├{'─' * bar}┤" if braille else f"|{'-' * bar}|") + f" {length:g} m   north is up   H home   1, 2, ... where that task ends"
+    return (
+        f"├{'─' * bar}┤" if braille else f"|{'-' * bar}|"
+    ) + f" {length:g} m   north is up   H home   1, 2, ... where that task ends"
 
 
 def _known_targets(track: Track) -> Iterator[str]:
-    yield from (f"* {target.name} at [{target.position[0]:g}, {target.position[1]:g}]" for target in track.targets if target.position is not None)
+    yield from (
+        f"* {target.name} at [{target.position[0]:g}, {target.position[1]:g}]"
+        for target in track.targets
+        if target.position is not None
+    )
 
 
 def _open_targets(track: Track) -> Iterator[str]:
-    yield from (f"not located yet: {target.name}" for target in track.targets if target.position is None)
+    yield from (
+        f"not located yet: {target.name}" for target in track.targets if target.position is None
+    )

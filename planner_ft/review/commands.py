@@ -18,13 +18,22 @@ Edit = dict[str, Any]
 HELP = (
     ("2.radius=15", "set a parameter of task 2; nothing after = takes it out"),
     ("2.1.x=30", "set a parameter of the skill that moves the vehicle in step 1 of task 2"),
-    ("2.1.LogLidarSlice.scan_angle=30", "... or of a skill by its name (LogLidarSlice#2: the second of that name)"),
+    (
+        "2.1.LogLidarSlice.scan_angle=30",
+        "... or of a skill by its name (LogLidarSlice#2: the second of that name)",
+    ),
     ("prompt 2 = TEXT", "say anew what the Task Agent is to do"),
     ("locate green buoy=120,-35", "say where a place is (metres east, north)"),
     ("remove 3", "take task 3 out"),
     ("move 3 1", "move task 3 to place 1"),
     ("insert 2 Transit target_position=[0,0] prompt=TEXT", "put a new task at place 2"),
-    ("skills 2", "ask the Task Agent again; without a number for every task whose skills are missing or were planned before an edit"),
+    (
+        "skills 2",
+        (
+            "ask the Task Agent again; without a number for every task whose skills are missing or"
+            " were planned before an edit"
+        ),
+    ),
     ("undo", "take the last edit back"),
 )
 """What can be typed, and what it does."""
@@ -35,42 +44,64 @@ INSERT = re.compile(r"(?P<at>\d+)\s+(?P<title>\w+)(?P<given>(?:\s.*)?)", re.DOTA
 
 
 def parse_edit(text: str, document: PlanDocument, vocabulary: Vocabulary) -> Edit:
-    """The edit that `text` asks for, as planner_ft.document applies it; also {"kind": "undo"} and {"kind": "ask", "tasks": [ids]}.
+    """The edit that `text` asks for, as planner_ft.document applies it; also {"kind": "undo"} and
+    {"kind": "ask", "tasks": [ids]}.
 
     Raises PlannerError that says what was expected.
     """
     text = text.strip()
     assigned = VALUE.fullmatch(text)
     if assigned:
-        return _assignment(assigned["path"].split("."), assigned["value"].strip(), document, vocabulary)
+        return _assignment(
+            assigned["path"].split("."), assigned["value"].strip(), document, vocabulary
+        )
     said = WORD.fullmatch(text)
     word = said["word"].lower() if said else ""
     if said is None or word not in WORDS:
-        raise PlannerError(f"{text!r}: is no edit; there is {', '.join(example for example, _what in HELP)}")
+        raise PlannerError(
+            f"{text!r}: is no edit; there is {', '.join(example for example, _what in HELP)}"
+        )
     return WORDS[word]((said["rest"] or "").strip(), document, vocabulary)
 
 
 # ---------------------------------------------------------------- NUMBER.NAME=VALUE
 
 
-def _assignment(path: list[str], value: str, document: PlanDocument, vocabulary: Vocabulary) -> Edit:
+def _assignment(
+    path: list[str], value: str, document: PlanDocument, vocabulary: Vocabulary
+) -> Edit:
     task = _task(path[0], document)
     if len(path) == 2:
         known = vocabulary.task[task["title"]].by_name
-        return {"kind": "parameter", "task": task["id"], "name": path[1], "value": _value(value, _parameter(path[1], task["title"], known))}
+        return {
+            "kind": "parameter",
+            "task": task["id"],
+            "name": path[1],
+            "value": _value(value, _parameter(path[1], task["title"], known)),
+        }
     step = _number(path[1])
     if step is None or len(path) > 4:
-        raise PlannerError(f"{'.'.join(path)}: expected TASK.PARAMETER, TASK.STEP.PARAMETER or TASK.STEP.SKILL.PARAMETER, such as 2.1.GoToXY.x")
+        raise PlannerError(
+            f"{'.'.join(path)}: expected TASK.PARAMETER, TASK.STEP.PARAMETER or"
+            " TASK.STEP.SKILL.PARAMETER, such as 2.1.GoToXY.x"
+        )
     role, index, skill = _skill(task, step, path[2] if len(path) == 4 else None)
     parameter = _parameter(path[-1], skill, vocabulary.skill[skill].by_name)
     return {
-        "kind": "skill", "task": task["id"], "step": step - 1, "role": role, "index": index,
-        "name": path[-1], "value": _value(value, parameter),
-    }  # fmt: skip
+        "kind": "skill",
+        "task": task["id"],
+        "step": step - 1,
+        "role": role,
+        "index": index,
+        "name": path[-1],
+        "value": _value(value, parameter),
+    }
 
 
 def _skill(task: dict[str, Any], step: int, name: str | None) -> tuple[str, int, str]:
-    """Role, place within the role and name of a skill of a step (from 1): by its name, else the one that moves the vehicle."""
+    """Role, place within the role and name of a skill of a step (from 1): by its name, else the one
+    that moves the vehicle.
+    """
     steps = task["skill_sequence"] or []
     if not 1 <= step <= len(steps):
         raise PlannerError(f"{task['title']}: has no step {step}; it has {len(steps)}")
@@ -81,17 +112,23 @@ def _skill(task: dict[str, Any], step: int, name: str | None) -> tuple[str, int,
         if name is None or name in (f"{skill['name']}#{number}", skill["name"]):
             return role, index, skill["name"]
         counts[role], named[skill["name"]] = index + 1, number
-    raise PlannerError(f"{task['title']}: step {step} has no skill {name}; it has {', '.join(named)}")
+    raise PlannerError(
+        f"{task['title']}: step {step} has no skill {name}; it has {', '.join(named)}"
+    )
 
 
 def _parameter(name: str, owner: str, known: Mapping[str, Parameter]) -> Parameter:
     if name not in known:
-        raise PlannerError(f"{name}: is no parameter of {owner}; there is {', '.join(known) or 'none'}")
+        raise PlannerError(
+            f"{name}: is no parameter of {owner}; there is {', '.join(known) or 'none'}"
+        )
     return known[name]
 
 
 def _value(text: str, parameter: Parameter) -> Any:
-    """What was typed as a value of the parameter's type; None for nothing. Whether it is in range is checked when the edit is applied."""
+    """What was typed as a value of the parameter's type; None for nothing. Whether it is in range
+    is checked when the edit is applied.
+    """
     if not text:
         return None
     if parameter.type == "texts" and not text.startswith("["):
@@ -123,7 +160,10 @@ def _move(rest: str, document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
     number, _blank, place = rest.partition(" ")
     to = _number(place.strip())
     if to is None:
-        raise PlannerError(f"move {rest}: expected the number of a task and the place that it is to have, such as move 3 1")
+        raise PlannerError(
+            f"move {rest}: expected the number of a task and the place that it is to have, such as"
+            " move 3 1"
+        )
     return {"kind": "move", "task": _task(number, document)["id"], "to": to - 1}
 
 
@@ -137,7 +177,10 @@ def _locate(rest: str, document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
 def _prompt(rest: str, document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
     number, equals, text = rest.partition("=")
     if not equals:
-        raise PlannerError(f"prompt {rest}: expected the number of a task and its new prompt, such as prompt 2 = Circle the buoy at 12 m.")
+        raise PlannerError(
+            f"prompt {rest}: expected the number of a task and its new prompt, such as prompt 2 ="
+            " Circle the buoy at 12 m."
+        )
     return {"kind": "prompt", "task": _task(number.strip(), document)["id"], "text": text.strip()}
 
 
@@ -145,24 +188,42 @@ def _insert(rest: str, _document: PlanDocument, vocabulary: Vocabulary) -> Edit:
     said = INSERT.fullmatch(rest)
     at = _number(said["at"]) if said else None
     if said is None or at is None:
-        raise PlannerError(f"insert {rest}: expected a place, a task and its parameters, such as insert 2 Transit target_position=[0,0]")
+        raise PlannerError(
+            f"insert {rest}: expected a place, a task and its parameters, such as insert 2 Transit"
+            " target_position=[0,0]"
+        )
     if said["title"] not in vocabulary.task:
-        raise PlannerError(f"{said['title']}: is no task of this vehicle; there is {', '.join(vocabulary.task)}")
+        raise PlannerError(
+            f"{said['title']}: is no task of this vehicle; there is {', '.join(vocabulary.task)}"
+        )
     known = vocabulary.task[said["title"]].by_name
     names = "|".join(map(re.escape, (*known, PROMPT)))
     before, *found = re.split(rf"\s({names})\s*=", said["given"])
     if before.strip():
-        raise PlannerError(f"insert {rest}: {before.strip()!r} is no parameter of {said['title']}; there is {', '.join((*known, PROMPT))}")
+        raise PlannerError(
+            f"insert {rest}: {before.strip()!r} is no parameter of {said['title']}; there is"
+            f" {', '.join((*known, PROMPT))}"
+        )
     given = dict(zip(found[::2], map(str.strip, found[1::2]), strict=True))
     prompt = given.pop(PROMPT, "")
     parameters = {name: _value(value, known[name]) for name, value in given.items()}
-    return {"kind": "insert", "at": at - 1, "title": said["title"], "parameters": parameters, "task_prompt": prompt}
+    return {
+        "kind": "insert",
+        "at": at - 1,
+        "title": said["title"],
+        "parameters": parameters,
+        "task_prompt": prompt,
+    }
 
 
 def _ask(rest: str, document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
     if rest:
         return {"kind": "ask", "tasks": [_task(rest, document)["id"]]}
-    waiting = [task for task in document["tasks"] if "waits_for" not in task and (task["skill_sequence"] is None or task.get("stale"))]
+    waiting = [
+        task
+        for task in document["tasks"]
+        if "waits_for" not in task and (task["skill_sequence"] is None or task.get("stale"))
+    ]
     return {"kind": "ask", "tasks": [task["id"] for task in waiting]}
 
 
@@ -173,15 +234,24 @@ def _undo(rest: str, _document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
 
 
 WORDS: dict[str, Callable[[str, PlanDocument, Vocabulary], Edit]] = {
-    "remove": _remove, "move": _move, "locate": _locate, PROMPT: _prompt, "insert": _insert, "skills": _ask, "undo": _undo,
-}  # fmt: skip
+    "remove": _remove,
+    "move": _move,
+    "locate": _locate,
+    PROMPT: _prompt,
+    "insert": _insert,
+    "skills": _ask,
+    "undo": _undo,
+}
 
 
 def _task(number: str, document: PlanDocument) -> dict[str, Any]:
     tasks: list[dict[str, Any]] = document["tasks"]
     place = _number(number)
     if place is None or not 1 <= place <= len(tasks):
-        raise PlannerError(f"task {number or '?'}: the plan has {f'tasks 1 to {len(tasks)}' if tasks else 'no tasks'}")
+        raise PlannerError(
+            f"task {number or '?'}: the plan has"
+            f" {f'tasks 1 to {len(tasks)}' if tasks else 'no tasks'}"
+        )
     return tasks[place - 1]
 
 

@@ -1,4 +1,6 @@
-"""One plan in review: the file, its document, and what a reviewer does with them. Every change is saved before it is shown."""
+"""One plan in review: the file, its document, and what a reviewer does with them. Every change is
+saved before it is shown.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +8,16 @@ from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import Any
 
-from planner_ft.document import PlanDocument, adopt, altered, apply, document_digest, read_document, revise, undo
+from planner_ft.document import (
+    PlanDocument,
+    adopt,
+    altered,
+    apply,
+    document_digest,
+    read_document,
+    revise,
+    undo,
+)
 from planner_ft.document.differences import Difference, compare
 from planner_ft.document.files import vocabulary_of
 from planner_ft.planning.result import Answer
@@ -20,13 +31,17 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 
 Ask = Callable[[Mapping[str, Any]], Answer]
-"""Asks the Task Agent for the skills of a task of a document; PlannerError where there is no model."""
+"""Asks the Task Agent for the skills of a task of a document; PlannerError where there is no
+model.
+"""
 
 
 class Desk:
     """A plan that is being reviewed. `by` is the reviewer's name, None while it is not known."""
 
-    def __init__(self, path: Path, log: Path, vocabulary: Vocabulary, ask: Ask, by: str | None = None) -> None:
+    def __init__(
+        self, path: Path, log: Path, vocabulary: Vocabulary, ask: Ask, by: str | None = None
+    ) -> None:
         """Reads the plan. Raises PlannerError as `read_document` does."""
         self.path, self.log, self.vocabulary, self.by = path, log, vocabulary, by
         self._ask = ask
@@ -47,7 +62,9 @@ class Desk:
         return approval_of(self.document, self.log)
 
     def edit(self, text: str) -> list[Difference]:
-        """Make the edit that `text` asks for, save it, and say what is different. Raises PlannerError; the plan is then as it was."""
+        """Make the edit that `text` asks for, save it, and say what is different. Raises
+        PlannerError; the plan is then as it was.
+        """
         edit = parse_edit(text, self.document, self.vocabulary)
         before = self.document
         if edit["kind"] == "undo":
@@ -59,17 +76,24 @@ class Desk:
         return compare(before, self.document)
 
     def adopt(self) -> None:
-        """Take over what was changed by hand, as an edit. Raises PlannerError where nothing was, or what was is not valid."""
+        """Take over what was changed by hand, as an edit. Raises PlannerError where nothing was, or
+        what was is not valid.
+        """
         if not self.altered:
             raise PlannerError(f"{self.path}: was not altered by hand; leave --adopt out")
         self._save(adopt(self.document, self.vocabulary, self.by))
 
     def approve(self, name: str, acknowledged: Collection[str], reason: str = "") -> Appended:
-        """Approve the plan as it is in the file. Raises PlannerError, also when its warnings were worked out anew and are others now."""
+        """Approve the plan as it is in the file. Raises PlannerError, also when its warnings were
+        worked out anew and are others now.
+        """
         fresh = self.document if self.altered else revise(self.document, self.vocabulary)
         if document_digest(fresh) != self._content:
             self._save(fresh)
-            raise PlannerError(f"{self.path}: warnings and estimates were worked out anew and are others than in the file; look at them, then approve")
+            raise PlannerError(
+                f"{self.path}: warnings and estimates were worked out anew and are others than in"
+                " the file; look at them, then approve"
+            )
         with unchanged(self.path, self._content):
             return approve(self.document, self.log, name, acknowledged, reason)
 
@@ -80,15 +104,24 @@ class Desk:
 
     def _ask_again(self, tasks: list[str]) -> None:
         if not tasks:
-            raise PlannerError("skills: every task whose place is known has skills that fit it; give the number of a task to ask for it anyway")
+            raise PlannerError(
+                "skills: every task whose place is known has skills that fit it; give the number of"
+                " a task to ask for it anyway"
+            )
         for name in tasks:
             task = next(task for task in self.document["tasks"] if task["id"] == name)
             answer = self._ask(task)
             if answer.plan is None:
                 raise PlannerError(
-                    f"skills of {task['title']}: the Task Agent's answer is not valid ({'; '.join(answer.problems[:2])}); edit the task and ask again"
+                    f"skills of {task['title']}: the Task Agent's answer is not valid"
+                    f" ({'; '.join(answer.problems[:2])}); edit the task and ask again"
                 )
-            edit = {"kind": "skills", "task": name, "skill_sequence": answer.plan["skill_sequence"], "assumptions": list(answer.notes)}
+            edit = {
+                "kind": "skills",
+                "task": name,
+                "skill_sequence": answer.plan["skill_sequence"],
+                "assumptions": list(answer.notes),
+            }
             self._save(apply(self.document, edit, self.vocabulary, self.by))
 
     def _save(self, document: PlanDocument) -> None:
@@ -96,12 +129,26 @@ class Desk:
         self._content = document_digest(self.document)
 
 
-def open_desk(path: Path, log: Path | None, vocabulary: str | None, by: str | None, candidate: str | None = None, device: str = "auto") -> Desk:
-    """The desk of a plan in a file: by default with the log beside it, the bundled vocabulary that it names, and the Task Agent that planned it.
+def open_desk(
+    path: Path,
+    log: Path | None,
+    vocabulary: str | None,
+    by: str | None,
+    candidate: str | None = None,
+    device: str = "auto",
+) -> Desk:
+    """The desk of a plan in a file: by default with the log beside it, the bundled vocabulary that
+    it names, and the Task Agent that planned it.
 
     Raises PlannerError for a plan that cannot be read.
     """
     known = load_vocabulary(vocabulary) if vocabulary else None
     document = read_document(path, known)
     known = known or vocabulary_of(document, path)
-    return Desk(path, log or log_beside(path), known, TaskAgent(settings_of(document, known, candidate, device)), by)
+    return Desk(
+        path,
+        log or log_beside(path),
+        known,
+        TaskAgent(settings_of(document, known, candidate, device)),
+        by,
+    )

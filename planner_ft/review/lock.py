@@ -13,7 +13,8 @@ from planner_ft.support.errors import PlannerError
 
 @contextlib.contextmanager
 def exclusive(path: Path) -> Iterator[None]:
-    """Hold the lock of `path` (the hidden file .NAME.lock beside it, which stays); waits while another process or thread holds it.
+    """Hold the lock of `path` (the hidden file .NAME.lock beside it, which stays); waits while
+    another process or thread holds it.
 
     Not re-entrant. Raises PlannerError when the lock file cannot be made.
     """
@@ -22,7 +23,10 @@ def exclusive(path: Path) -> Iterator[None]:
         file.parent.mkdir(parents=True, exist_ok=True)
         descriptor = os.open(file, os.O_RDWR | os.O_CREAT, 0o666)
     except OSError as error:
-        raise PlannerError(f"{file}: cannot be made ({error.strerror}), so nothing is written to {path.name}; make the folder writable") from None
+        raise PlannerError(
+            f"{file}: cannot be made ({error.strerror}), so nothing is written to {path.name}; make"
+            " the folder writable"
+        ) from None
     try:
         _lock(descriptor)
         yield
@@ -40,6 +44,7 @@ if sys.platform == "win32":
             with contextlib.suppress(OSError):
                 msvcrt.locking(descriptor, msvcrt.LK_LOCK, 1)
                 return
+
 else:
     import fcntl
 

@@ -1,7 +1,9 @@
-"""The approval log: an append-only file of JSON Lines in which every decision about a plan is kept with the plan itself.
+"""The approval log: an append-only file of JSON Lines in which every decision about a plan is kept
+with the plan itself.
 
-Nothing in it is ever deleted or replaced. A record has "sequence", "time" (UTC), "event", "reviewer", "reason", "digest", "plan",
-"acknowledged", "differences", "models", "previous" and "hash"; `chain` says how one hangs on the other.
+Nothing in it is ever deleted or replaced. A record has "sequence", "time" (UTC), "event",
+"reviewer", "reason", "digest", "plan", "acknowledged", "differences", "models", "previous" and
+"hash"; `chain` says how one hangs on the other.
 """
 
 from __future__ import annotations
@@ -19,13 +21,26 @@ from planner_ft.review.lock import exclusive
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import atomic_writer, compact_json, read_json, sha256_text
 
-__all__ = ["LOG_NAME", "Appended", "Problem", "Record", "append", "check_log", "existing_log", "head_file", "log_beside", "read_log"]
+__all__ = [
+    "LOG_NAME",
+    "Appended",
+    "Problem",
+    "Record",
+    "append",
+    "check_log",
+    "existing_log",
+    "head_file",
+    "log_beside",
+    "read_log",
+]
 
 LOG_NAME = "approvals.jsonl"
 
 
 class Appended(NamedTuple):
-    """A record as it stands in the log now, and the file that an unfinished last line was moved to, if there was one."""
+    """A record as it stands in the log now, and the file that an unfinished last line was moved to,
+    if there was one.
+    """
 
     record: Record
     set_aside: Path | None
@@ -44,15 +59,19 @@ def head_file(log: Path) -> Path:
 def existing_log(log: Path) -> Path:
     """The log itself. Raises PlannerError where there is none."""
     if not log.exists() and not head_file(log).exists():
-        raise PlannerError(f"--log {log}: no such file; plannerft review writes approvals.jsonl beside the plan")
+        raise PlannerError(
+            f"--log {log}: no such file; plannerft review writes approvals.jsonl beside the plan"
+        )
     return log
 
 
 def append(log: Path, values: Record) -> Appended:
-    """Add a record of `values` (without sequence, time, previous and hash). When this returns, the record is on the disk.
+    """Add a record of `values` (without sequence, time, previous and hash). When this returns, the
+    record is on the disk.
 
-    A process that is killed here leaves the record whole or not at all: what it left of a line is moved aside by the next one. Raises
-    PlannerError when the chain is broken, or the record cannot be written.
+    A process that is killed here leaves the record whole or not at all: what it left of a line is
+    moved aside by the next one. Raises PlannerError when the chain is broken, or the record cannot
+    be written.
     """
     with exclusive(log):
         chain = _sound(log, check_log(log))
@@ -60,19 +79,25 @@ def append(log: Path, values: Record) -> Appended:
         if chain.records and _read_head(log) != chain.end:
             # Its writer was killed between the record and the head.
             _write_head(log, chain.end)
-        record = sealed({**values, "time": datetime.now(UTC).isoformat(timespec="seconds")}, chain.end)
+        record = sealed(
+            {**values, "time": datetime.now(UTC).isoformat(timespec="seconds")}, chain.end
+        )
         _write_line(log, canonical(record) + b"\n")
         _write_head(log, Head(record["sequence"], record["hash"]))
     return Appended(record, set_aside)
 
 
 def read_log(log: Path) -> tuple[Record, ...]:
-    """The records, first one first; none where there is no log yet. Raises PlannerError when the chain is broken."""
+    """The records, first one first; none where there is no log yet. Raises PlannerError when the
+    chain is broken.
+    """
     return _sound(log, check_log(log)).records
 
 
 def check_log(log: Path) -> Chain:
-    """The log as it is: `problems` says what was removed, changed, reordered or cut. Raises PlannerError when it cannot be read."""
+    """The log as it is: `problems` says what was removed, changed, reordered or cut. Raises
+    PlannerError when it cannot be read.
+    """
     while True:
         head, data = _read_head(log), _read_bytes(log)
         # Another process may have added a record in between.
@@ -82,14 +107,21 @@ def check_log(log: Path) -> Chain:
 
 def _sound(log: Path, chain: Chain) -> Chain:
     if chain.problems:
-        more = f" (and {len(chain.problems) - 1} more; plannerft verify --log {log} shows all)" if len(chain.problems) > 1 else ""
+        more = (
+            f" (and {len(chain.problems) - 1} more; plannerft verify --log {log} shows all)"
+            if len(chain.problems) > 1
+            else ""
+        )
         raise PlannerError(f"{log}: {chain.problems[0].text}{more}; {way_out(log)}")
     return chain
 
 
 def way_out(log: Path) -> str:
     """How to go on with a broken log."""
-    return f"put the log and {head_file(log).name} back from a copy, or move both aside to begin a new log, in which plans are approved anew"
+    return (
+        f"put the log and {head_file(log).name} back from a copy, or move both aside to begin a new"
+        " log, in which plans are approved anew"
+    )
 
 
 def _read_bytes(log: Path) -> bytes:
@@ -98,7 +130,9 @@ def _read_bytes(log: Path) -> bytes:
     except FileNotFoundError:
         return b""
     except OSError as error:
-        raise PlannerError(f"{log}: cannot be read ({error.strerror}); give another --log") from None
+        raise PlannerError(
+            f"{log}: cannot be read ({error.strerror}); give another --log"
+        ) from None
 
 
 def _read_head(log: Path) -> Head | None:
@@ -106,7 +140,12 @@ def _read_head(log: Path) -> Head | None:
     if not path.exists():
         return None
     value = read_json(path)
-    if not isinstance(value, dict) or type(value.get("sequence")) is not int or not isinstance(value.get("hash"), str) or value["sequence"] < 0:
+    if (
+        not isinstance(value, dict)
+        or type(value.get("sequence")) is not int
+        or not isinstance(value.get("hash"), str)
+        or value["sequence"] < 0
+    ):
         raise PlannerError(f"{path}: holds no sequence and hash; {way_out(log)}")
     return Head(value["sequence"], value["hash"])
 
@@ -116,7 +155,10 @@ def _write_head(log: Path, head: Head) -> None:
         with atomic_writer(head_file(log)) as stream:
             stream.write(compact_json(asdict(head)) + "\n")
     except PlannerError as error:
-        raise PlannerError(f"record {head.sequence} stands in {log}, but its head file does not know it yet: {error}") from None
+        raise PlannerError(
+            f"record {head.sequence} stands in {log}, but its head file does not know it yet:"
+            f" {error}"
+        ) from None
     _sync_folder(log)
 
 
@@ -130,12 +172,16 @@ def _write_line(log: Path, line: bytes) -> None:
         finally:
             os.close(descriptor)
     except OSError as error:
-        raise PlannerError(f"{log}: nothing was recorded ({error.strerror}); free some space or give another --log") from None
+        raise PlannerError(
+            f"{log}: nothing was recorded ({error.strerror}); free some space or give another --log"
+        ) from None
     _sync_folder(log)
 
 
 def _set_aside(log: Path, chain: Chain) -> Path | None:
-    """Move the bytes of a line that was never finished, and so never confirmed, into a file of their own."""
+    """Move the bytes of a line that was never finished, and so never confirmed, into a file of
+    their own.
+    """
     if not chain.torn:
         return None
     aside = log.with_name(f"{log.name}.unfinished-{sha256_text(chain.torn.hex())[:12]}")
@@ -149,7 +195,9 @@ def _set_aside(log: Path, chain: Chain) -> Path | None:
 
 
 def _sync_folder(log: Path) -> None:
-    """Have the folder's entries on the disk, too; a system that cannot (Windows) does so by itself."""
+    """Have the folder's entries on the disk, too; a system that cannot (Windows) does so by
+    itself.
+    """
     with contextlib.suppress(OSError):
         descriptor = os.open(log.parent, os.O_RDONLY)
         try:

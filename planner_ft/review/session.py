@@ -24,7 +24,9 @@ Read = Callable[[str], str]
 
 
 def terminal() -> Console:
-    """A console that shows texts as they are: no markup, no emoji names, no colours that nobody asked for."""
+    """A console that shows texts as they are: no markup, no emoji names, no colours that nobody
+    asked for.
+    """
     return Console(markup=False, highlight=False, emoji=False, soft_wrap=True)
 
 
@@ -36,7 +38,13 @@ def say(console: Console, text: str, style: str = "") -> None:
 def show(desk: Desk, console: Console) -> None:
     """The whole plan."""
     braille = (console.encoding or "").lower().startswith("utf")
-    for line in review_lines(desk.document, desk.approval(), desk.vocabulary, columns=min(console.width, WIDEST), braille=braille):
+    for line in review_lines(
+        desk.document,
+        desk.approval(),
+        desk.vocabulary,
+        columns=min(console.width, WIDEST),
+        braille=braille,
+    ):
         _print(console, line)
 
 
@@ -54,7 +62,12 @@ def tell_decision(done: Appended, desk: Desk, console: Console) -> None:
     """What was recorded, and where."""
     record = done.record
     if done.set_aside is not None:
-        say(console, f"{desk.log}: its last line was never finished and so never confirmed; it was moved to {done.set_aside}", "yellow")
+        say(
+            console,
+            f"{desk.log}: its last line was never finished and so never confirmed; it was moved to"
+            f" {done.set_aside}",
+            "yellow",
+        )
     say(
         console,
         f"{record['event']} by {record['reviewer']}: record {record['sequence']} of {desk.log}",
@@ -62,8 +75,19 @@ def tell_decision(done: Appended, desk: Desk, console: Console) -> None:
     )
 
 
-def decide(desk: Desk, console: Console, *, adopt: bool, edits: Sequence[str], approve: bool, acknowledged: Collection[str], reason: str | None) -> None:
-    """What was asked for on the command line, in this order: adopt, edits, approval or rejection. Raises PlannerError at the first that cannot be."""
+def decide(
+    desk: Desk,
+    console: Console,
+    *,
+    adopt: bool,
+    edits: Sequence[str],
+    approve: bool,
+    acknowledged: Collection[str],
+    reason: str | None,
+) -> None:
+    """What was asked for on the command line, in this order: adopt, edits, approval or rejection.
+    Raises PlannerError at the first that cannot be.
+    """
     if adopt:
         _adopt(desk, console)
     for text in edits:
@@ -75,7 +99,9 @@ def decide(desk: Desk, console: Console, *, adopt: bool, edits: Sequence[str], a
 
 
 def converse(desk: Desk, console: Console, read: Read) -> None:
-    """Show the plan and do what the reviewer types, until a decision is recorded or they leave (also by the end of the input)."""
+    """Show the plan and do what the reviewer types, until a decision is recorded or they leave
+    (also by the end of the input).
+    """
     show(desk, console)
     with contextlib.suppress(EOFError):
         while not _step(desk, console, read):

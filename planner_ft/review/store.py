@@ -1,4 +1,6 @@
-"""The plan's file, which several terminals and browsers may have open: nobody overwrites what somebody else wrote."""
+"""The plan's file, which several terminals and browsers may have open: nobody overwrites what
+somebody else wrote.
+"""
 
 from __future__ import annotations
 
@@ -18,18 +20,24 @@ class ChangedError(PlannerError):
 
 @contextlib.contextmanager
 def unchanged(path: Path, digest: str) -> Iterator[None]:
-    """Hold the plan's lock while its file has the content of `digest` (`document_digest` of what was read; the key `digest` may be wrong).
+    """Hold the plan's lock while its file has the content of `digest` (`document_digest` of what
+    was read; the key `digest` may be wrong).
 
     Raises ChangedError when it has another.
     """
     with exclusive(path):
         value = read_json(path)
         if not isinstance(value, dict) or document_digest(value) != digest:
-            raise ChangedError(f"{path}: was changed by somebody else since it was read, so nothing was done; read it again")
+            raise ChangedError(
+                f"{path}: was changed by somebody else since it was read, so nothing was done; read"
+                " it again"
+            )
         yield
 
 
 def save(path: Path, document: PlanDocument, digest: str) -> PlanDocument:
-    """Write `document` over the plan whose content had `digest` when it was read; returns what was written. Raises ChangedError."""
+    """Write `document` over the plan whose content had `digest` when it was read; returns what was
+    written. Raises ChangedError.
+    """
     with unchanged(path, digest):
         return write_document(path, document)

@@ -18,9 +18,10 @@ Status = Literal["approved", "rejected", "altered", "unknown"]
 class Approval:
     """What the log knows about a plan.
 
-    `approved` and `rejected`: the last decision about exactly this plan. `altered`: another version of it was approved, and `changes` says what
-    is different now, or the file is not what its digest says. `unknown`: no decision. `sequence`, `reviewer`, `time` and `reason` are those of
-    the decision, None without one.
+    `approved` and `rejected`: the last decision about exactly this plan. `altered`: another version
+    of it was approved, and `changes` says what is different now, or the file is not what its digest
+    says. `unknown`: no decision. `sequence`, `reviewer`, `time` and `reason` are those of the
+    decision, None without one.
     """
 
     status: Status
@@ -37,7 +38,9 @@ class Approval:
 
 
 def approval_of(document: PlanDocument, log: Path) -> Approval:
-    """What the log says about a plan as it is now. Raises PlannerError for a log that is broken or cannot be read."""
+    """What the log says about a plan as it is now. Raises PlannerError for a log that is broken or
+    cannot be read.
+    """
     return approval_in(document, read_log(log), log)
 
 
@@ -58,20 +61,48 @@ def approval_in(document: PlanDocument, records: Sequence[Record], log: Path) ->
 def _decided(record: Record, digest: str) -> Approval:
     status: Status = "approved" if record["event"] == "approved" else "rejected"
     why = f": {record['reason']}" if record["reason"] else ""
-    text = f"{status} by {record['reviewer']} at {record['time']} (record {record['sequence']}){why}"
-    return Approval(status, text, digest, record["sequence"], record["reviewer"], record["time"], record["reason"])
+    text = (
+        f"{status} by {record['reviewer']} at {record['time']} (record {record['sequence']}){why}"
+    )
+    return Approval(
+        status,
+        text,
+        digest,
+        record["sequence"],
+        record["reviewer"],
+        record["time"],
+        record["reason"],
+    )
 
 
 def _altered(document: PlanDocument, digest: str, other: Record | None, log: Path) -> Approval:
     if other is None:
-        return Approval("altered", f"altered by hand: the plan is not what its digest says, and {log} holds no approval of it", digest)
+        return Approval(
+            "altered",
+            f"altered by hand: the plan is not what its digest says, and {log} holds no approval"
+            " of it",
+            digest,
+        )
     found = tuple(changes(other["plan"], document))
-    text = f"altered since {other['reviewer']} approved it at {other['time']} (record {other['sequence']}): {len(found)} change{'s' if len(found) != 1 else ''}"
-    return Approval("altered", text, digest, other["sequence"], other["reviewer"], other["time"], other["reason"], found)
+    text = (
+        f"altered since {other['reviewer']} approved it at {other['time']} (record"
+        f" {other['sequence']}): {len(found)} change{'s' if len(found) != 1 else ''}"
+    )
+    return Approval(
+        "altered",
+        text,
+        digest,
+        other["sequence"],
+        other["reviewer"],
+        other["time"],
+        other["reason"],
+        found,
+    )
 
 
 def _relative(document: PlanDocument, records: Sequence[Record]) -> Record | None:
-    """The last approval of what this plan was: of its digest, else of the same proposal, else of the same command in the same run.
+    """The last approval of what this plan was: of its digest, else of the same proposal, else of
+    the same command in the same run.
 
     A command that is planned again makes another plan: nobody altered the first.
     """

@@ -1,1 +1,3 @@
-"""What every part needs: errors, files, manifests, progress. Imports nothing else of the project."""
+"""What every part needs: errors, files, manifests, progress. Imports nothing else of the
+project.
+"""

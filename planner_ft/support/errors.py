@@ -2,7 +2,9 @@
 
 
 class PlannerError(Exception):
-    """One sentence that names the file, line, flag or value, and the way out. The command line exits with 2."""
+    """One sentence that names the file, line, flag or value, and the way out. The command line
+    exits with 2.
+    """
 
 
 class GateError(PlannerError):

@@ -15,7 +15,17 @@ from typing import Any
 import planner_ft
 from planner_ft.support.files import sha256_file
 
-LIBRARIES = ("torch", "transformers", "peft", "bitsandbytes", "accelerate", "datasets", "tokenizers", "safetensors", "jsonschema")
+LIBRARIES = (
+    "torch",
+    "transformers",
+    "peft",
+    "bitsandbytes",
+    "accelerate",
+    "datasets",
+    "tokenizers",
+    "safetensors",
+    "jsonschema",
+)
 
 
 def library_versions() -> dict[str, str | None]:
@@ -31,16 +41,23 @@ def library_versions() -> dict[str, str | None]:
 
 @functools.cache
 def source_commit() -> dict[str, Any]:
-    """Commit of the source tree that the package runs from and whether it has uncommitted changes; None when installed."""
+    """Commit of the source tree that the package runs from and whether it has uncommitted changes;
+    None when installed.
+    """
     root = Path(planner_ft.__file__).resolve().parent.parent
     if not (root / ".git").exists():
         return {"commit": None, "dirty": None}
 
     def git(*arguments: str) -> str:
-        return subprocess.run(["git", "-C", str(root), *arguments], capture_output=True, text=True, check=True).stdout.strip()
+        return subprocess.run(
+            ["git", "-C", str(root), *arguments], capture_output=True, text=True, check=True
+        ).stdout.strip()
 
     try:
-        return {"commit": git("rev-parse", "HEAD"), "dirty": bool(git("status", "--porcelain", "--untracked-files=no"))}
+        return {
+            "commit": git("rev-parse", "HEAD"),
+            "dirty": bool(git("status", "--porcelain", "--untracked-files=no")),
+        }
     except (OSError, subprocess.CalledProcessError):
         return {"commit": None, "dirty": None}
 
@@ -55,15 +72,26 @@ def hardware() -> dict[str, Any]:
         # Without the kernel's release, which says more about a host than about a result.
         "platform": "-".join((platform.system(), platform.machine(), *platform.libc_ver())),
         "processor": platform.machine(),
-        "cores": len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count(),
+        "cores": (
+            len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+        ),
         "memory_bytes": memory,
     }
 
 
-def build_manifest(kind: str, *, seed: int | None, configuration: dict[str, Any], inputs: dict[str, Path | str] | None = None, **more: Any) -> dict[str, Any]:
-    """A manifest of `kind` ("data", "train", "bench", ...) with seed, configuration and the SHA-256 of every input file.
+def build_manifest(
+    kind: str,
+    *,
+    seed: int | None,
+    configuration: dict[str, Any],
+    inputs: dict[str, Path | str] | None = None,
+    **more: Any,
+) -> dict[str, Any]:
+    """A manifest of `kind` ("data", "train", "bench", ...) with seed, configuration and the SHA-256
+    of every input file.
 
-    `inputs` maps a role to a file; `more` adds fields of that kind of run (outputs, time, tokens, device, ...).
+    `inputs` maps a role to a file; `more` adds fields of that kind of run (outputs, time, tokens,
+    device, ...).
     """
     return {
         "kind": kind,
@@ -71,7 +99,10 @@ def build_manifest(kind: str, *, seed: int | None, configuration: dict[str, Any]
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "seed": seed,
         "configuration": configuration,
-        "inputs": {role: {"path": str(path), "sha256": sha256_file(path)} for role, path in (inputs or {}).items()},
+        "inputs": {
+            role: {"path": str(path), "sha256": sha256_file(path)}
+            for role, path in (inputs or {}).items()
+        },
         "versions": {"python": sys.version.split()[0], **library_versions()},
         **source_commit(),
         "hardware": hardware(),

@@ -10,7 +10,9 @@ DEATH_SIGNAL = 1
 
 
 def end_with_parent() -> None:
-    """Have the system kill this process with the one that started it; on Linux alone, elsewhere nothing happens."""
+    """Have the system kill this process with the one that started it; on Linux alone, elsewhere
+    nothing happens.
+    """
     if sys.platform == "linux":
         import ctypes
 

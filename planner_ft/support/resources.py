@@ -22,7 +22,9 @@ def peak_memory(device: torch.device) -> int:
 
 
 def reset_peak_memory(device: torch.device) -> None:
-    """Begin to measure anew. Where the system does not let a process do so, its peak stays that of its whole life."""
+    """Begin to measure anew. Where the system does not let a process do so, its peak stays that of
+    its whole life.
+    """
     if device.type == "cuda":
         import torch
 

@@ -1,4 +1,6 @@
-"""From samples to tensors: the order of an epoch, optimiser steps, batches without needless padding."""
+"""From samples to tensors: the order of an epoch, optimiser steps, batches without needless
+padding.
+"""
 
 from __future__ import annotations
 
@@ -18,18 +20,21 @@ VALIDATION_TOKENS = 2048
 
 
 WIDTH_MULTIPLE = 16
-"""Batches are padded to a multiple of this: matrix kernels are prepared per shape (on a CPU at 50 ms a new width for a
-7-million-weight model), and GPUs multiply multiples of 8 fastest."""
+"""Batches are padded to a multiple of this: matrix kernels are prepared per shape (on a CPU at 50
+ms a new width for a 7-million-weight model), and GPUs multiply multiples of 8 fastest.
+"""
 
 
 @dataclass(frozen=True)
 class Batch:
-    """Samples without their last token, which predicts nothing, in rows that are padded on the right.
+    """Samples without their last token, which predicts nothing, in rows that are padded on the
+    right.
 
-    `input_ids` has the shape (rows, width). There is no attention mask: attention is causal, so that padding on the right
-    reaches no token before it. Where samples share a row, `positions` (the shape of `input_ids`) begins at zero with each of
-    them, and models let none look at another. `rows` and `columns` say where the model predicts completion tokens and
-    `targets` which: three vectors of one length, over all samples. So the output layer runs there alone.
+    `input_ids` has the shape (rows, width). There is no attention mask: attention is causal, so
+    that padding on the right reaches no token before it. Where samples share a row, `positions`
+    (the shape of `input_ids`) begins at zero with each of them, and models let none look at
+    another. `rows` and `columns` say where the model predicts completion tokens and `targets`
+    which: three vectors of one length, over all samples. So the output layer runs there alone.
     """
 
     ids: tuple[str, ...]
@@ -45,33 +50,54 @@ class Batch:
         """The batch on `device`; copied from pinned memory in the background where that is CUDA."""
         if device.type == "cpu":
             return self
-        tensors = {name: getattr(self, name) for name in ("input_ids", "rows", "columns", "targets", "positions")}
-        moved = {name: tensor.pin_memory().to(device, non_blocking=True) for name, tensor in tensors.items() if tensor is not None}
+        tensors = {
+            name: getattr(self, name)
+            for name in ("input_ids", "rows", "columns", "targets", "positions")
+        }
+        moved = {
+            name: tensor.pin_memory().to(device, non_blocking=True)
+            for name, tensor in tensors.items()
+            if tensor is not None
+        }
         return replace(self, **moved)
 
 
 def epoch_order(count: int, seed: int, epoch: int) -> list[int]:
-    """The order of `count` samples in an epoch: the same for the same seed and epoch, whatever ran before."""
+    """The order of `count` samples in an epoch: the same for the same seed and epoch, whatever ran
+    before.
+    """
     return [int(index) for index in np.random.default_rng([seed, epoch]).permutation(count)]
 
 
-def epoch_steps(lengths: Sequence[int], batch_size: int, accumulation: int, seed: int, epoch: int) -> list[list[list[int]]]:
-    """The optimiser steps of an epoch, each a list of batches of sample indices. The last step may be smaller.
+def epoch_steps(
+    lengths: Sequence[int], batch_size: int, accumulation: int, seed: int, epoch: int
+) -> list[list[list[int]]]:
+    """The optimiser steps of an epoch, each a list of batches of sample indices. The last step may
+    be smaller.
 
-    Samples of one step are sorted by length before they are put into batches: less padding, and the step's gradient,
-    a mean over its tokens, stays what it is.
+    Samples of one step are sorted by length before they are put into batches: less padding, and the
+    step's gradient, a mean over its tokens, stays what it is.
     """
     order = epoch_order(len(lengths), seed, epoch)
     size = batch_size * accumulation
-    steps = [sorted(order[start : start + size], key=lambda index: -lengths[index]) for start in range(0, len(order), size)]
-    return [[step[start : start + batch_size] for start in range(0, len(step), batch_size)] for step in steps]
+    steps = [
+        sorted(order[start : start + size], key=lambda index: -lengths[index])
+        for start in range(0, len(order), size)
+    ]
+    return [
+        [step[start : start + batch_size] for start in range(0, len(step), batch_size)]
+        for step in steps
+    ]
 
 
 def validation_batches(lengths: Sequence[int]) -> Iterator[list[int]]:
-    """Indices sorted by length, in batches of at most VALIDATION_TOKENS (a longer sample goes alone)."""
+    """Indices sorted by length, in batches of at most VALIDATION_TOKENS (a longer sample goes
+    alone).
+    """
     batch: list[int] = []
     for index in sorted(range(len(lengths)), key=lambda index: -lengths[index]):
-        # Longest first, so that a batch that does not fit the memory shows at once; the first of a batch is its width.
+        # Longest first, so that a batch that does not fit the memory shows at once; the first of a
+        # batch is its width.
         if batch and lengths[batch[0]] * (len(batch) + 1) > VALIDATION_TOKENS:
             yield batch
             batch = []
@@ -95,11 +121,15 @@ def collate(samples: Sequence[Sample], pad: int, *, packed: bool = False) -> Bat
     rows: list[int] = []
     columns: list[int] = []
     targets: list[int] = []
-    for sample, (row, start) in sorted(zip(samples, places, strict=True), key=lambda placed: placed[1]):
+    for sample, (row, start) in sorted(
+        zip(samples, places, strict=True), key=lambda placed: placed[1]
+    ):
         ids = sample.rendered.input_ids
         input_ids[row, start : start + len(ids) - 1] = torch.tensor(ids[:-1])
         positions[row, start:] = torch.arange(width - start)
-        trained = [position for position, kept in enumerate(sample.rendered.completion_mask) if kept]
+        trained = [
+            position for position, kept in enumerate(sample.rendered.completion_mask) if kept
+        ]
         rows.extend([row] * len(trained))
         columns.extend(start + position - 1 for position in trained)
         targets.extend(ids[position] for position in trained)
@@ -115,11 +145,15 @@ def collate(samples: Sequence[Sample], pad: int, *, packed: bool = False) -> Bat
 
 
 def packed_places(lengths: Sequence[int], width: int) -> list[tuple[int, int]]:
-    """(row, first column) of each sample in rows of `width`: the longest first, each into the first row that has room for it."""
+    """(row, first column) of each sample in rows of `width`: the longest first, each into the first
+    row that has room for it.
+    """
     used: list[int] = []
     places: dict[int, tuple[int, int]] = {}
     for index in sorted(range(len(lengths)), key=lambda index: -lengths[index]):
-        row = next((row for row, filled in enumerate(used) if filled + lengths[index] <= width), len(used))
+        row = next(
+            (row for row, filled in enumerate(used) if filled + lengths[index] <= width), len(used)
+        )
         used += [0] if row == len(used) else []
         places[index] = row, used[row]
         used[row] += lengths[index]

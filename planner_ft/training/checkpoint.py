@@ -1,8 +1,9 @@
 """Checkpoints: everything that a run needs to continue as if it had not been interrupted.
 
-A checkpoint is a folder `step-00000120` with `state.json` (position, history, Python's random state, plain optimizer
-values) and `tensors.safetensors` (adapter, best adapter, optimizer moments, torch and CUDA random states). It is written
-beside its final place and renamed, so that one is complete or does not exist. No pickle is written or read.
+A checkpoint is a folder `step-00000120` with `state.json` (position, history, Python's random
+state, plain optimizer values) and `tensors.safetensors` (adapter, best adapter, optimizer moments,
+torch and CUDA random states). It is written beside its final place and renamed, so that one is
+complete or does not exist. No pickle is written or read.
 """
 
 from __future__ import annotations
@@ -31,7 +32,9 @@ TENSOR = "$tensor"
 
 @dataclass
 class TrainState:
-    """Where a run stands. `step` counts optimiser steps; `history` holds one entry per validation."""
+    """Where a run stands. `step` counts optimiser steps; `history` holds one entry per
+    validation.
+    """
 
     step: int = 0
     tokens: int = 0
@@ -49,7 +52,8 @@ class TrainState:
 
 @dataclass
 class Trainee:
-    """What a checkpoint saves besides the state: the model's adapter, the optimizer, and the best adapter so far.
+    """What a checkpoint saves besides the state: the model's adapter, the optimizer, and the best
+    adapter so far.
 
     `best` is None while there is no validation or the current adapter is the best.
     """
@@ -62,7 +66,10 @@ class Trainee:
 
 def adapter_tensors(model: Any) -> dict[str, Tensor]:
     """A copy of the adapter's weights on the CPU."""
-    return {name: value.detach().to("cpu", copy=True) for name, value in adapter_parameters(model).items()}
+    return {
+        name: value.detach().to("cpu", copy=True)
+        for name, value in adapter_parameters(model).items()
+    }
 
 
 def set_adapter(model: Any, tensors: dict[str, Tensor]) -> None:
@@ -73,7 +80,9 @@ def set_adapter(model: Any, tensors: dict[str, Tensor]) -> None:
 
 
 def save_checkpoint(output: Path, state: TrainState, trainee: Trainee) -> Path:
-    """Write a checkpoint of `state` under `output`, then remove the older ones. Raises PlannerError when the disk is full."""
+    """Write a checkpoint of `state` under `output`, then remove the older ones. Raises PlannerError
+    when the disk is full.
+    """
     folder = output / FOLDER
     target = folder / f"{PREFIX}{state.step:08d}"
     temporary = folder / f".{target.name}.{os.getpid()}.tmp"
@@ -87,7 +96,8 @@ def save_checkpoint(output: Path, state: TrainState, trainee: Trainee) -> Path:
         _sync(folder)
     except OSError as error:
         raise PlannerError(
-            f"{target}: the checkpoint cannot be written ({error.strerror or error}); free some space and run the same command with --resume"
+            f"{target}: the checkpoint cannot be written ({error.strerror or error}); free some"
+            " space and run the same command with --resume"
         ) from error
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
@@ -101,11 +111,20 @@ def load_checkpoint(path: Path, trainee: Trainee) -> TrainState:
     try:
         values = json.loads((path / "state.json").read_text(encoding="utf-8"))
         tensors = load_tensors((path / "tensors.safetensors").read_bytes())
-        parts = {part: {name.split("/", 1)[1]: value for name, value in tensors.items() if name.startswith(f"{part}/")} for part in ("adapter", "best", "rng")}
+        parts = {
+            part: {
+                name.split("/", 1)[1]: value
+                for name, value in tensors.items()
+                if name.startswith(f"{part}/")
+            }
+            for part in ("adapter", "best", "rng")
+        }
         set_adapter(trainee.model, parts["adapter"])
         _restore_optimizer(trainee.optimizer, values["optimizer"], tensors)
     except Exception as error:
-        raise PlannerError(f"{path}: the checkpoint cannot be read ({error}); start again with --overwrite") from error
+        raise PlannerError(
+            f"{path}: the checkpoint cannot be read ({error}); start again with --overwrite"
+        ) from error
     trainee.best = parts["best"] or None
     if values["scaler"]:
         trainee.scaler.load_state_dict(values["scaler"])
@@ -131,22 +150,35 @@ def _collect(state: TrainState, trainee: Trainee) -> tuple[dict[str, Any], dict[
     tensors |= {f"rng/{name}": value for name, value in random["tensors"].items()}
     # Groups (learning rate, betas) follow from the settings; only the moments are saved.
     optimizer = _take_tensors(trainee.optimizer.state_dict()["state"], "optimizer", tensors)
-    return {"state": asdict(state), "optimizer": optimizer, "scaler": trainee.scaler.state_dict(), "python": random["python"]}, tensors
+    return {
+        "state": asdict(state),
+        "optimizer": optimizer,
+        "scaler": trainee.scaler.state_dict(),
+        "python": random["python"],
+    }, tensors
 
 
-def _restore_optimizer(optimizer: torch.optim.Optimizer, values: dict[str, Any], tensors: dict[str, Tensor]) -> None:
+def _restore_optimizer(
+    optimizer: torch.optim.Optimizer, values: dict[str, Any], tensors: dict[str, Tensor]
+) -> None:
     entries = {int(index): _put_tensors(entry, tensors) for index, entry in values.items()}
-    optimizer.load_state_dict({"state": entries, "param_groups": optimizer.state_dict()["param_groups"]})
+    optimizer.load_state_dict(
+        {"state": entries, "param_groups": optimizer.state_dict()["param_groups"]}
+    )
 
 
 def _take_tensors(value: Any, name: str, tensors: dict[str, Tensor]) -> Any:
-    """`value` as JSON can hold it: every tensor goes into `tensors`, and its name there stands in its place."""
+    """`value` as JSON can hold it: every tensor goes into `tensors`, and its name there stands in
+    its place.
+    """
     if isinstance(value, Tensor):
         # A copy: safetensors refuses tensors that share memory, as the tables of 8-bit moments do.
         tensors[name] = value.detach().to("cpu", copy=True).contiguous()
         return {TENSOR: name}
     if isinstance(value, dict):
-        return {str(key): _take_tensors(item, f"{name}/{key}", tensors) for key, item in value.items()}
+        return {
+            str(key): _take_tensors(item, f"{name}/{key}", tensors) for key, item in value.items()
+        }
     return value
 
 

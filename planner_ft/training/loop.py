@@ -1,4 +1,6 @@
-"""The training loop: optimiser steps, validation after each epoch, the best adapter, checkpoints, interruption."""
+"""The training loop: optimiser steps, validation after each epoch, the best adapter, checkpoints,
+interruption.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,13 @@ import torch
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.resources import peak_memory
 from planner_ft.training.batches import Batch, collate, epoch_steps
-from planner_ft.training.checkpoint import Trainee, TrainState, adapter_tensors, save_checkpoint, set_adapter
+from planner_ft.training.checkpoint import (
+    Trainee,
+    TrainState,
+    adapter_tensors,
+    save_checkpoint,
+    set_adapter,
+)
 from planner_ft.training.model import adapter_parameters, loss_sum, packs, validation_loss
 from planner_ft.training.report import Display, Trackers, TrainLog
 from planner_ft.training.samples import Sample
@@ -43,7 +51,10 @@ class StopSignals:
         # Python lets only the main thread set handlers; elsewhere the caller's apply.
         self.before = {}
         if threading.current_thread() is threading.main_thread():
-            self.before = {number: signal.signal(number, self._handle) for number in (signal.SIGINT, signal.SIGTERM)}
+            self.before = {
+                number: signal.signal(number, self._handle)
+                for number in (signal.SIGINT, signal.SIGTERM)
+            }
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -54,12 +65,16 @@ class StopSignals:
         if self.received is not None:
             raise KeyboardInterrupt
         self.received = number
-        self.note("stopping after this step and saving a checkpoint (Ctrl-C again: at once, without)")
+        self.note(
+            "stopping after this step and saving a checkpoint (Ctrl-C again: at once, without)"
+        )
 
 
 @dataclass
 class Run:
-    """Everything that the loop works with. `pad` is the id that fills batches, `dtype` what layers compute in."""
+    """Everything that the loop works with. `pad` is the id that fills batches, `dtype` what layers
+    compute in.
+    """
 
     settings: TrainSettings
     trainee: Trainee
@@ -75,7 +90,9 @@ class Run:
 
     @property
     def steps_per_epoch(self) -> int:
-        return math.ceil(len(self.train) / (self.settings.batch_size * self.settings.gradient_accumulation))
+        return math.ceil(
+            len(self.train) / (self.settings.batch_size * self.settings.gradient_accumulation)
+        )
 
     @property
     def total_steps(self) -> int:
@@ -84,14 +101,18 @@ class Run:
 
 def total_steps(settings: TrainSettings, samples: int) -> int:
     """Optimiser steps of a whole run."""
-    steps = settings.epochs * math.ceil(samples / (settings.batch_size * settings.gradient_accumulation))
+    steps = settings.epochs * math.ceil(
+        samples / (settings.batch_size * settings.gradient_accumulation)
+    )
     return min(steps, settings.max_steps or steps)
 
 
 def train_loop(run: Run, state: TrainState) -> None:
-    """Train from `state` to the end; afterwards the model holds the best adapter (the last one without validation).
+    """Train from `state` to the end; afterwards the model holds the best adapter (the last one
+    without validation).
 
-    Raises InterruptedRunError after Ctrl-C, and PlannerError when the loss is not finite or a file cannot be written.
+    Raises InterruptedRunError after Ctrl-C, and PlannerError when the loss is not finite or a file
+    cannot be written.
     """
     run.trainee.model.train()
     saved = time.monotonic()
@@ -108,7 +129,9 @@ def train_loop(run: Run, state: TrainState) -> None:
                 save_checkpoint(run.output, state, run.trainee)
                 saved = time.monotonic()
             if stopped:
-                raise InterruptedRunError(state.step, run.total_steps, signals.received or signal.SIGINT)
+                raise InterruptedRunError(
+                    state.step, run.total_steps, signals.received or signal.SIGINT
+                )
     if run.trainee.best is not None:
         set_adapter(run.trainee.model, run.trainee.best)
 
@@ -117,7 +140,13 @@ def _remaining_steps(run: Run, state: TrainState) -> Iterator[list[list[int]]]:
     """The batches of every optimiser step from the state's on."""
     lengths = [sample.length for sample in run.train]
     for epoch in range(state.step // run.steps_per_epoch, run.settings.epochs):
-        steps = epoch_steps(lengths, run.settings.batch_size, run.settings.gradient_accumulation, run.settings.seed, epoch)
+        steps = epoch_steps(
+            lengths,
+            run.settings.batch_size,
+            run.settings.gradient_accumulation,
+            run.settings.seed,
+            epoch,
+        )
         for step in steps[state.step % run.steps_per_epoch :]:
             if state.step >= run.total_steps:
                 return
@@ -125,13 +154,18 @@ def _remaining_steps(run: Run, state: TrainState) -> Iterator[list[list[int]]]:
 
 
 def _step(run: Run, state: TrainState, batches: list[list[int]]) -> None:
-    """One optimiser step: the gradient is the mean over all completion tokens of its batches, however they are split."""
+    """One optimiser step: the gradient is the mean over all completion tokens of its batches,
+    however they are split.
+    """
     settings, trainee = run.settings, run.trainee
     begun = time.monotonic()
     rate = learning_rate(settings, state.step, run.total_steps)
     for group in trainee.optimizer.param_groups:
         group["lr"] = rate
-    collated = [collate([run.train[index] for index in indices], run.pad, packed=packs(trainee.model)) for indices in batches]
+    collated = [
+        collate([run.train[index] for index in indices], run.pad, packed=packs(trainee.model))
+        for indices in batches
+    ]
     count = sum(len(batch.targets) for batch in collated)
     parts = []
     for batch in collated:
@@ -152,15 +186,22 @@ def _step(run: Run, state: TrainState, batches: list[list[int]]) -> None:
     state.epoch_loss += loss * count
     state.epoch_tokens += count
     state.loss = state.epoch_loss / state.epoch_tokens
-    _report(run, state, {"loss": loss, "lr": rate, "grad_norm": norm}, trained, time.monotonic() - begun)
+    _report(
+        run, state, {"loss": loss, "lr": rate, "grad_norm": norm}, trained, time.monotonic() - begun
+    )
 
 
 def _update(run: Run, state: TrainState, batches: list[Batch]) -> float:
     """Clip the gradient, step the optimizer, and return the gradient's norm before clipping."""
     trainee = run.trainee
     trainee.scaler.unscale_(trainee.optimizer)
-    norm = float(torch.nn.utils.clip_grad_norm_(adapter_parameters(trainee.model).values(), run.settings.gradient_clip))
-    # In float16 an overflow is ordinary: the scaler leaves the step out and scales the next loss less.
+    norm = float(
+        torch.nn.utils.clip_grad_norm_(
+            adapter_parameters(trainee.model).values(), run.settings.gradient_clip
+        )
+    )
+    # In float16 an overflow is ordinary: the scaler leaves the step out and scales the next loss
+    # less.
     if not math.isfinite(norm) and not trainee.scaler.is_enabled():
         raise PlannerError(_not_finite(run, state, f"gradient norm is {norm}", batches[0]))
     trainee.scaler.step(trainee.optimizer)
@@ -171,16 +212,25 @@ def _update(run: Run, state: TrainState, batches: list[Batch]) -> float:
 
 def _not_finite(run: Run, state: TrainState, what: str, batch: Batch) -> str:
     return (
-        f"step {state.step + 1}, sample {', '.join(batch.ids)}: the {what}; lower --learning-rate (now {run.settings.learning_rate:g}) or --gradient-clip "
-        f"(now {run.settings.gradient_clip:g}), or look at that sample with --preview-id; the checkpoints in {run.output} are from before"
+        f"step {state.step + 1}, sample {', '.join(batch.ids)}: the {what}; lower --learning-rate"
+        f" (now {run.settings.learning_rate:g}) or --gradient-clip (now"
+        f" {run.settings.gradient_clip:g}), or look at that sample with --preview-id; the"
+        f" checkpoints in {run.output} are from before"
     )
 
 
-def _report(run: Run, state: TrainState, values: dict[str, float], tokens: int, seconds: float) -> None:
+def _report(
+    run: Run, state: TrainState, values: dict[str, float], tokens: int, seconds: float
+) -> None:
     record = {
-        "step": state.step, "epoch": round(state.step / run.steps_per_epoch, 4), **values,
-        "tokens": state.tokens, "step_tokens": tokens, "seconds": round(state.seconds + seconds, 3), "tokens_per_s": round(tokens / seconds, 1),
-    }  # fmt: skip
+        "step": state.step,
+        "epoch": round(state.step / run.steps_per_epoch, 4),
+        **values,
+        "tokens": state.tokens,
+        "step_tokens": tokens,
+        "seconds": round(state.seconds + seconds, 3),
+        "tokens_per_s": round(tokens / seconds, 1),
+    }
     run.log.write(record)
     run.trackers.log(record)
     remaining = (run.total_steps - state.step) * (state.seconds + seconds) / state.step
@@ -196,13 +246,23 @@ def _end_epoch(run: Run, state: TrainState) -> None:
         begun = time.monotonic()
         loss = validation_loss(run.trainee.model, run.validation, run.pad, run.device, run.dtype)
         if not math.isfinite(loss):
-            raise PlannerError(f"epoch {epoch:g}: the validation loss is {loss}; lower --learning-rate (now {run.settings.learning_rate:g})")
+            raise PlannerError(
+                f"epoch {epoch:g}: the validation loss is {loss}; lower --learning-rate (now"
+                f" {run.settings.learning_rate:g})"
+            )
         best = state.best_loss is None or loss < state.best_loss
         if best:
             state.best_loss, state.best_epoch = loss, epoch
             run.trainee.best = adapter_tensors(run.trainee.model)
         seconds = time.monotonic() - begun
-        record = {"step": state.step, "epoch": epoch, "train_loss": state.loss, "validation_loss": loss, "best": best, "seconds": round(seconds, 3)}
+        record = {
+            "step": state.step,
+            "epoch": epoch,
+            "train_loss": state.loss,
+            "validation_loss": loss,
+            "best": best,
+            "seconds": round(seconds, 3),
+        }
         state.history.append(record)
         run.log.write(record)
         run.trackers.log(record)

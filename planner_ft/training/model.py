@@ -1,4 +1,6 @@
-"""The model in training: its adapter, the loss on completion tokens, evaluation, and the levers against too little memory."""
+"""The model in training: its adapter, the loss on completion tokens, evaluation, and the levers
+against too little memory.
+"""
 
 from __future__ import annotations
 
@@ -21,8 +23,10 @@ if TYPE_CHECKING:
 LOGIT_VALUES = 2**24
 """Output-layer values that exist at one time: 16 million, 64 MiB in float32."""
 SMALL_MODEL = 50_000_000
-"""Weights below which one CPU thread is used. A step of a 7-million-weight model took 0.1 s on one thread, and 3 to 7 s on
-two while another program kept one of the two cores busy: every small operation waits for the slower thread."""
+"""Weights below which one CPU thread is used. A step of a 7-million-weight model took 0.1 s on one
+thread, and 3 to 7 s on two while another program kept one of the two cores busy: every small
+operation waits for the slower thread.
+"""
 PACKING_TYPES = ("llama", "qwen2")
 LARGE_MODEL = 500_000_000
 """Weights from which gradient checkpointing `auto` is on."""
@@ -34,14 +38,20 @@ def cpu_threads(settings: TrainSettings, parameters: int) -> int:
 
 
 def attach_adapter(model: Any, settings: TrainSettings, reference: str) -> Any:
-    """A PeftModel with a new LoRA adapter, weights in float32; `reference` is what the adapter names as its base.
+    """A PeftModel with a new LoRA adapter, weights in float32; `reference` is what the adapter
+    names as its base.
 
     Raises PlannerError when `target_modules` fits no layer.
     """
     from peft import LoraConfig, get_peft_model
 
     config = LoraConfig(
-        r=settings.rank, lora_alpha=settings.lora_alpha, lora_dropout=settings.dropout, target_modules=settings.targets, bias="none", task_type="CAUSAL_LM"
+        r=settings.rank,
+        lora_alpha=settings.lora_alpha,
+        lora_dropout=settings.dropout,
+        target_modules=settings.targets,
+        bias="none",
+        task_type="CAUSAL_LM",
     )
     parameters = model.num_parameters()
     model.requires_grad_(False)
@@ -52,9 +62,12 @@ def attach_adapter(model: Any, settings: TrainSettings, reference: str) -> Any:
             warnings.simplefilter("ignore", FutureWarning)
             peft_model = get_peft_model(model, config)
     except ValueError as error:
-        raise PlannerError(f"--target-modules {settings.target_modules}: {str(error).splitlines()[0]}") from None
+        raise PlannerError(
+            f"--target-modules {settings.target_modules}: {str(error).splitlines()[0]}"
+        ) from None
     for layer in peft_model.modules():
-        # PEFT would copy every input to the adapter's float32, and autocast back to the dtype that it computes in.
+        # PEFT would copy every input to the adapter's float32, and autocast back to the dtype that
+        # it computes in.
         if hasattr(layer, "lora_A"):
             layer.cast_input_dtype_enabled = False
     peft_model.peft_config["default"].base_model_name_or_path = reference
@@ -71,10 +84,17 @@ def uses_gradient_checkpointing(settings: TrainSettings, parameters: int) -> boo
 
 
 def packs(model: Any) -> bool:
-    """Whether samples may share a row: whether the model keeps apart what its positions keep apart, in every layer."""
+    """Whether samples may share a row: whether the model keeps apart what its positions keep apart,
+    in every layer.
+    """
     config = model.get_base_model().config
-    # transformers makes the mask for these from positions that begin again; flash attention does so for a single row alone.
-    return config.model_type in PACKING_TYPES and config._attn_implementation in ("sdpa", "eager") and not getattr(config, "use_sliding_window", False)
+    # transformers makes the mask for these from positions that begin again; flash attention does so
+    # for a single row alone.
+    return (
+        config.model_type in PACKING_TYPES
+        and config._attn_implementation in ("sdpa", "eager")
+        and not getattr(config, "use_sliding_window", False)
+    )
 
 
 def adapter_parameters(model: Any) -> dict[str, nn.Parameter]:
@@ -83,22 +103,31 @@ def adapter_parameters(model: Any) -> dict[str, nn.Parameter]:
 
 
 def loss_sum(model: Any, batch: Batch, dtype: torch.dtype) -> Tensor:
-    """Cross-entropy summed over the batch's completion tokens (a float32 scalar); layers compute in `dtype`.
+    """Cross-entropy summed over the batch's completion tokens (a float32 scalar); layers compute in
+    `dtype`.
 
-    Logits are computed for completion positions alone, and in chunks where they are many: for each chunk the backward
-    pass computes them again instead of keeping them.
+    Logits are computed for completion positions alone, and in chunks where they are many: for each
+    chunk the backward pass computes them again instead of keeping them.
     """
     base = model.get_base_model()
     head = base.get_output_embeddings()
     places = {} if batch.positions is None else {"position_ids": batch.positions}
     with torch.autocast(batch.input_ids.device.type, dtype=dtype, enabled=dtype != torch.float32):
-        hidden = base.get_decoder()(input_ids=batch.input_ids, use_cache=False, **places).last_hidden_state
+        hidden = base.get_decoder()(
+            input_ids=batch.input_ids, use_cache=False, **places
+        ).last_hidden_state
         selected = hidden[batch.rows, batch.columns]
         size = max(1, LOGIT_VALUES // base.config.get_text_config().vocab_size)
         if len(selected) <= size:
             return _cross_entropy(head, selected, batch.targets)
         parts = [
-            checkpoint(_cross_entropy, head, selected[start : start + size], batch.targets[start : start + size], use_reentrant=False)
+            checkpoint(
+                _cross_entropy,
+                head,
+                selected[start : start + size],
+                batch.targets[start : start + size],
+                use_reentrant=False,
+            )
             for start in range(0, len(selected), size)
         ]
         return torch.stack(parts).sum()
@@ -119,7 +148,9 @@ def evaluating(model: Any) -> Iterator[None]:
         model.train()
 
 
-def validation_loss(model: Any, samples: Sequence[Sample], pad: int, device: torch.device, dtype: torch.dtype) -> float:
+def validation_loss(
+    model: Any, samples: Sequence[Sample], pad: int, device: torch.device, dtype: torch.dtype
+) -> float:
     """Mean cross-entropy over all completion tokens of `samples`."""
     total, count = 0.0, 0
     with evaluating(model):
@@ -133,13 +164,21 @@ def validation_loss(model: Any, samples: Sequence[Sample], pad: int, device: tor
 def make_optimizer(model: Any, settings: TrainSettings) -> torch.optim.Optimizer:
     """AdamW over the adapter, with 32-bit or 8-bit moments."""
     parameters = list(adapter_parameters(model).values())
-    arguments: dict[str, Any] = {"lr": settings.learning_rate, "weight_decay": settings.weight_decay}
+    arguments: dict[str, Any] = {
+        "lr": settings.learning_rate,
+        "weight_decay": settings.weight_decay,
+    }
     if settings.optimizer == "adamw":
-        # One kernel a matrix: with a loop over ten operations the step of a small model was a ninth of its time.
+        # One kernel a matrix: with a loop over ten operations the step of a small model was a ninth
+        # of its time.
         return torch.optim.AdamW(parameters, **arguments, fused=True)
     import bitsandbytes
 
-    kind = bitsandbytes.optim.AdamW8bit if settings.optimizer == "adamw-8bit" else bitsandbytes.optim.PagedAdamW8bit
+    kind = (
+        bitsandbytes.optim.AdamW8bit
+        if settings.optimizer == "adamw-8bit"
+        else bitsandbytes.optim.PagedAdamW8bit
+    )
     optimizer: torch.optim.Optimizer = kind(parameters, **arguments)
     return optimizer
 
@@ -153,8 +192,15 @@ def memory_levers(settings: TrainSettings, checkpointing: bool, longest: int) ->
         levers.append("--gradient-checkpointing on")
     if settings.batch_size > 1:
         half = max(1, settings.batch_size // 2)
-        levers.append(f"--batch-size {half} --gradient-accumulation {settings.gradient_accumulation * settings.batch_size // half} (same step, less memory)")
-    levers.append(f"leave out the longest samples (now up to {longest} tokens; --max-length names those above a limit)")
+        levers.append(
+            f"--batch-size {half} --gradient-accumulation"
+            f" {settings.gradient_accumulation * settings.batch_size // half} (same step, less"
+            " memory)"
+        )
+    levers.append(
+        f"leave out the longest samples (now up to {longest} tokens; --max-length names those above"
+        " a limit)"
+    )
     if settings.optimizer == "adamw":
         levers.append("--optimizer adamw-8bit")
     if settings.rank > 4:

@@ -15,9 +15,23 @@ FolderState = Literal["empty", "complete", "unfinished", "foreign"]
 MANIFEST = "manifest.json"
 RUN = "checkpoints/run.json"
 WRITTEN = (
-    "adapter_config.json", "adapter_model.safetensors", "README.md", MANIFEST, "train_log.jsonl", "loss.png", "loss.svg", "checkpoints", "logs",
-    "tokenizer.json", "tokenizer_config.json", "special_tokens_map.json", "added_tokens.json", "chat_template.jinja", "vocab.json", "merges.txt",
-)  # fmt: skip
+    "adapter_config.json",
+    "adapter_model.safetensors",
+    "README.md",
+    MANIFEST,
+    "train_log.jsonl",
+    "loss.png",
+    "loss.svg",
+    "checkpoints",
+    "logs",
+    "tokenizer.json",
+    "tokenizer_config.json",
+    "special_tokens_map.json",
+    "added_tokens.json",
+    "chat_template.jinja",
+    "vocab.json",
+    "merges.txt",
+)
 """Everything that a run writes, and all that --overwrite removes."""
 
 
@@ -29,7 +43,11 @@ def folder_state(output: Path) -> FolderState:
         return "unfinished"
     if (output / MANIFEST).is_file():
         manifest = read_json(output / MANIFEST)
-        return "complete" if isinstance(manifest, dict) and manifest.get("kind") == "train" else "foreign"
+        return (
+            "complete"
+            if isinstance(manifest, dict) and manifest.get("kind") == "train"
+            else "foreign"
+        )
     return "foreign" if any(output.iterdir()) else "empty"
 
 
@@ -37,18 +55,28 @@ def folder_problems(output: Path, *, overwrite: bool, resume: bool) -> list[str]
     """What keeps a run from using the folder."""
     state = folder_state(output)
     if state == "foreign":
-        return [f"--output {output}: exists and is no folder of a training run; give another folder"]
+        return [
+            f"--output {output}: exists and is no folder of a training run; give another folder"
+        ]
     if state == "complete" and not (overwrite or resume):
-        return [f"--output {output}: holds a finished adapter; give --overwrite to train it again, or another folder"]
+        return [
+            f"--output {output}: holds a finished adapter; give --overwrite to train it again, or"
+            " another folder"
+        ]
     if state == "unfinished" and not (overwrite or resume):
-        return [f"--output {output}: holds an unfinished run; give --resume to continue it, --overwrite to start again, or another folder"]
+        return [
+            f"--output {output}: holds an unfinished run; give --resume to continue it, --overwrite"
+            " to start again, or another folder"
+        ]
     if state == "empty" and resume:
         return [f"--resume: {output} holds no run to continue; leave --resume out to start one"]
     return []
 
 
 def writable_problem(output: Path) -> str | None:
-    """Why nothing can be written to the folder (or to the one that it would be made in), or None."""
+    """Why nothing can be written to the folder (or to the one that it would be made in), or
+    None.
+    """
     try:
         with tempfile.TemporaryFile(dir=nearest_folder(output)):
             return None
@@ -73,7 +101,9 @@ def clear(output: Path) -> None:
 
 
 def write_run(output: Path, fingerprint: dict[str, Any], status: str) -> None:
-    """Record what the run depends on and how it stands ("running", "interrupted", or why it stopped)."""
+    """Record what the run depends on and how it stands ("running", "interrupted", or why it
+    stopped).
+    """
     write_json(output / RUN, {"status": status, **fingerprint})
 
 
@@ -94,7 +124,14 @@ def fingerprint_problems(stored: dict[str, Any], current: dict[str, Any]) -> lis
         if key == "settings":
             before = before if isinstance(before, dict) else {}
             names = [name for name in now if before.get(name) != now[name]]
-            problems += [f"--{name.replace('_', '-')} was {before.get(name)} and is {now[name]}" for name in names]
+            problems += [
+                f"--{name.replace('_', '-')} was {before.get(name)} and is {now[name]}"
+                for name in names
+            ]
         elif before != now:
-            problems.append(f"{key.replace('_', ' ')} was {before} and is {now}" if len(str(now)) < 40 else f"the {key.replace('_', ' ')} changed since")
+            problems.append(
+                f"{key.replace('_', ' ')} was {before} and is {now}"
+                if len(str(now)) < 40
+                else f"the {key.replace('_', ' ')} changed since"
+            )
     return problems

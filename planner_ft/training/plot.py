@@ -10,7 +10,9 @@ from planner_ft.support.files import atomic_writer
 
 
 def plot_losses(records: list[dict[str, Any]], folder: Path, title: str) -> None:
-    """Write `loss.png` and `loss.svg` from the records of a log: training loss a step and its mean, validation loss."""
+    """Write `loss.png` and `loss.svg` from the records of a log: training loss a step and its mean,
+    validation loss.
+    """
     import matplotlib
 
     matplotlib.use("Agg")
@@ -20,10 +22,28 @@ def plot_losses(records: list[dict[str, Any]], folder: Path, title: str) -> None
     validations = [record for record in records if "validation_loss" in record]
     figure = Figure(figsize=(7, 4), layout="constrained")
     axes = figure.subplots()
-    axes.plot([r["step"] for r in steps], [r["loss"] for r in steps], color="tab:blue", alpha=0.25, linewidth=0.8, label="training, each step")
-    axes.plot([r["step"] for r in steps], running_mean([r["loss"] for r in steps]), color="tab:blue", label="training, running mean")
+    axes.plot(
+        [r["step"] for r in steps],
+        [r["loss"] for r in steps],
+        color="tab:blue",
+        alpha=0.25,
+        linewidth=0.8,
+        label="training, each step",
+    )
+    axes.plot(
+        [r["step"] for r in steps],
+        running_mean([r["loss"] for r in steps]),
+        color="tab:blue",
+        label="training, running mean",
+    )
     if validations:
-        axes.plot([r["step"] for r in validations], [r["validation_loss"] for r in validations], "o-", color="tab:orange", label="validation")
+        axes.plot(
+            [r["step"] for r in validations],
+            [r["validation_loss"] for r in validations],
+            "o-",
+            color="tab:orange",
+            label="validation",
+        )
     axes.set(xlabel="optimiser step", ylabel="cross-entropy per completion token", title=title)
     axes.set_ylim(bottom=0)
     axes.grid(alpha=0.3)

@@ -7,7 +7,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from planner_ft.candidates.loading import compute_dtype, load_tokenizer, require_folder, resolve_device
+from planner_ft.candidates.loading import (
+    compute_dtype,
+    load_tokenizer,
+    require_folder,
+    resolve_device,
+)
 from planner_ft.candidates.memory import MemoryEstimate, adapter_parameters, training_memory
 from planner_ft.prompts import end_of_turn_ids
 from planner_ft.support.errors import PlannerError
@@ -30,7 +35,9 @@ CHECKS = 7
 
 @dataclass
 class Prepared:
-    """What the checks found and training goes on with. None where a check could not get that far."""
+    """What the checks found and training goes on with. None where a check could not get that
+    far.
+    """
 
     device: torch.device | None = None
     tokenizer: PreTrainedTokenizerBase | None = None
@@ -59,8 +66,17 @@ class Finding:
 
 
 def run_preflight(request: TrainRequest, prepared: Prepared) -> Iterator[Finding]:
-    """Yield the outcome of each check and fill `prepared` on the way. Raises nothing for what is wrong with the run."""
-    for check in (check_candidate, check_data, check_rendering, check_tokens, check_output, check_memory):
+    """Yield the outcome of each check and fill `prepared` on the way. Raises nothing for what is
+    wrong with the run.
+    """
+    for check in (
+        check_candidate,
+        check_data,
+        check_rendering,
+        check_tokens,
+        check_output,
+        check_memory,
+    ):
         yield check(request, prepared)
 
 
@@ -77,14 +93,23 @@ def check_candidate(request: TrainRequest, prepared: Prepared) -> Finding:
         prepared.tokenizer = load_tokenizer(candidate)
     except PlannerError as error:
         finding.problems.append(str(error))
-    if settings.optimizer.startswith("paged") and prepared.device and prepared.device.type != "cuda":
-        finding.problems.append(f"--optimizer {settings.optimizer} needs CUDA; take adamw-8bit or adamw")
+    if (
+        settings.optimizer.startswith("paged")
+        and prepared.device
+        and prepared.device.type != "cuda"
+    ):
+        finding.problems.append(
+            f"--optimizer {settings.optimizer} needs CUDA; take adamw-8bit or adamw"
+        )
     finding.problems += tracker_problems(settings)
     if prepared.device:
         size = f"{candidate.parameters / 1e6:,.1f} M parameters, " if candidate.parameters else ""
         base = "4-bit base" if settings.quantization == "nf4" else "16-bit base"
         dtype = str(compute_dtype(prepared.device)).removeprefix("torch.")
-        finding.text = f"{candidate.row_name}: {size}{candidate.source or 'not here'}; {base}, computing in {dtype} on {prepared.device}"
+        finding.text = (
+            f"{candidate.row_name}: {size}{candidate.source or 'not here'}; {base}, computing in"
+            f" {dtype} on {prepared.device}"
+        )
     return finding
 
 
@@ -92,29 +117,46 @@ def check_data(request: TrainRequest, prepared: Prepared) -> Finding:
     """Do the files hold records of this level and vocabulary?"""
     finding = Finding("data")
     limit = request.settings.max_samples
-    prepared.train = read_split(request.train_file, request.level, request.vocabulary, finding.problems, limit)
+    prepared.train = read_split(
+        request.train_file, request.level, request.vocabulary, finding.problems, limit
+    )
     added: list[str] = []
     if prepared.train:
         prepared.train = _enlarged(request, prepared.train, finding, added)
     if request.validation_file:
-        prepared.validation = read_split(request.validation_file, request.level, request.vocabulary, finding.problems)
+        prepared.validation = read_split(
+            request.validation_file, request.level, request.vocabulary, finding.problems
+        )
     else:
         finding.notes.append("no validation split: the last adapter is kept, not the best one")
-    finding.text = ", ".join([*(f"{len(split.records)} samples in {split.path}" for split in prepared.splits), *added])
+    finding.text = ", ".join(
+        [*(f"{len(split.records)} samples in {split.path}" for split in prepared.splits), *added]
+    )
     if prepared.train and prepared.validation:
         trained = {record.value["prompt"] for record in prepared.train.records}
-        shared = [record.id for record in prepared.validation.records if record.value["prompt"] in trained]
+        shared = [
+            record.id for record in prepared.validation.records if record.value["prompt"] in trained
+        ]
         if shared:
-            finding.notes.append(f"{len(shared)} validation prompts are in the training split, too (first: {shared[0]}); the validation loss will flatter")
+            finding.notes.append(
+                f"{len(shared)} validation prompts are in the training split, too (first:"
+                f" {shared[0]}); the validation loss will flatter"
+            )
     return finding
 
 
 def _enlarged(request: TrainRequest, train: Split, finding: Finding, added: list[str]) -> Split:
-    """The training split with corrections and synthetic samples, where they are asked for; `added` is told how many of each."""
+    """The training split with corrections and synthetic samples, where they are asked for; `added`
+    is told how many of each.
+    """
     own, count = len(train.records), request.settings.augment
     if request.corrections:
-        train = with_corrections(train, request.corrections, request.level, request.vocabulary, finding.problems)
-        added.append(f"{len(train.records) - own} of the training samples from {request.corrections}")
+        train = with_corrections(
+            train, request.corrections, request.level, request.vocabulary, finding.problems
+        )
+        added.append(
+            f"{len(train.records) - own} of the training samples from {request.corrections}"
+        )
     if count:
         train = augmented(train, request.level, request.vocabulary, request.settings.seed, count)
         added.append(f"{count} of the training samples synthetic")
@@ -126,10 +168,16 @@ def check_rendering(request: TrainRequest, prepared: Prepared) -> Finding:
     finding = Finding("rendering")
     if prepared.tokenizer is None or not prepared.splits:
         return replace(finding, text="skipped: no tokenizer or no data", skipped=True)
-    # transformers would warn of samples beyond the model's length, which are errors here, on its own and only of the first.
-    prepared.tokenizer.deprecation_warnings["sequence-length-is-longer-than-the-specified-maximum"] = True
+    # transformers would warn of samples beyond the model's length, which are errors here, on its
+    # own and only of the first.
+    prepared.tokenizer.deprecation_warnings[
+        "sequence-length-is-longer-than-the-specified-maximum"
+    ] = True
     try:
-        rendered = {split.path: render_split(split, request.level, prepared.tokenizer, request.vocabulary) for split in prepared.splits}
+        rendered = {
+            split.path: render_split(split, request.level, prepared.tokenizer, request.vocabulary)
+            for split in prepared.splits
+        }
     except PlannerError as error:
         finding.problems.append(str(error))
         return finding
@@ -137,42 +185,60 @@ def check_rendering(request: TrainRequest, prepared: Prepared) -> Finding:
     prepared.validation = rendered.get(request.validation_file) if request.validation_file else None
     context = request.candidate.dimensions.context if request.candidate.dimensions else None
     limit = min(request.settings.max_length, context or request.settings.max_length)
-    lever = f"raise --max-length (now {limit})" if limit == request.settings.max_length else f"{request.candidate.name} takes no more"
+    lever = (
+        f"raise --max-length (now {limit})"
+        if limit == request.settings.max_length
+        else f"{request.candidate.name} takes no more"
+    )
     finding.problems += shortened(
-        f"{split.path}: sample {sample.id} has {sample.length} tokens and its answer would be cut at {limit}; {lever}, or leave the sample out"
+        f"{split.path}: sample {sample.id} has {sample.length} tokens and its answer would be cut"
+        f" at {limit}; {lever}, or leave the sample out"
         for split, sample in prepared.samples
         if sample.length > limit
     )
     finding.problems += shortened(
-        f"{split.path}: sample {sample.id} has no token that is trained" for split, sample in prepared.samples if not any(sample.rendered.completion_mask)
+        f"{split.path}: sample {sample.id} has no token that is trained"
+        for split, sample in prepared.samples
+        if not any(sample.rendered.completion_mask)
     )
     if prepared.train and prepared.train.samples:
         trained = sum(sample.completion_length for sample in prepared.train.samples)
         finding.text = (
-            f"{prepared.train.tokens:,} tokens, {trained / prepared.train.tokens:.0%} of them trained; longest sample {prepared.train.longest} of {limit}"
+            f"{prepared.train.tokens:,} tokens, {trained / prepared.train.tokens:.0%} of them"
+            f" trained; longest sample {prepared.train.longest} of {limit}"
         )
     return finding
 
 
 def check_tokens(request: TrainRequest, prepared: Prepared) -> Finding:
-    """Does every answer end with a trained end-of-turn token, and every text begin with one beginning-of-text token?"""
+    """Does every answer end with a trained end-of-turn token, and every text begin with one
+    beginning-of-text token?
+    """
     finding = Finding("special tokens")
     if prepared.tokenizer is None or not prepared.samples:
         return replace(finding, text="skipped: nothing rendered", skipped=True)
     tokenizer = prepared.tokenizer
     end, bos = end_of_turn_ids(tokenizer)[0], tokenizer.bos_token_id
-    size = request.candidate.dimensions.vocabulary if request.candidate.dimensions else len(tokenizer)
+    size = (
+        request.candidate.dimensions.vocabulary if request.candidate.dimensions else len(tokenizer)
+    )
     kinds: dict[str, list[str]] = {}
     for _, sample in prepared.samples:
         for problem in _token_problems(sample, end, bos if isinstance(bos, int) else None, size):
             kinds.setdefault(problem, []).append(sample.id)
-    finding.problems = [f"{len(ids)} samples {problem} (first: {ids[0]})" for problem, ids in kinds.items()]
+    finding.problems = [
+        f"{len(ids)} samples {problem} (first: {ids[0]})" for problem, ids in kinds.items()
+    ]
     begin = (
         f"one {tokenizer.bos_token} at the beginning"
         if any(bos in sample.rendered.input_ids[:1] for _, sample in prepared.samples)
         else "no beginning-of-text token"
     )
-    finding.text = f"every answer ends with a trained {tokenizer.convert_ids_to_tokens(end)}; {begin}" if not finding.problems else "see below"
+    finding.text = (
+        f"every answer ends with a trained {tokenizer.convert_ids_to_tokens(end)}; {begin}"
+        if not finding.problems
+        else "see below"
+    )
     return finding
 
 
@@ -186,24 +252,40 @@ def _token_problems(sample: Sample, end: int, bos: int | None, size: int) -> Ite
     if bos is not None and bos != end and ids.count(bos) > 1:
         yield "begin with two beginning-of-text tokens, or hold one inside"
     if max(ids) >= size:
-        yield f"hold token ids beyond the model's {size} embeddings: tokenizer and model do not belong together"
+        yield (
+            f"hold token ids beyond the model's {size} embeddings: tokenizer and model do not"
+            " belong together"
+        )
 
 
 def check_output(request: TrainRequest, prepared: Prepared) -> Finding:
     """May the output folder be used, and is there room for checkpoints?"""
-    finding = Finding("output", problems=folder_problems(request.output, overwrite=request.overwrite, resume=request.resume))
+    finding = Finding(
+        "output",
+        problems=folder_problems(
+            request.output, overwrite=request.overwrite, resume=request.resume
+        ),
+    )
     if problem := writable_problem(request.output):
         finding.problems.append(problem)
         return finding
     free = shutil.disk_usage(nearest_folder(request.output)).free
-    # Adapter, best adapter and two moments in float32; the old checkpoint goes when the new one is complete.
-    weights = adapter_parameters(request.candidate.dimensions, request.settings.rank) if request.candidate.dimensions else 0
+    # Adapter, best adapter and two moments in float32; the old checkpoint goes when the new one is
+    # complete.
+    weights = (
+        adapter_parameters(request.candidate.dimensions, request.settings.rank)
+        if request.candidate.dimensions
+        else 0
+    )
     needed = 2 * 4 * 4 * weights + 2**25
     if needed > free:
         finding.problems.append(
-            f"--output {request.output}: {memory_size(needed)} are needed for checkpoints and {memory_size(free)} free; choose another disk"
+            f"--output {request.output}: {memory_size(needed)} are needed for checkpoints and"
+            f" {memory_size(free)} free; choose another disk"
         )
-    finding.text = f"{request.output}: {memory_size(needed)} needed for checkpoints, {memory_size(free)} free"
+    finding.text = (
+        f"{request.output}: {memory_size(needed)} needed for checkpoints, {memory_size(free)} free"
+    )
     return finding
 
 
@@ -212,16 +294,26 @@ def check_memory(request: TrainRequest, prepared: Prepared) -> Finding:
     finding = Finding("memory")
     estimate = estimated_memory(request, prepared)
     if estimate is None or prepared.device is None:
-        return replace(finding, text="no estimate: dimensions, device or samples are unknown", skipped=True)
+        return replace(
+            finding, text="no estimate: dimensions, device or samples are unknown", skipped=True
+        )
     free, total = device_memory(prepared.device)
-    finding.text = f"about {memory_size(estimate.total)} of {memory_size(free)} free on {prepared.device}"
+    finding.text = (
+        f"about {memory_size(estimate.total)} of {memory_size(free)} free on {prepared.device}"
+    )
     longest = prepared.train.longest if prepared.train else 0
     checkpointing = uses_gradient_checkpointing(request.settings, request.candidate.parameters or 0)
     advice = memory_levers(request.settings, checkpointing, longest)
     if estimate.total > total:
-        finding.problems.append(f"training needs about {memory_size(estimate.total)} and {prepared.device} has {memory_size(total)}; {advice}")
+        finding.problems.append(
+            f"training needs about {memory_size(estimate.total)} and {prepared.device} has"
+            f" {memory_size(total)}; {advice}"
+        )
     elif estimate.total > free:
-        finding.notes.append(f"{memory_size(free)} are free and about {memory_size(estimate.total)} needed; close other programs, or {advice}")
+        finding.notes.append(
+            f"{memory_size(free)} are free and about {memory_size(estimate.total)} needed; close"
+            f" other programs, or {advice}"
+        )
     return finding
 
 
@@ -231,9 +323,14 @@ def estimated_memory(request: TrainRequest, prepared: Prepared) -> MemoryEstimat
     if dimensions is None or prepared.train is None or not prepared.train.samples:
         return None
     estimate = training_memory(
-        dimensions, quantization=settings.quantization, rank=settings.rank, tokens=prepared.train.longest, batch=settings.batch_size,
-        dropout=settings.dropout > 0, checkpointing=uses_gradient_checkpointing(settings, dimensions.parameters),
-    )  # fmt: skip
+        dimensions,
+        quantization=settings.quantization,
+        rank=settings.rank,
+        tokens=prepared.train.longest,
+        batch=settings.batch_size,
+        dropout=settings.dropout > 0,
+        checkpointing=uses_gradient_checkpointing(settings, dimensions.parameters),
+    )
     # The loss runs in chunks: the logits never exist all at once.
     return replace(estimate, logits=min(estimate.logits, 12 * LOGIT_VALUES))
 

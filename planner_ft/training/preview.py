@@ -12,18 +12,28 @@ if TYPE_CHECKING:
 
 
 def preview_text(sample: Sample, tokenizer: PreTrainedTokenizerBase) -> Text:
-    """Prompt dim, completion green, special tokens reversed; the trained part stands in ⟦ ⟧, so that it shows without colour."""
+    """Prompt dim, completion green, special tokens reversed; the trained part stands in ⟦ ⟧, so
+    that it shows without colour.
+    """
     from rich.text import Text
 
     text = Text()
     trained = False
-    # A character may consist of several tokens, so that runs of tokens are decoded together, special tokens alone.
-    for ids, mask, special in _runs(sample, set(tokenizer.all_special_ids) | set(tokenizer.added_tokens_decoder)):
+    # A character may consist of several tokens, so that runs of tokens are decoded together,
+    # special tokens alone.
+    for ids, mask, special in _runs(
+        sample, set(tokenizer.all_special_ids) | set(tokenizer.added_tokens_decoder)
+    ):
         if mask != trained:
             text.append("⟦" if mask else "⟧", "bold")
             trained = mask
         style = ("green" if mask else "dim") + (" reverse" if special else "")
-        text.append(str(tokenizer.decode(ids, skip_special_tokens=False, clean_up_tokenization_spaces=False)), style)
+        text.append(
+            str(
+                tokenizer.decode(ids, skip_special_tokens=False, clean_up_tokenization_spaces=False)
+            ),
+            style,
+        )
     if trained:
         text.append("⟧", "bold")
     return text
@@ -42,4 +52,7 @@ def _runs(sample: Sample, special: set[int]) -> list[tuple[list[int], bool, bool
 
 def preview_caption(sample: Sample) -> str:
     """Counts of the sample's tokens."""
-    return f"{sample.id}: {sample.length} tokens, {sample.completion_length} of them trained (between ⟦ and ⟧)"
+    return (
+        f"{sample.id}: {sample.length} tokens, {sample.completion_length} of them trained (between"
+        " ⟦ and ⟧)"
+    )

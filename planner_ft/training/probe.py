@@ -1,9 +1,11 @@
-"""The check on the loaded model: does every adapter weight learn, and does our loss equal the model's own?
+"""The check on the loaded model: does every adapter weight learn, and does our loss equal the
+model's own?
 
-A new LoRA adapter has B = 0, so that the gradient of A is zero whatever is wrong, and A is checked in a second step with
-small random numbers in B. B is checked in the first: then gradients reach it through the frozen weights alone, and a
-layer that passes none on (as 4-bit layers that a CPU has packed) is not hidden by the path through other adapters. A
-validation pass goes first, since one is what packs them. Afterwards weights, gradients and random state are as before.
+A new LoRA adapter has B = 0, so that the gradient of A is zero whatever is wrong, and A is checked
+in a second step with small random numbers in B. B is checked in the first: then gradients reach it
+through the frozen weights alone, and a layer that passes none on (as 4-bit layers that a CPU has
+packed) is not hidden by the path through other adapters. A validation pass goes first, since one is
+what packs them. Afterwards weights, gradients and random state are as before.
 """
 
 from __future__ import annotations
@@ -28,10 +30,19 @@ LOSS_TOLERANCE = 0.02
 B_DEVIATION = 0.02
 
 
-def probe_model(model: Any, samples: Sequence[Sample], pad: int, batch_size: int, device: torch.device, dtype: torch.dtype) -> list[str]:
-    """Everything wrong with the model for training; empty when it can learn. Leaves the model as it was.
+def probe_model(
+    model: Any,
+    samples: Sequence[Sample],
+    pad: int,
+    batch_size: int,
+    device: torch.device,
+    dtype: torch.dtype,
+) -> list[str]:
+    """Everything wrong with the model for training; empty when it can learn. Leaves the model as it
+    was.
 
-    The gradient step runs on the `batch_size` longest samples, so that it also shows whether training fits the memory.
+    The gradient step runs on the `batch_size` longest samples, so that it also shows whether
+    training fits the memory.
     """
     by_length = sorted(samples, key=lambda sample: sample.length)
     shortest = collate(by_length[:1], pad).to(device)
@@ -70,23 +81,37 @@ def _randomise_b(model: Any) -> None:
 
 
 def _loss_problems(model: Any, sample: Sample, batch: Batch, dtype: torch.dtype) -> list[str]:
-    """Compare with the loss that the model computes itself: an architecture may change logits after the output layer."""
+    """Compare with the loss that the model computes itself: an architecture may change logits after
+    the output layer.
+    """
     ids = torch.tensor([sample.rendered.input_ids], device=batch.input_ids.device)
     mask = torch.tensor([sample.rendered.completion_mask], device=ids.device)
     with evaluating(model):
         ours = float(loss_sum(model, batch, dtype)) / len(batch.targets)
         with torch.autocast(ids.device.type, dtype=dtype, enabled=dtype != torch.float32):
-            theirs = float(model(input_ids=ids, labels=ids.masked_fill(mask == 0, -100), use_cache=False).loss)
+            theirs = float(
+                model(input_ids=ids, labels=ids.masked_fill(mask == 0, -100), use_cache=False).loss
+            )
     if not math.isfinite(ours):
-        return [f"the loss of sample {sample.id} is {ours} before any training: the base model's weights are broken, or its dtype overflows"]
+        return [
+            f"the loss of sample {sample.id} is {ours} before any training: the base model's"
+            " weights are broken, or its dtype overflows"
+        ]
     if abs(ours - theirs) > LOSS_TOLERANCE * max(1.0, abs(theirs)):
-        return [f"the loss of sample {sample.id} is {ours:.4f} where the model itself computes {theirs:.4f}: this architecture is not supported"]
+        return [
+            f"the loss of sample {sample.id} is {ours:.4f} where the model itself computes"
+            f" {theirs:.4f}: this architecture is not supported"
+        ]
     return []
 
 
 def _trainable_problems(model: Any) -> list[str]:
     foreign = [name for name in adapter_parameters(model) if "lora_" not in name]
-    return [f"{len(foreign)} weights of the base model would be trained (first: {foreign[0]})"] if foreign else []
+    return (
+        [f"{len(foreign)} weights of the base model would be trained (first: {foreign[0]})"]
+        if foreign
+        else []
+    )
 
 
 def _gradients(model: Any, batch: Batch, dtype: torch.dtype) -> dict[str, Tensor | None]:
@@ -99,10 +124,20 @@ def _gradients(model: Any, batch: Batch, dtype: torch.dtype) -> dict[str, Tensor
 
 def _gradient_problems(gradients: dict[str, Tensor | None]) -> list[str]:
     without = [name for name, value in gradients.items() if value is None or not bool(value.any())]
-    infinite = [name for name, value in gradients.items() if value is not None and not bool(torch.isfinite(value).all())]
+    infinite = [
+        name
+        for name, value in gradients.items()
+        if value is not None and not bool(torch.isfinite(value).all())
+    ]
     problems = []
     if without:
-        problems.append(f"{len(without)} of {len(gradients)} adapter matrices get no gradient (first: {without[0]}); they would stay as they are")
+        problems.append(
+            f"{len(without)} of {len(gradients)} adapter matrices get no gradient (first:"
+            f" {without[0]}); they would stay as they are"
+        )
     if infinite:
-        problems.append(f"{len(infinite)} of {len(gradients)} adapter matrices get a gradient that is not finite (first: {infinite[0]})")
+        problems.append(
+            f"{len(infinite)} of {len(gradients)} adapter matrices get a gradient that is not"
+            f" finite (first: {infinite[0]})"
+        )
     return problems

@@ -45,8 +45,9 @@ class PlainDisplay:
         loss, rate = sum(self.losses) / len(self.losses), self.tokens / self.seconds
         self.losses, self.tokens, self.seconds = [], 0.0, 0.0
         self.note(
-            f"step {record['step']}/{self.total}  epoch {record['epoch']:.2f}  loss {loss:.4f}  lr {record['lr']:.2e}  "
-            f"{rate:.0f} tokens/s  {clock(eta_seconds)} left  peak {memory_size(peak)}"
+            f"step {record['step']}/{self.total}  epoch {record['epoch']:.2f}  loss {loss:.4f}  lr"
+            f" {record['lr']:.2e}  {rate:.0f} tokens/s  {clock(eta_seconds)} left  peak"
+            f" {memory_size(peak)}"
         )
 
     def note(self, text: str) -> None:
@@ -63,7 +64,11 @@ class BarDisplay:
         from rich.progress import BarColumn, Progress, TextColumn
 
         self.progress = Progress(
-            TextColumn("step {task.completed:.0f}/{task.total:.0f}"), BarColumn(bar_width=24), TextColumn("{task.description}"), console=console, transient=True
+            TextColumn("step {task.completed:.0f}/{task.total:.0f}"),
+            BarColumn(bar_width=24),
+            TextColumn("{task.description}"),
+            console=console,
+            transient=True,
         )
         self.task = self.progress.add_task("first step ...", total=total, completed=done)
         self.average: float | None = None
@@ -73,9 +78,16 @@ class BarDisplay:
     def step(self, record: dict[str, Any], eta_seconds: float, peak: int) -> None:
         # Running means over about ten steps: loss and speed of a single sample jump.
         first = self.average is None
-        self.average = record["loss"] if self.average is None else 0.9 * self.average + 0.1 * record["loss"]
-        self.rate = record["tokens_per_s"] if first else 0.9 * self.rate + 0.1 * record["tokens_per_s"]
-        text = f"loss {self.average:.3f}  {self.rate:.0f} tokens/s  {clock(eta_seconds)} left  peak {memory_size(peak)}"
+        self.average = (
+            record["loss"] if self.average is None else 0.9 * self.average + 0.1 * record["loss"]
+        )
+        self.rate = (
+            record["tokens_per_s"] if first else 0.9 * self.rate + 0.1 * record["tokens_per_s"]
+        )
+        text = (
+            f"loss {self.average:.3f}  {self.rate:.0f} tokens/s  {clock(eta_seconds)} left  peak"
+            f" {memory_size(peak)}"
+        )
         self.progress.update(self.task, completed=record["step"], description=text)
 
     def note(self, text: str) -> None:
@@ -87,7 +99,11 @@ class BarDisplay:
 
 def make_display(console: Console, total: int, done: int, every: int) -> Display:
     """A bar on a terminal, lines elsewhere."""
-    return BarDisplay(console, total, done) if console.is_terminal else PlainDisplay(console, total, every)
+    return (
+        BarDisplay(console, total, done)
+        if console.is_terminal
+        else PlainDisplay(console, total, every)
+    )
 
 
 class TrainLog:
@@ -104,7 +120,10 @@ class TrainLog:
             self.stream.write(compact_json(record) + "\n")
             self.stream.flush()
         except OSError as error:
-            raise PlannerError(f"{self.path}: cannot be written ({error.strerror}); free some space and run the same command with --resume") from error
+            raise PlannerError(
+                f"{self.path}: cannot be written ({error.strerror}); free some space and run the"
+                " same command with --resume"
+            ) from error
 
     def close(self) -> None:
         with contextlib.suppress(OSError):
@@ -134,13 +153,26 @@ class Trackers:
         self.trackers = []
         for name in settings.trackers:
             kind = LOGGER_TYPE_TO_CLASS[name]
-            tracker = kind(run_name, logging_dir=output / "logs") if kind.requires_logging_directory else kind(run_name)
+            tracker = (
+                kind(run_name, logging_dir=output / "logs")
+                if kind.requires_logging_directory
+                else kind(run_name)
+            )
             tracker.start()
-            tracker.store_init_configuration({key: value if value is not None else "" for key, value in settings.as_dict().items()})
+            tracker.store_init_configuration(
+                {
+                    key: value if value is not None else ""
+                    for key, value in settings.as_dict().items()
+                }
+            )
             self.trackers.append(tracker)
 
     def log(self, record: dict[str, Any]) -> None:
-        values = {key: value for key, value in record.items() if isinstance(value, int | float) and key != "step"}
+        values = {
+            key: value
+            for key, value in record.items()
+            if isinstance(value, int | float) and key != "step"
+        }
         for tracker in self.trackers:
             tracker.log(values, step=record["step"])
 
@@ -157,6 +189,13 @@ def tracker_problems(settings: TrainSettings) -> list[str]:
 
     available = {str(name) for name in get_available_trackers()}
     unknown = [name for name in settings.trackers if name not in LOGGER_TYPE_TO_CLASS]
-    missing = [name for name in settings.trackers if name in LOGGER_TYPE_TO_CLASS and name not in available]
-    problems = [f"--report-to {name}: unknown; there are {', '.join(LOGGER_TYPE_TO_CLASS)}" for name in unknown]
-    return problems + [f"--report-to {name}: not installed; run `pip install {name}`" for name in missing]
+    missing = [
+        name for name in settings.trackers if name in LOGGER_TYPE_TO_CLASS and name not in available
+    ]
+    problems = [
+        f"--report-to {name}: unknown; there are {', '.join(LOGGER_TYPE_TO_CLASS)}"
+        for name in unknown
+    ]
+    return problems + [
+        f"--report-to {name}: not installed; run `pip install {name}`" for name in missing
+    ]

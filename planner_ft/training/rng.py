@@ -10,16 +10,22 @@ from torch import Tensor
 
 
 def rng_state() -> dict[str, Any]:
-    """All generator states: `python` as nested lists (JSON), `torch` and `cuda:N` as byte tensors."""
+    """All generator states: `python` as nested lists (JSON), `torch` and `cuda:N` as byte
+    tensors.
+    """
     version, values, gauss = random.getstate()
     tensors: dict[str, Tensor] = {"torch": torch.get_rng_state()}
     if torch.cuda.is_available():
-        tensors |= {f"cuda:{index}": state for index, state in enumerate(torch.cuda.get_rng_state_all())}
+        tensors |= {
+            f"cuda:{index}": state for index, state in enumerate(torch.cuda.get_rng_state_all())
+        }
     return {"python": [version, list(values), gauss], "tensors": tensors}
 
 
 def restore_rng(state: dict[str, Any]) -> None:
-    """Set the generators to a state from `rng_state`. States of CUDA devices that are not here are passed over."""
+    """Set the generators to a state from `rng_state`. States of CUDA devices that are not here are
+    passed over.
+    """
     version, values, gauss = state["python"]
     random.setstate((version, tuple(values), gauss))
     for name, tensor in state["tensors"].items():

@@ -10,7 +10,12 @@ from planner_ft.candidates.loading import load_tokenizer
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.support.errors import PlannerError
 from planner_ft.training.loop import InterruptedRunError, train_loop
-from planner_ft.training.output import fingerprint_problems, folder_state, stored_fingerprint, write_run
+from planner_ft.training.output import (
+    fingerprint_problems,
+    folder_state,
+    stored_fingerprint,
+    write_run,
+)
 from planner_ft.training.preflight import CHECKS, Finding, Prepared, run_preflight
 from planner_ft.training.request import TrainRequest, listed
 from planner_ft.training.result import existing_result, write_result
@@ -22,21 +27,26 @@ if TYPE_CHECKING:
 
 
 def preview_sample(request: TrainRequest, sample_id: str | None) -> tuple[Sample, Any]:
-    """The sample of that id (the first one without) rendered as for training, and the tokenizer. Raises PlannerError."""
+    """The sample of that id (the first one without) rendered as for training, and the tokenizer.
+    Raises PlannerError.
+    """
     problems: list[str] = []
     split = read_split(request.train_file, request.level, request.vocabulary, problems)
     if split is None or problems:
         raise PlannerError(problems[0] if len(problems) == 1 else listed("the data has", problems))
     records = [record for record in split.records if sample_id in (None, record.id)][:1]
     if not records:
-        raise PlannerError(f"--preview-id {sample_id}: {request.train_file} holds no record of that id")
+        raise PlannerError(
+            f"--preview-id {sample_id}: {request.train_file} holds no record of that id"
+        )
     tokenizer = load_tokenizer(request.candidate)
     one = Split(split.path, split.sha256, records)
     return render_split(one, request.level, tokenizer, request.vocabulary).samples[0], tokenizer
 
 
 def train(request: TrainRequest, console: Console) -> dict[str, Any] | None:
-    """Run the checks, train, write the adapter folder and return its manifest; None when --resume finds the run complete.
+    """Run the checks, train, write the adapter folder and return its manifest; None when --resume
+    finds the run complete.
 
     Raises PlannerError for whatever the user can put right, and InterruptedRunError after Ctrl-C.
     """
@@ -45,11 +55,15 @@ def train(request: TrainRequest, console: Console) -> dict[str, Any] | None:
     prepared = Prepared()
     _preflight(request, prepared, console)
     assert prepared.train and prepared.tokenizer and prepared.device and request.candidate.folder
-    fingerprint = request.fingerprint(prepared.train, prepared.validation, weights_sha256(request.candidate.folder))
+    fingerprint = request.fingerprint(
+        prepared.train, prepared.validation, weights_sha256(request.candidate.folder)
+    )
     if request.resume and not _resumable(request.output, fingerprint):
         _say(console, existing_result(request.output))
         return None
-    splits = {"training": prepared.train} | ({"validation": prepared.validation} if prepared.validation else {})
+    splits = {"training": prepared.train} | (
+        {"validation": prepared.validation} if prepared.validation else {}
+    )
     with limited_threads(request, prepared), memory_errors(request, prepared):
         with console.status("loading the model ..."):
             model, finding = ready_model(request, prepared)
@@ -61,7 +75,15 @@ def train(request: TrainRequest, console: Console) -> dict[str, Any] | None:
                 return write_result(request, run, state, prepared.tokenizer, splits, fingerprint)
             except (Exception, KeyboardInterrupt) as error:
                 with contextlib.suppress(PlannerError):
-                    write_run(request.output, fingerprint, "interrupted" if isinstance(error, InterruptedRunError) else f"failed: {error!r}")
+                    write_run(
+                        request.output,
+                        fingerprint,
+                        (
+                            "interrupted"
+                            if isinstance(error, InterruptedRunError)
+                            else f"failed: {error!r}"
+                        ),
+                    )
                 raise
 
 
@@ -82,19 +104,32 @@ def _raise_problems(findings: list[Finding]) -> None:
 
 def show_finding(console: Console, number: int, finding: Finding) -> None:
     """One line on a check, and a line for each note."""
-    count = f"{len(finding.problems)} problem{'s' if len(finding.problems) > 1 else ''}" if finding.problems else ""
+    count = (
+        f"{len(finding.problems)} problem{'s' if len(finding.problems) > 1 else ''}"
+        if finding.problems
+        else ""
+    )
     text = "; ".join(part for part in (count, finding.text) if part)
     mark = "✗" if finding.problems else "-" if finding.skipped else "✓"
-    _say(console, f"[{number}/{CHECKS}] {mark} {finding.title}: {text}", "red" if finding.problems else None)
+    _say(
+        console,
+        f"[{number}/{CHECKS}] {mark} {finding.title}: {text}",
+        "red" if finding.problems else None,
+    )
     for note in finding.notes:
         _say(console, f"      note: {note}", "yellow")
 
 
 def _resumable(output: Path, fingerprint: dict[str, Any]) -> bool:
-    """Whether there is something to resume; False for a complete run. Raises PlannerError when the run was another one."""
+    """Whether there is something to resume; False for a complete run. Raises PlannerError when the
+    run was another one.
+    """
     differences = fingerprint_problems(stored_fingerprint(output), fingerprint)
     if differences:
-        raise PlannerError(f"--resume: the run in {output} was another one ({'; '.join(differences)}); undo that, or start again with --overwrite")
+        raise PlannerError(
+            f"--resume: the run in {output} was another one ({'; '.join(differences)}); undo that,"
+            " or start again with --overwrite"
+        )
     return folder_state(output) == "unfinished"
 
 

@@ -1,4 +1,6 @@
-"""Training and validation samples: read, checked against form and vocabulary, rendered into ids and completion mask."""
+"""Training and validation samples: read, checked against form and vocabulary, rendered into ids and
+completion mask.
+"""
 
 from __future__ import annotations
 
@@ -66,10 +68,17 @@ class Split:
         return max((sample.length for sample in self.samples), default=0)
 
 
-def read_split(path: Path, level: Level, vocabulary: Vocabulary, problems: list[str], limit: int | None = None) -> Split | None:
-    """Read a JSONL file, at most `limit` records. Adds everything wrong to `problems`; None when it cannot be read at all."""
+def read_split(
+    path: Path, level: Level, vocabulary: Vocabulary, problems: list[str], limit: int | None = None
+) -> Split | None:
+    """Read a JSONL file, at most `limit` records. Adds everything wrong to `problems`; None when it
+    cannot be read at all.
+    """
     if not path.is_file():
-        problems.append(f"{path}: no such file; make the data with `plannerft gen-data --level {level}`, or give --data-dir or --train-file")
+        problems.append(
+            f"{path}: no such file; make the data with `plannerft gen-data --level {level}`, or"
+            " give --data-dir or --train-file"
+        )
         return None
     found: list[str] = []
     records: list[Record] = []
@@ -121,7 +130,14 @@ def render_split(
     """The split with its samples rendered; `tick` is called after each."""
     samples = []
     for record in split.records:
-        samples.append(Sample(record.id, render_sample(level, record.value, tokenizer, vocabulary, with_vocabulary=with_vocabulary)))
+        samples.append(
+            Sample(
+                record.id,
+                render_sample(
+                    level, record.value, tokenizer, vocabulary, with_vocabulary=with_vocabulary
+                ),
+            )
+        )
         tick()
     return Split(split.path, split.sha256, split.records, samples)
 

@@ -1,8 +1,9 @@
 """A base in 4 bits, unpacked once instead of in every pass.
 
-bitsandbytes unpacks the weights of a 4-bit layer for the forward pass and again for the backward pass. On a CPU, where samples come
-one by one, that takes as long as multiplying. The unpacked weights are the very numbers that the layer multiplies with, so what is
-learned stays the same; they need four times the memory, which a CPU mostly has.
+bitsandbytes unpacks the weights of a 4-bit layer for the forward pass and again for the backward
+pass. On a CPU, where samples come one by one, that takes as long as multiplying. The unpacked
+weights are the very numbers that the layer multiplies with, so what is learned stays the same; they
+need four times the memory, which a CPU mostly has.
 """
 
 from __future__ import annotations
@@ -16,7 +17,9 @@ SHARE = 4
 
 
 def unpack(model: Any) -> int:
-    """Replace the model's 4-bit layers by dense ones with the same weights if there is memory for it; return how many were."""
+    """Replace the model's 4-bit layers by dense ones with the same weights if there is memory for
+    it; return how many were.
+    """
     import psutil
 
     layers = list(linear_4bit(model))
@@ -35,7 +38,9 @@ def _dense(layer: Any) -> Any:
     from bitsandbytes.functional import dequantize_4bit
 
     weight = dequantize_4bit(layer.weight.data, layer.weight.quant_state)
-    dense = torch.nn.Linear(layer.in_features, layer.out_features, bias=layer.bias is not None, device="meta")
+    dense = torch.nn.Linear(
+        layer.in_features, layer.out_features, bias=layer.bias is not None, device="meta"
+    )
     dense.weight = torch.nn.Parameter(weight, requires_grad=False)
     if layer.bias is not None:
         dense.bias = torch.nn.Parameter(layer.bias.data, requires_grad=False)

@@ -1,4 +1,6 @@
-"""The vocabulary of a vehicle: one TOML definition from which schemas, prompts, samplers and scorers derive."""
+"""The vocabulary of a vehicle: one TOML definition from which schemas, prompts, samplers and
+scorers derive.
+"""
 
 from planner_ft.vocabulary.definition import Parameter, Skill, Task, Vocabulary, load_vocabulary
 

@@ -15,13 +15,27 @@ from planner_ft.vocabulary.logic import LOGIC, Logic, build_logic, logic_problem
 from planner_ft.vocabulary.motion import MOTION, Motions, build_motions, motion_problems
 from planner_ft.vocabulary.shape import ROLES, Arrival, Motion, ParameterType, Role, shape_problems
 
-__all__ = ["BUNDLED", "DEFAULT", "ROLES", "Parameter", "Role", "Skill", "Task", "Vocabulary", "build_vocabulary", "bundled_vocabularies", "load_vocabulary"]
+__all__ = [
+    "BUNDLED",
+    "DEFAULT",
+    "ROLES",
+    "Parameter",
+    "Role",
+    "Skill",
+    "Task",
+    "Vocabulary",
+    "build_vocabulary",
+    "bundled_vocabularies",
+    "load_vocabulary",
+]
 
 BUNDLED = Path(__file__).parent
 DEFAULT = "usv"
 PHRASES, VEHICLE, ONTOLOGY = ".phrases.toml", ".vehicle.toml", ".ontology.toml"
 UNHASHED = (LOGIC, MOTION, VEHICLE, ONTOLOGY)
-"""Companion files that no prompt, schema or grammar depends on: they are no part of what adapters were trained on."""
+"""Companion files that no prompt, schema or grammar depends on: they are no part of what adapters
+were trained on.
+"""
 
 
 @dataclass(frozen=True)
@@ -39,7 +53,9 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Task:
-    """A task title with its parameters, the movement it stands for and the skills that fit it, by role."""
+    """A task title with its parameters, the movement it stands for and the skills that fit it, by
+    role.
+    """
 
     title: str
     category: str
@@ -58,12 +74,16 @@ class Task:
     @property
     def position_parameter(self) -> str | None:
         """The parameter that says where the task takes place, if it has one."""
-        return next((parameter.name for parameter in self.parameters if parameter.type == "position"), None)
+        return next(
+            (parameter.name for parameter in self.parameters if parameter.type == "position"), None
+        )
 
 
 @dataclass(frozen=True)
 class Skill:
-    """A skill with its parameters, the role it takes in a step and the strings a step with it reports."""
+    """A skill with its parameters, the role it takes in a step and the strings a step with it
+    reports.
+    """
 
     name: str
     category: str
@@ -82,17 +102,25 @@ class Skill:
 
     @functools.cached_property
     def coordinates(self) -> tuple[Parameter, ...]:
-        """The parameters that say where the skill goes: x and y, in this order; none of one that goes nowhere."""
-        return tuple(item for item in self.parameters if item.required and item.type == "number")[:2] if self.motion == "goto" else ()
+        """The parameters that say where the skill goes: x and y, in this order; none of one that
+        goes nowhere.
+        """
+        return (
+            tuple(item for item in self.parameters if item.required and item.type == "number")[:2]
+            if self.motion == "goto"
+            else ()
+        )
 
 
 @dataclass(frozen=True, eq=False)
 class Vocabulary:
-    """A vehicle's tasks and skills. Positions are metres in the local frame. Two are the same only when they are one object.
+    """A vehicle's tasks and skills. Positions are metres in the local frame. Two are the same only
+    when they are one object.
 
-    `phrases` is the content of the companion file NAME.phrases.toml, from which the task sampler words its prompts, `logic` that of
-    NAME.logic.toml: what tasks give and need when a plan is carried out, `motion` that of NAME.motion.toml: what skills do to the vehicle.
-    `companion` reads the others. `sha256` is the digest of the definition alone.
+    `phrases` is the content of the companion file NAME.phrases.toml, from which the task sampler
+    words its prompts, `logic` that of NAME.logic.toml: what tasks give and need when a plan is
+    carried out, `motion` that of NAME.motion.toml: what skills do to the vehicle. `companion` reads
+    the others. `sha256` is the digest of the definition alone.
     """
 
     name: str
@@ -122,7 +150,9 @@ class Vocabulary:
         return {skill.name: skill for skill in self.skills}
 
     def companion(self, ending: str) -> dict[str, Any]:
-        """The content of the file NAME + `ending` beside the definition; nothing where there is none. Raises PlannerError when it is not TOML."""
+        """The content of the file NAME + `ending` beside the definition; nothing where there is
+        none. Raises PlannerError when it is not TOML.
+        """
         return _companion(self.path, ending) if self.path else {}
 
     def skills_in_role(self, role: Role) -> tuple[Skill, ...]:
@@ -132,7 +162,9 @@ class Vocabulary:
 
 def bundled_vocabularies() -> list[str]:
     """Names of the definitions that ship with the package."""
-    return sorted(path.stem for path in BUNDLED.glob("*.toml") if not path.name.endswith((PHRASES, *UNHASHED)))
+    return sorted(
+        path.stem for path in BUNDLED.glob("*.toml") if not path.name.endswith((PHRASES, *UNHASHED))
+    )
 
 
 @functools.lru_cache(maxsize=16)
@@ -144,11 +176,22 @@ def load_vocabulary(source: str | Path = DEFAULT) -> Vocabulary:
     bundled = BUNDLED / f"{source}.toml"
     path = bundled if str(source).isidentifier() and bundled.is_file() else Path(source)
     if not path.is_file():
-        raise PlannerError(f"--vocabulary {source}: no such file, and no bundled vocabulary of that name ({', '.join(bundled_vocabularies())})")
+        raise PlannerError(
+            f"--vocabulary {source}: no such file, and no bundled vocabulary of that name"
+            f" ({', '.join(bundled_vocabularies())})"
+        )
     text = read_text(path)
     raw = _parse(path, text)
     phrases, logic, motion = (_companion(path, ending) for ending in (PHRASES, LOGIC, MOTION))
-    vocabulary = build_vocabulary(raw, phrases, str(path), logic=logic, motion=motion, source=str(source), sha256=sha256_text(text))
+    vocabulary = build_vocabulary(
+        raw,
+        phrases,
+        str(path),
+        logic=logic,
+        motion=motion,
+        source=str(source),
+        sha256=sha256_text(text),
+    )
     return replace(vocabulary, path=path)
 
 
@@ -162,7 +205,9 @@ def build_vocabulary(
     source: str = "",
     sha256: str = "",
 ) -> Vocabulary:
-    """The vocabulary of a parsed definition, its phrases, its logic and its motions. Raises PlannerError that lists everything wrong, and says `where`."""
+    """The vocabulary of a parsed definition, its phrases, its logic and its motions. Raises
+    PlannerError that lists everything wrong, and says `where`.
+    """
     problems = shape_problems(raw, phrases)
     if not problems:
         vocabulary = _build(raw, phrases, source, sha256)
@@ -177,7 +222,9 @@ def build_vocabulary(
 
 
 def _companion(path: Path, ending: str) -> dict[str, Any]:
-    """The content of the file NAME + ending beside a definition NAME.toml; nothing where there is none."""
+    """The content of the file NAME + ending beside a definition NAME.toml; nothing where there is
+    none.
+    """
     beside = path.with_name(path.name.removesuffix(".toml") + ending)
     return _parse(beside, read_text(beside)) if beside.is_file() else {}
 
@@ -192,18 +239,26 @@ def _parse(path: Path, text: str) -> dict[str, Any]:
 def _build(raw: dict[str, Any], phrases: dict[str, Any], source: str, sha256: str) -> Vocabulary:
     vehicle = raw["vehicle"]
     return Vocabulary(
-        name=vehicle["name"], title=vehicle["title"], frame=vehicle["frame"],
-        home=tuple(vehicle["home"]), unresolved=tuple(vehicle["unresolved"]),
-        transit=vehicle["transit"], locate=vehicle["locate"],
+        name=vehicle["name"],
+        title=vehicle["title"],
+        frame=vehicle["frame"],
+        home=tuple(vehicle["home"]),
+        unresolved=tuple(vehicle["unresolved"]),
+        transit=vehicle["transit"],
+        locate=vehicle["locate"],
         tasks=tuple(Task(**_values(entry)) for entry in raw["task"]),
         skills=tuple(Skill(**_values(entry)) for entry in raw["skill"]),
-        source=source, sha256=sha256, phrases=phrases,
-    )  # fmt: skip
+        source=source,
+        sha256=sha256,
+        phrases=phrases,
+    )
 
 
 def _values(entry: dict[str, Any]) -> dict[str, Any]:
     values = dict(entry)
-    values["parameters"] = tuple(Parameter(**parameter) for parameter in entry.get("parameters", []))
+    values["parameters"] = tuple(
+        Parameter(**parameter) for parameter in entry.get("parameters", [])
+    )
     values["require_any"] = tuple(entry.get("require_any", []))
     if "skills" in entry:
         values["skills"] = {role: tuple(names) for role, names in entry["skills"].items()}
@@ -212,25 +267,44 @@ def _values(entry: dict[str, Any]) -> dict[str, Any]:
 
 def _reference_problems(vocabulary: Vocabulary) -> Iterator[str]:
     """Names that are defined twice or not at all."""
-    for kind, names in (("task", [task.title for task in vocabulary.tasks]), ("skill", [skill.name for skill in vocabulary.skills])):
-        yield from (f"{kind} {name} is defined twice" for name in sorted({name for name in names if names.count(name) > 1}))
+    for kind, names in (
+        ("task", [task.title for task in vocabulary.tasks]),
+        ("skill", [skill.name for skill in vocabulary.skills]),
+    ):
+        yield from (
+            f"{kind} {name} is defined twice"
+            for name in sorted({name for name in names if names.count(name) > 1})
+        )
     for key in ("transit", "locate"):
         if getattr(vocabulary, key) not in vocabulary.task:
             yield f"[vehicle] {key} = {getattr(vocabulary, key)!r} is no task"
     transit = vocabulary.task.get(vocabulary.transit)
     if transit and transit.position_parameter is None:
-        yield f"task {transit.title}: brings the vehicle to a place and needs a parameter of type position"
+        yield (
+            f"task {transit.title}: brings the vehicle to a place and needs a parameter of type"
+            " position"
+        )
     owners: list[Task | Skill] = [*vocabulary.tasks, *vocabulary.skills]
     for owner in owners:
         what = f"task {owner.title}" if isinstance(owner, Task) else f"skill {owner.name}"
-        yield from (f"{what}: require_any names {name!r}, which is no parameter" for name in owner.require_any if name not in owner.by_name)
+        yield from (
+            f"{what}: require_any names {name!r}, which is no parameter"
+            for name in owner.require_any
+            if name not in owner.by_name
+        )
     for task in vocabulary.tasks:
         for role, fitting in task.skills.items():
             for name in fitting:
                 if name not in vocabulary.skill:
                     yield f"task {task.title}: skill {name!r} is not defined"
                 elif vocabulary.skill[name].role != role:
-                    yield f"task {task.title}: skill {name!r} has the role {vocabulary.skill[name].role}, not {role}"
+                    yield (
+                        f"task {task.title}: skill {name!r} has the role"
+                        f" {vocabulary.skill[name].role}, not {role}"
+                    )
     for kind, known in (("task", set(vocabulary.task)), ("skill", set(vocabulary.skill))):
         unknown = sorted(set(vocabulary.phrases.get(kind, {})) - known)
-        yield from (f"the phrase file has phrases for {kind} {name!r}, which is not defined" for name in unknown)
+        yield from (
+            f"the phrase file has phrases for {kind} {name!r}, which is not defined"
+            for name in unknown
+        )

@@ -1,6 +1,8 @@
-"""Where a mission plan stands behind some of its tasks, read from the vocabulary's fields (locate, transit, arrival, leaves).
+"""Where a mission plan stands behind some of its tasks, read from the vocabulary's fields (locate,
+transit, arrival, leaves).
 
-Decoding asks it what may follow, the labelling rules what was forgotten, and the benchmark whether a plan can be carried out.
+Decoding asks it what may follow, the labelling rules what was forgotten, and the benchmark whether
+a plan can be carried out.
 """
 
 from __future__ import annotations
@@ -17,9 +19,10 @@ Position = tuple[float, float]
 class Progress:
     """Where a plan stands behind some of its tasks.
 
-    `here` is the place the vehicle was brought to, None when that is unknown; `found`: a target was located and not gone
-    to yet; `moved`: tasks since then may have taken the vehicle off `here`. `searched` are the targets of all searches, `done` the
-    titles of all tasks, `visited` the places that they were sent to.
+    `here` is the place the vehicle was brought to, None when that is unknown; `found`: a target was
+    located and not gone to yet; `moved`: tasks since then may have taken the vehicle off `here`.
+    `searched` are the targets of all searches, `done` the titles of all tasks, `visited` the places
+    that they were sent to.
     """
 
     tasks: int = 0
@@ -31,15 +34,30 @@ class Progress:
     visited: tuple[Position, ...] = ()
 
     def after(self, task: Task, parameters: dict[str, Any], vocabulary: Vocabulary) -> Progress:
-        """Where the plan stands behind one more task; a position among its parameters is a pair of numbers."""
-        ahead = replace(self, tasks=self.tasks + 1, moved=self.moved or task.leaves, done=(*self.done, task.title))
+        """Where the plan stands behind one more task; a position among its parameters is a pair of
+        numbers.
+        """
+        ahead = replace(
+            self,
+            tasks=self.tasks + 1,
+            moved=self.moved or task.leaves,
+            done=(*self.done, task.title),
+        )
         if task.title == vocabulary.locate:
-            return replace(ahead, searched=(*self.searched, target(task, parameters)), here=None, found=True)
+            return replace(
+                ahead, searched=(*self.searched, target(task, parameters)), here=None, found=True
+            )
         place = parameters.get(task.position_parameter or "")
         if place is None:
             return ahead
         at = (place[0], place[1])
-        return replace(ahead, here=None if task.leaves else at, found=False, moved=False, visited=(*self.visited, at))
+        return replace(
+            ahead,
+            here=None if task.leaves else at,
+            found=False,
+            moved=False,
+            visited=(*self.visited, at),
+        )
 
     def offers(self, task: Task) -> bool:
         """Whether a task can follow: not at a place that was located and not gone to."""

@@ -16,11 +16,21 @@ Body = dict[str, Any]
 Act = Callable[["Handler", Body], bool]
 """Answers a request in its own way, or returns False for the usual answer."""
 
-PLAN = {"tasks": [{"title": "Transit", "parameters": {"target_position": [1, 1]}, "task_prompt": "Go."}], "assumptions": [], "constraints": []}
+PLAN = {
+    "tasks": [
+        {"title": "Transit", "parameters": {"target_position": [1, 1]}, "task_prompt": "Go."}
+    ],
+    "assumptions": [],
+    "constraints": [],
+}
 
 
 def completion(text: str, finish: str = "stop") -> Body:
-    choice = {"index": 0, "message": {"role": "assistant", "content": text}, "finish_reason": finish}
+    choice = {
+        "index": 0,
+        "message": {"role": "assistant", "content": text},
+        "finish_reason": finish,
+    }
     return {"choices": [choice], "usage": {"prompt_tokens": 11, "completion_tokens": 7}}
 
 
@@ -44,11 +54,17 @@ class Handler(BaseHTTPRequestHandler):
         body = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
         with server.lock:
             if asked(body) != GREETING or "response_format" in body:
-                server.requests.append({"path": self.path, "key": self.headers.get("Authorization"), **body})
+                server.requests.append(
+                    {"path": self.path, "key": self.headers.get("Authorization"), **body}
+                )
             server.open += 1
             server.most_open = max(server.most_open, server.open)
         try:
-            if not (server.act(self, body) if asked(body) != GREETING or "response_format" in body else server.greet(self, body)):
+            if not (
+                server.act(self, body)
+                if asked(body) != GREETING or "response_format" in body
+                else server.greet(self, body)
+            ):
                 self.answer(body)
         finally:
             with server.lock:
@@ -60,13 +76,18 @@ class Handler(BaseHTTPRequestHandler):
         if not body.get("stream"):
             self.send(200, completion(text))
             return
-        pieces: list[Body] = [{"choices": [{"index": 0, "delta": {"content": part}, "finish_reason": None}]} for part in (text[:9], text[9:])]
+        pieces: list[Body] = [
+            {"choices": [{"index": 0, "delta": {"content": part}, "finish_reason": None}]}
+            for part in (text[:9], text[9:])
+        ]
         pieces.append({"choices": [{"index": 0, "delta": {}, "finish_reason": "stop"}]})
         pieces.append({"choices": [], "usage": {"prompt_tokens": 11, "completion_tokens": 7}})
         self.events(pieces)
 
     def events(self, pieces: list[Body], ended: bool = True) -> None:
-        lines = [f"data: {json.dumps(piece)}\n\n" for piece in pieces] + (["data: [DONE]\n\n"] if ended else [])
+        lines = [f"data: {json.dumps(piece)}\n\n" for piece in pieces] + (
+            ["data: [DONE]\n\n"] if ended else []
+        )
         self.send_bytes(200, "".join(lines).encode(), "text/event-stream")
 
     def send(self, status: int, value: Any, **headers: str) -> None:
@@ -109,7 +130,8 @@ class Handler(BaseHTTPRequestHandler):
 
 
 class ChatServer(ThreadingHTTPServer):
-    """`requests` are the bodies of all requests but the first greeting, `most_open` the largest number that was open at a time.
+    """`requests` are the bodies of all requests but the first greeting, `most_open` the largest
+    number that was open at a time.
 
     `act` may answer these requests in another way, `greet` the greeting.
     """
@@ -132,7 +154,9 @@ class ChatServer(ThreadingHTTPServer):
 @contextmanager
 def chat_server() -> Iterator[ChatServer]:
     server = ChatServer()
-    thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01}, daemon=True)
+    thread = threading.Thread(
+        target=server.serve_forever, kwargs={"poll_interval": 0.01}, daemon=True
+    )
     thread.start()
     try:
         yield server

@@ -11,19 +11,29 @@ def mission(*tasks: str | Named) -> dict[str, Any]:
     """A mission plan of titles, or of titles with parameters."""
     pairs = [(task, {}) if isinstance(task, str) else task for task in tasks]
     return {
-        "tasks": [{"title": title, "parameters": dict(parameters), "task_prompt": "Do it."} for title, parameters in pairs],
-        "assumptions": [], "constraints": [],
-    }  # fmt: skip
+        "tasks": [
+            {"title": title, "parameters": dict(parameters), "task_prompt": "Do it."}
+            for title, parameters in pairs
+        ],
+        "assumptions": [],
+        "constraints": [],
+    }
 
 
-def step(navigation: str | Named, filters: tuple[str | Named, ...] = (), perception: tuple[str | Named, ...] = ()) -> dict[str, Any]:
+def step(
+    navigation: str | Named,
+    filters: tuple[str | Named, ...] = (),
+    perception: tuple[str | Named, ...] = (),
+) -> dict[str, Any]:
     """A step of a skill plan."""
     return {
         "navigation_skill": _skill(navigation),
         "filter_skills": [_skill(skill) for skill in filters],
         "perception_skills": [_skill(skill) for skill in perception],
-        "stop_conditions": [], "failure_modes": [], "expected_outputs": [],
-    }  # fmt: skip
+        "stop_conditions": [],
+        "failure_modes": [],
+        "expected_outputs": [],
+    }
 
 
 def steps(*given: dict[str, Any]) -> dict[str, Any]:

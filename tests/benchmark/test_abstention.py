@@ -16,18 +16,34 @@ NONE: dict[str, Any] = {"tasks": [], "constraints": ["Nothing here can be done."
 @pytest.mark.parametrize(
     ("plan", "expected", "right", "wrong"),
     [
-        (NONE, NONE, True, None), (SOME, NONE, False, None), (None, NONE, False, None), ({}, NONE, False, None),
-        (NONE, SOME, None, True), (SOME, SOME, None, False), (None, SOME, None, False),
+        (NONE, NONE, True, None),
+        (SOME, NONE, False, None),
+        (None, NONE, False, None),
+        ({}, NONE, False, None),
+        (NONE, SOME, None, True),
+        (SOME, SOME, None, False),
+        (None, SOME, None, False),
     ],
-)  # fmt: skip
-def test_refusals(plan: dict[str, Any] | None, expected: dict[str, Any], right: bool | None, wrong: bool | None) -> None:
+)
+def test_refusals(
+    plan: dict[str, Any] | None, expected: dict[str, Any], right: bool | None, wrong: bool | None
+) -> None:
     """An output that does not parse refuses nothing."""
-    assert (right_refusal("mission", plan, expected), wrong_refusal("mission", plan, expected)) == (right, wrong)
+    assert (right_refusal("mission", plan, expected), wrong_refusal("mission", plan, expected)) == (
+        right,
+        wrong,
+    )
 
 
 def test_the_worst_of_each_family_counts_and_families_of_one_do_not() -> None:
-    assert worst_cases([1.0, 0.5, 0.8, 0.9, 0.2], list("12345"), ["a", "b", "b", "a", "c"]) == {"a": 0.9, "b": 0.5}
-    assert worst_cases([True, False, True, True], list("1234"), ["a", "a", "b", "b"]) == {"a": False, "b": True}
+    assert worst_cases([1.0, 0.5, 0.8, 0.9, 0.2], list("12345"), ["a", "b", "b", "a", "c"]) == {
+        "a": 0.9,
+        "b": 0.5,
+    }
+    assert worst_cases([True, False, True, True], list("1234"), ["a", "a", "b", "b"]) == {
+        "a": False,
+        "b": True,
+    }
 
 
 def test_repeats_of_one_sample_are_no_paraphrases() -> None:

@@ -25,28 +25,43 @@ def transit(x: int, y: int) -> tuple[str, dict[str, Any]]:
 
 
 def test_the_best_assignment_is_not_the_greedy_one() -> None:
-    """The first expected pass agrees with both predicted ones in part; taking the first would leave the second with nothing."""
-    expected = mission(("SurveyTarget", {"radius": 10, "center": [0, 5]}), ("SurveyTarget", {"radius": 10, "center": [9, 9]}))
-    predicted = mission(("SurveyTarget", {"radius": 10, "center": [7, 7]}), ("SurveyTarget", {"radius": 30, "center": [0, 5]}))
+    """The first expected pass agrees with both predicted ones in part; taking the first would leave
+    the second with nothing.
+    """
+    expected = mission(
+        ("SurveyTarget", {"radius": 10, "center": [0, 5]}),
+        ("SurveyTarget", {"radius": 10, "center": [9, 9]}),
+    )
+    predicted = mission(
+        ("SurveyTarget", {"radius": 10, "center": [7, 7]}),
+        ("SurveyTarget", {"radius": 30, "center": [0, 5]}),
+    )
     assert aligned("mission", expected, predicted).pairs == ((0, 1), (1, 0))
 
 
 def test_parameters_that_are_all_right_come_before_everything() -> None:
     expected = mission(transit(5, 5), "Diagnostics", transit(0, 0))
-    assert aligned("mission", expected, mission(transit(0, 0), "Diagnostics", transit(7, 7))).pairs == ((0, 2), (1, 1), (2, 0))
+    assert aligned(
+        "mission", expected, mission(transit(0, 0), "Diagnostics", transit(7, 7))
+    ).pairs == ((0, 2), (1, 1), (2, 0))
 
 
 @pytest.mark.parametrize("radius", [20, 20.2])
 def test_all_right_comes_before_shares_that_add_up_to_more(radius: float) -> None:
     all_of_it = {"center": [1, 1], "radius": 20, "arc": 360, "speed": 2}
     expected = mission(("PerformOrbit", all_of_it), ("PerformOrbit", {"speed": 2}))
-    predicted = mission(("PerformOrbit", {**all_of_it, "speed": 9}), ("PerformOrbit", {**all_of_it, "radius": radius}))
+    predicted = mission(
+        ("PerformOrbit", {**all_of_it, "speed": 9}),
+        ("PerformOrbit", {**all_of_it, "radius": radius}),
+    )
     assert aligned("mission", expected, predicted).pairs == ((0, 1), (1, 0))
 
 
 def test_equal_tasks_are_paired_by_their_neighbours_and_then_by_nearness() -> None:
     found = transit(-99, -99)
-    expected = mission("SearchAndDetect", found, "PerformOrbit", "SearchAndDetect", found, "SurveyTarget")
+    expected = mission(
+        "SearchAndDetect", found, "PerformOrbit", "SearchAndDetect", found, "SurveyTarget"
+    )
     alignment = aligned("mission", expected, mission("SearchAndDetect", found, "SurveyTarget"))
     assert (4, 1) in alignment.pairs and alignment.missing[-1] == 3
     held = step("StationKeep")
@@ -54,43 +69,83 @@ def test_equal_tasks_are_paired_by_their_neighbours_and_then_by_nearness() -> No
 
 
 def test_skills_are_paired_in_aligned_steps() -> None:
-    """The first step is lost: its skills are missing, and those of the second step stay together."""
-    expected = steps(step(("GoToXY", {"x": 1, "y": 1}), perception=("DetectObjects",)), step(("GoToXY", {"x": 9, "y": 9}), perception=("DetectObjects",)))
+    """The first step is lost: its skills are missing, and those of the second step stay
+    together.
+    """
+    expected = steps(
+        step(("GoToXY", {"x": 1, "y": 1}), perception=("DetectObjects",)),
+        step(("GoToXY", {"x": 9, "y": 9}), perception=("DetectObjects",)),
+    )
     predicted = steps(step(("GoToXY", {"x": 9, "y": 9}), perception=("DetectObjects",)))
     alignment = aligned("task", expected, predicted)
     assert alignment.pairs == ((2, 0), (3, 1)) and alignment.missing == (0, 1)
 
 
 def test_navigation_skills_alike_are_told_apart_by_their_company() -> None:
-    expected = steps(step("StationKeep", perception=("DetectObjects",)), step("StationKeep", perception=("GetGPSLocation",)))
-    alignment = aligned("task", expected, steps(step("StationKeep", perception=("GetGPSLocation",))))
+    expected = steps(
+        step("StationKeep", perception=("DetectObjects",)),
+        step("StationKeep", perception=("GetGPSLocation",)),
+    )
+    alignment = aligned(
+        "task", expected, steps(step("StationKeep", perception=("GetGPSLocation",)))
+    )
     assert alignment.pairs == ((2, 0), (3, 1)) and alignment.missing == (0, 1)
 
 
 def test_a_skill_in_another_role_is_still_paired() -> None:
-    assert aligned("task", steps(step("StationKeep")), steps(step("GoToXY", perception=("StationKeep",)))).pairs == ((0, 1),)
+    assert aligned(
+        "task", steps(step("StationKeep")), steps(step("GoToXY", perception=("StationKeep",)))
+    ).pairs == ((0, 1),)
 
 
 def test_each_entry_is_paired_once_and_as_many_as_there_are() -> None:
     rng = random.Random(0)
     for _ in range(300):
-        plans = [mission(*(transit(rng.randrange(3), 0) if rng.random() < 0.6 else "Diagnostics" for _ in range(rng.randrange(7)))) for _ in range(2)]
+        plans = [
+            mission(
+                *(
+                    transit(rng.randrange(3), 0) if rng.random() < 0.6 else "Diagnostics"
+                    for _ in range(rng.randrange(7))
+                )
+            )
+            for _ in range(2)
+        ]
         alignment = aligned("mission", *plans)
-        assert len({one for one, _ in alignment.pairs}) == len({other for _, other in alignment.pairs}) == len(alignment.pairs)
+        assert (
+            len({one for one, _ in alignment.pairs})
+            == len({other for _, other in alignment.pairs})
+            == len(alignment.pairs)
+        )
         names = [[task["title"] for task in plan["tasks"]] for plan in plans]
-        assert len(alignment.pairs) == sum(min(names[0].count(name), names[1].count(name)) for name in set(names[0]))
+        assert len(alignment.pairs) == sum(
+            min(names[0].count(name), names[1].count(name)) for name in set(names[0])
+        )
         assert all(names[0][one] == names[1][other] for one, other in alignment.pairs)
-        assert sorted([*alignment.missing, *(one for one, _ in alignment.pairs)]) == list(range(len(names[0])))
-        assert sorted([*alignment.extra, *(other for _, other in alignment.pairs)]) == list(range(len(names[1])))
+        assert sorted([*alignment.missing, *(one for one, _ in alignment.pairs)]) == list(
+            range(len(names[0]))
+        )
+        assert sorted([*alignment.extra, *(other for _, other in alignment.pairs)]) == list(
+            range(len(names[1]))
+        )
 
 
 def test_what_stands_instead_has_the_same_neighbours() -> None:
     expected = mission("Diagnostics", "KeepStation", transit(0, 0))
-    assert substitutions(aligned("mission", expected, mission("Diagnostics", "ThermalTimeLapse", transit(0, 0)))) == [("KeepStation", "ThermalTimeLapse")]
+    assert substitutions(
+        aligned("mission", expected, mission("Diagnostics", "ThermalTimeLapse", transit(0, 0)))
+    ) == [("KeepStation", "ThermalTimeLapse")]
     shifted = mission("Diagnostics", transit(0, 0), "ThermalTimeLapse")
-    assert set(substitutions(aligned("mission", expected, shifted))) == {("KeepStation", None), (None, "ThermalTimeLapse")}
-    assert substitutions(aligned("mission", mission("KeepStation"), mission("Hover"))) == [("KeepStation", "Hover")]
-    assert substitutions(aligned("mission", mission("KeepStation", "Diagnostics"), None)) == [("KeepStation", None), ("Diagnostics", None)]
+    assert set(substitutions(aligned("mission", expected, shifted))) == {
+        ("KeepStation", None),
+        (None, "ThermalTimeLapse"),
+    }
+    assert substitutions(aligned("mission", mission("KeepStation"), mission("Hover"))) == [
+        ("KeepStation", "Hover")
+    ]
+    assert substitutions(aligned("mission", mission("KeepStation", "Diagnostics"), None)) == [
+        ("KeepStation", None),
+        ("Diagnostics", None),
+    ]
 
 
 def test_one_neighbour_is_enough_where_the_other_has_moved() -> None:
@@ -98,9 +153,17 @@ def test_one_neighbour_is_enough_where_the_other_has_moved() -> None:
         mission("Diagnostics", "KeepStation", transit(0, 0), "DriftAudit"),
         mission("Diagnostics", "FeatureStare", "DriftAudit", transit(0, 0)),
     )
-    assert substitutions(aligned("mission", expected, predicted)) == [("KeepStation", "FeatureStare")]
+    assert substitutions(aligned("mission", expected, predicted)) == [
+        ("KeepStation", "FeatureStare")
+    ]
 
 
 def test_a_filter_never_stands_for_a_perception_skill() -> None:
-    expected, predicted = steps(step("StationKeep", filters=("LockHeading",))), steps(step("StationKeep", perception=("DetectObjects",)))
-    assert set(substitutions(aligned("task", expected, predicted))) == {("LockHeading", None), (None, "DetectObjects")}
+    expected, predicted = (
+        steps(step("StationKeep", filters=("LockHeading",))),
+        steps(step("StationKeep", perception=("DetectObjects",))),
+    )
+    assert set(substitutions(aligned("task", expected, predicted))) == {
+        ("LockHeading", None),
+        (None, "DetectObjects"),
+    }

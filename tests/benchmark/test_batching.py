@@ -1,4 +1,6 @@
-"""Batches: longest first, halved when memory runs out, doubled while there is room, nothing lost and nothing asked twice without need."""
+"""Batches: longest first, halved when memory runs out, doubled while there is room, nothing lost
+and nothing asked twice without need.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ from planner_ft.support.errors import PlannerError
 
 
 class Device:
-    """Answers batches up to a size; of larger ones only the first answer comes before memory runs out."""
+    """Answers batches up to a size; of larger ones only the first answer comes before memory runs
+    out.
+    """
 
     def __init__(self, fits: int, early: int = 0) -> None:
         self.fits = fits
@@ -26,7 +30,12 @@ class Device:
             yield place, f"answer {index}"
 
     def run(self, lengths: list[int], batch: BatchSize) -> dict[int, str]:
-        found = [(index, answer) for index, answer, _size in in_batches(self.ask, lengths, batch, lambda error: isinstance(error, MemoryError))]
+        found = [
+            (index, answer)
+            for index, answer, _size in in_batches(
+                self.ask, lengths, batch, lambda error: isinstance(error, MemoryError)
+            )
+        ]
         assert len(found) == len(dict(found)), "an index was answered twice"
         return dict(found)
 
@@ -38,7 +47,11 @@ WHOLE = {index: f"answer {index}" for index in range(len(LENGTHS))}
 def test_longest_queries_come_first() -> None:
     device = Device(fits=100)
     assert device.run(LENGTHS, BatchSize(4)) == WHOLE
-    assert [[LENGTHS[index] for index in batch] for batch in device.batches] == [[9, 8, 7, 6], [5, 4, 3, 2], [1, 0]]
+    assert [[LENGTHS[index] for index in batch] for batch in device.batches] == [
+        [9, 8, 7, 6],
+        [5, 4, 3, 2],
+        [1, 0],
+    ]
 
 
 @pytest.mark.parametrize("early", [0, 1, 3])
@@ -60,7 +73,9 @@ def test_a_size_that_did_not_fit_is_not_tried_again() -> None:
 
 def test_the_size_is_doubled_while_there_is_room() -> None:
     device = Device(fits=100)
-    assert device.run([1] * 40, BatchSize(2, room=lambda size: size <= 8)) == {index: f"answer {index}" for index in range(40)}
+    assert device.run([1] * 40, BatchSize(2, room=lambda size: size <= 8)) == {
+        index: f"answer {index}" for index in range(40)
+    }
     assert [len(asked) for asked in device.batches] == [2, 4, 8, 8, 8, 8, 2]
 
 

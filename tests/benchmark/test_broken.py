@@ -1,4 +1,6 @@
-"""Runs that are broken on purpose: nothing is lost, nothing is paid twice, and one sentence says what is wrong."""
+"""Runs that are broken on purpose: nothing is lost, nothing is paid twice, and one sentence says
+what is wrong.
+"""
 
 from __future__ import annotations
 
@@ -27,14 +29,28 @@ TIMED = 2
 
 @pytest.fixture
 def settings(tmp_path: Path, models: Path) -> Any:
-    records = [{"id": f"m{index}", "prompt": f"go to {index}" + " soon" * index, "expected": {"tasks": [{"title": "Transit"}]}} for index in range(COUNT)]
+    records = [
+        {
+            "id": f"m{index}",
+            "prompt": f"go to {index}" + " soon" * index,
+            "expected": {"tasks": [{"title": "Transit"}]},
+        }
+        for index in range(COUNT)
+    ]
     (tmp_path / "data.jsonl").write_text("".join(json.dumps(record) + "\n" for record in records))
 
     def make(**changes: Any) -> BenchSettings:
         values: dict[str, Any] = {
-            "level": "mission", "candidates": (NAME,), "configurations": ("base",), "data": tmp_path / "data.jsonl", "out": tmp_path / "out",
-            "device": "cpu", "batch_size": 2, "max_new_tokens": 40, "latency_samples": TIMED,
-        }  # fmt: skip
+            "level": "mission",
+            "candidates": (NAME,),
+            "configurations": ("base",),
+            "data": tmp_path / "data.jsonl",
+            "out": tmp_path / "out",
+            "device": "cpu",
+            "batch_size": 2,
+            "max_new_tokens": 40,
+            "latency_samples": TIMED,
+        }
         return BenchSettings(**{**values, **changes})
 
     return make
@@ -42,19 +58,33 @@ def settings(tmp_path: Path, models: Path) -> Any:
 
 def records(folder: Path) -> dict[tuple[str, str, str], Any]:
     """Every record, each there once: the text of an answer, the tokens of a timed query."""
-    found = [(name, json.loads(line)) for name in ("predictions.jsonl", "latency.jsonl") for line in (folder / name).read_text().splitlines()]
+    found = [
+        (name, json.loads(line))
+        for name in ("predictions.jsonl", "latency.jsonl")
+        for line in (folder / name).read_text().splitlines()
+    ]
     counts = Counter((name, record["configuration"], record["id"]) for name, record in found)
     assert set(counts.values()) <= {1}, counts
-    return {(name, record["configuration"], record["id"]): record.get("output", record["tokens"]) for name, record in found}
+    return {
+        (name, record["configuration"], record["id"]): record.get("output", record["tokens"])
+        for name, record in found
+    }
 
 
 def figures(folder: Path) -> list[Any]:
     rows = json.loads((folder / "results.json").read_text())["rows"]
-    return [{name: value for name, value in row["metrics"].items() if name != "latency_s"} for row in rows]
+    return [
+        {name: value for name, value in row["metrics"].items() if name != "latency_s"}
+        for row in rows
+    ]
 
 
 def lines(folder: Path) -> int:
-    return sum((folder / name).read_bytes().count(b"\n") for name in ("predictions.jsonl", "latency.jsonl") if (folder / name).is_file())
+    return sum(
+        (folder / name).read_bytes().count(b"\n")
+        for name in ("predictions.jsonl", "latency.jsonl")
+        if (folder / name).is_file()
+    )
 
 
 def in_a_process(settings: BenchSettings, *, bytes_allowed: int | None = None) -> Any:
@@ -79,7 +109,9 @@ def in_a_process(settings: BenchSettings, *, bytes_allowed: int | None = None) -
     return process
 
 
-def test_a_run_that_is_killed_at_random_points_loses_nothing_and_pays_nothing_twice(settings: Any, tmp_path: Path) -> None:
+def test_a_run_that_is_killed_at_random_points_loses_nothing_and_pays_nothing_twice(
+    settings: Any, tmp_path: Path
+) -> None:
     run_bench(settings(out=tmp_path / "whole"))
     rng, kills = random.Random(0), 0
     while kills < 5:
@@ -111,10 +143,14 @@ def test_a_disk_that_is_full_in_the_middle_of_an_answer(settings: Any, tmp_path:
     assert records(tmp_path / "out") == records(tmp_path / "whole")
 
 
-def test_a_disk_that_is_full_when_results_are_written(settings: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_disk_that_is_full_when_results_are_written(
+    settings: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     with monkeypatch.context() as patch:
         patch.setattr(os, "fsync", _full_for_results)
-        with pytest.raises(PlannerError, match=r"table\.md: cannot be written \(No space left on device\)"):
+        with pytest.raises(
+            PlannerError, match=r"table\.md: cannot be written \(No space left on device\)"
+        ):
             run_bench(settings())
     before = records(tmp_path / "out")
     assert len(before) == COUNT + TIMED
@@ -131,7 +167,12 @@ def _full_for_results(descriptor: int) -> None:
         raise OSError(28, "No space left on device")
 
 
-def test_a_model_that_never_ends_is_cut_and_the_table_says_so(settings: Any, tmp_path: Path) -> None:
+def test_a_model_that_never_ends_is_cut_and_the_table_says_so(
+    settings: Any, tmp_path: Path
+) -> None:
     results = run_bench(settings(max_new_tokens=5, latency_samples=0))
     assert results.rows[0].finish_reasons == {"length": COUNT}
-    assert f"{COUNT} of {COUNT} outputs were cut at the token limit" in (tmp_path / "out" / "table.md").read_text()
+    assert (
+        f"{COUNT} of {COUNT} outputs were cut at the token limit"
+        in (tmp_path / "out" / "table.md").read_text()
+    )

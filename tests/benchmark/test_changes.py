@@ -10,9 +10,25 @@ from planner_ft.benchmark.changes import changes, changes_markdown
 from planner_ft.benchmark.groups import group_figures, groups_markdown
 
 
-def score(name: str, configuration: str, failure: str | None, f1: float, **more: Any) -> dict[str, Any]:
-    figures = {"exact_sequence": failure is None, "strict_valid": failure != "hallucination", "parameters_right": 1, "parameters_matched": 2}
-    return {"id": name, "family": name, "candidate": "c", "configuration": configuration, "failure": failure, "f1": f1, **figures, **more}
+def score(
+    name: str, configuration: str, failure: str | None, f1: float, **more: Any
+) -> dict[str, Any]:
+    figures = {
+        "exact_sequence": failure is None,
+        "strict_valid": failure != "hallucination",
+        "parameters_right": 1,
+        "parameters_matched": 2,
+    }
+    return {
+        "id": name,
+        "family": name,
+        "candidate": "c",
+        "configuration": configuration,
+        "failure": failure,
+        "f1": f1,
+        **figures,
+        **more,
+    }
 
 
 SCORES = [
@@ -27,18 +43,35 @@ def test_an_invention_that_became_a_substitution_is_seen() -> None:
     (change,) = changes(SCORES, seed=0)
     assert (change.before, change.after, change.n) == ("lora", "lora+schema", 2)
     assert change.outcomes == {("hallucination", "substitution"): 1, ("right", "right"): 1}
-    assert change.f1.difference.value == 0 and change.whole_plan.difference.value == 0 and change.seconds == 0.5 and change.forward_passes is None
+    assert (
+        change.f1.difference.value == 0
+        and change.whole_plan.difference.value == 0
+        and change.seconds == 0.5
+        and change.forward_passes is None
+    )
     text = "\n".join(changes_markdown([change]))
-    assert "| hallucination | substitution | 1 |" in text and "× 0.50" in text and "| right | right |" not in text
+    assert (
+        "| hallucination | substitution | 1 |" in text
+        and "× 0.50" in text
+        and "| right | right |" not in text
+    )
 
 
 def test_a_real_change_is_marked() -> None:
-    scores = [score(f"s{index}", name, failure, f1) for index in range(9) for name, failure, f1 in (("base", "omission", 0.2), ("base+state", None, 1.0))]
+    scores = [
+        score(f"s{index}", name, failure, f1)
+        for index in range(9)
+        for name, failure, f1 in (("base", "omission", 0.2), ("base+state", None, 1.0))
+    ]
     (change,) = changes(scores, seed=0)
     # Nine samples, all one way: p = 2 / 2**9, twice that after Holm.
     assert change.p_adjusted == pytest.approx((4 / 2**9, 4 / 2**9))
     assert "+0.800 [+0.800, +0.800] ▲ | +100.0 [+100.0, +100.0] ▲" in changes_markdown([change])[2]
-    assert change.to_json()["f1"] == {"value": pytest.approx(0.8), "low": pytest.approx(0.8), "high": pytest.approx(0.8)}
+    assert change.to_json()["f1"] == {
+        "value": pytest.approx(0.8),
+        "low": pytest.approx(0.8),
+        "high": pytest.approx(0.8),
+    }
 
 
 def test_only_samples_that_both_answered_are_paired() -> None:
@@ -51,7 +84,18 @@ def test_an_enforced_configuration_alone_has_nothing_to_stand_against() -> None:
 
 
 def test_figures_per_group() -> None:
-    noise = next(entry for entry in group_figures(SCORES) if entry["group"] == "noise" and entry["configuration"] == "lora")
-    assert noise["n"] == 2 and noise["f1"] == pytest.approx(0.75) and noise["whole_plan"] == 0.5 and noise["parameters"] == 0.5
-    assert "| noise | 2 | c, lora | 0.75 | 50 | 50 | 50 | 50 |" in groups_markdown(group_figures(SCORES))
+    noise = next(
+        entry
+        for entry in group_figures(SCORES)
+        if entry["group"] == "noise" and entry["configuration"] == "lora"
+    )
+    assert (
+        noise["n"] == 2
+        and noise["f1"] == pytest.approx(0.75)
+        and noise["whole_plan"] == 0.5
+        and noise["parameters"] == 0.5
+    )
+    assert "| noise | 2 | c, lora | 0.75 | 50 | 50 | 50 | 50 |" in groups_markdown(
+        group_figures(SCORES)
+    )
     assert group_figures([score("a", "lora", None, 1.0)]) == [] and groups_markdown([]) == []

@@ -1,4 +1,6 @@
-"""Servers that hang, drop connections, answer rubbish or refuse: asked again, then one sentence, and what came is kept."""
+"""Servers that hang, drop connections, answer rubbish or refuse: asked again, then one sentence,
+and what came is kept.
+"""
 
 from __future__ import annotations
 
@@ -38,15 +40,47 @@ def _impatient(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def run(server: ChatServer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any) -> Any:
-    """Runs the command line against the server; returns (exit status, what it said, ids that are kept)."""
+    """Runs the command line against the server; returns (exit status, what it said, ids that are
+    kept).
+    """
     data = tmp_path / "data.jsonl"
-    records = [{"id": f"m{index}", "prompt": f"go to {index} {index}", "expected": {"tasks": [{"title": "Transit"}]}} for index in range(COUNT)]
+    records = [
+        {
+            "id": f"m{index}",
+            "prompt": f"go to {index} {index}",
+            "expected": {"tasks": [{"title": "Transit"}]},
+        }
+        for index in range(COUNT)
+    ]
     data.write_text("".join(json.dumps(record) + "\n" for record in records))
     monkeypatch.setenv("THE_KEY", KEY)
 
     def call(*flags: str) -> tuple[int, str, set[str]]:
-        fixed = ["--level", "mission", "--model", "tiny", "--data", str(data), "--out", str(tmp_path / "out"), "--latency-samples", "0"]
-        given = ["--endpoint", server.url, "--api-key-env", "THE_KEY", "--timeout", "0.3", "--retries", "2", "--concurrency", "2", *flags]
+        fixed = [
+            "--level",
+            "mission",
+            "--model",
+            "tiny",
+            "--data",
+            str(data),
+            "--out",
+            str(tmp_path / "out"),
+            "--latency-samples",
+            "0",
+        ]
+        given = [
+            "--endpoint",
+            server.url,
+            "--api-key-env",
+            "THE_KEY",
+            "--timeout",
+            "0.3",
+            "--retries",
+            "2",
+            "--concurrency",
+            "2",
+            *flags,
+        ]
         monkeypatch.setattr(sys, "argv", ["plannerft", "bench", *fixed, *given])
         status = 0
         try:
@@ -54,14 +88,20 @@ def run(server: ChatServer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cap
         except SystemExit as ended:
             status = int(ended.code or 0)
         predictions = tmp_path / "out" / "predictions.jsonl"
-        kept = {json.loads(line)["id"] for line in predictions.read_text().splitlines()} if predictions.is_file() else set()
+        kept = (
+            {json.loads(line)["id"] for line in predictions.read_text().splitlines()}
+            if predictions.is_file()
+            else set()
+        )
         return status, capsys.readouterr().err, kept
 
     return call
 
 
 def _status(status: int, message: str = "no", **headers: str) -> Act:
-    return lambda handler, _body: handler.send(status, {"error": {"message": message}}, **headers) or True
+    return lambda handler, _body: (
+        handler.send(status, {"error": {"message": message}}, **headers) or True
+    )
 
 
 def _hang(_handler: Handler, _body: Body) -> bool:
@@ -90,20 +130,35 @@ RETRIED: list[tuple[str, Act, str]] = [
     ("rubbish", _raw(b"<html>busy</html>"), "something that is not JSON: <html>busy</html>"),
     ("no choices", _raw(b'{"choices": []}'), "answered without choices"),
     ("no message", _raw(b'{"choices": [{"text": "x"}]}'), "answered without a message"),
-    ("error in 200", _raw(b'{"error": {"message": "out of memory"}}'), "answered with an error: out of memory"),
+    (
+        "error in 200",
+        _raw(b'{"error": {"message": "out of memory"}}'),
+        "answered with an error: out of memory",
+    ),
     ("429", _status(429, "slow down"), "answers HTTP 429: slow down"),
     ("503", _status(503, "loading"), "answers HTTP 503: loading"),
 ]
 FINAL: list[tuple[str, Act, str]] = [
-    ("401", _status(401, f"bad key {KEY}"), r"refuses the key in THE_KEY \(HTTP 401: bad key \*\*\*\); name the variable of a valid key"),
+    (
+        "401",
+        _status(401, f"bad key {KEY}"),
+        (
+            r"refuses the key in THE_KEY \(HTTP 401: bad key \*\*\*\); name the variable of a"
+            r" valid key"
+        ),
+    ),
     ("404", _status(404, "no model"), "no model tiny there .*; it serves tiny"),
     ("400", _status(400, "bad field"), "does not take our request .HTTP 400: bad field"),
     ("long wait", _status(429, "quota", Retry_After="86400"), "asks to wait for 86400 s"),
 ]
 
 
-@pytest.mark.parametrize(("act", "message"), [case[1:] for case in RETRIED], ids=[case[0] for case in RETRIED])
-def test_a_server_that_fails_for_a_while_is_asked_again(server: ChatServer, run: Any, act: Act, message: str) -> None:
+@pytest.mark.parametrize(
+    ("act", "message"), [case[1:] for case in RETRIED], ids=[case[0] for case in RETRIED]
+)
+def test_a_server_that_fails_for_a_while_is_asked_again(
+    server: ChatServer, run: Any, act: Act, message: str
+) -> None:
     failed: dict[str, int] = {}
 
     def for_a_while(handler: Handler, body: Body) -> bool:
@@ -115,12 +170,23 @@ def test_a_server_that_fails_for_a_while_is_asked_again(server: ChatServer, run:
     assert (status, len(kept)) == (0, COUNT), said
 
 
-@pytest.mark.parametrize(("act", "message"), [case[1:] for case in RETRIED + FINAL], ids=[case[0] for case in RETRIED + FINAL])
-def test_a_server_that_fails_for_good_is_one_sentence_and_what_came_is_kept(server: ChatServer, run: Any, act: Act, message: str) -> None:
+@pytest.mark.parametrize(
+    ("act", "message"),
+    [case[1:] for case in RETRIED + FINAL],
+    ids=[case[0] for case in RETRIED + FINAL],
+)
+def test_a_server_that_fails_for_good_is_one_sentence_and_what_came_is_kept(
+    server: ChatServer, run: Any, act: Act, message: str
+) -> None:
     server.act = lambda handler, body: asked(body) == "go to 3 3" and act(handler, body)
     status, said, kept = run()
     last = said.strip().splitlines()[-1]
-    assert status == 2 and last.startswith(f"plannerft: {server.url}: ") and re.search(message, last) and "Traceback" not in said
+    assert (
+        status == 2
+        and last.startswith(f"plannerft: {server.url}: ")
+        and re.search(message, last)
+        and "Traceback" not in said
+    )
     assert KEY not in said and {"m0", "m1", "m2"} <= kept and "m3" not in kept
     attempts = sum(asked(body) == "go to 3 3" for body in server.requests)
     assert attempts == (3 if message in [case[2] for case in RETRIED] else 1)
@@ -140,7 +206,9 @@ def test_a_server_that_is_not_there(run: Any) -> None:
 
 
 @pytest.mark.parametrize("form", ["seconds", "date"])
-def test_the_pause_is_the_one_that_the_server_asks_for(server: ChatServer, run: Any, form: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_pause_is_the_one_that_the_server_asks_for(
+    server: ChatServer, run: Any, form: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     waited: list[float] = []
     real = chat_client.ChatClient._pause
 
@@ -168,31 +236,50 @@ def test_pauses_grow(monkeypatch: pytest.MonkeyPatch) -> None:
         client._pause(attempt, None)
     client.close()
     bounds = [min(30.0, 0.5 * 2**attempt) for attempt in range(9)]
-    assert all(bound / 2 <= wait <= bound for wait, bound in zip(waited, bounds, strict=True)), waited
+    assert all(bound / 2 <= wait <= bound for wait, bound in zip(waited, bounds, strict=True)), (
+        waited
+    )
 
 
 def test_a_stream_that_breaks_off_is_asked_for_again(server: ChatServer, run: Any) -> None:
     def broken_once(handler: Handler, body: Body) -> bool:
         if body.get("stream") and sum(bool(seen.get("stream")) for seen in server.requests) == 2:
-            handler.events([{"choices": [{"index": 0, "delta": {"content": '{"tasks"'}, "finish_reason": None}]}], ended=False)
+            handler.events(
+                [
+                    {
+                        "choices": [
+                            {"index": 0, "delta": {"content": '{"tasks"'}, "finish_reason": None}
+                        ]
+                    }
+                ],
+                ended=False,
+            )
             return True
         return False
 
     server.act = broken_once
     status, said, _kept = run("--latency-samples", "2")
     assert status == 0, said
-    assert sum(bool(body.get("stream")) for body in server.requests) == 4  # warm-up, broken, again, second sample
+    assert (
+        sum(bool(body.get("stream")) for body in server.requests) == 4
+    )  # warm-up, broken, again, second sample
 
 
-def test_a_model_that_never_ends_is_cut_and_counted(server: ChatServer, run: Any, tmp_path: Path) -> None:
-    server.act = lambda handler, body: handler.send(200, completion("and so on " * body["max_tokens"], "length")) or True
+def test_a_model_that_never_ends_is_cut_and_counted(
+    server: ChatServer, run: Any, tmp_path: Path
+) -> None:
+    server.act = lambda handler, body: (
+        handler.send(200, completion("and so on " * body["max_tokens"], "length")) or True
+    )
     status, said, kept = run("--max-new-tokens", "5")
     assert (status, len(kept)) == (0, COUNT), said
     row = json.loads((tmp_path / "out" / "results.json").read_text())["rows"][0]
     assert row["finish_reasons"] == {"length": COUNT} and row["metrics"]["f1"]["value"] == 0.0
 
 
-def test_a_server_that_counts_no_tokens_is_scored_all_the_same(server: ChatServer, run: Any, tmp_path: Path) -> None:
+def test_a_server_that_counts_no_tokens_is_scored_all_the_same(
+    server: ChatServer, run: Any, tmp_path: Path
+) -> None:
     def uncounted(handler: Handler, _body: Body) -> bool:
         handler.send(200, {"choices": completion(json.dumps(PLAN))["choices"]})
         return True
@@ -206,7 +293,10 @@ def test_a_server_that_counts_no_tokens_is_scored_all_the_same(server: ChatServe
 
 def test_ctrl_c_does_not_wait_for_a_server_that_hangs(server: ChatServer, tmp_path: Path) -> None:
     data = tmp_path / "data.jsonl"
-    data.write_text(json.dumps({"id": "m0", "prompt": "go", "expected": {"tasks": [{"title": "Transit"}]}}) + "\n")
+    data.write_text(
+        json.dumps({"id": "m0", "prompt": "go", "expected": {"tasks": [{"title": "Transit"}]}})
+        + "\n"
+    )
     hanging = threading.Event()
 
     def hang(_handler: Handler, _body: Body) -> bool:
@@ -215,8 +305,23 @@ def test_ctrl_c_does_not_wait_for_a_server_that_hangs(server: ChatServer, tmp_pa
         return True
 
     server.act = hang
-    flags = ["--endpoint", server.url, "--model", "tiny", "--level", "mission", "--data", str(data), "--out", str(tmp_path / "out"), "--timeout", "600"]
-    process = subprocess.Popen([sys.executable, "-m", "planner_ft", "bench", *flags], stderr=subprocess.PIPE, text=True)
+    flags = [
+        "--endpoint",
+        server.url,
+        "--model",
+        "tiny",
+        "--level",
+        "mission",
+        "--data",
+        str(data),
+        "--out",
+        str(tmp_path / "out"),
+        "--timeout",
+        "600",
+    ]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "planner_ft", "bench", *flags], stderr=subprocess.PIPE, text=True
+    )
     assert hanging.wait(120)
     process.send_signal(signal.SIGINT)
     _out, said = process.communicate(timeout=20)

@@ -1,4 +1,6 @@
-"""Replaying a mission plan: right plans run to their end, broken ones stop where and for the reason that was put in."""
+"""Replaying a mission plan: right plans run to their end, broken ones stop where and for the reason
+that was put in.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,14 @@ Task = tuple[str, dict[str, Any]]
 
 
 def plan(*tasks: Task) -> dict[str, Any]:
-    return {"tasks": [{"title": title, "parameters": parameters, "task_prompt": ""} for title, parameters in tasks], "assumptions": [], "constraints": []}
+    return {
+        "tasks": [
+            {"title": title, "parameters": parameters, "task_prompt": ""}
+            for title, parameters in tasks
+        ],
+        "assumptions": [],
+        "constraints": [],
+    }
 
 
 def without(whole: dict[str, Any], title: str) -> dict[str, Any]:
@@ -48,12 +57,22 @@ THERMAL: Task = ("ThermalTimeLapse", {"duration": 600})
 @pytest.mark.parametrize("name", ["train", "validation", "test", "challenge"])
 def test_every_expected_plan_runs_to_its_end(name: str) -> None:
     records = [json.loads(line) for line in (DATA / f"{name}.jsonl").read_text().splitlines()]
-    assert [(record["id"], stop) for record in records if (stop := executable(record["expected"], record["expected"], USV))] == []
+    assert [
+        (record["id"], stop)
+        for record in records
+        if (stop := executable(record["expected"], record["expected"], USV))
+    ] == []
 
 
 def test_expected_plans_hardly_need_data_on_board() -> None:
-    """Given nothing at the start, all but the one that sends "radar pictures" from before run to their end: the data condition is met, not waived."""
-    records = [json.loads(line) for name in ("train", "validation", "test") for line in (DATA / f"{name}.jsonl").read_text().splitlines()]
+    """Given nothing at the start, all but the one that sends "radar pictures" from before run to
+    their end: the data condition is met, not waived.
+    """
+    records = [
+        json.loads(line)
+        for name in ("train", "validation", "test")
+        for line in (DATA / f"{name}.jsonl").read_text().splitlines()
+    ]
     stopped = [replay(record["expected"], USV) for record in records]
     assert [stop.title for stop in stopped if stop] == ["SmartDataHarvest"]
 
@@ -64,13 +83,33 @@ def test_synthetic_plans_run_to_their_end() -> None:
 
 
 def test_curated_plans_without_their_searches_or_the_ways_after_them_stop() -> None:
-    records = [json.loads(line) for name in ("train", "validation", "test") for line in (DATA / f"{name}.jsonl").read_text().splitlines()]
-    located = [record["expected"] for record in records if "SearchAndDetect" in [task["title"] for task in record["expected"]["tasks"]]]
-    used = [whole for whole in located if any(OPEN in task["parameters"].values() and task["title"] != "DockingApproach" for task in whole["tasks"])]
+    records = [
+        json.loads(line)
+        for name in ("train", "validation", "test")
+        for line in (DATA / f"{name}.jsonl").read_text().splitlines()
+    ]
+    located = [
+        record["expected"]
+        for record in records
+        if "SearchAndDetect" in [task["title"] for task in record["expected"]["tasks"]]
+    ]
+    used = [
+        whole
+        for whole in located
+        if any(
+            OPEN in task["parameters"].values() and task["title"] != "DockingApproach"
+            for task in whole["tasks"]
+        )
+    ]
     stops = [executable(without(whole, "SearchAndDetect"), whole, USV) for whole in used]
     assert len(stops) > 40
     assert {stop.condition if stop else None for stop in stops} == {"target located"}
-    gone = [whole for whole in used if {"target_position": OPEN} in [task["parameters"] for task in whole["tasks"] if task["title"] == "Transit"]]
+    gone = [
+        whole
+        for whole in used
+        if {"target_position": OPEN}
+        in [task["parameters"] for task in whole["tasks"] if task["title"] == "Transit"]
+    ]
     stops = [executable(without(whole, "Transit"), whole, USV) for whole in gone]
     assert len(stops) > 30
     assert {stop.condition if stop else None for stop in stops} == {"vehicle at the place"}
@@ -78,32 +117,96 @@ def test_curated_plans_without_their_searches_or_the_ways_after_them_stop() -> N
 
 FOUND = plan(find("green buoy"), go(*OPEN), STARE, REPORT, go(0, 0))
 BROKEN = [
-    (without(FOUND, "SearchAndDetect"), Stop(0, "Transit", "target located", "its place is unresolved and no SearchAndDetect comes before it")),
+    (
+        without(FOUND, "SearchAndDetect"),
+        Stop(
+            0,
+            "Transit",
+            "target located",
+            "its place is unresolved and no SearchAndDetect comes before it",
+        ),
+    ),
     (
         plan(find("green buoy"), STARE, REPORT),
-        Stop(1, "FeatureStare", "vehicle at the place", "SearchAndDetect locates but does not arrive; no Transit comes before this task"),
+        Stop(
+            1,
+            "FeatureStare",
+            "vehicle at the place",
+            "SearchAndDetect locates but does not arrive; no Transit comes before this task",
+        ),
     ),
-    (plan(ORBIT), Stop(0, "PerformOrbit", "vehicle at the place", "performed at [10, 20], but no Transit there comes before it")),
-    (plan(go(5, 5), ORBIT), Stop(1, "PerformOrbit", "vehicle at the place", "performed at [10, 20], but no Transit there comes before it")),
-    (plan(go(10, 20), REPORT, STARE), Stop(1, "AutoGenerateReportSummary", "data collected", USV.logic.lacking["observations"])),
+    (
+        plan(ORBIT),
+        Stop(
+            0,
+            "PerformOrbit",
+            "vehicle at the place",
+            "performed at [10, 20], but no Transit there comes before it",
+        ),
+    ),
+    (
+        plan(go(5, 5), ORBIT),
+        Stop(
+            1,
+            "PerformOrbit",
+            "vehicle at the place",
+            "performed at [10, 20], but no Transit there comes before it",
+        ),
+    ),
+    (
+        plan(go(10, 20), REPORT, STARE),
+        Stop(1, "AutoGenerateReportSummary", "data collected", USV.logic.lacking["observations"]),
+    ),
     (
         plan(go(10, 20), STARE, send("thermal readings"), THERMAL),
-        Stop(2, "SmartDataHarvest", "data collected", "'thermal readings' is collected later in the plan"),
+        Stop(
+            2,
+            "SmartDataHarvest",
+            "data collected",
+            "'thermal readings' is collected later in the plan",
+        ),
     ),
-    (plan(send("log")), Stop(0, "SmartDataHarvest", "data collected", USV.logic.lacking["observations"])),
-    (plan(go(1, 2), ("Berthing", {})), Stop(1, "Berthing", "task known", "'Berthing' is no task of this vehicle")),
-    (plan(("Transit", {})), Stop(0, "Transit", "position known", "target_position is missing or no position")),
-    (plan(("Transit", {"target_position": "the pier"})), Stop(0, "Transit", "position known", "target_position is missing or no position")),
-    (plan(("FollowTarget", {})), Stop(0, "FollowTarget", "position known", "target_id or target_position is missing or no position")),
+    (
+        plan(send("log")),
+        Stop(0, "SmartDataHarvest", "data collected", USV.logic.lacking["observations"]),
+    ),
+    (
+        plan(go(1, 2), ("Berthing", {})),
+        Stop(1, "Berthing", "task known", "'Berthing' is no task of this vehicle"),
+    ),
+    (
+        plan(("Transit", {})),
+        Stop(0, "Transit", "position known", "target_position is missing or no position"),
+    ),
+    (
+        plan(("Transit", {"target_position": "the pier"})),
+        Stop(0, "Transit", "position known", "target_position is missing or no position"),
+    ),
+    (
+        plan(("FollowTarget", {})),
+        Stop(
+            0,
+            "FollowTarget",
+            "position known",
+            "target_id or target_position is missing or no position",
+        ),
+    ),
     (
         plan(find("red buoy"), go(*OPEN), STARE, go(*OPEN), STARE),
-        Stop(3, "Transit", "target located", "the only target that was located (red buoy) is where the vehicle is"),
+        Stop(
+            3,
+            "Transit",
+            "target located",
+            "the only target that was located (red buoy) is where the vehicle is",
+        ),
     ),
 ]
 
 
 @pytest.mark.parametrize(("broken", "stop"), BROKEN)
-def test_a_broken_plan_stops_at_the_task_that_cannot_run(broken: dict[str, Any], stop: Stop) -> None:
+def test_a_broken_plan_stops_at_the_task_that_cannot_run(
+    broken: dict[str, Any], stop: Stop
+) -> None:
     assert executable(broken, FOUND, USV) == stop
 
 
@@ -112,8 +215,12 @@ RUNNING = [
     plan(("DockingApproach", {"goal_position": OPEN})),  # A berth needs no search.
     plan(("FollowTarget", {"target_id": "contact 4"})),
     plan(("KeepStation", {"duration": 60})),  # "Hold where you are."
-    plan(find("red buoy"), find("white buoy"), go(*OPEN), STARE, go(*OPEN), STARE),  # Two places that are not known yet.
-    plan(find("red buoy"), go(*OPEN), ("DriftAudit", {"duration": 60}), go(*OPEN), STARE),  # Drifted off, and back.
+    plan(
+        find("red buoy"), find("white buoy"), go(*OPEN), STARE, go(*OPEN), STARE
+    ),  # Two places that are not known yet.
+    plan(
+        find("red buoy"), go(*OPEN), ("DriftAudit", {"duration": 60}), go(*OPEN), STARE
+    ),  # Drifted off, and back.
     plan(go(10, 20), THERMAL, send("thermal readings"), THERMAL),
 ]
 
@@ -138,8 +245,18 @@ def test_a_report_on_what_is_on_board_needs_no_collecting() -> None:
     assert executable(plan(go(1, 2), REPORT), plan(REPORT), USV) is None
 
 
-@pytest.mark.parametrize(("answer", "expected", "stops"), [(None, plan(), True), (plan(), plan(), False), (plan(), FOUND, True), ({"tasks": 3}, FOUND, True)])
-def test_no_plan_is_not_executable_unless_none_is_wanted(answer: dict[str, Any] | None, expected: dict[str, Any], stops: bool) -> None:
+@pytest.mark.parametrize(
+    ("answer", "expected", "stops"),
+    [
+        (None, plan(), True),
+        (plan(), plan(), False),
+        (plan(), FOUND, True),
+        ({"tasks": 3}, FOUND, True),
+    ],
+)
+def test_no_plan_is_not_executable_unless_none_is_wanted(
+    answer: dict[str, Any] | None, expected: dict[str, Any], stops: bool
+) -> None:
     stop = executable(answer, expected, USV)
     assert (stop is not None) is stops
     assert stop is None or stop.condition == "plan given"
@@ -152,11 +269,17 @@ def test_entries_that_are_no_tasks_stop_the_plan() -> None:
 
 def test_another_vehicle_replays_by_its_own_definition() -> None:
     whole = plan(
-        ("PreflightCheck", {}), ("FindAsset", {"target_description": "chimney"}), ("FlyToPoint", {"target_position": OPEN}),
-        ("TowerOrbit", {"center": OPEN, "radius": 20}), ("SendReport", {}),
-    )  # fmt: skip
+        ("PreflightCheck", {}),
+        ("FindAsset", {"target_description": "chimney"}),
+        ("FlyToPoint", {"target_position": OPEN}),
+        ("TowerOrbit", {"center": OPEN, "radius": 20}),
+        ("SendReport", {}),
+    )
     assert replay(whole, DRONE) is None
-    for title, at, condition in (("FindAsset", 1, "target located"), ("FlyToPoint", 2, "vehicle at the place")):
+    for title, at, condition in (
+        ("FindAsset", 1, "target located"),
+        ("FlyToPoint", 2, "vehicle at the place"),
+    ):
         stop = replay(without(whole, title), DRONE)
         assert stop is not None
         assert (stop.index, stop.condition) == (at, condition)

@@ -14,7 +14,10 @@ from planner_ft.benchmark.gate import load_gate
 from planner_ft.cli.bench import bench
 from planner_ft.support.errors import GateError, PlannerError
 
-GATE = 'level = "mission"\ncandidate = "Qwen2.5-3B"\nconfiguration = "base"\ndata = "data.jsonl"\nmax_new_tokens = 4\n'
+GATE = (
+    'level = "mission"\ncandidate = "Qwen2.5-3B"\nconfiguration = "base"\ndata ='
+    ' "data.jsonl"\nmax_new_tokens = 4\n'
+)
 
 
 @pytest.fixture
@@ -46,7 +49,9 @@ def test_a_gate_that_holds_passes_and_leaves_nothing_behind(folder: Path) -> Non
 
 
 def test_a_figure_that_falls_short_is_named_with_its_threshold(folder: Path) -> None:
-    path = write(folder, "schema_valid = { min = 0.98 }\ntokens = { max = 2 }\nhallucination = { max = 1.0 }")
+    path = write(
+        folder, "schema_valid = { min = 0.98 }\ntokens = { max = 2 }\nhallucination = { max = 1.0 }"
+    )
     result = invoke("--gate", path, "--out", folder / "out")
     assert isinstance(result.exception, GateError)
     text = str(result.exception)
@@ -63,28 +68,42 @@ def test_latency_is_measured_when_it_has_a_threshold(folder: Path) -> None:
 
 
 def test_a_figure_that_was_not_measured_falls_short(folder: Path) -> None:
-    assert "parameters was not measured" in str(invoke("--gate", write(folder, "parameters = { min = 0.1 }")).exception)
+    assert "parameters was not measured" in str(
+        invoke("--gate", write(folder, "parameters = { min = 0.1 }")).exception
+    )
 
 
 @pytest.mark.parametrize(
     ("thresholds", "head", "problem"),
     [
-        ("f2 = { min = 1 }", GATE, "unknown metric 'f2'; there are f1,"), ("f1 = 1", GATE, "f1 must be a table"),
+        ("f2 = { min = 1 }", GATE, "unknown metric 'f2'; there are f1,"),
+        ("f1 = 1", GATE, "f1 must be a table"),
         ("f1 = { least = 1 }", GATE, "f1 must be a table"),
-        ("f1 = {}", GATE, "f1 must be a table"), ("schema_valid = { min = 95 }", GATE, "fraction between 0 and 1"), ("", GATE, "names no metric"),
-        ("f1 = { min = 1 }", GATE.replace("level", "level_"), "level is missing; unknown key 'level_'"),
+        ("f1 = {}", GATE, "f1 must be a table"),
+        ("schema_valid = { min = 95 }", GATE, "fraction between 0 and 1"),
+        ("", GATE, "names no metric"),
+        (
+            "f1 = { min = 1 }",
+            GATE.replace("level", "level_"),
+            "level is missing; unknown key 'level_'",
+        ),
         ("f1 = { min = 1 }", GATE + "limit = '3'\n", "limit must be a int"),
-        ("f1 = { min = 1 }", GATE.replace('"mission"', '"fleet"'), "--level fleet"), ("f1 = {", GATE, "not TOML"),
+        ("f1 = { min = 1 }", GATE.replace('"mission"', '"fleet"'), "--level fleet"),
+        ("f1 = {", GATE, "not TOML"),
     ],
-)  # fmt: skip
-def test_a_bad_gate_file_is_an_error_of_its_own(folder: Path, thresholds: str, head: str, problem: str) -> None:
+)
+def test_a_bad_gate_file_is_an_error_of_its_own(
+    folder: Path, thresholds: str, head: str, problem: str
+) -> None:
     with pytest.raises(PlannerError, match=problem) as caught:
         load_gate(write(folder, thresholds, head))
     assert not isinstance(caught.value, GateError)
 
 
 def test_a_gate_takes_no_flags_that_it_sets_itself(folder: Path) -> None:
-    result = invoke("--gate", write(folder, "f1 = { max = 1 }"), "--level", "mission", "--limit", "3")
+    result = invoke(
+        "--gate", write(folder, "f1 = { max = 1 }"), "--level", "mission", "--limit", "3"
+    )
     assert "leave out --level, --limit" in str(result.exception)
     assert isinstance(invoke("--gate", folder / "none.toml").exception, PlannerError)
 

@@ -8,7 +8,15 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics import exact_sequence, failure_kind, hallucinated, parameter_agreement, schema_valid, set_f1, strict_valid
+from planner_ft.benchmark.metrics import (
+    exact_sequence,
+    failure_kind,
+    hallucinated,
+    parameter_agreement,
+    schema_valid,
+    set_f1,
+    strict_valid,
+)
 from planner_ft.benchmark.metrics.parameters import values_agree
 from planner_ft.benchmark.outputs import parse_output
 from planner_ft.vocabulary import load_vocabulary
@@ -17,17 +25,26 @@ USV = load_vocabulary()
 
 
 def mission(*tasks: tuple[str, dict[str, Any]]) -> dict[str, Any]:
-    entries = [{"title": title, "parameters": dict(parameters), "task_prompt": "Do it."} for title, parameters in tasks]
+    entries = [
+        {"title": title, "parameters": dict(parameters), "task_prompt": "Do it."}
+        for title, parameters in tasks
+    ]
     return {"tasks": entries, "assumptions": [], "constraints": []}
 
 
-def step(navigation: tuple[str, dict[str, Any]], filters: tuple[str, ...] = (), perception: tuple[str, ...] = ()) -> dict[str, Any]:
+def step(
+    navigation: tuple[str, dict[str, Any]],
+    filters: tuple[str, ...] = (),
+    perception: tuple[str, ...] = (),
+) -> dict[str, Any]:
     return {
         "navigation_skill": {"name": navigation[0], "parameters": navigation[1]},
         "filter_skills": [{"name": name, "parameters": {}} for name in filters],
         "perception_skills": [{"name": name, "parameters": {}} for name in perception],
-        "stop_conditions": [], "failure_modes": [], "expected_outputs": [],
-    }  # fmt: skip
+        "stop_conditions": [],
+        "failure_modes": [],
+        "expected_outputs": [],
+    }
 
 
 ORBIT = mission(
@@ -41,10 +58,15 @@ ORBIT = mission(
 @pytest.mark.parametrize(
     ("predicted", "expected", "value"),
     [
-        ([], [], 1.0), (["A"], [], 0.0), ([], ["A"], 0.0), (["A", "B"], ["B", "A", "A"], 1.0),
-        (["A"], ["A", "B"], 2 / 3), (["A", "X"], ["A", "B", "C"], 2 * (1 / 2) * (1 / 3) / (1 / 2 + 1 / 3)), (["X"], ["A"], 0.0),
+        ([], [], 1.0),
+        (["A"], [], 0.0),
+        ([], ["A"], 0.0),
+        (["A", "B"], ["B", "A", "A"], 1.0),
+        (["A"], ["A", "B"], 2 / 3),
+        (["A", "X"], ["A", "B", "C"], 2 * (1 / 2) * (1 / 3) / (1 / 2 + 1 / 3)),
+        (["X"], ["A"], 0.0),
     ],
-)  # fmt: skip
+)
 def test_set_f1(predicted: list[str], expected: list[str], value: float) -> None:
     assert set_f1(predicted, expected) == pytest.approx(value)
 
@@ -52,10 +74,23 @@ def test_set_f1(predicted: list[str], expected: list[str], value: float) -> None
 @pytest.mark.parametrize(
     "text",
     [
-        "", "  ", "no", "[]", '"a"', "1", "{", '{"tasks": []} {"tasks": []}', '```json\n{"tasks": []}\n```', 'Here: {"tasks": []}',
-        '{"tasks": NaN}', '{"tasks": 1e999}', '{"tasks": "\\ud800"}', "[" * 100_000, '{"a":' + "9" * 5000 + "}",
+        "",
+        "  ",
+        "no",
+        "[]",
+        '"a"',
+        "1",
+        "{",
+        '{"tasks": []} {"tasks": []}',
+        '```json\n{"tasks": []}\n```',
+        'Here: {"tasks": []}',
+        '{"tasks": NaN}',
+        '{"tasks": 1e999}',
+        '{"tasks": "\\ud800"}',
+        "[" * 100_000,
+        '{"a":' + "9" * 5000 + "}",
     ],
-)  # fmt: skip
+)
 def test_only_one_json_object_parses(text: str) -> None:
     assert parse_output(text).plan is None
     assert parse_output(text).problem
@@ -72,7 +107,12 @@ def test_hallucination_in_both_readings() -> None:
         assert hallucinated("mission", None, USV, unparsed=unparsed) is unparsed
         assert hallucinated("mission", invented, USV, unparsed=unparsed)
         assert not hallucinated("mission", ORBIT, USV, unparsed=unparsed)
-    assert hallucinated("task", {"skill_sequence": [step(("StationKeep", {}), perception=("SmellWater",))]}, USV, unparsed=False)
+    assert hallucinated(
+        "task",
+        {"skill_sequence": [step(("StationKeep", {}), perception=("SmellWater",))]},
+        USV,
+        unparsed=False,
+    )
 
 
 def test_an_invented_name_is_schema_valid_but_not_strictly_valid() -> None:
@@ -97,9 +137,22 @@ def test_exact_sequence_minds_order_and_repetition() -> None:
 
 
 def test_exact_sequence_ignores_the_order_of_skills_that_run_together() -> None:
-    here = {"skill_sequence": [step(("StationKeep", {}), perception=("DetectObjects", "GetGPSLocation"))]}
-    there = {"skill_sequence": [step(("StationKeep", {}), perception=("GetGPSLocation", "DetectObjects"))]}
-    apart = {"skill_sequence": [step(("StationKeep", {}), perception=("GetGPSLocation",)), step(("StationKeep", {}), perception=("DetectObjects",))]}
+    here = {
+        "skill_sequence": [
+            step(("StationKeep", {}), perception=("DetectObjects", "GetGPSLocation"))
+        ]
+    }
+    there = {
+        "skill_sequence": [
+            step(("StationKeep", {}), perception=("GetGPSLocation", "DetectObjects"))
+        ]
+    }
+    apart = {
+        "skill_sequence": [
+            step(("StationKeep", {}), perception=("GetGPSLocation",)),
+            step(("StationKeep", {}), perception=("DetectObjects",)),
+        ]
+    }
     assert exact_sequence("task", here, there)
     assert not exact_sequence("task", apart, here)
 
@@ -107,13 +160,30 @@ def test_exact_sequence_ignores_the_order_of_skills_that_run_together() -> None:
 @pytest.mark.parametrize(
     ("given", "stated", "agree"),
     [
-        (100, 100.0, True), (101.9, 100, True), (102.1, 100, False), (0, 0, True), (0.004, 0, True), (0.006, 0, False), (0.12, 0.1, False),
-        ([45, 10], [45.0, 10.0], True), ([45, 10], [10, 45], False), ([45.5, 10], [45, 10], True), ([45], [45, 10], False),
-        ([-99, -99], [-99, -99], True), ([-98, -99], [-99, -99], False), ([-99, -99], [-98, -99], False),
-        ("the Green  barrel", "green barrel", True), ("red barrel", "green barrel", False), ("7", 7, False), (True, 1, False), (1, "1", False),
-        (["a", "b"], ["b", "a"], False), (["A", "the b"], ["a", "b"], True), (None, None, True),
+        (100, 100.0, True),
+        (101.9, 100, True),
+        (102.1, 100, False),
+        (0, 0, True),
+        (0.004, 0, True),
+        (0.006, 0, False),
+        (0.12, 0.1, False),
+        ([45, 10], [45.0, 10.0], True),
+        ([45, 10], [10, 45], False),
+        ([45.5, 10], [45, 10], True),
+        ([45], [45, 10], False),
+        ([-99, -99], [-99, -99], True),
+        ([-98, -99], [-99, -99], False),
+        ([-99, -99], [-98, -99], False),
+        ("the Green  barrel", "green barrel", True),
+        ("red barrel", "green barrel", False),
+        ("7", 7, False),
+        (True, 1, False),
+        (1, "1", False),
+        (["a", "b"], ["b", "a"], False),
+        (["A", "the b"], ["a", "b"], True),
+        (None, None, True),
     ],
-)  # fmt: skip
+)
 def test_values_agree(given: Any, stated: Any, agree: bool) -> None:
     assert values_agree(given, stated, None, USV) is agree
 
@@ -122,7 +192,12 @@ def test_identifiers_may_be_numbers_and_polygons_turn() -> None:
     identifier = USV.task["FollowTarget"].by_name["target_id"]
     assert values_agree(7, "7", identifier, USV)
     assert not values_agree(7, "8", identifier, USV)
-    polygon = next(parameter for skill in USV.skills for parameter in skill.parameters if parameter.type == "polygon")
+    polygon = next(
+        parameter
+        for skill in USV.skills
+        for parameter in skill.parameters
+        if parameter.type == "polygon"
+    )
     ring = [[0, 0], [10, 0], [10, 5], [0, 5]]
     assert values_agree(ring[2:] + ring[:2], ring, polygon, USV)
     assert values_agree(ring[::-1], ring, polygon, USV)
@@ -134,7 +209,11 @@ def test_parameters_match_entries_of_equal_name_best_first() -> None:
     swapped = {**ORBIT, "tasks": [ORBIT["tasks"][3], *ORBIT["tasks"][1:3], ORBIT["tasks"][0]]}
     agreement = parameter_agreement("mission", swapped, ORBIT, USV)
     assert (agreement.right, agreement.matched) == (4, 4)
-    changed = mission(("Transit", {"target_position": [0, 0]}), ("PerformOrbit", {"center": [-99, -99], "radius": 30}), ("Diagnostics", {}))
+    changed = mission(
+        ("Transit", {"target_position": [0, 0]}),
+        ("PerformOrbit", {"center": [-99, -99], "radius": 30}),
+        ("Diagnostics", {}),
+    )
     agreement = parameter_agreement("mission", changed, ORBIT, USV)
     assert (agreement.right, agreement.matched) == (1, 2)
     agreement = parameter_agreement("mission", None, ORBIT, USV)
@@ -157,7 +236,10 @@ def changed_orbit(index: int, **parameters: Any) -> dict[str, Any]:
 
 
 def without(*indices: int) -> dict[str, Any]:
-    return {**ORBIT, "tasks": [task for index, task in enumerate(ORBIT["tasks"]) if index not in indices]}
+    return {
+        **ORBIT,
+        "tasks": [task for index, task in enumerate(ORBIT["tasks"]) if index not in indices],
+    }
 
 
 def inserted(index: int, title: str, **parameters: Any) -> dict[str, Any]:
@@ -189,7 +271,10 @@ def retitled(index: int, title: str) -> dict[str, Any]:
         (retitled(2, "SurveyTarget"), "substitution"),
         (retitled(2, "Circling"), "hallucination"),
         ({**ORBIT, "tasks": ORBIT["tasks"][::-1]}, "wrong order"),
-        ({**ORBIT, "tasks": [ORBIT["tasks"][index] for index in (0, 3, 2, 1)]}, "parameter propagation"),
+        (
+            {**ORBIT, "tasks": [ORBIT["tasks"][index] for index in (0, 3, 2, 1)]},
+            "parameter propagation",
+        ),
         (None, "invalid output"),
         ({"tasks": ORBIT["tasks"]}, "invalid output"),
     ],
@@ -199,18 +284,35 @@ def test_failure_kinds_of_the_mission_level(plan: dict[str, Any] | None, kind: s
 
 
 def test_an_upstream_transit_without_a_later_one_is_a_prerequisite() -> None:
-    expected = mission(("Transit", {"target_position": [5, 5]}), ("KeepStation", {"position": [5, 5], "duration": 60}))
-    assert failure_kind("mission", {**expected, "tasks": expected["tasks"][1:]}, expected, USV) == "prerequisite omission"
+    expected = mission(
+        ("Transit", {"target_position": [5, 5]}),
+        ("KeepStation", {"position": [5, 5], "duration": 60}),
+    )
+    assert (
+        failure_kind("mission", {**expected, "tasks": expected["tasks"][1:]}, expected, USV)
+        == "prerequisite omission"
+    )
 
 
 def test_failure_kinds_of_the_task_level() -> None:
-    expected = {"skill_sequence": [step(("GoToXY", {"x": 1, "y": 2}), perception=("DetectObjects",)), step(("StationKeep", {"time": 60}))]}
+    expected = {
+        "skill_sequence": [
+            step(("GoToXY", {"x": 1, "y": 2}), perception=("DetectObjects",)),
+            step(("StationKeep", {"time": 60})),
+        ]
+    }
     assert failure_kind("task", copy.deepcopy(expected), expected, USV) is None
     moved = copy.deepcopy(expected)
     moved["skill_sequence"][0]["navigation_skill"]["parameters"]["x"] = 3
     assert failure_kind("task", moved, expected, USV) == "parameter propagation"
-    assert failure_kind("task", {"skill_sequence": expected["skill_sequence"][:1]}, expected, USV) == "omission"
-    assert failure_kind("task", {"skill_sequence": expected["skill_sequence"][::-1]}, expected, USV) == "wrong order"
+    assert (
+        failure_kind("task", {"skill_sequence": expected["skill_sequence"][:1]}, expected, USV)
+        == "omission"
+    )
+    assert (
+        failure_kind("task", {"skill_sequence": expected["skill_sequence"][::-1]}, expected, USV)
+        == "wrong order"
+    )
 
 
 def test_metrics_survive_any_json() -> None:
@@ -222,7 +324,16 @@ def test_metrics_survive_any_json() -> None:
             return rng.choice(pieces)
         if rng.random() < 0.5:
             return [anything(depth - 1) for _ in range(rng.randrange(3))]
-        keys = ["tasks", "skill_sequence", "title", "name", "parameters", "navigation_skill", "filter_skills", "perception_skills"]
+        keys = [
+            "tasks",
+            "skill_sequence",
+            "title",
+            "name",
+            "parameters",
+            "navigation_skill",
+            "filter_skills",
+            "perception_skills",
+        ]
         return {rng.choice(keys): anything(depth - 1) for _ in range(rng.randrange(4))}
 
     expected = {"mission": ORBIT, "task": {"skill_sequence": [step(("StationKeep", {}))]}}

@@ -1,4 +1,6 @@
-"""Paired differences, exact tests and Holm's adjustment, against values computed by hand and by public packages."""
+"""Paired differences, exact tests and Holm's adjustment, against values computed by hand and by
+public packages.
+"""
 
 from __future__ import annotations
 
@@ -13,11 +15,22 @@ from planner_ft.benchmark.paired import exact_mcnemar, exact_swaps, holm, paired
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.benchmark.verdicts import adjusted, verdict
 
-RATE, MEAN, RATIO = Metric("right", "rate"), Metric("f1", "mean"), Metric("parameters", "ratio", ("hits", "tries"))
+RATE, MEAN, RATIO = (
+    Metric("right", "rate"),
+    Metric("f1", "mean"),
+    Metric("parameters", "ratio", ("hits", "tries")),
+)
 
 
-def system(values: list[Any], key: str, families: list[int] | None = None) -> dict[str, list[dict[str, Any]]]:
-    return {f"s{index}": [{"id": f"s{index}", "family": str(families[index] if families else index), key: value}] for index, value in enumerate(values)}
+def system(
+    values: list[Any], key: str, families: list[int] | None = None
+) -> dict[str, list[dict[str, Any]]]:
+    return {
+        f"s{index}": [
+            {"id": f"s{index}", "family": str(families[index] if families else index), key: value}
+        ]
+        for index, value in enumerate(values)
+    }
 
 
 def test_mcnemar_by_hand_and_by_scipy() -> None:
@@ -27,7 +40,9 @@ def test_mcnemar_by_hand_and_by_scipy() -> None:
     from scipy.stats import binomtest
 
     for lost, won in [(0, 6), (2, 9), (10, 3), (40, 70), (700, 900)]:
-        assert exact_mcnemar(lost, won) == pytest.approx(binomtest(lost, lost + won).pvalue, rel=1e-9)
+        assert exact_mcnemar(lost, won) == pytest.approx(
+            binomtest(lost, lost + won).pvalue, rel=1e-9
+        )
 
 
 def test_mcnemar_and_holm_by_statsmodels() -> None:
@@ -35,7 +50,9 @@ def test_mcnemar_and_holm_by_statsmodels() -> None:
     from statsmodels.stats.multitest import multipletests
 
     for lost, won in [(1, 5), (2, 9), (10, 3), (40, 70)]:
-        assert exact_mcnemar(lost, won) == pytest.approx(tables.mcnemar([[30, lost], [won, 20]], exact=True).pvalue, rel=1e-9)
+        assert exact_mcnemar(lost, won) == pytest.approx(
+            tables.mcnemar([[30, lost], [won, 20]], exact=True).pvalue, rel=1e-9
+        )
     values = np.random.default_rng(0).random(20) ** 3
     assert holm(values.tolist()) == pytest.approx(multipletests(values, method="holm")[1].tolist())
 
@@ -49,13 +66,20 @@ def test_swapping_families_of_one_sample_is_mcnemar() -> None:
     first, second = [0] * 9 + [1] * 2 + [1] * 10, [1] * 9 + [0] * 2 + [1] * 10
     found = paired(RATE, system(first, "right"), system(second, "right"), 0)
     assert found.p == found.p_mcnemar == exact_mcnemar(2, 9)
-    assert (found.n, found.first, found.second) == (21, pytest.approx(12 / 21), pytest.approx(19 / 21))
+    assert (found.n, found.first, found.second) == (
+        21,
+        pytest.approx(12 / 21),
+        pytest.approx(19 / 21),
+    )
     assert found.difference.value == pytest.approx(7 / 21)
 
 
 def test_a_family_that_changes_as_one_counts_once() -> None:
     first, second, families = [0] * 8 + [1] * 4, [1] * 12, [index // 4 for index in range(12)]
-    apart, together = (paired(RATE, system(first, "right", one), system(second, "right", one), 0) for one in (None, families))
+    apart, together = (
+        paired(RATE, system(first, "right", one), system(second, "right", one), 0)
+        for one in (None, families)
+    )
     assert apart.p == together.p_mcnemar == 2 / 2**8
     # Two families of three went from wrong to right: 2 of 4 ways to swap them are as extreme.
     assert together.p == 0.5 and together.families == 3
@@ -63,8 +87,13 @@ def test_a_family_that_changes_as_one_counts_once() -> None:
 
 def test_exact_swaps_are_those_of_all_signs() -> None:
     sizes = [1, -2, 2, 3, 1, -1, 0]
-    sums = [abs(sum(sign * size for sign, size in zip(signs, sizes, strict=True))) for signs in itertools.product((1, -1), repeat=len(sizes))]
-    assert exact_swaps(sizes) == pytest.approx(sum(value >= abs(sum(sizes)) for value in sums) / len(sums))
+    sums = [
+        abs(sum(sign * size for sign, size in zip(signs, sizes, strict=True)))
+        for signs in itertools.product((1, -1), repeat=len(sizes))
+    ]
+    assert exact_swaps(sizes) == pytest.approx(
+        sum(value >= abs(sum(sizes)) for value in sums) / len(sums)
+    )
 
 
 def test_swaps_of_a_mean_agree_with_scipy() -> None:
@@ -76,7 +105,13 @@ def test_swaps_of_a_mean_agree_with_scipy() -> None:
         second = first + generator.normal(0.12, 0.3, count)
         ones = np.ones(count)
         ours = swaps(np.stack([first, ones, second, ones], 1), 0)
-        theirs = permutation_test((first, second), lambda one, two, axis: (two - one).mean(axis), permutation_type="samples", vectorized=True, rng=0)
+        theirs = permutation_test(
+            (first, second),
+            lambda one, two, axis: (two - one).mean(axis),
+            permutation_type="samples",
+            vectorized=True,
+            rng=0,
+        )
         assert ours == pytest.approx(theirs.pvalue, abs=1e-9 if count == 9 else 0.015)
 
 
@@ -89,8 +124,15 @@ def test_a_ratio_is_pooled_and_paired() -> None:
 
 
 def test_repeats_of_a_sample_are_averaged_and_unmeasured_ones_left_out() -> None:
-    first = {"a": [{"id": "a", "right": True}, {"id": "a", "right": False}], "b": [{"id": "b", "right": None}]}
-    second = {"a": [{"id": "a", "right": True}], "b": [{"id": "b", "right": True}], "c": [{"id": "c", "right": True}]}
+    first = {
+        "a": [{"id": "a", "right": True}, {"id": "a", "right": False}],
+        "b": [{"id": "b", "right": None}],
+    }
+    second = {
+        "a": [{"id": "a", "right": True}],
+        "b": [{"id": "b", "right": True}],
+        "c": [{"id": "c", "right": True}],
+    }
     found = paired(RATE, first, second, 0)
     assert (found.n, found.first, found.second, found.p_mcnemar) == (1, 0.5, 1.0, None)
 
@@ -102,8 +144,12 @@ def test_the_interval_of_a_paired_difference_is_the_bootstrap_of_the_differences
     first, second = generator.random(40).tolist(), generator.random(40).tolist()
     families = [index // 2 for index in range(40)]
     found = paired(MEAN, system(first, "f1", families), system(second, "f1", families), 3)
-    expected = bootstrap_mean([two - one for one, two in zip(first, second, strict=True)], families, 3)
-    for ours, theirs in zip(found.difference.to_json().values(), expected.to_json().values(), strict=True):
+    expected = bootstrap_mean(
+        [two - one for one, two in zip(first, second, strict=True)], families, 3
+    )
+    for ours, theirs in zip(
+        found.difference.to_json().values(), expected.to_json().values(), strict=True
+    ):
         assert ours == pytest.approx(theirs)
 
 
@@ -119,7 +165,12 @@ def test_no_difference_in_few_samples_is_no_equality() -> None:
 
 def test_verdicts_know_which_way_is_better() -> None:
     def said(metric: str, value: float, p: float | None) -> str:
-        found = paired(Metric(metric, "mean"), system([0.0, 0.5], metric), system([value, 0.5 + value], metric), 0)
+        found = paired(
+            Metric(metric, "mean"),
+            system([0.0, 0.5], metric),
+            system([value, 0.5 + value], metric),
+            0,
+        )
         return verdict(found, p)
 
     assert said("f1", 0.4, 0.01) == "better" and said("f1", -0.4, 0.01) == "worse"
@@ -137,7 +188,13 @@ def test_verdicts_and_tables_agree_on_which_way_is_better() -> None:
     from planner_ft.benchmark.sections import section_columns
     from planner_ft.benchmark.verdicts import LOWER_IS_BETTER, NEITHER
 
-    arrows = {column.metric: column.better for column in (*COLUMNS, *MORE_COLUMNS, *section_columns()) if column.metric in METRICS}
-    assert {metric for metric, arrow in arrows.items() if arrow == "↓"} == LOWER_IS_BETTER & set(arrows)
+    arrows = {
+        column.metric: column.better
+        for column in (*COLUMNS, *MORE_COLUMNS, *section_columns())
+        if column.metric in METRICS
+    }
+    assert {metric for metric, arrow in arrows.items() if arrow == "↓"} == LOWER_IS_BETTER & set(
+        arrows
+    )
     assert {metric for metric, arrow in arrows.items() if not arrow} == NEITHER & set(arrows)
     assert set(METRICS) >= LOWER_IS_BETTER | NEITHER

@@ -1,4 +1,6 @@
-"""Several processes that share a run: same answers and figures as one, whatever their number was before a kill."""
+"""Several processes that share a run: same answers and figures as one, whatever their number was
+before a kill.
+"""
 
 from __future__ import annotations
 
@@ -31,13 +33,17 @@ def test_every_item_is_in_one_share() -> None:
 
 def test_parts_are_taken_in_once_however_often_it_is_tried(tmp_path: Path) -> None:
     for rank, names in ((1, "bc"), (2, "d")):
-        (tmp_path / part_name(rank)).write_text("".join(json.dumps(record(name)) + "\n" for name in names))
+        (tmp_path / part_name(rank)).write_text(
+            "".join(json.dumps(record(name)) + "\n" for name in names)
+        )
     with RecordLog(tmp_path / "predictions.jsonl") as log:
         log.append(record("a"))
         log.append(record("b"))
         take_in(tmp_path, log)
         take_in(tmp_path, log)
-    written = [json.loads(line)["id"] for line in (tmp_path / "predictions.jsonl").read_text().splitlines()]
+    written = [
+        json.loads(line)["id"] for line in (tmp_path / "predictions.jsonl").read_text().splitlines()
+    ]
     assert written == ["a", "b", "c", "d"]
 
 
@@ -60,22 +66,52 @@ def test_a_part_that_somebody_writes_is_left_alone(tmp_path: Path) -> None:
 
 def test_two_processes_give_the_result_of_one(tmp_path: Path, models: Path) -> None:
     data = tmp_path / "data.jsonl"
-    records = [{"id": f"m{index}", "prompt": f"go to {index} {index}" + " soon" * index, "expected": {"tasks": [{"title": "Transit"}]}} for index in range(5)]
+    records = [
+        {
+            "id": f"m{index}",
+            "prompt": f"go to {index} {index}" + " soon" * index,
+            "expected": {"tasks": [{"title": "Transit"}]},
+        }
+        for index in range(5)
+    ]
     data.write_text("".join(json.dumps(line) + "\n" for line in records))
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "CUDA_VISIBLE_DEVICES": ""}
     for processes in (1, 2):
-        flags = {"level": "mission", "candidates": NAME, "configurations": "base", "data": data, "out": tmp_path / str(processes)}
+        flags = {
+            "level": "mission",
+            "candidates": NAME,
+            "configurations": "base",
+            "data": data,
+            "out": tmp_path / str(processes),
+        }
         flags |= {"device": "cpu", "max-new-tokens": 6, "latency-samples": 1}
-        arguments = ["bench", *(str(item) for name, value in flags.items() for item in (f"--{name}", value))]
-        done = subprocess.run(command(arguments, processes), env=environment, capture_output=True, text=True, check=False)
+        arguments = [
+            "bench",
+            *(str(item) for name, value in flags.items() for item in (f"--{name}", value)),
+        ]
+        done = subprocess.run(
+            command(arguments, processes),
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
         assert done.returncode == 0, done.stderr
     outputs, tables = [], []
     for processes in ("1", "2"):
-        lines = [json.loads(line) for line in (tmp_path / processes / "predictions.jsonl").read_text().splitlines()]
+        lines = [
+            json.loads(line)
+            for line in (tmp_path / processes / "predictions.jsonl").read_text().splitlines()
+        ]
         assert len(lines) == len(records)
         outputs.append({line["id"]: (line["output"], line["tokens"]) for line in lines})
         with open(tmp_path / processes / "table.csv", newline="") as stream:
-            tables.append([{name: value for name, value in row.items() if "latency" not in name} for row in csv.DictReader(stream)])
+            tables.append(
+                [
+                    {name: value for name, value in row.items() if "latency" not in name}
+                    for row in csv.DictReader(stream)
+                ]
+            )
     assert outputs[0] == outputs[1]
     assert tables[0] == tables[1]
     assert not list((tmp_path / "2").glob("predictions.part*"))

@@ -13,11 +13,22 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 
 USV = load_vocabulary()
-MISSION = {"id": "a", "prompt": "go home", "expected": {"tasks": [{"title": "Transit", "parameters": {"target_position": [0, 0]}}]}}
+MISSION = {
+    "id": "a",
+    "prompt": "go home",
+    "expected": {"tasks": [{"title": "Transit", "parameters": {"target_position": [0, 0]}}]},
+}
 TASK = {
-    "id": "a", "prompt": "hold", "task": "KeepStation", "parameters": {},
-    "expected": {"skill_sequence": [{"navigation_skill": {"name": "StationKeep", "parameters": {"time": 60}}}]},
-}  # fmt: skip
+    "id": "a",
+    "prompt": "hold",
+    "task": "KeepStation",
+    "parameters": {},
+    "expected": {
+        "skill_sequence": [
+            {"navigation_skill": {"name": "StationKeep", "parameters": {"time": 60}}}
+        ]
+    },
+}
 
 
 def write(path: Path, *records: Any) -> Path:
@@ -30,10 +41,14 @@ def changed(record: dict[str, Any], **values: Any) -> dict[str, Any]:
 
 
 def test_names_and_parameters_are_enough(tmp_path: Path) -> None:
-    mission = load_bench_data(write(tmp_path / "m.jsonl", MISSION, {**MISSION, "id": "b", "family": "f"}), "mission", USV)
+    mission = load_bench_data(
+        write(tmp_path / "m.jsonl", MISSION, {**MISSION, "id": "b", "family": "f"}), "mission", USV
+    )
     assert [(sample.id, sample.family) for sample in mission.samples] == [("a", "a"), ("b", "f")]
     names_only = {**MISSION, "expected": {"tasks": [{"title": "Transit"}]}}
-    assert load_bench_data(write(tmp_path / "n.jsonl", names_only), "mission", USV).summary()["n"] == 1
+    assert (
+        load_bench_data(write(tmp_path / "n.jsonl", names_only), "mission", USV).summary()["n"] == 1
+    )
     assert len(load_bench_data(write(tmp_path / "t.jsonl", TASK), "task", USV).samples) == 1
 
 
@@ -50,13 +65,23 @@ def test_the_limit_keeps_the_first_samples(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("record", "problem"),
     [
-        (changed(MISSION, id=...), "id is missing"), (changed(MISSION, id=7), "id is missing or no text"), (changed(MISSION, prompt=" "), "prompt is missing"),
-        (changed(MISSION, expected=...), "--level mission"), (changed(MISSION, expected={"skill_sequence": []}), "--level mission"),
-        (changed(MISSION, expected={"tasks": [{"title": "Fly"}]}), "'Fly'"), (changed(MISSION, expected={"tasks": ["Transit"]}), r"tasks\[0\] has no title"),
-        (changed(MISSION, expected={"tasks": [{"title": "Transit", "parameters": []}]}), "parameters is no object"), ([1], "a JSON object is expected"),
+        (changed(MISSION, id=...), "id is missing"),
+        (changed(MISSION, id=7), "id is missing or no text"),
+        (changed(MISSION, prompt=" "), "prompt is missing"),
+        (changed(MISSION, expected=...), "--level mission"),
+        (changed(MISSION, expected={"skill_sequence": []}), "--level mission"),
+        (changed(MISSION, expected={"tasks": [{"title": "Fly"}]}), "'Fly'"),
+        (changed(MISSION, expected={"tasks": ["Transit"]}), r"tasks\[0\] has no title"),
+        (
+            changed(MISSION, expected={"tasks": [{"title": "Transit", "parameters": []}]}),
+            "parameters is no object",
+        ),
+        ([1], "a JSON object is expected"),
     ],
-)  # fmt: skip
-def test_a_bad_mission_record_is_named_by_file_and_line(tmp_path: Path, record: Any, problem: str) -> None:
+)
+def test_a_bad_mission_record_is_named_by_file_and_line(
+    tmp_path: Path, record: Any, problem: str
+) -> None:
     path = write(tmp_path / "m.jsonl", {**MISSION, "id": "first"}, record)
     with pytest.raises(PlannerError, match=rf"m\.jsonl:2: .*{problem}"):
         load_bench_data(path, "mission", USV)
@@ -65,12 +90,13 @@ def test_a_bad_mission_record_is_named_by_file_and_line(tmp_path: Path, record: 
 @pytest.mark.parametrize(
     ("record", "problem"),
     [
-        (changed(TASK, task="Fly"), "'Fly'"), (changed(TASK, parameters=...), "parameters is missing"),
+        (changed(TASK, task="Fly"), "'Fly'"),
+        (changed(TASK, parameters=...), "parameters is missing"),
         (changed(TASK, expected={"tasks": []}), "--level task"),
         (changed(TASK, expected={"skill_sequence": [{"filter_skills": []}]}), "has no name"),
         (changed(TASK, expected={"skill_sequence": ["hold"]}), "has no name"),
     ],
-)  # fmt: skip
+)
 def test_a_bad_task_record_is_named(tmp_path: Path, record: Any, problem: str) -> None:
     with pytest.raises(PlannerError, match=problem):
         load_bench_data(write(tmp_path / "t.jsonl", record), "task", USV)
@@ -90,6 +116,10 @@ def test_all_bad_lines_are_reported_at_once(tmp_path: Path) -> None:
 def test_missing_empty_and_non_utf8_files_are_one_sentence(tmp_path: Path) -> None:
     (tmp_path / "empty.jsonl").write_text("\n")
     (tmp_path / "latin.jsonl").write_bytes(b'{"id": "\xe9"}\n')
-    for name, problem in (("none.jsonl", "no such file"), ("empty.jsonl", "no samples"), ("latin.jsonl", "UTF-8")):
+    for name, problem in (
+        ("none.jsonl", "no such file"),
+        ("empty.jsonl", "no samples"),
+        ("latin.jsonl", "UTF-8"),
+    ):
         with pytest.raises(PlannerError, match=problem):
             load_bench_data(tmp_path / name, "mission", USV)

@@ -1,4 +1,6 @@
-"""Facts are followed from the command to parameters, task prompts and skills, and are seen to get lost where they do."""
+"""Facts are followed from the command to parameters, task prompts and skills, and are seen to get
+lost where they do.
+"""
 
 from __future__ import annotations
 
@@ -21,18 +23,30 @@ from planner_ft.vocabulary.plans import Level
 USV = load_vocabulary()
 DATA = Path(__file__).parents[2] / "data" / "mission"
 
-PROMPT = "Orbit the met mast at [120, -35] 25 metres off at 1.2 m/s, then film the lamp there for two minutes and come home."
+PROMPT = (
+    "Orbit the met mast at [120, -35] 25 metres off at 1.2 m/s, then film the lamp there for two"
+    " minutes and come home."
+)
 EXPECTED: dict[str, Any] = {
     "tasks": [
-        {"title": "Transit", "parameters": {"target_position": [120, -35]}, "task_prompt": "Go to the met mast at [120, -35]."},
         {
-            "title": "PerformOrbit", "parameters": {"center": [120, -35], "radius": 25, "speed": 1.2},
+            "title": "Transit",
+            "parameters": {"target_position": [120, -35]},
+            "task_prompt": "Go to the met mast at [120, -35].",
+        },
+        {
+            "title": "PerformOrbit",
+            "parameters": {"center": [120, -35], "radius": 25, "speed": 1.2},
             "task_prompt": "Circle the mast at [120, -35] with a stand-off of 25 m at 1.2 m/s.",
         },
-        {"title": "FeatureStare", "parameters": {"feature_type": "lamp", "duration": 120}, "task_prompt": "Film the lamp for two minutes."},
+        {
+            "title": "FeatureStare",
+            "parameters": {"feature_type": "lamp", "duration": 120},
+            "task_prompt": "Film the lamp for two minutes.",
+        },
         {"title": "Transit", "parameters": {"target_position": [0, 0]}, "task_prompt": "Go home."},
     ]
-}  # fmt: skip
+}
 RECORD = {"prompt": PROMPT, "expected": EXPECTED}
 ALL = Counter(coordinates=2, lengths=1, speeds=1, names=1, durations=1)
 
@@ -59,18 +73,32 @@ def test_the_expected_plan_carries_every_fact_and_home_is_no_fact() -> None:
 LOSSES: list[tuple[Any, Counter[str], Counter[str]]] = [
     (None, ALL, ALL),
     ({"tasks": []}, ALL, ALL),
-    (changed(1, parameters={"center": [120, -35], "radius": 30}), Counter(lengths=1, speeds=1), Counter()),
-    (changed(1, task_prompt="Circle the mast at [120, -35]."), Counter(), Counter(lengths=1, speeds=1)),
+    (
+        changed(1, parameters={"center": [120, -35], "radius": 30}),
+        Counter(lengths=1, speeds=1),
+        Counter(),
+    ),
+    (
+        changed(1, task_prompt="Circle the mast at [120, -35]."),
+        Counter(),
+        Counter(lengths=1, speeds=1),
+    ),
     (changed(1, task_prompt=None), Counter(), Counter(coordinates=1, lengths=1, speeds=1)),
     (changed(2, title="KeepStation"), Counter(names=1, durations=1), Counter(names=1, durations=1)),
-    (changed(2, parameters={"feature_type": "The  Lamp", "duration": "2 min"}), Counter(), Counter()),
+    (
+        changed(2, parameters={"feature_type": "The  Lamp", "duration": "2 min"}),
+        Counter(),
+        Counter(),
+    ),
     (changed(2, task_prompt="Film the lamps for 120 s."), Counter(), Counter()),
     (changed(3, parameters={"target_position": [5, 5]}), Counter(), Counter()),
 ]
 
 
 @pytest.mark.parametrize(("plan", "from_parameters", "from_prompt"), LOSSES)
-def test_what_gets_lost_on_the_way(plan: Any, from_parameters: Counter[str], from_prompt: Counter[str]) -> None:
+def test_what_gets_lost_on_the_way(
+    plan: Any, from_parameters: Counter[str], from_prompt: Counter[str]
+) -> None:
     reached = follow(plan)
     assert reached.stated == ALL
     assert lost(reached) == (from_parameters, from_prompt)
@@ -81,7 +109,11 @@ def test_every_fact_of_the_curated_commands_is_in_the_right_parameter_and_task_p
     for line in (DATA / "test.jsonl").read_text().splitlines():
         record = json.loads(line)
         found = follow(record["expected"], record=record)
-        stated, reached, prompts = stated + found.stated.total(), reached + found.in_parameters.total(), prompts + found.in_prompt.total()
+        stated, reached, prompts = (
+            stated + found.stated.total(),
+            reached + found.in_parameters.total(),
+            prompts + found.in_prompt.total(),
+        )
     assert stated > 80
     assert (reached, prompts) == (stated, stated)
 
@@ -95,21 +127,45 @@ def test_at_task_level_stated_values_and_places_must_reach_the_right_skill() -> 
         "prompt": "Go there and hold for five minutes.",
         "expected": {"skill_sequence": steps},
     }
-    assert follow(record["expected"], "task", record).in_parameters == Counter(coordinates=1, durations=1)
-    swapped = {"skill_sequence": [{"navigation_skill": {"name": "GoToXY", "parameters": {"x": 20, "y": 10}}}, steps[1]]}
+    assert follow(record["expected"], "task", record).in_parameters == Counter(
+        coordinates=1, durations=1
+    )
+    swapped = {
+        "skill_sequence": [
+            {"navigation_skill": {"name": "GoToXY", "parameters": {"x": 20, "y": 10}}},
+            steps[1],
+        ]
+    }
     assert lost(follow(swapped, "task", record))[0] == Counter(coordinates=1)
 
 
 def pipeline(*sequences: list[tuple[str, dict[str, Any]]] | None) -> SkillSlots:
     """The slots of the expected mission with these skills for its tasks."""
-    told = [None if skills is None else [{"navigation_skill": {"name": name, "parameters": given}} for name, given in skills] for skills in sequences]
-    tasks = [{**task, "skill_sequence": steps} for task, steps in zip(EXPECTED["tasks"], told, strict=True)]
+    told = [
+        (
+            None
+            if skills is None
+            else [
+                {"navigation_skill": {"name": name, "parameters": given}} for name, given in skills
+            ]
+        )
+        for skills in sequences
+    ]
+    tasks = [
+        {**task, "skill_sequence": steps}
+        for task, steps in zip(EXPECTED["tasks"], told, strict=True)
+    ]
     return skill_slots(RECORD, {"tasks": tasks}, USV)
 
 
 GOTO = [("GoToXY", {"x": 120, "y": -35})]
 HOME = [("GoToXY", {"x": 0, "y": 0})]
-RING = [("GoToXY", {"x": 145, "y": -35}), ("GoToXY", {"x": 120, "y": -10}), ("GoToXY", {"x": 95, "y": -35}), ("GoToXY", {"x": 120, "y": -60})]
+RING = [
+    ("GoToXY", {"x": 145, "y": -35}),
+    ("GoToXY", {"x": 120, "y": -10}),
+    ("GoToXY", {"x": 95, "y": -35}),
+    ("GoToXY", {"x": 120, "y": -60}),
+]
 STARE = [("VisualStationKeep", {"target_id": "lamp"}), ("StationKeep", {"time": 120})]
 CARRIED = ALL - Counter(speeds=1)
 """No skill has a speed."""
@@ -130,7 +186,10 @@ def test_values_that_the_skills_lost_or_another_task_has_are_not_reached() -> No
 
 def test_tasks_whose_place_is_open_wait() -> None:
     found = pipeline(GOTO, None, STARE, HOME)
-    assert (found.waiting, found.carried - found.reached) == (Counter(coordinates=1, lengths=1), Counter(coordinates=1, lengths=1))
+    assert (found.waiting, found.carried - found.reached) == (
+        Counter(coordinates=1, lengths=1),
+        Counter(coordinates=1, lengths=1),
+    )
 
 
 def test_a_missing_task_loses_its_slots_in_the_pipeline() -> None:

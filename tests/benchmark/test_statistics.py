@@ -3,13 +3,26 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from planner_ft.benchmark.statistics import bootstrap_mean, bootstrap_ratio, clustered_rate, effective_size, resampled_sums, wilson
+from planner_ft.benchmark.statistics import (
+    bootstrap_mean,
+    bootstrap_ratio,
+    clustered_rate,
+    effective_size,
+    resampled_sums,
+    wilson,
+)
 
 
 @pytest.mark.parametrize(
     ("successes", "n", "low", "high"),
     # scipy.stats.binomtest(successes, n).proportion_ci(method="wilson")
-    [(0, 25, 0.0, 0.13319), (1, 25, 0.00710, 0.19544), (24, 25, 0.80456, 0.99290), (25, 25, 0.86681, 1.0), (250, 500, 0.45635, 0.54365)],
+    [
+        (0, 25, 0.0, 0.13319),
+        (1, 25, 0.00710, 0.19544),
+        (24, 25, 0.80456, 0.99290),
+        (25, 25, 0.86681, 1.0),
+        (250, 500, 0.45635, 0.54365),
+    ],
 )
 def test_wilson(successes: int, n: int, low: float, high: float) -> None:
     estimate = wilson(successes, n)
@@ -67,24 +80,32 @@ def test_phrasings_of_a_family_that_agree_count_as_one_sample() -> None:
     differ = clustered_rate([index % 2 == 0 for index in range(40)], families)
     assert agree.value == differ.value == 0.5
     assert agree.low is not None and differ.low is not None
-    # Ten families: no narrower than the interval of ten samples; answers that differ within each family are as good as independent.
+    # Ten families: no narrower than the interval of ten samples; answers that differ within each
+    # family are as good as independent.
     assert agree.low <= wilson(5, 10).low  # type: ignore[operator]
     assert wilson(5, 10).low < differ.low < wilson(20, 40).low  # type: ignore[operator]
 
 
 def test_nothing_wrong_in_families_is_as_sure_as_in_as_many_samples() -> None:
-    assert clustered_rate([False] * 40, [index // 4 for index in range(40)]).high == pytest.approx(wilson(0, 10).high)
+    assert clustered_rate([False] * 40, [index // 4 for index in range(40)]).high == pytest.approx(
+        wilson(0, 10).high
+    )
     assert clustered_rate([True] * 6, ["one"] * 6) == wilson(1, 1)
 
 
 def test_the_effective_size_by_hand() -> None:
-    # Three families of two with 2, 1 and 0 hits: rate 1/2, variance (1 + 0 + 1) * 3/2 / 36 = 1/12, of six independent samples 1/24: effect 2;
-    # Student's quantiles for 5 and 2 degrees of freedom: 2.5706 and 4.3027.
-    assert effective_size([(2, 2), (1, 2), (0, 2)]) == pytest.approx(3 * (2.5706 / 4.3027) ** 2, rel=1e-4)
+    # Three families of two with 2, 1 and 0 hits: rate 1/2, variance (1 + 0 + 1) * 3/2 / 36 = 1/12,
+    # of six independent samples 1/24: effect 2; Student's quantiles for 5 and 2 degrees of freedom:
+    # 2.5706 and 4.3027.
+    assert effective_size([(2, 2), (1, 2), (0, 2)]) == pytest.approx(
+        3 * (2.5706 / 4.3027) ** 2, rel=1e-4
+    )
 
 
 def test_intervals_of_clustered_rates_hold_what_they_promise() -> None:
-    """Repeated families of four with correlated answers: the plain Wilson interval misses the truth far more often than one time in twenty."""
+    """Repeated families of four with correlated answers: the plain Wilson interval misses the truth
+    far more often than one time in twenty.
+    """
     generator, families = np.random.default_rng(0), [index // 4 for index in range(80)]
     plain = clustered = 0
     for _ in range(300):

@@ -1,5 +1,6 @@
-"""Suites: what runs, what is skipped, what a failure leaves, and what the tables say. The processes are stood in for by functions
-that write a run folder, but for one test at the end."""
+"""Suites: what runs, what is skipped, what a failure leaves, and what the tables say. The processes
+are stood in for by functions that write a run folder, but for one test at the end.
+"""
 
 from __future__ import annotations
 
@@ -25,11 +26,24 @@ from planner_ft.benchmark.suite.units import Flags
 from planner_ft.support.errors import PlannerError
 
 FIRST, SECOND = "Llama-3.2-1B", "Qwen2.5-3B"
-RIGHT = json.dumps({"tasks": [{"title": "Transit", "parameters": {}, "task_prompt": ""}], "assumptions": [], "constraints": []})
+RIGHT = json.dumps(
+    {
+        "tasks": [{"title": "Transit", "parameters": {}, "task_prompt": ""}],
+        "assumptions": [],
+        "constraints": [],
+    }
+)
 
 
 def write_data(path: Path, count: int) -> None:
-    records = [{"id": f"m{index}", "prompt": f"go to {index} {index}", "expected": {"tasks": [{"title": "Transit"}]}} for index in range(count)]
+    records = [
+        {
+            "id": f"m{index}",
+            "prompt": f"go to {index} {index}",
+            "expected": {"tasks": [{"title": "Transit"}]},
+        }
+        for index in range(count)
+    ]
     path.write_text("".join(json.dumps(record) + "\n" for record in records))
 
 
@@ -40,15 +54,18 @@ def suite_file(tmp_path: Path, models: Path) -> Path:
     write_data(tmp_path / "more.jsonl", 2)
     path = tmp_path / "suite.toml"
     path.write_text(
-        f'title = "A suite"\ncandidates = ["{FIRST}", "{SECOND}"]\nconfigurations = ["base"]\nlatency_samples = 1\n'
-        '[[parts]]\nname = "test"\nlevel = "mission"\ndata = "test.jsonl"\n'
-        '[[parts]]\nname = "more"\nlevel = "mission"\ndata = "more.jsonl"\napart = true\n'
+        f'title = "A suite"\ncandidates = ["{FIRST}", "{SECOND}"]\nconfigurations ='
+        ' ["base"]\nlatency_samples = 1\n[[parts]]\nname = "test"\nlevel = "mission"\ndata ='
+        ' "test.jsonl"\n[[parts]]\nname = "more"\nlevel = "mission"\ndata = "more.jsonl"\napart ='
+        " true\n"
     )
     return path
 
 
 class Runs:
-    """Stands in for the processes of a suite: writes what `plannerft bench` would, one line at a time, as the suite looks."""
+    """Stands in for the processes of a suite: writes what `plannerft bench` would, one line at a
+    time, as the suite looks.
+    """
 
     def __init__(self) -> None:
         self.started: list[tuple[str, str]] = []
@@ -77,27 +94,67 @@ class _Run:
         self.runs, self.values, self.failure, self.ended = runs, values, failure, False
         self.folder = Path(values["--out"])
         self.folder.mkdir(parents=True, exist_ok=True)
-        self.samples = [json.loads(line)["id"] for line in Path(values["--data"]).read_text().splitlines()]
+        self.samples = [
+            json.loads(line)["id"] for line in Path(values["--data"]).read_text().splitlines()
+        ]
         done = self.folder / "predictions.jsonl"
-        known = {json.loads(line)["id"] for line in done.read_text().splitlines()} if done.is_file() else set()
+        known = (
+            {json.loads(line)["id"] for line in done.read_text().splitlines()}
+            if done.is_file()
+            else set()
+        )
         self.left = [sample for sample in self.samples if sample not in known]
-        system = {"candidate": values["--candidates"], "configuration": "base", "label": values["--candidates"]}
-        data = {"level": "mission", "data": values["--data"], "data_sha256": "", "limit": None, "vocabulary": "usv", "seed": 0}
-        record = {"settings": data, "jobs": {"j": {}}, "keys": {"j": "k"}, "systems": {"j": system}, "costs": {}}
+        system = {
+            "candidate": values["--candidates"],
+            "configuration": "base",
+            "label": values["--candidates"],
+        }
+        data = {
+            "level": "mission",
+            "data": values["--data"],
+            "data_sha256": "",
+            "limit": None,
+            "vocabulary": "usv",
+            "seed": 0,
+        }
+        record = {
+            "settings": data,
+            "jobs": {"j": {}},
+            "keys": {"j": "k"},
+            "systems": {"j": system},
+            "costs": {},
+        }
         (self.folder / "run.json").write_text(json.dumps(record))
 
     def step(self) -> None:
         if not self.left:
             return
         self.runs.queries += 1
-        line = {"id": self.left.pop(0), "configuration": "base", "output": RIGHT, "time_s": 1.0, "tokens": 5, "key": "k"}
+        line = {
+            "id": self.left.pop(0),
+            "configuration": "base",
+            "output": RIGHT,
+            "time_s": 1.0,
+            "tokens": 5,
+            "key": "k",
+        }
         with open(self.folder / "predictions.jsonl", "a") as stream:
             stream.write(json.dumps(line) + "\n")
         if self.failure is not None:
             self.ended, self.left = True, []
         elif not self.left:
             with open(self.folder / "latency.jsonl", "a") as stream:
-                stream.write(json.dumps({"id": self.samples[0], "configuration": "base", "latency_s": 2.0, "key": "k"}) + "\n")
+                stream.write(
+                    json.dumps(
+                        {
+                            "id": self.samples[0],
+                            "configuration": "base",
+                            "latency_s": 2.0,
+                            "key": "k",
+                        }
+                    )
+                    + "\n"
+                )
             (self.folder / "results.json").write_text("{}")
 
     def running(self) -> bool:
@@ -146,31 +203,59 @@ def csv_rows(path: Path) -> list[dict[str, str]]:
 def test_every_candidate_is_run_on_every_data_set(go: Any, runs: Runs, tmp_path: Path) -> None:
     parts = go()
     assert runs.started == [("test", FIRST), ("more", FIRST), ("test", SECOND), ("more", SECOND)]
-    assert [(part.part.name, len(part.results.rows), part.failed) for part in parts] == [("test", 2, ()), ("more", 2, ())]
+    assert [(part.part.name, len(part.results.rows), part.failed) for part in parts] == [
+        ("test", 2, ()),
+        ("more", 2, ()),
+    ]
     rows = csv_rows(tmp_path / "out" / "table.csv")
-    assert [(row["data"], row["candidate"], row["n"], row["apart"], row["status"], row["f1"]) for row in rows] == [
-        ("test", FIRST, "3", "0", "measured", "1"), ("test", SECOND, "3", "0", "measured", "1"),
-        ("more", FIRST, "2", "1", "measured", "1"), ("more", SECOND, "2", "1", "measured", "1"),
-    ]  # fmt: skip
-    for name in ("table.md", "table.csv", "table.tex", "results.json", "test/table.md", "test/results.json", "test/scores.jsonl", "more/table.tex"):
+    assert [
+        (row["data"], row["candidate"], row["n"], row["apart"], row["status"], row["f1"])
+        for row in rows
+    ] == [
+        ("test", FIRST, "3", "0", "measured", "1"),
+        ("test", SECOND, "3", "0", "measured", "1"),
+        ("more", FIRST, "2", "1", "measured", "1"),
+        ("more", SECOND, "2", "1", "measured", "1"),
+    ]
+    for name in (
+        "table.md",
+        "table.csv",
+        "table.tex",
+        "results.json",
+        "test/table.md",
+        "test/results.json",
+        "test/scores.jsonl",
+        "more/table.tex",
+    ):
         assert (tmp_path / "out" / name).stat().st_size > 0
     overview = (tmp_path / "out" / "table.md").read_text()
-    assert overview.index("Published-size splits") < overview.index("### test") < overview.index("Reported apart") < overview.index("### more")
+    assert (
+        overview.index("Published-size splits")
+        < overview.index("### test")
+        < overview.index("Reported apart")
+        < overview.index("### more")
+    )
 
 
 def test_the_manifest_names_every_data_set_and_unit(go: Any, runs: Runs, tmp_path: Path) -> None:
     go()
     manifest = json.loads((tmp_path / "out" / "results.json").read_text())["manifest"]
     assert set(manifest["inputs"]) == {"suite", "test", "more"}
-    assert set(manifest["units"]) == {f"{part}, {name}" for part in ("test", "more") for name in (FIRST, SECOND)}
+    assert set(manifest["units"]) == {
+        f"{part}, {name}" for part in ("test", "more") for name in (FIRST, SECOND)
+    }
     assert "--level" in manifest["units"][f"test, {FIRST}"]["arguments"]
 
 
-def test_a_failure_is_in_the_tables_and_the_others_go_on(go: Any, runs: Runs, tmp_path: Path) -> None:
+def test_a_failure_is_in_the_tables_and_the_others_go_on(
+    go: Any, runs: Runs, tmp_path: Path
+) -> None:
     runs.fails[("test", FIRST)] = "its process was ended by SIGKILL, most likely for want of memory"
     parts = go()
     assert len(runs.started) == 4
-    assert [(entry.candidate, entry.configuration) for entry in parts[0].failed] == [(FIRST, "base")]
+    assert [(entry.candidate, entry.configuration) for entry in parts[0].failed] == [
+        (FIRST, "base")
+    ]
     assert "want of memory (1 of 3 answers are kept)" in parts[0].failed[0].reason
     failed = [row for row in csv_rows(tmp_path / "out" / "table.csv") if row["status"] == "failed"]
     assert [(row["data"], row["candidate"], row["f1"]) for row in failed] == [("test", FIRST, "")]
@@ -184,8 +269,14 @@ def test_a_failure_is_in_the_tables_and_the_others_go_on(go: Any, runs: Runs, tm
     assert not again[0].failed
 
 
-def test_weights_and_adapters_that_are_missing_cost_only_their_own_rows(go: Any, runs: Runs, suite_file: Path, tmp_path: Path, models: Path) -> None:
-    suite_file.write_text(suite_file.read_text().replace('["base"]', '["base", "lora"]').replace(SECOND, "org/nowhere"))
+def test_weights_and_adapters_that_are_missing_cost_only_their_own_rows(
+    go: Any, runs: Runs, suite_file: Path, tmp_path: Path, models: Path
+) -> None:
+    suite_file.write_text(
+        suite_file.read_text()
+        .replace('["base"]', '["base", "lora"]')
+        .replace(SECOND, "org/nowhere")
+    )
     parts = go()
     assert runs.started == [("test", FIRST), ("more", FIRST)]
     reasons = {(entry.candidate, entry.configuration): entry.reason for entry in parts[0].failed}
@@ -196,7 +287,9 @@ def test_weights_and_adapters_that_are_missing_cost_only_their_own_rows(go: Any,
 
 
 @pytest.mark.parametrize("after", [1, 2, 3, 4, 6, 8])
-def test_a_suite_that_was_killed_goes_on_and_pays_nothing_twice(go: Any, runs: Runs, tmp_path: Path, after: int) -> None:
+def test_a_suite_that_was_killed_goes_on_and_pays_nothing_twice(
+    go: Any, runs: Runs, tmp_path: Path, after: int
+) -> None:
     def kill(_state: State) -> None:
         if runs.queries == after:
             raise SystemExit
@@ -224,7 +317,9 @@ def test_a_process_that_gives_no_answer_is_ended(go: Any, runs: Runs, suite_file
     runs.hangs = True
     parts = go()
     assert 4 * 120 <= runs.now <= 4 * 130
-    assert all("no new answer for 2 minutes" in entry.reason for part in parts for entry in part.failed)
+    assert all(
+        "no new answer for 2 minutes" in entry.reason for part in parts for entry in part.failed
+    )
     assert sum(len(part.failed) for part in parts) == 4
 
 
@@ -234,7 +329,8 @@ def test_the_time_left_holds(go: Any, runs: Runs) -> None:
     end, later = runs.now, [(now, left) for now, left in claims if now > 3]
     assert claims[0][1] is None
     assert later
-    # A second per answer; the timed query was not waited for, so claims may be two seconds long for each of four.
+    # A second per answer; the timed query was not waited for, so claims may be two seconds long for
+    # each of four.
     assert all(left is not None and abs(now + left - end) <= 8 for now, left in later)
 
 
@@ -247,7 +343,9 @@ def test_data_that_changed_since_the_start_is_refused(go: Any, runs: Runs, tmp_p
     assert [row["n"] for row in csv_rows(tmp_path / "out" / "table.csv")] == ["3", "3", "4", "4"]
 
 
-def test_a_folder_is_not_overwritten_and_not_shared(go: Any, runs: Runs, suite_file: Path, tmp_path: Path) -> None:
+def test_a_folder_is_not_overwritten_and_not_shared(
+    go: Any, runs: Runs, suite_file: Path, tmp_path: Path
+) -> None:
     go()
     with pytest.raises(PlannerError, match=r"--resume .* --overwrite"):
         go()
@@ -267,15 +365,24 @@ def test_what_is_not_run_yet_is_said(suite_file: Path, runs: Runs, tmp_path: Pat
 @pytest.mark.parametrize(
     ("old", "new", "problem"),
     [
-        ('title = "A suite"\n', "", "title is missing"), ('["base"]', '["magic"]', "configurations magic"), ('["base"]', "[]", "configurations is empty"),
-        ('level = "mission"', 'level = "both"', r"parts\[0\]: level 'both'"), ('name = "more"', 'name = "test"', "two parts are named test"),
-        ('name = "more"', 'name = "../more"', "becomes a folder"), ('data = "test.jsonl"', 'data = "none.jsonl"', "no such file"),
-        ("latency_samples = 1", "latency_samples = -1", "latency_samples must be at least 0"), ("latency_samples = 1", "speed = 1", "unknown key 'speed'"),
-        (FIRST, "Lama", "unknown candidate"), (FIRST, SECOND.lower(), "two candidates are named"), ("apart = true", 'apart = "yes"', "apart must be a bool"),
+        ('title = "A suite"\n', "", "title is missing"),
+        ('["base"]', '["magic"]', "configurations magic"),
+        ('["base"]', "[]", "configurations is empty"),
+        ('level = "mission"', 'level = "both"', r"parts\[0\]: level 'both'"),
+        ('name = "more"', 'name = "test"', "two parts are named test"),
+        ('name = "more"', 'name = "../more"', "becomes a folder"),
+        ('data = "test.jsonl"', 'data = "none.jsonl"', "no such file"),
+        ("latency_samples = 1", "latency_samples = -1", "latency_samples must be at least 0"),
+        ("latency_samples = 1", "speed = 1", "unknown key 'speed'"),
+        (FIRST, "Lama", "unknown candidate"),
+        (FIRST, SECOND.lower(), "two candidates are named"),
+        ("apart = true", 'apart = "yes"', "apart must be a bool"),
         ("[[parts]]", "[[parts]", "not TOML"),
     ],
-)  # fmt: skip
-def test_a_bad_suite_file_is_one_sentence(go: Any, runs: Runs, suite_file: Path, old: str, new: str, problem: str) -> None:
+)
+def test_a_bad_suite_file_is_one_sentence(
+    go: Any, runs: Runs, suite_file: Path, old: str, new: str, problem: str
+) -> None:
     suite_file.write_text(suite_file.read_text().replace(old, new, 1))
     with pytest.raises(PlannerError, match=problem):
         go()
@@ -288,7 +395,9 @@ def test_the_shipped_suites_can_be_read() -> None:
     assert set(suites) == {"paper", "embedded", "ci"}
     assert len(suites["paper"].candidates) == 7
     for suite in suites.values():
-        assert [part.apart for part in suite.parts] == [part.data.name != "test.jsonl" for part in suite.parts]
+        assert [part.apart for part in suite.parts] == [
+            part.data.name != "test.jsonl" for part in suite.parts
+        ]
         assert all(part.data.is_file() for part in suite.parts if "data/task" not in str(part.data))
 
 
@@ -303,8 +412,14 @@ def test_a_process_that_is_killed_says_so(tmp_path: Path) -> None:
         assert "SIGKILL" in str(process.problem())
 
 
-def test_a_process_ends_with_the_suite_that_started_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(process_module, "command", lambda _arguments, _processes: [sys.executable, "-c", "import time; time.sleep(60)"])
+def test_a_process_ends_with_the_suite_that_started_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(
+        process_module,
+        "command",
+        lambda _arguments, _processes: [sys.executable, "-c", "import time; time.sleep(60)"],
+    )
 
     def suite() -> None:
         with Process([], tmp_path / "log.txt") as process:
@@ -321,15 +436,25 @@ def test_a_process_ends_with_the_suite_that_started_it(tmp_path: Path, monkeypat
     parent.join()
     deadline = time.monotonic() + 30
     # Gone, or a zombie that nobody has collected yet.
-    while child.is_file() and child.read_text().rsplit(")", 1)[1].split()[0] != "Z" and time.monotonic() < deadline:
+    while (
+        child.is_file()
+        and child.read_text().rsplit(")", 1)[1].split()[0] != "Z"
+        and time.monotonic() < deadline
+    ):
         time.sleep(0.01)
     assert time.monotonic() < deadline
 
 
 def test_a_suite_runs_in_real_processes(suite_file: Path, tmp_path: Path, models: Path) -> None:
-    text = suite_file.read_text().replace(f', "{SECOND}"', "").replace("latency_samples = 1", "latency_samples = 0\nmax_new_tokens = 3")
+    text = (
+        suite_file.read_text()
+        .replace(f', "{SECOND}"', "")
+        .replace("latency_samples = 1", "latency_samples = 0\nmax_new_tokens = 3")
+    )
     suite_file.write_text(text[: text.index('[[parts]]\nname = "more"')])
-    (part,) = run_suite(load_suite(suite_file), tmp_path / "out", Flags(device="cpu", limit=1), lambda _state: None)
+    (part,) = run_suite(
+        load_suite(suite_file), tmp_path / "out", Flags(device="cpu", limit=1), lambda _state: None
+    )
     assert not part.failed, part.failed
     assert [row.n for row in part.results.rows] == [1]
     assert part.results.rows[0].system.is_standin

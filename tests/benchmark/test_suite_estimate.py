@@ -15,14 +15,26 @@ LOADING = 30.0
 
 def true_seconds(work: Work) -> float:
     """Of a machine whose time is in proportion to the candidate's size; lora takes half of base."""
-    return SECONDS[work.kind] * SIZES[work.candidate] / 1e6 * (0.5 if work.configuration == "lora" else 1)
+    return (
+        SECONDS[work.kind]
+        * SIZES[work.candidate]
+        / 1e6
+        * (0.5 if work.configuration == "lora" else 1)
+    )
 
 
 def queue() -> list[tuple[str, list[Work]]]:
     """Processes by candidate, with their queries."""
     parts = [("mission", 25), ("task", 50)]
     return [
-        (name, [Work(name, level, configuration, kind, count, SIZES[name]) for configuration in ("base", "lora") for kind in ("answers", "latency")])
+        (
+            name,
+            [
+                Work(name, level, configuration, kind, count, SIZES[name])
+                for configuration in ("base", "lora")
+                for kind in ("answers", "latency")
+            ],
+        )
         for name, (level, count) in itertools.product(SIZES, parts)
     ]
 
@@ -45,7 +57,8 @@ def test_an_eta_holds_from_the_second_process_on() -> None:
         rest = [work for _candidate, works in left for work in works]
         truth = sum(true_seconds(work) * work.count for work in rest) + LOADING * len(left)
         if len(left) <= 2:
-            # Both levels of the small candidate were measured: the large one's time follows from its size.
+            # Both levels of the small candidate were measured: the large one's time follows from
+            # its size.
             assert time_left(pace, rest, [name for name, _works in left]) == pytest.approx(truth)
 
 
@@ -53,8 +66,14 @@ def test_the_own_pace_counts_for_more_than_that_of_others() -> None:
     pace = Pace()
     pace.add(Work("small", "mission", "base", "answers", 10, SIZES["small"]), 10.0)
     pace.add(Work("large", "mission", "base", "answers", 10, SIZES["large"]), 100.0)
-    assert pace.seconds_per_query(Work("small", "mission", "base", "answers", 0, SIZES["small"])) == 1.0
-    assert pace.seconds_per_query(Work("large", "mission", "lora", "answers", 0, SIZES["large"])) == 10.0
+    assert (
+        pace.seconds_per_query(Work("small", "mission", "base", "answers", 0, SIZES["small"]))
+        == 1.0
+    )
+    assert (
+        pace.seconds_per_query(Work("large", "mission", "lora", "answers", 0, SIZES["large"]))
+        == 10.0
+    )
 
 
 def test_a_candidate_of_unknown_size_gets_the_pace_of_the_others() -> None:

@@ -16,22 +16,48 @@ from planner_ft.benchmark.tables import csv_table, latex, markdown
 from planner_ft.benchmark.terminal import print_results
 
 
-def results(*systems: System, vocabulary: str = "usv", level: Any = "mission", **changes: Any) -> Results:
+def results(
+    *systems: System, vocabulary: str = "usv", level: Any = "mission", **changes: Any
+) -> Results:
     figures = {name: Estimate(0.5, 0.25, 0.75) for name in METRICS} | {
         "tokens": Estimate(123.456, 100, 150),
         "latency_s": Estimate(0.345, 0.3, 0.4),
         "parameters": Estimate(None),
     }
     failures = dict.fromkeys(
-        ("prerequisite omission", "parameter propagation", "substitution", "hallucination", "omission", "extra step", "wrong order", "invalid output"), 1
+        (
+            "prerequisite omission",
+            "parameter propagation",
+            "substitution",
+            "hallucination",
+            "omission",
+            "extra step",
+            "wrong order",
+            "invalid output",
+        ),
+        1,
     )
-    rows = tuple(Row(system, 25, figures, failures, {"length": 2, "stop": 23}, latency_n=25, **changes) for system in systems)
-    return Results(level, {"path": "d.jsonl", "sha256": "0" * 64, "n": 25}, rows, {"configuration": {"vocabulary": {"name": vocabulary}}})
+    rows = tuple(
+        Row(system, 25, figures, failures, {"length": 2, "stop": 23}, latency_n=25, **changes)
+        for system in systems
+    )
+    return Results(
+        level,
+        {"path": "d.jsonl", "sha256": "0" * 64, "n": 25},
+        rows,
+        {"configuration": {"vocabulary": {"name": vocabulary}}},
+    )
 
 
-BASE = System("Llama-3.2-3B-Instruct", "base", "Llama-3.2-3B-Instruct", published="Llama-3.2-3B-Instruct")
-LORA = System("Llama-3.2-3B-Instruct", "lora", "Llama-3.2-3B-Instruct", published="Llama-3.2-3B-Instruct")
-STANDIN = System("Qwen2.5-3B", "base", "Qwen2.5-3B (stand-in)", published="Qwen2.5-3B", is_standin=True)
+BASE = System(
+    "Llama-3.2-3B-Instruct", "base", "Llama-3.2-3B-Instruct", published="Llama-3.2-3B-Instruct"
+)
+LORA = System(
+    "Llama-3.2-3B-Instruct", "lora", "Llama-3.2-3B-Instruct", published="Llama-3.2-3B-Instruct"
+)
+STANDIN = System(
+    "Qwen2.5-3B", "base", "Qwen2.5-3B (stand-in)", published="Qwen2.5-3B", is_standin=True
+)
 
 
 def cells(text: str, model: str) -> list[str]:
@@ -42,9 +68,13 @@ def cells(text: str, model: str) -> list[str]:
 def test_base_and_lora_stand_side_by_side_with_the_published_row_below() -> None:
     text = markdown(results(BASE, LORA))
     assert text.splitlines()[0].startswith(
-        "| Model | n | F1 ↑ Base | F1 ↑ LoRA | Hallucination (%) ↓ Base | Hallucination (%) ↓ LoRA | Schema valid (%) ↑ Base"
+        "| Model | n | F1 ↑ Base | F1 ↑ LoRA | Hallucination (%) ↓ Base | Hallucination (%) ↓ LoRA"
+        " | Schema valid (%) ↑ Base"
     )
-    assert cells(text, "Llama-3.2-3B-Instruct")[2:8] == ["0.50 [0.25, 0.75]"] * 2 + ["50.0 [25.0, 75.0]"] * 4
+    assert (
+        cells(text, "Llama-3.2-3B-Instruct")[2:8]
+        == ["0.50 [0.25, 0.75]"] * 2 + ["50.0 [25.0, 75.0]"] * 4
+    )
     published = cells(text, "Llama-3.2-3B-Instruct (published)")
     assert published[2:8] == ["0.61", "0.89", "0.0", "4.0", "100.0", "100.0"]
     assert published[8:] == ["–", "–", "6.6", "18.7", "198.4", "472.0"]
@@ -62,7 +92,11 @@ def test_stand_ins_are_marked_and_not_compared_with_published_figures() -> None:
         assert "(published)" not in text
     mixed = markdown(results(STANDIN, BASE))
     models = [line.split("|")[1].strip() for line in mixed.splitlines()[2:6]]
-    assert models[:3] == ["Qwen2.5-3B (stand-in)", "Llama-3.2-3B-Instruct", "Llama-3.2-3B-Instruct (published)"]
+    assert models[:3] == [
+        "Qwen2.5-3B (stand-in)",
+        "Llama-3.2-3B-Instruct",
+        "Llama-3.2-3B-Instruct (published)",
+    ]
     assert "say nothing about the real candidate" in mixed
 
 
@@ -71,7 +105,9 @@ def test_another_vehicle_stands_beside_no_published_figures() -> None:
 
 
 def test_a_pretrained_candidate_is_said_to_be_one() -> None:
-    assert "embedded was pretrained on synthetic plans" in markdown(results(System("embedded", "base", "embedded", pretrained=True)))
+    assert "embedded was pretrained on synthetic plans" in markdown(
+        results(System("embedded", "base", "embedded", pretrained=True))
+    )
 
 
 def test_predictions_of_outsiders_get_a_column_beside_the_published_ones() -> None:
@@ -81,16 +117,29 @@ def test_predictions_of_outsiders_get_a_column_beside_the_published_ones() -> No
 
 def test_the_csv_reads_back_in_percent() -> None:
     rows = list(csv.DictReader(io.StringIO(csv_table(results(BASE, LORA)))))
-    assert (rows[0]["source"], rows[0]["f1_base"], rows[0]["f1_base_low"], rows[0]["schema_valid_lora_high"]) == ("measured", "0.5", "0.25", "75")
+    assert (
+        rows[0]["source"],
+        rows[0]["f1_base"],
+        rows[0]["f1_base_low"],
+        rows[0]["schema_valid_lora_high"],
+    ) == ("measured", "0.5", "0.25", "75")
     assert rows[0]["parameters_base"] == ""
-    assert (rows[1]["source"], rows[1]["hallucination_lora"], rows[1]["tokens_lora"]) == ("published", "4", "472")
+    assert (rows[1]["source"], rows[1]["hallucination_lora"], rows[1]["tokens_lora"]) == (
+        "published",
+        "4",
+        "472",
+    )
     assert len(rows) == 8
 
 
 def test_the_latex_table_is_balanced_and_escaped() -> None:
-    text = latex(results(System("a_b&c", "base", "a_b&c 100%"), System("a_b&c", "lora", "a_b&c 100%")))
+    text = latex(
+        results(System("a_b&c", "base", "a_b&c 100%"), System("a_b&c", "lora", "a_b&c 100%"))
+    )
     assert "a\\_b\\&c 100\\%" in text
-    body = [line for line in text.splitlines() if line.endswith("\\\\") and "multicolumn" not in line]
+    body = [
+        line for line in text.splitlines() if line.endswith("\\\\") and "multicolumn" not in line
+    ]
     assert {line.count(" & ") for line in body} == {12}
     assert text.count("\\begin{tabular}") == text.count("\\end{tabular}") == 1
     assert "–" not in "".join(body)

@@ -30,7 +30,12 @@ def trained(standins: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
         candidate = resolve_candidate("Llama-3.2-1B")
     torch.manual_seed(0)
     model = load_model(candidate, device="cpu", trainable=True)
-    adapted = get_peft_model(model, LoraConfig(r=4, target_modules="all-linear", task_type="CAUSAL_LM", init_lora_weights=False))
+    adapted = get_peft_model(
+        model,
+        LoraConfig(
+            r=4, target_modules="all-linear", task_type="CAUSAL_LM", init_lora_weights=False
+        ),
+    )
     adapted.save_pretrained(folder, save_embedding_layers=False)
     write_json(folder / "manifest.json", adapter_record(candidate, "mission", load_vocabulary()))
     return folder
@@ -45,7 +50,12 @@ def adapter(trained: Path, tmp_path: Path) -> Path:
 def test_an_adapter_loads_on_its_base_and_changes_the_output(models: Path, adapter: Path) -> None:
     candidate = resolve_candidate("Llama-3.2-1B")
     info = check_adapter(adapter, candidate, level="mission", vocabulary=load_vocabulary())
-    assert (info.rank, info.level, info.candidate, info.vocabulary) == (4, "mission", "Llama-3.2-1B", "usv")
+    assert (info.rank, info.level, info.candidate, info.vocabulary) == (
+        4,
+        "mission",
+        "Llama-3.2-1B",
+        "usv",
+    )
     ids = torch.arange(8).reshape(1, 8)
     with torch.no_grad():
         plain = load_model(candidate, device="cpu")(input_ids=ids).logits
@@ -57,18 +67,30 @@ def test_an_adapter_loads_on_its_base_and_changes_the_output(models: Path, adapt
 
 
 def test_an_adapter_of_another_base_is_refused(models: Path, adapter: Path) -> None:
-    with pytest.raises(PlannerError, match=r"trained on Llama-3.2-1B \(stand-in\) and does not fit Qwen2.5-3B \(stand-in\); give --candidate Llama-3.2-1B"):
+    with pytest.raises(
+        PlannerError,
+        match=(
+            r"trained on Llama-3.2-1B \(stand-in\) and does not fit Qwen2.5-3B \(stand-in\); give"
+            r" --candidate Llama-3.2-1B"
+        ),
+    ):
         load_model(resolve_candidate("Qwen2.5-3B"), device="cpu", adapter=adapter)
 
 
-def test_an_adapter_of_a_stand_in_does_not_fit_the_real_candidate(adapter: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_adapter_of_a_stand_in_does_not_fit_the_real_candidate(
+    adapter: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("HF_HUB_CACHE", str(tmp_path))
     monkeypatch.delenv("PLANNERFT_MODELS", raising=False)
-    with pytest.raises(PlannerError, match=r"trained on Llama-3.2-1B \(stand-in\) and does not fit Llama-3.2-1B;"):
+    with pytest.raises(
+        PlannerError, match=r"trained on Llama-3.2-1B \(stand-in\) and does not fit Llama-3.2-1B;"
+    ):
         check_adapter(adapter, resolve_candidate("Llama-3.2-1B"))
 
 
-def test_an_adapter_of_other_weights_of_the_same_name_is_refused(adapter: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_adapter_of_other_weights_of_the_same_name_is_refused(
+    adapter: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     from planner_ft.candidates.standins import make_standin
 
     make_standin("Llama-3.2-1B", tmp_path, seed=1)
@@ -77,28 +99,52 @@ def test_an_adapter_of_other_weights_of_the_same_name_is_refused(adapter: Path, 
         check_adapter(adapter, resolve_candidate("Llama-3.2-1B"))
 
 
-def test_an_adapter_serves_the_level_and_vocabulary_that_it_was_trained_for(models: Path, adapter: Path) -> None:
+def test_an_adapter_serves_the_level_and_vocabulary_that_it_was_trained_for(
+    models: Path, adapter: Path
+) -> None:
     candidate, vocabulary = resolve_candidate("Llama-3.2-1B"), load_vocabulary()
-    with pytest.raises(PlannerError, match="adapter of the mission level, not of the task level; give --level mission"):
+    with pytest.raises(
+        PlannerError,
+        match="adapter of the mission level, not of the task level; give --level mission",
+    ):
         check_adapter(adapter, candidate, level="task")
     with pytest.raises(PlannerError, match="trained with the vocabulary usv, not drone"):
-        check_adapter(adapter, candidate, vocabulary=dataclasses.replace(vocabulary, name="drone", sha256="0" * 64))
+        check_adapter(
+            adapter,
+            candidate,
+            vocabulary=dataclasses.replace(vocabulary, name="drone", sha256="0" * 64),
+        )
     with pytest.raises(PlannerError, match="another version of the vocabulary usv"):
-        check_adapter(adapter, candidate, vocabulary=dataclasses.replace(vocabulary, sha256="0" * 64))
+        check_adapter(
+            adapter, candidate, vocabulary=dataclasses.replace(vocabulary, sha256="0" * 64)
+        )
 
 
 def plain_peft(adapter: Path, reference: str) -> None:
     """Make it an adapter that another program has saved: no manifest, a base by name."""
     (adapter / "manifest.json").unlink()
     config = json.loads((adapter / "adapter_config.json").read_text())
-    (adapter / "adapter_config.json").write_text(json.dumps({**config, "base_model_name_or_path": reference}))
+    (adapter / "adapter_config.json").write_text(
+        json.dumps({**config, "base_model_name_or_path": reference})
+    )
 
 
-@pytest.mark.parametrize("reference", ["meta-llama/Llama-3.2-1B", "/elsewhere/Llama-3.2-1B", "/cache/models--meta-llama--Llama-3.2-1B/snapshots/abc"])
-def test_a_plain_peft_adapter_fits_the_base_that_it_names(models: Path, adapter: Path, reference: str) -> None:
+@pytest.mark.parametrize(
+    "reference",
+    [
+        "meta-llama/Llama-3.2-1B",
+        "/elsewhere/Llama-3.2-1B",
+        "/cache/models--meta-llama--Llama-3.2-1B/snapshots/abc",
+    ],
+)
+def test_a_plain_peft_adapter_fits_the_base_that_it_names(
+    models: Path, adapter: Path, reference: str
+) -> None:
     plain_peft(adapter, reference)
     assert check_adapter(adapter, resolve_candidate("Llama-3.2-1B"), level="task").level is None
-    with pytest.raises(PlannerError, match=r"was trained on .*Llama-3.2-1B.*, not on Llama-3.2-1B-Instruct"):
+    with pytest.raises(
+        PlannerError, match=r"was trained on .*Llama-3.2-1B.*, not on Llama-3.2-1B-Instruct"
+    ):
         check_adapter(adapter, resolve_candidate("Llama-3.2-1B-Instruct"))
 
 
@@ -108,24 +154,55 @@ def test_shapes_tell_an_adapter_of_another_base(models: Path, adapter: Path) -> 
     assert candidate.dimensions is not None
     for change in ({"hidden": 128}, {"layers": 1}):
         with pytest.raises(PlannerError, match="does not fit the base model"):
-            check_adapter(adapter, dataclasses.replace(candidate, dimensions=dataclasses.replace(candidate.dimensions, **change)))
+            check_adapter(
+                adapter,
+                dataclasses.replace(
+                    candidate, dimensions=dataclasses.replace(candidate.dimensions, **change)
+                ),
+            )
 
 
 DAMAGE: dict[str, tuple[Callable[[Path], object], str]] = {
     "gone": (shutil.rmtree, "no such adapter folder; train one with `plannerft train"),
-    "no configuration": (lambda folder: (folder / "adapter_config.json").unlink(), "no adapter_config.json"),
-    "configuration is no JSON": (lambda folder: (folder / "adapter_config.json").write_text("{"), "adapter_config.json:1: not JSON"),
-    "no LoRA": (lambda folder: (folder / "adapter_config.json").write_text('{"peft_type": "IA3"}'), "no LoRA adapter"),
-    "no weights": (lambda folder: (folder / "adapter_model.safetensors").unlink(), "no adapter_model.safetensors"),
-    "pickled": (lambda folder: (folder / "adapter_model.safetensors").rename(folder / "adapter_model.bin"), "pickled weights are never loaded"),
-    "truncated": (lambda folder: (folder / "adapter_model.safetensors").write_bytes(b"\x10\0\0\0\0\0\0\0{}"), "corrupt or no safetensors"),
-    "manifest is no JSON": (lambda folder: (folder / "manifest.json").write_text("{"), "manifest.json:1: not JSON"),
-    "manifest of another form": (lambda folder: (folder / "manifest.json").write_text("[]"), "manifest.json"),
+    "no configuration": (
+        lambda folder: (folder / "adapter_config.json").unlink(),
+        "no adapter_config.json",
+    ),
+    "configuration is no JSON": (
+        lambda folder: (folder / "adapter_config.json").write_text("{"),
+        "adapter_config.json:1: not JSON",
+    ),
+    "no LoRA": (
+        lambda folder: (folder / "adapter_config.json").write_text('{"peft_type": "IA3"}'),
+        "no LoRA adapter",
+    ),
+    "no weights": (
+        lambda folder: (folder / "adapter_model.safetensors").unlink(),
+        "no adapter_model.safetensors",
+    ),
+    "pickled": (
+        lambda folder: (folder / "adapter_model.safetensors").rename(folder / "adapter_model.bin"),
+        "pickled weights are never loaded",
+    ),
+    "truncated": (
+        lambda folder: (folder / "adapter_model.safetensors").write_bytes(b"\x10\0\0\0\0\0\0\0{}"),
+        "corrupt or no safetensors",
+    ),
+    "manifest is no JSON": (
+        lambda folder: (folder / "manifest.json").write_text("{"),
+        "manifest.json:1: not JSON",
+    ),
+    "manifest of another form": (
+        lambda folder: (folder / "manifest.json").write_text("[]"),
+        "manifest.json",
+    ),
 }
 
 
 @pytest.mark.parametrize("damage", DAMAGE)
-def test_a_damaged_adapter_is_refused_in_one_sentence(models: Path, adapter: Path, damage: str) -> None:
+def test_a_damaged_adapter_is_refused_in_one_sentence(
+    models: Path, adapter: Path, damage: str
+) -> None:
     damaging, message = DAMAGE[damage]
     damaging(adapter)
     with pytest.raises(PlannerError, match=message) as caught:

@@ -32,7 +32,9 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     return invoke
 
 
-def test_the_table_says_what_fits_and_how_to_get_it(run: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_table_says_what_fits_and_how_to_get_it(
+    run: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.delenv("PLANNERFT_MODELS", raising=False)
     output = run("candidates")
     row = next(line for line in output.splitlines() if line.startswith("Llama-3.2-3B-Instruct"))
@@ -47,7 +49,12 @@ def test_json_holds_every_candidate_with_memory_and_place(run: Any, models: Path
     found = {entry["name"]: entry for entry in json.loads(run("candidates", "--json"))}
     assert list(found)[-1] == "embedded"
     entry = found["Qwen2.5-3B"]
-    assert (entry["row"], entry["standin"], entry["here"], entry["folder"]) == ("Qwen2.5-3B (stand-in)", True, True, str(models / "Qwen2.5-3B"))
+    assert (entry["row"], entry["standin"], entry["here"], entry["folder"]) == (
+        "Qwen2.5-3B (stand-in)",
+        True,
+        True,
+        str(models / "Qwen2.5-3B"),
+    )
     assert set(entry["memory"]["train_fits"]) == {"6 GB", "12 GB"}
 
 
@@ -62,7 +69,16 @@ def test_an_incomplete_folder_is_reported_not_hidden(run: Any, tmp_path: Path) -
 
 def test_doctor_reports_what_it_tried(run: Any, models: Path) -> None:
     report = run("doctor")
-    for heading in ("libraries", "devices", "4-bit", "disk", "environment", "vocabulary", "candidates", "warnings"):
+    for heading in (
+        "libraries",
+        "devices",
+        "4-bit",
+        "disk",
+        "environment",
+        "vocabulary",
+        "candidates",
+        "warnings",
+    ):
         assert f"\n{heading}" in report
     assert "Llama-3.1-8B (4-bit) (stand-in): models folder" in report
     assert f"PLANNERFT_MODELS: {models}" in report
@@ -71,9 +87,14 @@ def test_doctor_reports_what_it_tried(run: Any, models: Path) -> None:
     assert found["vocabulary"]["tasks"] == 21
 
 
-def test_doctor_lists_what_is_wrong_and_hides_the_home_folder(run: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_doctor_lists_what_is_wrong_and_hides_the_home_folder(
+    run: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("HF_HOME", str(Path.home() / "models"))
-    monkeypatch.setattr("planner_ft.candidates.probe.probe_four_bit", lambda device: FourBitProbe(device, "float32", problem="no kernel"))
+    monkeypatch.setattr(
+        "planner_ft.candidates.probe.probe_four_bit",
+        lambda device: FourBitProbe(device, "float32", problem="no kernel"),
+    )
     monkeypatch.setattr(diagnosis, "LITTLE_DISK_GIB", 1e9)
     report = run("doctor")
     assert "- 4-bit layers do not work on cpu (no kernel); use --quantization none" in report
@@ -86,7 +107,11 @@ def test_a_broken_kernel_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
 
     assert probe_four_bit("cpu").problem is None
     original = bitsandbytes.matmul_4bit
-    monkeypatch.setattr(bitsandbytes, "matmul_4bit", lambda *arguments, **options: 1.5 * original(*arguments, **options))
+    monkeypatch.setattr(
+        bitsandbytes,
+        "matmul_4bit",
+        lambda *arguments, **options: 1.5 * original(*arguments, **options),
+    )
     assert "wrong results" in str(probe_four_bit("cpu").problem)
 
     def fail(*_: object, **__: object) -> None:

@@ -30,7 +30,10 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def adapter(folder: Path, vocabulary: str = "usv") -> Path:
     write_json(folder / CONFIG, {"peft_type": "LORA", "r": 4})
-    write_json(folder / "manifest.json", {"vocabulary": {"name": vocabulary, "sha256": load_vocabulary(vocabulary).sha256}})
+    write_json(
+        folder / "manifest.json",
+        {"vocabulary": {"name": vocabulary, "sha256": load_vocabulary(vocabulary).sha256}},
+    )
     return folder
 
 
@@ -63,7 +66,9 @@ def test_an_adapter_of_another_vocabulary_is_passed_over(package: Path) -> None:
     shipped = adapter(package / SHIPPED / "embedded" / "mission")
     adapter(Path("adapters/embedded/mission"), "inspection_drone")
     assert find_adapter(EMBEDDED, "mission", load_vocabulary()) == shipped
-    assert find_adapter(EMBEDDED, "mission", load_vocabulary("inspection_drone")) == Path("adapters/embedded/mission")
+    assert find_adapter(EMBEDDED, "mission", load_vocabulary("inspection_drone")) == Path(
+        "adapters/embedded/mission"
+    )
 
 
 @pytest.mark.parametrize("level", LEVELS)
@@ -76,6 +81,8 @@ def test_what_ships_fits_the_embedded_candidate(level: Level) -> None:
 
 
 def test_a_wheel_carries_the_adapters_where_they_are_looked_for() -> None:
-    included = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]
+    included = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["build"][
+        "targets"
+    ]["wheel"]["force-include"]
     assert included["adapters/embedded"] == f"planner_ft/{SHIPPED / 'embedded'}"
     assert [source for source in included if not (ROOT / source).exists()] == []

@@ -10,7 +10,14 @@ import torch
 
 from planner_ft.candidates import all_candidates, resolve_candidate
 from planner_ft.candidates.loading import load_model
-from planner_ft.candidates.memory import GIB, adapter_parameters, block_activations, inference_memory, stored_weights, training_memory
+from planner_ft.candidates.memory import (
+    GIB,
+    adapter_parameters,
+    block_activations,
+    inference_memory,
+    stored_weights,
+    training_memory,
+)
 
 PUBLISHED = [candidate for candidate in all_candidates() if candidate.published]
 
@@ -22,7 +29,10 @@ def test_parameters_and_stored_bytes_are_those_of_the_loaded_model(models: Path,
     dense = load_model(candidate, device="cpu", quantization="none")
     assert candidate.parameters == sum(parameter.numel() for parameter in dense.parameters())
     packed = load_model(candidate, device="cpu")
-    stored = sum(parameter.numel() * (1 if parameter.dtype == torch.uint8 else 2) for parameter in packed.parameters())
+    stored = sum(
+        parameter.numel() * (1 if parameter.dtype == torch.uint8 else 2)
+        for parameter in packed.parameters()
+    )
     assert stored_weights(candidate.dimensions, "none") == 2 * candidate.parameters
     constants = candidate.dimensions.linear_parameters * (8 / 64 + 32 / (64 * 256)) / 8
     assert stored_weights(candidate.dimensions) == pytest.approx(stored + constants, abs=1)
@@ -53,8 +63,12 @@ def test_a_blocks_activations_are_what_autograd_keeps(models: Path, name: str) -
     candidate = resolve_candidate(name)
     assert candidate.dimensions is not None
     model = load_model(candidate, device="cpu", trainable=True)
-    adapted = get_peft_model(model, LoraConfig(r=8, target_modules="all-linear", task_type="CAUSAL_LM")).train()
-    assert adapter_parameters(candidate.dimensions, 8) == sum(parameter.numel() for parameter in adapted.parameters() if parameter.requires_grad)
+    adapted = get_peft_model(
+        model, LoraConfig(r=8, target_modules="all-linear", task_type="CAUSAL_LM")
+    ).train()
+    assert adapter_parameters(candidate.dimensions, 8) == sum(
+        parameter.numel() for parameter in adapted.parameters() if parameter.requires_grad
+    )
     both = saved_bytes_per_token(adapted, 96)
     del model.model.layers[1]
     one = saved_bytes_per_token(adapted, 96)
@@ -75,10 +89,16 @@ def test_memory_grows_with_what_takes_it() -> None:
     dimensions = PUBLISHED[2].dimensions
     assert dimensions is not None
     base = training_memory(dimensions)
-    assert training_memory(dimensions, checkpointing=True).total < base.total < training_memory(dimensions, tokens=2048).total
+    assert (
+        training_memory(dimensions, checkpointing=True).total
+        < base.total
+        < training_memory(dimensions, tokens=2048).total
+    )
     assert training_memory(dimensions, dropout=True).activations > base.activations
     assert training_memory(dimensions, quantization="none").weights == 2 * dimensions.parameters
     assert base.fits(base.total / GIB)
     assert not base.fits(base.total / GIB - 0.01)
     batch = inference_memory(dimensions, batch=8)
-    assert batch.cache == 8 * inference_memory(dimensions).cache == 8 * 2048 * 114_688, "Llama-3.2-3B: 112 KiB a token"
+    assert batch.cache == 8 * inference_memory(dimensions).cache == 8 * 2048 * 114_688, (
+        "Llama-3.2-3B: 112 KiB a token"
+    )

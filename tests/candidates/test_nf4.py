@@ -9,9 +9,14 @@ from planner_ft.candidates.nf4 import dynamic_values, rounded_to_nf4
 
 
 def weights() -> list[torch.Tensor]:
-    """Of all magnitudes and shapes, with a block of zeros, an outlier, and fewer blocks of scales than one."""
+    """Of all magnitudes and shapes, with a block of zeros, an outlier, and fewer blocks of scales
+    than one.
+    """
     generator = torch.Generator().manual_seed(0)
-    made = [torch.randn(64 * (1 + index % 3), 256, generator=generator) * 10.0 ** (index % 7 - 3) for index in range(60)]
+    made = [
+        torch.randn(64 * (1 + index % 3), 256, generator=generator) * 10.0 ** (index % 7 - 3)
+        for index in range(60)
+    ]
     made[1][:2] = 0
     made[2][0, 0] = 1000
     return [*made, torch.ones(8, 64), torch.zeros(64, 64)]
@@ -25,7 +30,9 @@ def test_every_number_is_that_of_bitsandbytes(dtype: torch.dtype) -> None:
         stored, state = quantize_4bit(weight.to(dtype), quant_type="nf4", compress_statistics=True)
         expected, found = dequantize_4bit(stored, state), rounded_to_nf4(weight.to(dtype))
         assert found.dtype == dtype and found.shape == weight.shape
-        assert torch.equal(found, expected), f"weight {index}: {(found != expected).sum()} of {weight.numel()} differ"
+        assert torch.equal(found, expected), (
+            f"weight {index}: {(found != expected).sum()} of {weight.numel()} differ"
+        )
 
 
 def test_the_dynamic_type_is_that_of_bitsandbytes() -> None:

@@ -14,7 +14,9 @@ from planner_ft.candidates.loading import load_model
 from planner_ft.candidates.packing import is_packed, linear_4bit, set_packing
 from planner_ft.support.errors import PlannerError
 
-needs_kernel = pytest.mark.skipif(not has_avx512bf16(), reason="bitsandbytes packs on AVX512-BF16 CPUs alone")
+needs_kernel = pytest.mark.skipif(
+    not has_avx512bf16(), reason="bitsandbytes packs on AVX512-BF16 CPUs alone"
+)
 IDS = torch.arange(24).reshape(1, 24) + 300
 
 
@@ -22,7 +24,9 @@ def with_adapter(model: Any) -> Any:
     from peft import LoraConfig, get_peft_model
 
     torch.manual_seed(0)
-    adapted = get_peft_model(model, LoraConfig(r=4, target_modules="all-linear", task_type="CAUSAL_LM"))
+    adapted = get_peft_model(
+        model, LoraConfig(r=4, target_modules="all-linear", task_type="CAUSAL_LM")
+    )
     for name, parameter in adapted.named_parameters():
         if "lora_B" in name:
             torch.nn.init.normal_(parameter, std=0.02)
@@ -33,14 +37,24 @@ def gradients(model: Any) -> dict[str, torch.Tensor]:
     model.train()
     model.zero_grad()
     model(input_ids=IDS, labels=IDS).loss.backward()
-    return {name: parameter.grad.clone() for name, parameter in model.named_parameters() if parameter.requires_grad}
+    return {
+        name: parameter.grad.clone()
+        for name, parameter in model.named_parameters()
+        if parameter.requires_grad
+    }
 
 
 def evaluate(model: Any) -> None:
     model.eval()
     with torch.no_grad():
         model(input_ids=IDS)
-        model.generate(input_ids=IDS, attention_mask=torch.ones_like(IDS), max_new_tokens=2, do_sample=False, pad_token_id=0)
+        model.generate(
+            input_ids=IDS,
+            attention_mask=torch.ones_like(IDS),
+            max_new_tokens=2,
+            do_sample=False,
+            pad_token_id=0,
+        )
 
 
 @pytest.mark.parametrize("name", ["Llama-3.2-1B", "Qwen2.5-3B"])
@@ -67,14 +81,23 @@ def test_what_is_prevented_does_happen_to_a_model_loaded_for_decoding(models: Pa
         set_packing(model, allowed=False)
 
 
-def test_layers_whose_shape_the_packed_layout_cannot_hold_still_decode(tmp_path: Path, standins: Path) -> None:
+def test_layers_whose_shape_the_packed_layout_cannot_hold_still_decode(
+    tmp_path: Path, standins: Path
+) -> None:
     import shutil
 
     from transformers import LlamaConfig, LlamaForCausalLM
 
     folder = tmp_path / "odd"
     shutil.copytree(standins / "Llama-3.2-1B", folder)
-    sizes = {"hidden_size": 48, "intermediate_size": 80, "num_hidden_layers": 1, "num_attention_heads": 3, "num_key_value_heads": 1, "head_dim": 16}
+    sizes = {
+        "hidden_size": 48,
+        "intermediate_size": 80,
+        "num_hidden_layers": 1,
+        "num_attention_heads": 3,
+        "num_key_value_heads": 1,
+        "head_dim": 16,
+    }
     LlamaForCausalLM(LlamaConfig(vocab_size=1035, **sizes)).save_pretrained(folder)
     model = load_model(resolve_candidate(folder), device="cpu")
     assert set_packing(model, allowed=True) == 0

@@ -34,19 +34,42 @@ def _nothing_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_the_seven_published_candidates_and_the_embedded_one_are_registered() -> None:
     assert [candidate.name for candidate in all_candidates()] == [*PUBLISHED_SIZES, "embedded"]
-    assert {candidate.name: candidate.parameters for candidate in all_candidates() if candidate.published} == PUBLISHED_SIZES
+    assert {
+        candidate.name: candidate.parameters
+        for candidate in all_candidates()
+        if candidate.published
+    } == PUBLISHED_SIZES
 
 
-@pytest.mark.parametrize("name", ["Llama-3.1-8B", "llama-3.1-8b", "Llama-3.1-8B (4-bit)", "meta-llama/Llama-3.1-8B", " Llama-3.1-8B "])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "Llama-3.1-8B",
+        "llama-3.1-8b",
+        "Llama-3.1-8B (4-bit)",
+        "meta-llama/Llama-3.1-8B",
+        " Llama-3.1-8B ",
+    ],
+)
 def test_a_candidate_is_found_by_name_published_row_and_hub_id(name: str) -> None:
     candidate = resolve_candidate(name)
-    assert (candidate.name, candidate.row_name, candidate.gated, candidate.folder) == ("Llama-3.1-8B", "Llama-3.1-8B (4-bit)", True, None)
+    assert (candidate.name, candidate.row_name, candidate.gated, candidate.folder) == (
+        "Llama-3.1-8B",
+        "Llama-3.1-8B (4-bit)",
+        True,
+        None,
+    )
 
 
 def test_an_unknown_name_gets_close_matches() -> None:
-    with pytest.raises(PlannerError, match=r"unknown candidate 'Llama-3.2-3B-Instuct': did you mean Llama-3.2-3B-Instruct"):
+    with pytest.raises(
+        PlannerError,
+        match=r"unknown candidate 'Llama-3.2-3B-Instuct': did you mean Llama-3.2-3B-Instruct",
+    ):
         resolve_candidate("Llama-3.2-3B-Instuct")
-    with pytest.raises(PlannerError, match=r"unknown candidate '': there are Llama-3.2-1B, .*embedded"):
+    with pytest.raises(
+        PlannerError, match=r"unknown candidate '': there are Llama-3.2-1B, .*embedded"
+    ):
         resolve_candidate("")
 
 
@@ -57,7 +80,12 @@ def test_a_path_that_is_not_there_is_no_hub_id() -> None:
 
 def test_any_hub_id_resolves_with_its_revision() -> None:
     candidate = resolve_candidate("some-org/some.model@v1.0")
-    assert (candidate.name, candidate.repo, candidate.revision, candidate.dimensions) == ("some-org/some.model", "some-org/some.model", "v1.0", None)
+    assert (candidate.name, candidate.repo, candidate.revision, candidate.dimensions) == (
+        "some-org/some.model",
+        "some-org/some.model",
+        "v1.0",
+        None,
+    )
     assert candidate.slug == "some-org--some.model"
 
 
@@ -89,7 +117,11 @@ def hub_snapshot(hub: Path, repo: str, source: Path, commit: str = "c0ffee") -> 
 def test_a_downloaded_model_is_found_in_the_hub_cache(tmp_path: Path, standins: Path) -> None:
     snapshot = hub_snapshot(tmp_path / "hub", "meta-llama/Llama-3.2-1B", standins / "Llama-3.2-1B")
     candidate = resolve_candidate("Llama-3.2-1B")
-    assert (candidate.folder, candidate.source, candidate.reference) == (snapshot, "hub cache", "meta-llama/Llama-3.2-1B")
+    assert (candidate.folder, candidate.source, candidate.reference) == (
+        snapshot,
+        "hub cache",
+        "meta-llama/Llama-3.2-1B",
+    )
     assert resolve_candidate("meta-llama/Llama-3.2-1B@c0ffee").folder == snapshot
     assert resolve_candidate("meta-llama/Llama-3.2-1B@another").folder is None
 
@@ -99,7 +131,9 @@ def test_only_the_very_vocabulary_of_pretraining_is_known() -> None:
     embedded = next(candidate for candidate in all_candidates() if candidate.name == "embedded")
     assert embedded.knows(vocabulary)
     assert not embedded.knows(dataclasses.replace(vocabulary, name="drone"))
-    assert not embedded.knows(dataclasses.replace(vocabulary, sha256="0" * 64)), "another file of the same name"
+    assert not embedded.knows(dataclasses.replace(vocabulary, sha256="0" * 64)), (
+        "another file of the same name"
+    )
     assert not Candidate("other").knows(vocabulary)
 
 
@@ -107,5 +141,10 @@ def test_dimensions_of_a_config_without_optional_fields(standins: Path) -> None:
     config = json.loads((standins / "Qwen2.5-3B" / "config.json").read_text())
     dimensions = Dimensions.from_config(config)
     assert dimensions is not None
-    assert (dimensions.head_dim, dimensions.kv_heads, dimensions.tied, dimensions.attention_bias) == (16, 2, True, True)
+    assert (
+        dimensions.head_dim,
+        dimensions.kv_heads,
+        dimensions.tied,
+        dimensions.attention_bias,
+    ) == (16, 2, True, True)
     assert Dimensions.from_config({"model_type": "mamba", "hidden_size": 64}) is None

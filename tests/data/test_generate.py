@@ -23,7 +23,11 @@ SMALL: dict[str, Any] = {"train": 20, "validation": 5, "test": 6}
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+    return {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
 
 
 @pytest.fixture(autouse=True)
@@ -66,7 +70,9 @@ def test_a_second_run_is_up_to_date_and_other_results_are_kept(tmp_path: Path) -
     assert all(result.written for result in generate(GenerationSettings(out=out, **SMALL)))
     before = contents(out)
     assert not any(result.written for result in generate(GenerationSettings(out=out, **SMALL)))
-    with pytest.raises(PlannerError, match=r"task: train.jsonl exists and is different; .* --overwrite"):
+    with pytest.raises(
+        PlannerError, match=r"task: train.jsonl exists and is different; .* --overwrite"
+    ):
         generate(GenerationSettings(out=out, seed=1, **SMALL))
     assert contents(out) == before
     generate(GenerationSettings(out=out, seed=1, overwrite=True, **SMALL))
@@ -97,14 +103,18 @@ def test_what_is_not_canonical_is_converted(tmp_path: Path, source: Path) -> Non
     first["target_position"] = [float(value) for value in first["target_position"]]
     write_jsonl(source / "train.jsonl", [dict(reversed(record.items())) for record in records])
     generate(GenerationSettings(level="mission", out=tmp_path / "data", source=source))
-    assert read_jsonl(tmp_path / "data" / "mission" / "train.jsonl") == read_jsonl(CURATED / "train.jsonl")
+    assert read_jsonl(tmp_path / "data" / "mission" / "train.jsonl") == read_jsonl(
+        CURATED / "train.jsonl"
+    )
     assert (tmp_path / "data" / "mission" / "train.jsonl").read_text().startswith('{"id":')
 
 
 def test_the_chat_form_holds_the_answer_that_we_train_on(tmp_path: Path) -> None:
     generate(GenerationSettings(out=tmp_path, chat=True, **SMALL), messages=chat_messages)
     for level in ("mission", "task"):
-        record, chat = (read_jsonl(tmp_path / level / name)[0] for name in ("train.jsonl", "chat/train.jsonl"))
+        record, chat = (
+            read_jsonl(tmp_path / level / name)[0] for name in ("train.jsonl", "chat/train.jsonl")
+        )
         assert [message["role"] for message in chat["messages"]] == ["system", "user", "assistant"]
         assert record["prompt"] in chat["messages"][1]["content"]
         assert json.loads(chat["messages"][2]["content"]) == record["expected"]
@@ -112,37 +122,71 @@ def test_the_chat_form_holds_the_answer_that_we_train_on(tmp_path: Path) -> None
 
 def test_every_split_loads_with_datasets_at_once(tmp_path: Path) -> None:
     datasets = pytest.importorskip("datasets")
-    settings = GenerationSettings(out=tmp_path, **{**SMALL, "train": 80})  # the first split names the columns: with too few records some are missing
+    settings = GenerationSettings(
+        out=tmp_path, **{**SMALL, "train": 80}
+    )  # the first split names the columns: with too few records some are missing
     for result in generate(settings):
         files = {split: str(result.folder / f"{split}.jsonl") for split in result.counts}
         loaded = datasets.load_dataset("json", data_files=files, cache_dir=str(tmp_path / "cache"))
         assert {split: len(rows) for split, rows in loaded.items()} == result.counts
         for split, path in files.items():
-            assert [row["id"] for row in loaded[split]] == [record["id"] for record in read_jsonl(path)]
+            assert [row["id"] for row in loaded[split]] == [
+                record["id"] for record in read_jsonl(path)
+            ]
             assert loaded[split][0]["expected"] == read_jsonl(path)[0]["expected"]
-    assert set(datasets.load_dataset(str(tmp_path / "task"), cache_dir=str(tmp_path / "cache"))) == {"train", "validation", "test", "test_unseen"}
+    assert set(
+        datasets.load_dataset(str(tmp_path / "task"), cache_dir=str(tmp_path / "cache"))
+    ) == {"train", "validation", "test", "test_unseen"}
 
 
 def test_another_vehicle_has_its_task_set(tmp_path: Path) -> None:
-    (result,) = generate(GenerationSettings(level="task", out=tmp_path, vocabulary="inspection_drone", **SMALL))
+    (result,) = generate(
+        GenerationSettings(level="task", out=tmp_path, vocabulary="inspection_drone", **SMALL)
+    )
     titles = {record["task"] for record in read_jsonl(result.folder / "train.jsonl")}
     assert titles <= set(load_vocabulary("inspection_drone").task)
     with pytest.raises(PlannerError, match="a set for the vocabulary inspection_drone is needed"):
-        generate(GenerationSettings(out=tmp_path / "all", vocabulary="inspection_drone", source=CURATED, **SMALL))
+        generate(
+            GenerationSettings(
+                out=tmp_path / "all", vocabulary="inspection_drone", source=CURATED, **SMALL
+            )
+        )
     assert not (tmp_path / "all").exists()
 
 
 def test_another_vehicle_takes_a_mission_set_of_its_own(tmp_path: Path) -> None:
     drone = load_vocabulary("inspection_drone")
-    prompts = {"train": "go to [4, 5]", "validation": "fly to [6, 7], please", "test": "[8, 9], over"}
+    prompts = {
+        "train": "go to [4, 5]",
+        "validation": "fly to [6, 7], please",
+        "test": "[8, 9], over",
+    }
     for split, prompt in prompts.items():
         position = [int(number) for number in re.findall(r"\d", prompt)]
         name = drone.task[drone.transit].position_parameter
-        task = {"title": drone.transit, "parameters": {name: position}, "task_prompt": f"Fly to {position}."}
+        task = {
+            "title": drone.transit,
+            "parameters": {name: position},
+            "task_prompt": f"Fly to {position}.",
+        }
         expected = {"tasks": [task], "assumptions": [], "constraints": []}
-        record = {"id": split, "family": split, "prompt": prompt, "expected": expected, "spans": [], "tags": []}
+        record = {
+            "id": split,
+            "family": split,
+            "prompt": prompt,
+            "expected": expected,
+            "spans": [],
+            "tags": [],
+        }
         write_jsonl(tmp_path / "own" / f"{split}.jsonl", [record])
-    (result,) = generate(GenerationSettings(level="mission", out=tmp_path / "data", vocabulary="inspection_drone", source=tmp_path / "own"))
+    (result,) = generate(
+        GenerationSettings(
+            level="mission",
+            out=tmp_path / "data",
+            vocabulary="inspection_drone",
+            source=tmp_path / "own",
+        )
+    )
     assert result.counts == {"train": 1, "validation": 1, "test": 1}
 
 
@@ -152,7 +196,10 @@ def test_another_vehicle_takes_a_mission_set_of_its_own(tmp_path: Path) -> None:
         ({"level": "skills"}, "--level skills: must be mission, task or all"),
         ({"train": 0}, "--train 0: at least one record"),
         ({"seed": -1}, "--seed -1"),
-        ({"level": "mission", "train": 126}, "--train 126: the curated mission set has 125 records"),
+        (
+            {"level": "mission", "train": 126},
+            "--train 126: the curated mission set has 125 records",
+        ),
         ({"level": "mission", "source": Path("nowhere")}, "--source nowhere: no such folder"),
         ({"vocabulary": "submarine"}, "--vocabulary submarine: no such file"),
     ],
@@ -170,11 +217,16 @@ def test_mistakes_are_one_sentence(tmp_path: Path, settings: dict[str, Any], mes
         (b"", r"train.jsonl: is empty"),
         (b"\xff\xfe", r"train.jsonl: not UTF-8"),
         (b'{"id": "a", "prompt": "go', r"train.jsonl:1: not JSON"),
-        (b'{"id": "a", "prompt": "go"}', r"train.jsonl:1: .* \(and \d+ more; plannerft validate --complete"),
+        (
+            b'{"id": "a", "prompt": "go"}',
+            r"train.jsonl:1: .* \(and \d+ more; plannerft validate --complete",
+        ),
         (b"[1]\n", r"train.jsonl:1: a JSON object is expected"),
     ],
 )
-def test_a_faulty_source_is_named_and_nothing_written(tmp_path: Path, source: Path, content: bytes | None, message: str) -> None:
+def test_a_faulty_source_is_named_and_nothing_written(
+    tmp_path: Path, source: Path, content: bytes | None, message: str
+) -> None:
     (source / "train.jsonl").unlink()
     if content is not None:
         (source / "train.jsonl").write_bytes(content)
@@ -200,12 +252,16 @@ def test_a_full_disk_leaves_what_was_there(tmp_path: Path, monkeypatch: pytest.M
             raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(os, "fsync", full)
-    with pytest.raises(PlannerError, match=r"data/task/test.jsonl: cannot be written \(No space left on device\)"):
+    with pytest.raises(
+        PlannerError, match=r"data/task/test.jsonl: cannot be written \(No space left on device\)"
+    ):
         generate(GenerationSettings(level="task", out=out, seed=9, overwrite=True, **SMALL))
     assert contents(tmp_path) == before
 
 
-def test_a_folder_that_cannot_be_written_is_named_before_the_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_that_cannot_be_written_is_named_before_the_work(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(PlannerError, match=r"--out file/data: .*file is no folder"):
         generate(GenerationSettings(out=Path("file") / "data"))
@@ -217,10 +273,23 @@ def test_a_folder_that_cannot_be_written_is_named_before_the_work(tmp_path: Path
 def test_a_synthetic_mission_set_lies_beside_the_curated_one(tmp_path: Path) -> None:
     results = generate(GenerationSettings(level="mission", out=tmp_path, synthetic=40))
     assert [result.folder.name for result in results] == ["mission", "mission-synthetic"]
-    lines = (tmp_path / "mission-synthetic" / "train.jsonl").read_text(encoding="utf-8").splitlines()
-    assert len(lines) == 40 and "40 commands" in (tmp_path / "mission-synthetic" / "README.md").read_text(encoding="utf-8")
-    assert json.loads((tmp_path / "mission-synthetic" / "manifest.json").read_text())["configuration"]["synthetic"] == 40
-    curated = {json.loads(line)["prompt"] for path in (tmp_path / "mission").glob("*.jsonl") for line in path.read_text(encoding="utf-8").splitlines()}
+    lines = (
+        (tmp_path / "mission-synthetic" / "train.jsonl").read_text(encoding="utf-8").splitlines()
+    )
+    assert len(lines) == 40 and "40 commands" in (
+        tmp_path / "mission-synthetic" / "README.md"
+    ).read_text(encoding="utf-8")
+    assert (
+        json.loads((tmp_path / "mission-synthetic" / "manifest.json").read_text())["configuration"][
+            "synthetic"
+        ]
+        == 40
+    )
+    curated = {
+        json.loads(line)["prompt"]
+        for path in (tmp_path / "mission").glob("*.jsonl")
+        for line in path.read_text(encoding="utf-8").splitlines()
+    }
     assert not curated & {json.loads(line)["prompt"] for line in lines}
 
 

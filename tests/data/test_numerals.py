@@ -5,7 +5,9 @@ import pytest
 from planner_ft.data.numerals import signed
 
 
-@pytest.mark.parametrize(("text", "value"), [("12.5", 12.5), ("-3", -3.0), ("−3", -3.0), ("–0.5", -0.5)])
+@pytest.mark.parametrize(
+    ("text", "value"), [("12.5", 12.5), ("-3", -3.0), ("−3", -3.0), ("–0.5", -0.5)]
+)
 def test_a_dash_can_be_a_minus(text: str, value: float) -> None:
     assert signed(text) == value
 

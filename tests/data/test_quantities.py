@@ -65,7 +65,15 @@ def test_numbers_are_read_with_their_unit(text: str, said: list[tuple[float, str
 
 
 FORMS = (
-    *("[45.0, -12]", "(45, -12)", "x=45 y=-12", "x 45 y -12", "X45 Y-12", "y -12 x 45", "at 45, -12."),
+    *(
+        "[45.0, -12]",
+        "(45, -12)",
+        "x=45 y=-12",
+        "x 45 y -12",
+        "X45 Y-12",
+        "y -12 x 45",
+        "at 45, -12.",
+    ),
     *("45 minus 12", "forty five comma minus twelve", "45 east 12 south", "45E 12S"),
 )
 
@@ -79,7 +87,10 @@ def test_coordinates_are_read_in_many_forms(text: str) -> None:
 
 def test_numbers_of_two_places_make_no_third() -> None:
     assert not states_position("from [10, 20] to [30, 40]", [10, 40])
-    assert [(x, y) for x, y, _start, _end in positions("from [10, 20] over to [30, 40]")] == [(10, 20), (30, 40)]
+    assert [(x, y) for x, y, _start, _end in positions("from [10, 20] over to [30, 40]")] == [
+        (10, 20),
+        (30, 40),
+    ]
 
 
 def test_a_number_with_another_unit_does_not_count() -> None:

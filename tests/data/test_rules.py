@@ -14,7 +14,12 @@ HERE = [-99, -99]
 
 
 def plan(*tasks: tuple[str, dict[str, Any]]) -> dict[str, Any]:
-    return {"tasks": [{"title": title, "parameters": parameters, "task_prompt": ""} for title, parameters in tasks]}
+    return {
+        "tasks": [
+            {"title": title, "parameters": parameters, "task_prompt": ""}
+            for title, parameters in tasks
+        ]
+    }
 
 
 def go(x: float, y: float) -> tuple[str, dict[str, Any]]:
@@ -33,31 +38,94 @@ RIGHT = [
     ("Find the green barrel.", plan(find("green barrel"))),
     ("Hold at [10, 20] for five minutes and come home.", plan(go(10, 20), HOLD, go(0, 0))),
     ("Hold for five minutes right where you are.", plan(HOLD)),
-    ("Go home and dock by camera on the red lamp.", plan(go(0, 0), ("VisualDockingApproach", {"target_feature": "red lamp"}))),
+    (
+        "Go home and dock by camera on the red lamp.",
+        plan(go(0, 0), ("VisualDockingApproach", {"target_feature": "red lamp"})),
+    ),
     ("Dock at berth 7.", plan(("DockingApproach", {"goal_position": HERE}))),
-    ("Proceed to [18, 7] and survey it.", plan(go(18, 7), ("SurveyTarget", {"target_position": [18, 7]}))),
-    ("Sound 80 by 50 around [5, 5].", plan(("BathymetryGridSurvey", {"center": [5, 5], "width": 80, "length": 50}))),
+    (
+        "Proceed to [18, 7] and survey it.",
+        plan(go(18, 7), ("SurveyTarget", {"target_position": [18, 7]})),
+    ),
+    (
+        "Sound 80 by 50 around [5, 5].",
+        plan(("BathymetryGridSurvey", {"center": [5, 5], "width": 80, "length": 50})),
+    ),
 ]
 WRONG = [
     ("Inspect the green barrel.", plan(SURVEY), "no SearchAndDetect comes before"),
-    ("Inspect the green barrel.", plan(find("green barrel"), SURVEY, find("Green barrel"), SURVEY), "one search per structure"),
-    ("Inspect the buoy at [4, 5].", plan(find("buoy"), ("SurveyTarget", {"target_position": [4, 5]})), "nothing unresolved follows"),
-    ("Circle the buoy at [4, 5].", plan(find("buoy"), go(-99, -99), ("PerformOrbit", {"center": HERE})), "gives coordinates for 'buoy'"),
-    ("Hold by the green barrel for five minutes.", plan(find("green barrel"), HOLD), "does not arrive"),
+    (
+        "Inspect the green barrel.",
+        plan(find("green barrel"), SURVEY, find("Green barrel"), SURVEY),
+        "one search per structure",
+    ),
+    (
+        "Inspect the buoy at [4, 5].",
+        plan(find("buoy"), ("SurveyTarget", {"target_position": [4, 5]})),
+        "nothing unresolved follows",
+    ),
+    (
+        "Circle the buoy at [4, 5].",
+        plan(find("buoy"), go(-99, -99), ("PerformOrbit", {"center": HERE})),
+        "gives coordinates for 'buoy'",
+    ),
+    (
+        "Hold by the green barrel for five minutes.",
+        plan(find("green barrel"), HOLD),
+        "does not arrive",
+    ),
     ("Circle [4, 5].", plan(("PerformOrbit", {"center": [4, 5]})), "no Transit there comes before"),
-    ("Track the cable from [4, 5], hold at the start for five minutes.", plan(("SubseaCableTrack", {"start": [4, 5]}), HOLD), "does not end at its place"),
-    ("Survey [18, 7].", plan(go(18, 7), ("SurveyTarget", {"target_position": [18, 7]})), "by itself"),
-    ("Circle [4, 5], then hold five minutes.", plan(go(4, 5), ("PerformOrbit", {"center": [4, 5]}), go(4, 5), HOLD), "is at [4, 5] already"),
-    ("Come home and dock at berth 7.", plan(go(0, 0), ("DockingApproach", {"goal_position": HERE})), "is that task alone"),
-    ("Hold at [4, 5] for five minutes before you come home.", plan(go(0, 0), go(4, 5), HOLD), "comes after the return home"),
-    ("Follow contact 4.", plan(find("contact 4"), ("FollowTarget", {"target_id": "contact 4", "target_position": HERE})), "needs no place"),
+    (
+        "Track the cable from [4, 5], hold at the start for five minutes.",
+        plan(("SubseaCableTrack", {"start": [4, 5]}), HOLD),
+        "does not end at its place",
+    ),
+    (
+        "Survey [18, 7].",
+        plan(go(18, 7), ("SurveyTarget", {"target_position": [18, 7]})),
+        "by itself",
+    ),
+    (
+        "Circle [4, 5], then hold five minutes.",
+        plan(go(4, 5), ("PerformOrbit", {"center": [4, 5]}), go(4, 5), HOLD),
+        "is at [4, 5] already",
+    ),
+    (
+        "Come home and dock at berth 7.",
+        plan(go(0, 0), ("DockingApproach", {"goal_position": HERE})),
+        "is that task alone",
+    ),
+    (
+        "Hold at [4, 5] for five minutes before you come home.",
+        plan(go(0, 0), go(4, 5), HOLD),
+        "comes after the return home",
+    ),
+    (
+        "Follow contact 4.",
+        plan(
+            find("contact 4"), ("FollowTarget", {"target_id": "contact 4", "target_position": HERE})
+        ),
+        "needs no place",
+    ),
     ("Hold for eight minutes.", plan(("KeepStation", {"duration": 8})), "8 s does not follow"),
-    ("Circle [4, 5].", plan(go(4, 5), ("PerformOrbit", {"center": [4, 5], "radius": 20})), "20 m does not follow"),
-    ("Circle [4, 5].", plan(go(4, 5), ("PerformOrbit", {"center": [4, 5], "arc": 360})), "360 deg does not follow"),
+    (
+        "Circle [4, 5].",
+        plan(go(4, 5), ("PerformOrbit", {"center": [4, 5], "radius": 20})),
+        "20 m does not follow",
+    ),
+    (
+        "Circle [4, 5].",
+        plan(go(4, 5), ("PerformOrbit", {"center": [4, 5], "arc": 360})),
+        "360 deg does not follow",
+    ),
     ("Go to [4, 5].", plan(go(5, 4)), "coordinates [5, 4] are not in the command"),
     ("Inspect the green barrel.", plan(find("the green barrel"), SURVEY), "begins with an article"),
     ("Inspect the green barrel.", plan(find("red barrel"), SURVEY), "'red' of 'red barrel'"),
-    ("Sound 80 by 50 around [5, 5].", plan(("BathymetryGridSurvey", {"center": [5, 5], "width": 50, "length": 80})), "not the other way round"),
+    (
+        "Sound 80 by 50 around [5, 5].",
+        plan(("BathymetryGridSurvey", {"center": [5, 5], "width": 50, "length": 80})),
+        "not the other way round",
+    ),
 ]
 
 
@@ -67,9 +135,13 @@ def test_a_right_plan_has_no_problem(prompt: str, expected: dict[str, Any]) -> N
     assert rule_problems(expected, USV) == []
 
 
-@pytest.mark.parametrize(("prompt", "expected", "problem"), WRONG, ids=[problem for *_, problem in WRONG])
+@pytest.mark.parametrize(
+    ("prompt", "expected", "problem"), WRONG, ids=[problem for *_, problem in WRONG]
+)
 def test_a_wrong_plan_is_caught(prompt: str, expected: dict[str, Any], problem: str) -> None:
-    assert any(problem in text for text in rule_problems(expected, USV, prompt)), rule_problems(expected, USV, prompt)
+    assert any(problem in text for text in rule_problems(expected, USV, prompt)), rule_problems(
+        expected, USV, prompt
+    )
 
 
 def test_spelling_put_right_needs_the_tag_where_a_record_has_tags() -> None:
@@ -82,11 +154,29 @@ def test_spelling_put_right_needs_the_tag_where_a_record_has_tags() -> None:
 
 def test_an_exception_is_believed_by_its_tag_alone() -> None:
     expected = plan(go(18, 7), ("SurveyTarget", {"target_position": [18, 7]}))
-    assert rule_problems(expected, USV, "Proceed to [18, 7] and survey it.", ["rule.explicit-go"]) == []
+    assert (
+        rule_problems(expected, USV, "Proceed to [18, 7] and survey it.", ["rule.explicit-go"])
+        == []
+    )
     assert rule_problems(expected, USV, "Proceed to [18, 7] and survey it.", []) != []
 
 
-@pytest.mark.parametrize("broken", [None, [], {"tasks": 3}, {"tasks": [1, {"title": 2}, {"title": "Teleport"}, {"title": "Transit", "parameters": [1]}]}])
+@pytest.mark.parametrize(
+    "broken",
+    [
+        None,
+        [],
+        {"tasks": 3},
+        {
+            "tasks": [
+                1,
+                {"title": 2},
+                {"title": "Teleport"},
+                {"title": "Transit", "parameters": [1]},
+            ]
+        },
+    ],
+)
 def test_a_broken_plan_is_left_to_the_schema(broken: Any) -> None:
     assert rule_problems(broken, USV, "Go.") == []
 
@@ -94,7 +184,17 @@ def test_a_broken_plan_is_left_to_the_schema(broken: Any) -> None:
 def test_the_rules_hold_for_another_vehicle() -> None:
     drone = load_vocabulary("inspection_drone")
     at_place = next(task for task in drone.tasks if task.arrival == "transit")
-    required = {parameter.name: list(drone.unresolved) for parameter in at_place.parameters if parameter.required}
-    text = {parameter.name: "roof" for parameter in drone.task[drone.locate].parameters if parameter.type == "text"}
-    problems = rule_problems(plan((drone.locate, text), (at_place.title, required)), drone, "Look at the roof.")
+    required = {
+        parameter.name: list(drone.unresolved)
+        for parameter in at_place.parameters
+        if parameter.required
+    }
+    text = {
+        parameter.name: "roof"
+        for parameter in drone.task[drone.locate].parameters
+        if parameter.type == "text"
+    }
+    problems = rule_problems(
+        plan((drone.locate, text), (at_place.title, required)), drone, "Look at the roof."
+    )
     assert any("does not arrive" in problem for problem in problems)

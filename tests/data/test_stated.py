@@ -4,7 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from planner_ft.data.stated import MOST_REWRITINGS, rewritings, stated_numbers, stated_positions, states_number, states_position
+from planner_ft.data.stated import (
+    MOST_REWRITINGS,
+    rewritings,
+    stated_numbers,
+    stated_positions,
+    states_number,
+    states_position,
+)
 
 
 @pytest.mark.parametrize(
@@ -103,7 +110,10 @@ def test_numbers_in_a_row_are_no_third_place() -> None:
 
 
 def test_rewritings_are_few_and_begin_with_the_text() -> None:
-    text = "go to twenty five thirty five forty five fifty five sixty five, wait minute, then hous two, then 4 an hour, 1,000 and 2:30 " * 20
+    text = (
+        "go to twenty five thirty five forty five fifty five sixty five, wait minute, then hous"
+        " two, then 4 an hour, 1,000 and 2:30 " * 20
+    )
     assert rewritings(text)[0] == text
     assert len(rewritings(text)) <= MOST_REWRITINGS
     assert rewritings("inspect the red buoy") == ("inspect the red buoy",)

@@ -13,7 +13,10 @@ from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import load_vocabulary
 
 USV = load_vocabulary()
-CURATED = {split: read_jsonl(Path(__file__).parents[2] / "data" / "mission" / f"{split}.jsonl") for split in ("train", "validation", "test")}
+CURATED = {
+    split: read_jsonl(Path(__file__).parents[2] / "data" / "mission" / f"{split}.jsonl")
+    for split in ("train", "validation", "test")
+}
 
 
 @pytest.fixture
@@ -27,7 +30,9 @@ def test_the_curated_set_covers_what_it_must(splits: dict[str, list[dict[str, An
 
 def test_tables_name_known_tags_and_tasks() -> None:
     assert set(TASKS_OF_TAG) | set(ALWAYS_TAGGED.values()) <= set(TAGS)
-    assert {title for titles in TASKS_OF_TAG.values() for title in titles} | set(ALWAYS_TAGGED) <= set(USV.task)
+    assert {title for titles in TASKS_OF_TAG.values() for title in titles} | set(
+        ALWAYS_TAGGED
+    ) <= set(USV.task)
     assert sum(tag.startswith("which.") for tag in TAGS) == 11
 
 
@@ -63,5 +68,8 @@ def test_a_prompt_in_two_splits_is_named(splits: dict[str, list[dict[str, Any]]]
     ],
 )
 def test_tags_and_tasks_must_agree(titles: list[str], tags: list[str], problem: str) -> None:
-    record = {"tags": tags, "expected": {"tasks": [{"title": title, "parameters": {}} for title in titles]}}
+    record = {
+        "tags": tags,
+        "expected": {"tasks": [{"title": title, "parameters": {}} for title in titles]},
+    }
     assert any(problem in text for text in tag_problems(record, USV))

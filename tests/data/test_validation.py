@@ -1,4 +1,6 @@
-"""`validate` tells datasets, predictions and plans apart and reports every problem with its line."""
+"""`validate` tells datasets, predictions and plans apart and reports every problem with its
+line.
+"""
 
 from __future__ import annotations
 
@@ -19,27 +21,52 @@ SPAN = {"element": "target", "start": 10, "end": 17, "text": "[4, 5]."}
 
 
 def record(**more: Any) -> dict[str, Any]:
-    task = {"title": "Transit", "parameters": {"target_position": [4, 5]}, "task_prompt": "Go to [4, 5]."}
+    task = {
+        "title": "Transit",
+        "parameters": {"target_position": [4, 5]},
+        "task_prompt": "Go to [4, 5].",
+    }
     expected = {"tasks": [task], "assumptions": [], "constraints": []}
-    return {"id": "a", "family": "f", "prompt": "Proceed to [4, 5].", "expected": expected, "spans": [], "tags": [], **more}
+    return {
+        "id": "a",
+        "family": "f",
+        "prompt": "Proceed to [4, 5].",
+        "expected": expected,
+        "spans": [],
+        "tags": [],
+        **more,
+    }
 
 
-def problems(tmp_path: Path, *lines: Any, complete: bool = False, name: str = "data.jsonl") -> list[str]:
+def problems(
+    tmp_path: Path, *lines: Any, complete: bool = False, name: str = "data.jsonl"
+) -> list[str]:
     path = tmp_path / name
     write_jsonl(path, lines)
-    return [str(problem).removeprefix(f"{tmp_path}/") for problem in validate_file(path, USV, complete=complete).problems]
+    return [
+        str(problem).removeprefix(f"{tmp_path}/")
+        for problem in validate_file(path, USV, complete=complete).problems
+    ]
 
 
 def test_the_curated_set_is_clean() -> None:
     for split, count in (("train", 125), ("validation", 25), ("test", 25)):
-        report = validate_file(ROOT / "data" / "mission" / f"{split}.jsonl", USV, "mission", complete=True)
+        report = validate_file(
+            ROOT / "data" / "mission" / f"{split}.jsonl", USV, "mission", complete=True
+        )
         assert report.problems == ()
         assert report.counts == {"mission record": count}
 
 
 def test_every_problem_is_reported_with_its_line(tmp_path: Path) -> None:
     path = tmp_path / "data.jsonl"
-    lines = [json.dumps(record()), '{"id":', "[]", json.dumps(record(prompt=" ", tags=["rule.none"])), json.dumps({"id": "z"})]
+    lines = [
+        json.dumps(record()),
+        '{"id":',
+        "[]",
+        json.dumps(record(prompt=" ", tags=["rule.none"])),
+        json.dumps({"id": "z"}),
+    ]
     path.write_text("\n".join(lines) + "\n\n")
     found = [str(problem) for problem in validate_file(path, USV).problems]
     for line, text in (
@@ -51,7 +78,9 @@ def test_every_problem_is_reported_with_its_line(tmp_path: Path) -> None:
         (4, "id 'a' stands in line 1 already"),
         (5, "none of a dataset record"),
     ):
-        assert any(problem.startswith(f"{path}:{line}: ") and text in problem for problem in found), (line, text, found)
+        assert any(
+            problem.startswith(f"{path}:{line}: ") and text in problem for problem in found
+        ), (line, text, found)
     assert not any(problem.startswith(f"{path}:1:") for problem in found)
 
 
@@ -64,33 +93,67 @@ def test_every_problem_is_reported_with_its_line(tmp_path: Path) -> None:
         ({"text": "x"}, "an object with element, start, end and text"),
     ],
 )
-def test_spans_are_checked_against_the_prompt(tmp_path: Path, span: dict[str, Any], problem: str) -> None:
+def test_spans_are_checked_against_the_prompt(
+    tmp_path: Path, span: dict[str, Any], problem: str
+) -> None:
     good = {**SPAN, "start": 11, "end": 18}
     assert problems(tmp_path, record(spans=[good])) == []
     assert any(problem in text for text in problems(tmp_path, record(spans=[span])))
 
 
 def test_outsiders_may_leave_out_texts_and_labels(tmp_path: Path) -> None:
-    mission = {"id": "a", "prompt": "Go to [4, 5].", "expected": {"tasks": [{"title": "Transit", "parameters": {"target_position": [4, 5]}}]}}
-    step = {"navigation_skill": {"name": "StationKeep"}, "perception_skills": [{"name": "GetGPSLocation"}]}
-    task = {"id": "b", "prompt": "Hold.", "task": "KeepStation", "parameters": {}, "expected": {"skill_sequence": [step]}}
+    mission = {
+        "id": "a",
+        "prompt": "Go to [4, 5].",
+        "expected": {"tasks": [{"title": "Transit", "parameters": {"target_position": [4, 5]}}]},
+    }
+    step = {
+        "navigation_skill": {"name": "StationKeep"},
+        "perception_skills": [{"name": "GetGPSLocation"}],
+    }
+    task = {
+        "id": "b",
+        "prompt": "Hold.",
+        "task": "KeepStation",
+        "parameters": {},
+        "expected": {"skill_sequence": [step]},
+    }
     assert problems(tmp_path, mission) == []
     assert problems(tmp_path, task) == []
     asked = problems(tmp_path, mission, complete=True)
-    for part in ("family is missing", "spans is missing", "tags is missing", "task_prompt is missing", "assumptions is missing"):
+    for part in (
+        "family is missing",
+        "spans is missing",
+        "tags is missing",
+        "task_prompt is missing",
+        "assumptions is missing",
+    ):
         assert any(part in text for text in asked)
 
 
 def test_texts_may_not_invent_numbers(tmp_path: Path) -> None:
     invented = record()
     invented["expected"]["tasks"][0]["task_prompt"] = "Go to [4, 5] at 3 m/s."
-    assert any("3 is neither in the command nor in a parameter" in text for text in problems(tmp_path, invented, complete=True))
+    assert any(
+        "3 is neither in the command nor in a parameter" in text
+        for text in problems(tmp_path, invented, complete=True)
+    )
     assert problems(tmp_path, record(), complete=True) == []
 
 
-@pytest.mark.parametrize("prompt", ["Proceed to [4, 5] at 3 m/s.", "Proceed to [4, 5], not to [6, 7].", "Proceed to [4, 5] and wait there for two minutes."])
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "Proceed to [4, 5] at 3 m/s.",
+        "Proceed to [4, 5], not to [6, 7].",
+        "Proceed to [4, 5] and wait there for two minutes.",
+    ],
+)
 def test_what_the_command_states_may_not_be_lost(tmp_path: Path, prompt: str) -> None:
-    assert any("of the command stand" in text for text in problems(tmp_path, record(prompt=prompt), complete=True))
+    assert any(
+        "of the command stand" in text
+        for text in problems(tmp_path, record(prompt=prompt), complete=True)
+    )
     assert problems(tmp_path, record(prompt=prompt)) == []
 
 
@@ -119,26 +182,50 @@ def test_predictions_are_checked_as_the_model_wrote_them(tmp_path: Path) -> None
         {"id": "a", "output": right},
         {"id": "a", "output": right, "configuration": "base"},
         {"id": "b", "output": "Sure! Here is the plan"},
-        {"id": "c", "output": '{"tasks": [{"title": "Berthing", "parameters": {}, "task_prompt": ""}], "assumptions": [], "constraints": []}'},
+        {
+            "id": "c",
+            "output": (
+                '{"tasks": [{"title": "Berthing", "parameters": {}, "task_prompt": ""}],'
+                ' "assumptions": [], "constraints": []}'
+            ),
+        },
         {"id": "d", "output": "{}"},
     ]
     found = problems(tmp_path, *lines, name="predictions.jsonl")
     assert [text.split(":")[1] for text in found] == ["3", "4", "5"]
-    assert "not JSON" in found[0] and "'Berthing' is no task title" in found[1] and "neither tasks nor skill_sequence" in found[2]
+    assert (
+        "not JSON" in found[0]
+        and "'Berthing' is no task title" in found[1]
+        and "neither tasks nor skill_sequence" in found[2]
+    )
 
 
 def test_a_plan_in_a_json_file_is_checked(tmp_path: Path) -> None:
     path = tmp_path / "plan.json"
-    path.write_text(json.dumps({"tasks": [{"title": "Transit", "parameters": {}, "task_prompt": ""}], "assumptions": [], "constraints": []}, indent=2))
+    path.write_text(
+        json.dumps(
+            {
+                "tasks": [{"title": "Transit", "parameters": {}, "task_prompt": ""}],
+                "assumptions": [],
+                "constraints": [],
+            },
+            indent=2,
+        )
+    )
     report = validate_file(path, USV)
     assert report.counts == {"mission plan": 1}
-    assert [problem.text for problem in report.problems] == ["tasks[0]: Transit needs target_position"]
+    assert [problem.text for problem in report.problems] == [
+        "tasks[0]: Transit needs target_position"
+    ]
 
 
 def test_the_level_can_be_asked_for(tmp_path: Path) -> None:
     path = tmp_path / "data.jsonl"
     write_jsonl(path, [record()])
-    assert any("a task plan is expected" in problem.text for problem in validate_file(path, USV, "task").problems)
+    assert any(
+        "a task plan is expected" in problem.text
+        for problem in validate_file(path, USV, "task").problems
+    )
 
 
 def test_task_values_come_from_the_prompt_or_the_parameters(tmp_path: Path) -> None:
@@ -155,12 +242,22 @@ def test_task_values_come_from_the_prompt_or_the_parameters(tmp_path: Path) -> N
 
     assert problems(tmp_path, task(120)) == problems(tmp_path, task(45)) == []
     assert any("60 s follows neither" in text for text in problems(tmp_path, task(60)))
-    assert any("parameters.duration" in text for text in problems(tmp_path, task(120, parameters={"duration": "long"})))
-    assert any("'Loiter' is no task title" in text for text in problems(tmp_path, task(120, task="Loiter")))
+    assert any(
+        "parameters.duration" in text
+        for text in problems(tmp_path, task(120, parameters={"duration": "long"}))
+    )
+    assert any(
+        "'Loiter' is no task title" in text for text in problems(tmp_path, task(120, task="Loiter"))
+    )
 
 
-@pytest.mark.parametrize(("content", "message"), [(None, "no such file"), (b"", "is empty"), (b" \n", "is empty"), (b"\xff\xfe{", "not UTF-8")])
-def test_a_file_that_cannot_be_read_is_one_sentence(tmp_path: Path, content: bytes | None, message: str) -> None:
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [(None, "no such file"), (b"", "is empty"), (b" \n", "is empty"), (b"\xff\xfe{", "not UTF-8")],
+)
+def test_a_file_that_cannot_be_read_is_one_sentence(
+    tmp_path: Path, content: bytes | None, message: str
+) -> None:
     path = tmp_path / "data.jsonl"
     if content is not None:
         path.write_bytes(content)
@@ -168,7 +265,9 @@ def test_a_file_that_cannot_be_read_is_one_sentence(tmp_path: Path, content: byt
         validate_file(path, USV)
 
 
-@pytest.mark.parametrize("line", ['{"id": NaN}', "[" * 100_000, '{"id": "\\ud800"}', '{"n": ' + "9" * 5000 + "}"])
+@pytest.mark.parametrize(
+    "line", ['{"id": NaN}', "[" * 100_000, '{"id": "\\ud800"}', '{"n": ' + "9" * 5000 + "}"]
+)
 def test_hostile_lines_are_problems_and_no_tracebacks(tmp_path: Path, line: str) -> None:
     path = tmp_path / "data.jsonl"
     path.write_text(f"{line}\n{line}\n")

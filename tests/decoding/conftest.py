@@ -13,14 +13,25 @@ from planner_ft.decoding.passes import Decoder, ModelDecoder
 
 
 def llama(**changes: Any) -> Any:
-    """A Llama of 64 tokens, of which 2 ends an answer. Wide initial weights, so that the most probable token changes from step to step."""
+    """A Llama of 64 tokens, of which 2 ends an answer. Wide initial weights, so that the most
+    probable token changes from step to step.
+    """
     from transformers import LlamaConfig, LlamaForCausalLM
 
     torch.manual_seed(0)
     sizes = {
-        "vocab_size": 64, "hidden_size": 32, "intermediate_size": 64, "num_hidden_layers": 2, "num_attention_heads": 4, "num_key_value_heads": 2,
-        "max_position_embeddings": 512, "initializer_range": 0.5, "bos_token_id": 1, "eos_token_id": 2, "pad_token_id": 0,
-    }  # fmt: skip
+        "vocab_size": 64,
+        "hidden_size": 32,
+        "intermediate_size": 64,
+        "num_hidden_layers": 2,
+        "num_attention_heads": 4,
+        "num_key_value_heads": 2,
+        "max_position_embeddings": 512,
+        "initializer_range": 0.5,
+        "bos_token_id": 1,
+        "eos_token_id": 2,
+        "pad_token_id": 0,
+    }
     return LlamaForCausalLM(LlamaConfig(**{**sizes, **changes})).eval()
 
 

@@ -7,7 +7,9 @@ from planner_ft.support.errors import PlannerError
 
 
 def test_names_read_back() -> None:
-    assert [parse_configuration(name).name for name in known_configurations()] == known_configurations()
+    assert [
+        parse_configuration(name).name for name in known_configurations()
+    ] == known_configurations()
     assert parse_configuration(" lora ").adapter
     assert not parse_configuration("base").adapter
 

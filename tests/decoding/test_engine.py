@@ -24,7 +24,11 @@ NAME = "Qwen2.5-3B"
 BASE, LORA = Configuration(False), Configuration(True)
 RECORDS: dict[Level, dict[str, Any]] = {
     "mission": {"prompt": "Find the red buoy and come home."},
-    "task": {"task": "Transit", "parameters": {"target_position": [3, 4]}, "prompt": "Go to [3, 4]."},
+    "task": {
+        "task": "Transit",
+        "parameters": {"target_position": [3, 4]},
+        "prompt": "Go to [3, 4].",
+    },
 }
 
 
@@ -33,8 +37,16 @@ def adapter_folder(candidate: Candidate, level: Level, seed: int, folder: Path) 
     from peft import LoraConfig, get_peft_model
 
     torch.manual_seed(seed)
-    config = LoraConfig(r=4, lora_alpha=64, target_modules="all-linear", task_type="CAUSAL_LM", init_lora_weights=False)
-    get_peft_model(load_model(candidate, device="cpu", trainable=True), config).save_pretrained(folder, save_embedding_layers=False)
+    config = LoraConfig(
+        r=4,
+        lora_alpha=64,
+        target_modules="all-linear",
+        task_type="CAUSAL_LM",
+        init_lora_weights=False,
+    )
+    get_peft_model(load_model(candidate, device="cpu", trainable=True), config).save_pretrained(
+        folder, save_embedding_layers=False
+    )
     write_json(folder / "manifest.json", adapter_record(candidate, level, load_vocabulary()))
     return folder
 
@@ -44,19 +56,29 @@ def adapters(standins: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[L
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PLANNERFT_MODELS", str(standins))
         candidate = resolve_candidate(NAME)
-        return {level: adapter_folder(candidate, level, seed, tmp_path_factory.mktemp(level)) for seed, level in enumerate(RECORDS)}
+        return {
+            level: adapter_folder(candidate, level, seed, tmp_path_factory.mktemp(level))
+            for seed, level in enumerate(RECORDS)
+        }
 
 
 def load(**settings: Any) -> Engine:
-    return Engine.load(resolve_candidate(NAME), load_vocabulary(), device="cpu", max_new_tokens=12, **settings)
+    return Engine.load(
+        resolve_candidate(NAME), load_vocabulary(), device="cpu", max_new_tokens=12, **settings
+    )
 
 
 def answers(engine: Engine, level: Level, *configurations: Configuration) -> list[tuple[int, ...]]:
-    return [engine.answer(engine.query(level, RECORDS[level]), configuration).ids for configuration in configurations]
+    return [
+        engine.answer(engine.query(level, RECORDS[level]), configuration).ids
+        for configuration in configurations
+    ]
 
 
 @pytest.mark.parametrize("lean", [False, True])
-def test_one_base_serves_both_adapters_and_none(models: Path, adapters: dict[Level, Path], lean: bool) -> None:
+def test_one_base_serves_both_adapters_and_none(
+    models: Path, adapters: dict[Level, Path], lean: bool
+) -> None:
     both = load(adapters=adapters, lean=lean)
     assert set(both.lean) == ({None, "mission", "task"} if lean else set())
     of_both = {level: answers(both, level, BASE, LORA, BASE, LORA) for level in RECORDS}
@@ -69,13 +91,17 @@ def test_one_base_serves_both_adapters_and_none(models: Path, adapters: dict[Lev
         assert base != lora
 
 
-def test_a_level_without_an_adapter_has_no_lora_configuration(models: Path, adapters: dict[Level, Path]) -> None:
+def test_a_level_without_an_adapter_has_no_lora_configuration(
+    models: Path, adapters: dict[Level, Path]
+) -> None:
     engine = load(adapters={"mission": adapters["mission"]})
     with pytest.raises(PlannerError, match="lora needs an adapter of the task level"):
         engine.answer(engine.query("task", RECORDS["task"]), LORA)
 
 
-def test_an_adapter_of_the_other_level_is_refused(models: Path, adapters: dict[Level, Path]) -> None:
+def test_an_adapter_of_the_other_level_is_refused(
+    models: Path, adapters: dict[Level, Path]
+) -> None:
     with pytest.raises(PlannerError, match="adapter of the mission level, not of the task level"):
         load(adapters={"task": adapters["mission"]})
 
@@ -99,22 +125,46 @@ def embedded() -> Engine:
 
 @pytest.mark.parametrize("strength", STRENGTHS)
 def test_what_saves_passes_changes_no_answer(embedded: Engine, strength: Strength) -> None:
-    commands = ["Find the rusty mooring buoy, film its shackle for two minutes, then come home.", "Orbit the wreck at [30, -45] from 12 m, then report."]
+    commands = [
+        "Find the rusty mooring buoy, film its shackle for two minutes, then come home.",
+        "Orbit the wreck at [30, -45] from 12 m, then report.",
+    ]
     queries = [embedded.query("mission", {"prompt": command}) for command in commands]
     configuration = Configuration(False, strength)
-    slow, forced, fast = (replace(embedded, speed=speed) for speed in (Speed(False, False), Speed(drafting=False), Speed()))
+    slow, forced, fast = (
+        replace(embedded, speed=speed)
+        for speed in (Speed(False, False), Speed(drafting=False), Speed())
+    )
     expected = [slow.answer(query, configuration) for query in queries]
-    assert all(answer.finish_reason == "stop" and answer.forward_passes == len(answer.ids) for answer in expected)
+    assert all(
+        answer.finish_reason == "stop" and answer.forward_passes == len(answer.ids)
+        for answer in expected
+    )
     for engine, most in ((forced, 1.0), (fast, 0.5)):
         answers = [engine.answer(query, configuration) for query in queries]
-        assert [engine.text(answer) for answer in answers] == [slow.text(answer) for answer in expected]
-        assert sum(answer.forward_passes for answer in answers) <= most * sum(len(answer.ids) for answer in answers)
-    assert strength == "free" or sum(forced.answer(query, configuration).forced_tokens for query in queries) > 0
+        assert [engine.text(answer) for answer in answers] == [
+            slow.text(answer) for answer in expected
+        ]
+        assert sum(answer.forward_passes for answer in answers) <= most * sum(
+            len(answer.ids) for answer in answers
+        )
+    assert (
+        strength == "free"
+        or sum(forced.answer(query, configuration).forced_tokens for query in queries) > 0
+    )
 
 
 def test_batches_and_single_queries_give_the_same_answers(embedded: Engine) -> None:
-    queries = [embedded.query("mission", {"prompt": f"Go to [{x}, {-3 * x}]{' and look around' * (x % 4)}."}) for x in range(6)]
+    queries = [
+        embedded.query(
+            "mission", {"prompt": f"Go to [{x}, {-3 * x}]{' and look around' * (x % 4)}."}
+        )
+        for x in range(6)
+    ]
     together = dict(embedded.answers(queries, BASE, batch_size=6))
     for index, query in enumerate(queries):
         alone = embedded.answer(query, BASE)
-        assert (together[index].ids, together[index].forward_passes) == (alone.ids, alone.forward_passes)
+        assert (together[index].ids, together[index].forward_passes) == (
+            alone.ids,
+            alone.forward_passes,
+        )

@@ -22,7 +22,9 @@ LIMITS = Limits((END, 5), 0, 60)
 
 
 class Toy:
-    """Sentences of the toy language: `rounds` times 10, then 11 or 12, then 20 21 22 or 30 31 32 after it; then the end."""
+    """Sentences of the toy language: `rounds` times 10, then 11 or 12, then 20 21 22 or 30 31 32
+    after it; then the end.
+    """
 
     def __init__(self, rounds: int) -> None:
         self.notes = ["a note"]
@@ -88,7 +90,14 @@ class ToyFactory:
 def toy_queries(count: int) -> list[Query]:
     """Random prompts of different lengths, for sentences of one to four rounds."""
     rng = random.Random(count)
-    return [Query("mission", {"rounds": 1 + index % 4}, tuple(rng.randrange(3, VOCABULARY) for _ in range(rng.randrange(3, 60)))) for index in range(count)]
+    return [
+        Query(
+            "mission",
+            {"rounds": 1 + index % 4},
+            tuple(rng.randrange(3, VOCABULARY) for _ in range(rng.randrange(3, 60))),
+        )
+        for index in range(count)
+    ]
 
 
 ENFORCED = Method(ToyFactory(), drafting=False)
@@ -108,14 +117,18 @@ def reference(model: Any, query: Query) -> list[int]:
     return ids[len(query.prompt) :]
 
 
-def test_answers_are_the_most_probable_that_the_constraint_allows(decoder: Decoder, toy_model: Any) -> None:
+def test_answers_are_the_most_probable_that_the_constraint_allows(
+    decoder: Decoder, toy_model: Any
+) -> None:
     expected = [reference(toy_model, query) for query in QUERIES]
     assert len({tuple(answer) for answer in expected}) > 4
     for method in (ENFORCED, STEP_BY_STEP, Method(ToyFactory())):
         for batch_size in (1, 8):
             answers = generate(decoder, QUERIES, LIMITS, method, batch_size=batch_size)
             assert [list(answer.ids) for answer in answers] == expected
-            assert {(answer.finish_reason, answer.notes) for answer in answers} == {("stop", ("a note",))}
+            assert {(answer.finish_reason, answer.notes) for answer in answers} == {
+                ("stop", ("a note",))
+            }
 
 
 def test_only_choices_take_a_forward_pass(decoder: Decoder) -> None:
@@ -129,20 +142,32 @@ def test_only_choices_take_a_forward_pass(decoder: Decoder) -> None:
 
 
 def test_lean_rows_of_a_batch_skip_ahead_on_their_own(decoder: Decoder) -> None:
-    passes = [answer.forward_passes for answer in generate(decoder, QUERIES, LIMITS, ENFORCED, batch_size=8)]
-    # In a batch of transformers, rows move on together: a token at a time once the prompts (and the forced 10) are fed.
-    assert passes == (ROUNDS if type(decoder).__name__ == "LeanDecoder" else [5 * rounds - 4 for rounds in ROUNDS])
+    passes = [
+        answer.forward_passes
+        for answer in generate(decoder, QUERIES, LIMITS, ENFORCED, batch_size=8)
+    ]
+    # In a batch of transformers, rows move on together: a token at a time once the prompts (and the
+    # forced 10) are fed.
+    assert passes == (
+        ROUNDS if type(decoder).__name__ == "LeanDecoder" else [5 * rounds - 4 for rounds in ROUNDS]
+    )
 
 
 def test_the_limit_cuts_in_the_middle_of_what_is_forced(decoder: Decoder, toy_model: Any) -> None:
     expected = [reference(toy_model, query)[:8] for query in QUERIES]
     answers = generate(decoder, QUERIES, Limits((END,), 0, 8), ENFORCED, batch_size=4)
     assert [list(answer.ids) for answer in answers] == expected
-    assert [answer.finish_reason for answer in answers] == ["stop" if rounds == 1 else "length" for rounds in ROUNDS]
+    assert [answer.finish_reason for answer in answers] == [
+        "stop" if rounds == 1 else "length" for rounds in ROUNDS
+    ]
 
 
 def test_a_token_is_allowed_whatever_the_logits_are() -> None:
-    for logits in (torch.full((1, VOCABULARY), torch.nan), torch.full((1, VOCABULARY), -torch.inf), torch.full((1, VOCABULARY), torch.inf)):
+    for logits in (
+        torch.full((1, VOCABULARY), torch.nan),
+        torch.full((1, VOCABULARY), -torch.inf),
+        torch.full((1, VOCABULARY), torch.inf),
+    ):
         row = Row((3,), LIMITS, 9, Toy(1))
         row.feed(wide=True)
         row.choose(logits.argmax(-1).tolist(), logits.half())
@@ -158,11 +183,16 @@ def test_a_constraint_that_needs_more_room_than_there_is_says_so(decoder: Decode
 
     near = Query("mission", {"rounds": 1}, (7,) * 490)
     answers = generate(decoder, [near, QUERIES[0]], LIMITS, Method(Large()))
-    assert [(answer.finish_reason, answer.error) for answer in answers] == [("error", "needs room for 30 tokens, not 22"), ("stop", None)]
+    assert [(answer.finish_reason, answer.error) for answer in answers] == [
+        ("error", "needs room for 30 tokens, not 22"),
+        ("stop", None),
+    ]
 
 
 @pytest.mark.parametrize("ends", [(END, 5), (5, END)])
-def test_what_forced_the_end_is_the_token_that_is_trained(decoder: Decoder, ends: tuple[int, ...]) -> None:
+def test_what_forced_the_end_is_the_token_that_is_trained(
+    decoder: Decoder, ends: tuple[int, ...]
+) -> None:
     class Two(Toy):
         def allowed(self) -> list[int]:
             return [END, 5] if self.ended else super().allowed()
@@ -189,8 +219,13 @@ class Declining(Toy):
         return [10] if token == 40 else None
 
 
-@pytest.mark.parametrize(("share", "goes_back", "expected"), [(0.001, True, [10]), (0.1, True, None), (0.001, False, None)])
-def test_an_answer_is_begun_anew_where_a_choice_before_was_wrong(share: float, goes_back: bool, expected: list[int] | None) -> None:
+@pytest.mark.parametrize(
+    ("share", "goes_back", "expected"),
+    [(0.001, True, [10]), (0.1, True, None), (0.001, False, None)],
+)
+def test_an_answer_is_begun_anew_where_a_choice_before_was_wrong(
+    share: float, goes_back: bool, expected: list[int] | None
+) -> None:
     row = Row([7, 8], LIMITS, 60, Declining(2), goes_back=goes_back)
     _fed, count = row.feed(wide=True)
     logits = torch.full((count, VOCABULARY), -30.0)
@@ -199,8 +234,13 @@ def test_an_answer_is_begun_anew_where_a_choice_before_was_wrong(share: float, g
     assert row.back == expected and (row.finished == "stop") == (expected is not None)
 
 
-@pytest.mark.parametrize(("wanted", "share", "expected"), [(40, 0.001, [END]), (40, 0.1, [10, 11, 20, 21, 22]), (41, 0.001, [10, 11, 20, 21, 22])])
-def test_an_answer_ends_where_nothing_allowed_is_a_substitute_for_what_the_model_means(wanted: int, share: float, expected: list[int]) -> None:
+@pytest.mark.parametrize(
+    ("wanted", "share", "expected"),
+    [(40, 0.001, [END]), (40, 0.1, [10, 11, 20, 21, 22]), (41, 0.001, [10, 11, 20, 21, 22])],
+)
+def test_an_answer_ends_where_nothing_allowed_is_a_substitute_for_what_the_model_means(
+    wanted: int, share: float, expected: list[int]
+) -> None:
     row = Row([7, 8], LIMITS, 60, Willing(2))
     _fed, count = row.feed(wide=True)
     logits = torch.full((count, VOCABULARY), -30.0)

@@ -29,15 +29,27 @@ def model() -> Any:
 
     torch.manual_seed(0)
     config = LlamaConfig(
-        vocab_size=VOCABULARY, hidden_size=32, intermediate_size=64, num_hidden_layers=2, num_attention_heads=4, num_key_value_heads=2,
-        max_position_embeddings=512, initializer_range=0.5, bos_token_id=1, eos_token_id=2, pad_token_id=0,
-    )  # fmt: skip
+        vocab_size=VOCABULARY,
+        hidden_size=32,
+        intermediate_size=64,
+        num_hidden_layers=2,
+        num_attention_heads=4,
+        num_key_value_heads=2,
+        max_position_embeddings=512,
+        initializer_range=0.5,
+        bos_token_id=1,
+        eos_token_id=2,
+        pad_token_id=0,
+    )
     return LlamaForCausalLM(config).eval()
 
 
 def prompts(count: int, longest: int = 60) -> list[list[int]]:
     rng = random.Random(count)
-    return [[rng.randrange(3, VOCABULARY) for _ in range(rng.randrange(3, longest))] for _ in range(count)]
+    return [
+        [rng.randrange(3, VOCABULARY) for _ in range(rng.randrange(3, longest))]
+        for _ in range(count)
+    ]
 
 
 def limits(*ends: int, most: int = 40) -> Limits:
@@ -48,19 +60,30 @@ def asked(queries: Sequence[list[int]]) -> list[Query]:
     return [Query("mission", {}, tuple(query)) for query in queries]
 
 
-def generate(model: Any, queries: Sequence[list[int]], limits: Limits, **settings: Any) -> list[Generation]:
+def generate(
+    model: Any, queries: Sequence[list[int]], limits: Limits, **settings: Any
+) -> list[Generation]:
     return generate_answers(ModelDecoder(model, 0), asked(queries), limits, **settings)
 
 
-def generate_unordered(model: Any, queries: Sequence[list[int]], limits: Limits, **settings: Any) -> Iterator[tuple[int, Generation]]:
+def generate_unordered(
+    model: Any, queries: Sequence[list[int]], limits: Limits, **settings: Any
+) -> Iterator[tuple[int, Generation]]:
     return generate_answers_unordered(ModelDecoder(model, 0), asked(queries), limits, **settings)
 
 
 def reference(model: Any, prompt: list[int], limits: Limits) -> list[int]:
     """What plain transformers generates."""
     ids = torch.tensor([prompt])
-    settings = {"do_sample": False, "max_new_tokens": limits.max_new_tokens, "eos_token_id": list(limits.end_ids), "pad_token_id": 0}
-    return model.generate(ids, attention_mask=torch.ones_like(ids), **settings)[0, len(prompt) :].tolist()  # type: ignore[no-any-return]
+    settings = {
+        "do_sample": False,
+        "max_new_tokens": limits.max_new_tokens,
+        "eos_token_id": list(limits.end_ids),
+        "pad_token_id": 0,
+    }
+    return model.generate(ids, attention_mask=torch.ones_like(ids), **settings)[
+        0, len(prompt) :
+    ].tolist()  # type: ignore[no-any-return]
 
 
 def test_batched_answers_are_those_of_single_queries_and_of_transformers(model: Any) -> None:
@@ -77,7 +100,16 @@ def test_models_with_absolute_positions_are_batched_rightly() -> None:
     from transformers import GPT2Config, GPT2LMHeadModel
 
     torch.manual_seed(0)
-    config = GPT2Config(vocab_size=VOCABULARY, n_embd=32, n_layer=2, n_head=4, n_positions=512, initializer_range=0.5, bos_token_id=1, eos_token_id=2)
+    config = GPT2Config(
+        vocab_size=VOCABULARY,
+        n_embd=32,
+        n_layer=2,
+        n_head=4,
+        n_positions=512,
+        initializer_range=0.5,
+        bos_token_id=1,
+        eos_token_id=2,
+    )
     gpt = GPT2LMHeadModel(config).eval()
     queries = prompts(5)
     for query, answer in zip(queries, generate(gpt, queries, limits(5)), strict=True):
@@ -97,12 +129,16 @@ def test_settings_for_sampling_are_ignored(model: Any) -> None:
     saved = model.generation_config.to_dict()
     try:
         model.generation_config.update(do_sample=True, temperature=3.0, repetition_penalty=5.0)
-        assert [answer.ids for answer in generate(model, queries, limits())] == [answer.ids for answer in greedy]
+        assert [answer.ids for answer in generate(model, queries, limits())] == [
+            answer.ids for answer in greedy
+        ]
     finally:
         model.generation_config.update(**saved)
 
 
-def test_rows_that_have_ended_are_not_computed_on(model: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_rows_that_have_ended_are_not_computed_on(
+    model: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
     rows: list[int] = []
     forward = model.forward
 
@@ -121,20 +157,30 @@ def test_answers_come_as_they_are_completed_longest_prompts_first(model: Any) ->
     queries = prompts(6)
     order = [index for index, _answer in generate_unordered(model, queries, limits(), batch_size=2)]
     by_length = sorted(range(6), key=lambda index: -len(queries[index]))
-    assert [set(order[start : start + 2]) for start in (0, 2, 4)] == [set(by_length[start : start + 2]) for start in (0, 2, 4)]
-    lengths = {index: len(answer.ids) for index, answer in generate_unordered(model, queries, limits(5, 9), batch_size=6)}
+    assert [set(order[start : start + 2]) for start in (0, 2, 4)] == [
+        set(by_length[start : start + 2]) for start in (0, 2, 4)
+    ]
+    lengths = {
+        index: len(answer.ids)
+        for index, answer in generate_unordered(model, queries, limits(5, 9), batch_size=6)
+    }
     assert list(lengths.values()) == sorted(lengths.values())
 
 
 def test_shares_of_time_add_up_to_the_time_of_the_batch(model: Any) -> None:
     answers = generate(model, prompts(4), limits(5, 9), batch_size=4)
     assert all(answer.seconds > 0 for answer in answers)
-    longest, shortest = max(answers, key=lambda answer: len(answer.ids)), min(answers, key=lambda answer: len(answer.ids))
+    longest, shortest = (
+        max(answers, key=lambda answer: len(answer.ids)),
+        min(answers, key=lambda answer: len(answer.ids)),
+    )
     assert longest.seconds > shortest.seconds
 
 
 def test_the_token_limit_and_the_context_cut_answers(model: Any) -> None:
-    assert [len(answer.ids) for answer in generate(model, prompts(3), limits(VOCABULARY + 1, most=7))] == [7, 7, 7]
+    assert [
+        len(answer.ids) for answer in generate(model, prompts(3), limits(VOCABULARY + 1, most=7))
+    ] == [7, 7, 7]
     near = generate(model, [[5] * 508], limits(VOCABULARY + 1))[0]
     assert (near.finish_reason, len(near.ids)) == ("length", 4)
     over = generate(model, [[5] * 512, [5, 6]], limits(VOCABULARY + 1))
@@ -152,7 +198,9 @@ def test_too_little_memory_names_the_flag(model: Any, monkeypatch: pytest.Monkey
         generate(model, prompts(4), limits(), batch_size=4)
 
 
-def test_latency_is_of_single_queries_after_one_that_is_not_counted(model: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_latency_is_of_single_queries_after_one_that_is_not_counted(
+    model: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
     from planner_ft.decoding import latency
 
     calls: list[list[Query]] = []
@@ -168,7 +216,9 @@ def test_latency_is_of_single_queries_after_one_that_is_not_counted(model: Any, 
     assert sorted(measured) == [0, 1, 2]
     for index, one in measured.items():
         assert one.seconds > 0
-        assert one.tokens == one.forward_passes == len(reference(model, queries[index], limits(5, 9)))
+        assert (
+            one.tokens == one.forward_passes == len(reference(model, queries[index], limits(5, 9)))
+        )
     assert not list(measure_latency(decoder, [], limits()))
 
 
@@ -191,7 +241,10 @@ def test_the_block_cache_holds_what_the_dynamic_one_holds() -> None:
 def test_other_layers_keep_their_kind_of_cache() -> None:
     from transformers import MistralConfig
 
-    kinds = {type(layer).__name__ for layer in new_cache(MistralConfig(num_hidden_layers=2, sliding_window=8)).layers}
+    kinds = {
+        type(layer).__name__
+        for layer in new_cache(MistralConfig(num_hidden_layers=2, sliding_window=8)).layers
+    }
     assert kinds == {"DynamicSlidingWindowLayer"}
 
 
@@ -208,7 +261,10 @@ def test_every_end_token_of_the_published_candidates_ends_an_answer(models: Any)
     for name, tokens in wanted.items():
         candidate = resolve_candidate(name)
         tokenizer = load_tokenizer(candidate)
-        assert {tokenizer.decode([token]) for token in end_ids(tokenizer, named_ends(load_model(candidate, device="cpu")))} == tokens
+        assert {
+            tokenizer.decode([token])
+            for token in end_ids(tokenizer, named_ends(load_model(candidate, device="cpu")))
+        } == tokens
 
 
 def test_small_models_decode_with_one_cpu_thread(models: Any) -> None:

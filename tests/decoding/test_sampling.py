@@ -1,4 +1,6 @@
-"""Sampled answers: drawn from the right probabilities, and the same ones however they are computed."""
+"""Sampled answers: drawn from the right probabilities, and the same ones however they are
+computed.
+"""
 
 from __future__ import annotations
 
@@ -22,11 +24,16 @@ VOCABULARY = 64
 LIMITS = Limits((2, 5, 9), 0, 40)
 RNG = random.Random(0)
 QUERIES = [
-    Query("mission", {"id": f"m{index}"}, tuple(RNG.randrange(3, VOCABULARY) for _ in range(length))) for index, length in enumerate((3, 40, 12, 7, 25, 18))
+    Query(
+        "mission", {"id": f"m{index}"}, tuple(RNG.randrange(3, VOCABULARY) for _ in range(length))
+    )
+    for index, length in enumerate((3, 40, 12, 7, 25, 18))
 ]
 
 
-def drawn(logits: list[float], count: int = 20_000, allowed: Mask | None = None, **settings: float) -> Counter[int]:
+def drawn(
+    logits: list[float], count: int = 20_000, allowed: Mask | None = None, **settings: float
+) -> Counter[int]:
     numbers = np.random.default_rng(0).random(count)
     sampler = Sampler(settings.get("temperature", 1.0), settings.get("top_p", 1.0), numbers)
     return Counter(sampler.draw(place, torch.tensor(logits), allowed) for place in range(count))
@@ -38,17 +45,23 @@ def mask(*tokens: int) -> Mask:
     return np.packbits(bits, bitorder="little").view(np.int32)
 
 
-def answers(decoder: Decoder, sampling: Sampling | None, queries: list[Query] = QUERIES, **settings: Any) -> list[tuple[int, ...]]:
+def answers(
+    decoder: Decoder, sampling: Sampling | None, queries: list[Query] = QUERIES, **settings: Any
+) -> list[tuple[int, ...]]:
     method = Method(fast_forward=False, drafting=settings.pop("drafting", False), sampling=sampling)
     return [answer.ids for answer in generate(decoder, queries, LIMITS, method, **settings)]
 
 
 def test_tokens_are_drawn_with_their_probabilities() -> None:
     counts = drawn(np.log([0.5, 0.3, 0.2]).tolist())
-    assert [counts[token] / 20_000 for token in range(3)] == pytest.approx([0.5, 0.3, 0.2], abs=0.02)
+    assert [counts[token] / 20_000 for token in range(3)] == pytest.approx(
+        [0.5, 0.3, 0.2], abs=0.02
+    )
     # At temperature 0.5 probabilities are squared: 25 to 9 to 4.
     colder = drawn(np.log([0.5, 0.3, 0.2]).tolist(), temperature=0.5)
-    assert [colder[token] / 20_000 for token in range(3)] == pytest.approx([25 / 38, 9 / 38, 4 / 38], abs=0.02)
+    assert [colder[token] / 20_000 for token in range(3)] == pytest.approx(
+        [25 / 38, 9 / 38, 4 / 38], abs=0.02
+    )
 
 
 def test_top_p_keeps_the_smallest_set_that_holds_it() -> None:
@@ -99,7 +112,14 @@ def test_forced_tokens_do_not_shift_the_random_numbers() -> None:
             self.count += 1
 
     def sampled(*, fast_forward: bool) -> list[int]:
-        row = Row((1,), LIMITS, 12, Forcing(), fast_forward=fast_forward, sampler=Sampling(1.0).sampler("a", 12))  # type: ignore[arg-type]
+        row = Row(
+            (1,),
+            LIMITS,
+            12,
+            Forcing(),
+            fast_forward=fast_forward,
+            sampler=Sampling(1.0).sampler("a", 12),
+        )  # type: ignore[arg-type]
         while not row.finished:
             row.feed(wide=True)
             row.choose([0], torch.zeros(1, 32))
@@ -114,7 +134,13 @@ def test_a_very_low_temperature_is_greedy(decoder: Decoder) -> None:
 
 
 @pytest.mark.parametrize(
-    ("settings", "flag"), [((0.0,), "--temperature 0"), ((11.0,), "--temperature 11"), ((1.0, 0.0), "--top-p 0"), ((1.0, 1.5), "--top-p 1.5")]
+    ("settings", "flag"),
+    [
+        ((0.0,), "--temperature 0"),
+        ((11.0,), "--temperature 11"),
+        ((1.0, 0.0), "--top-p 0"),
+        ((1.0, 1.5), "--top-p 1.5"),
+    ],
 )
 def test_settings_out_of_range_are_one_sentence(settings: tuple[float, ...], flag: str) -> None:
     with pytest.raises(PlannerError, match=flag):

@@ -27,7 +27,12 @@ class Counted:
 
 
 def answers(decoder: ModelDecoder, prompts: list[list[int]], batch_size: int) -> list[Generation]:
-    return generate(decoder, [Query("mission", {}, tuple(prompt)) for prompt in prompts], LIMITS, batch_size=batch_size)
+    return generate(
+        decoder,
+        [Query("mission", {}, tuple(prompt)) for prompt in prompts],
+        LIMITS,
+        batch_size=batch_size,
+    )
 
 
 def beginning(length: int) -> list[int]:
@@ -36,26 +41,28 @@ def beginning(length: int) -> list[int]:
 
 @pytest.mark.parametrize(
     "rests",
-    [
-        [[5], [6, 7, 8], [9, 10], [5, 5, 5, 5, 5, 5, 5]],
-        [[5, 6], [5, 6], [5, 6]],
-        [[], [7], [8, 9]],
-    ],
+    [[[5], [6, 7, 8], [9, 10], [5, 5, 5, 5, 5, 5, 5]], [[5, 6], [5, 6], [5, 6]], [[], [7], [8, 9]]],
     ids=["different lengths", "equal prompts", "one prompt is the beginning"],
 )
-def test_answers_are_those_of_prompts_alone(make_llama: Callable[..., Any], rests: list[list[int]]) -> None:
+def test_answers_are_those_of_prompts_alone(
+    make_llama: Callable[..., Any], rests: list[list[int]]
+) -> None:
     decoder = ModelDecoder(make_llama(), 0)
     prompts = [beginning(150) + rest for rest in rests]
     alone, together = answers(decoder, prompts, 1), answers(decoder, prompts, len(prompts))
     assert [answer.ids for answer in together] == [answer.ids for answer in alone]
-    assert len({answer.ids for answer in alone}) > 1 or len({tuple(prompt) for prompt in prompts}) == 1
+    assert (
+        len({answer.ids for answer in alone}) > 1 or len({tuple(prompt) for prompt in prompts}) == 1
+    )
 
 
 def test_a_common_beginning_is_computed_once(make_llama: Callable[..., Any]) -> None:
     counted = Counted(make_llama())
     found = answers(counted.decoder, [[*beginning(200), 5 + row] for row in range(8)], 8)
     generated = sum(len(answer.ids) for answer in found)
-    assert counted.positions < 200 + 8 + generated + 8 * len(max(found, key=lambda answer: len(answer.ids)).ids)
+    assert counted.positions < 200 + 8 + generated + 8 * len(
+        max(found, key=lambda answer: len(answer.ids)).ids
+    )
 
 
 def test_a_short_common_beginning_gets_no_pass_of_its_own(make_llama: Callable[..., Any]) -> None:
@@ -69,8 +76,26 @@ def test_a_short_common_beginning_gets_no_pass_of_its_own(make_llama: Callable[.
 def test_layers_with_a_window_share_nothing(make_llama: Callable[..., Any]) -> None:
     from transformers import MistralConfig, MistralForCausalLM
 
-    sizes = {"vocab_size": 64, "hidden_size": 32, "intermediate_size": 64, "num_hidden_layers": 2, "num_attention_heads": 4, "num_key_value_heads": 2}
-    model = MistralForCausalLM(MistralConfig(**sizes, sliding_window=8, pad_token_id=0, eos_token_id=2, bos_token_id=1, initializer_range=0.5)).eval()
+    sizes = {
+        "vocab_size": 64,
+        "hidden_size": 32,
+        "intermediate_size": 64,
+        "num_hidden_layers": 2,
+        "num_attention_heads": 4,
+        "num_key_value_heads": 2,
+    }
+    model = MistralForCausalLM(
+        MistralConfig(
+            **sizes,
+            sliding_window=8,
+            pad_token_id=0,
+            eos_token_id=2,
+            bos_token_id=1,
+            initializer_range=0.5,
+        )
+    ).eval()
     prompts = [[*beginning(40), 5 + row] for row in range(3)]
     decoder = ModelDecoder(model, 0)
-    assert [answer.ids for answer in answers(decoder, prompts, 3)] == [answer.ids for answer in answers(decoder, prompts, 1)]
+    assert [answer.ids for answer in answers(decoder, prompts, 3)] == [
+        answer.ids for answer in answers(decoder, prompts, 1)
+    ]

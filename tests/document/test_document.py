@@ -12,7 +12,15 @@ import jsonschema
 import pytest
 import rfc8785
 
-from planner_ft.document import PlanDocument, altered, apply, differences, document_digest, read_document, write_document
+from planner_ft.document import (
+    PlanDocument,
+    altered,
+    apply,
+    differences,
+    document_digest,
+    read_document,
+    write_document,
+)
 from planner_ft.document.files import document_problem
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
@@ -24,20 +32,30 @@ from tests.documents import DRONE, USV, document, step, task
 def plan() -> PlanDocument:
     steps = [step("GoToXY", {"x": 10, "y": 2.5})]
     return document(
-        [task("Transit", {"target_position": [10, 2.5]}, steps), task("Transit", {"target_position": [0, 0]}, steps)], command="Go to [10, 2.5], come back."
+        [
+            task("Transit", {"target_position": [10, 2.5]}, steps),
+            task("Transit", {"target_position": [0, 0]}, steps),
+        ],
+        command="Go to [10, 2.5], come back.",
     )
 
 
 def test_anybody_can_compute_the_digest(plan: PlanDocument) -> None:
     rest = {key: value for key, value in plan.items() if key != "digest"}
-    assert plan["digest"] == hashlib.sha256(rfc8785.dumps(rest)).hexdigest() == document_digest(plan)
+    assert (
+        plan["digest"] == hashlib.sha256(rfc8785.dumps(rest)).hexdigest() == document_digest(plan)
+    )
 
 
 def test_numbers_that_have_no_exact_form_still_have_a_digest(plan: PlanDocument) -> None:
-    assert document_digest({**plan, "peak_memory_bytes": 10**20}) == document_digest({**plan, "peak_memory_bytes": 1e20})
+    assert document_digest({**plan, "peak_memory_bytes": 10**20}) == document_digest(
+        {**plan, "peak_memory_bytes": 1e20}
+    )
 
 
-def test_a_document_survives_a_file_and_another_order_of_keys(plan: PlanDocument, tmp_path: Path) -> None:
+def test_a_document_survives_a_file_and_another_order_of_keys(
+    plan: PlanDocument, tmp_path: Path
+) -> None:
     path = tmp_path / "plan.json"
     write_document(path, plan)
     assert read_document(path) == plan
@@ -59,18 +77,37 @@ def test_one_changed_digit_is_seen(plan: PlanDocument, tmp_path: Path) -> None:
         (lambda plan: "", "not JSON"),
         (lambda plan: "[]", "is no plan document"),
         (lambda plan: json.dumps({**plan, "version": 9}), "is of version 9"),
-        (lambda plan: json.dumps({**plan, "vocabulary": {"name": "usv", "sha256": "0" * 64}}), "was made with another vocabulary"),
-        (lambda plan: json.dumps({**plan, "vocabulary": {"name": "/etc/passwd", "sha256": "0" * 64}}), "which is not bundled"),
+        (
+            lambda plan: json.dumps({**plan, "vocabulary": {"name": "usv", "sha256": "0" * 64}}),
+            "was made with another vocabulary",
+        ),
+        (
+            lambda plan: json.dumps(
+                {**plan, "vocabulary": {"name": "/etc/passwd", "sha256": "0" * 64}}
+            ),
+            "which is not bundled",
+        ),
         (lambda plan: json.dumps({**plan, "tasks": [{"title": "Fly"}]}), "tasks[0]"),
-        (lambda plan: json.dumps({key: value for key, value in plan.items() if key != "proposed"}), "'proposed' is a required property"),
+        (
+            lambda plan: json.dumps(
+                {key: value for key, value in plan.items() if key != "proposed"}
+            ),
+            "'proposed' is a required property",
+        ),
     ],
 )
-def test_what_is_no_whole_plan_is_named_in_one_sentence(plan: PlanDocument, tmp_path: Path, change: Any, sentence: str) -> None:
+def test_what_is_no_whole_plan_is_named_in_one_sentence(
+    plan: PlanDocument, tmp_path: Path, change: Any, sentence: str
+) -> None:
     path = tmp_path / "plan.json"
     path.write_text(change(plan), encoding="utf-8")
     with pytest.raises(PlannerError) as caught:
         read_document(path)
-    assert str(path) in str(caught.value) and sentence in str(caught.value) and "\n" not in str(caught.value)
+    assert (
+        str(path) in str(caught.value)
+        and sentence in str(caught.value)
+        and "\n" not in str(caught.value)
+    )
 
 
 BREAKS: list[tuple[str, Any]] = [
@@ -105,7 +142,9 @@ BREAKS: list[tuple[str, Any]] = [
 
 @pytest.mark.parametrize(("key", "value"), BREAKS)
 @pytest.mark.parametrize("proposed", [False, True])
-def test_reading_accepts_what_the_published_schema_accepts(plan: PlanDocument, key: str, value: Any, proposed: bool) -> None:
+def test_reading_accepts_what_the_published_schema_accepts(
+    plan: PlanDocument, key: str, value: Any, proposed: bool
+) -> None:
     changed = copy.deepcopy(plan)
     (changed["proposed"] if proposed else changed)["tasks"][0][key] = value
     by_schema = jsonschema.Draft202012Validator(document_schema(USV)).is_valid(changed)
@@ -114,7 +153,9 @@ def test_reading_accepts_what_the_published_schema_accepts(plan: PlanDocument, k
 
 def test_a_plan_of_another_vehicle_is_read_with_its_own_vocabulary(tmp_path: Path) -> None:
     title = DRONE.transit
-    drone = document([task(title, {DRONE.task[title].position_parameter or "": [1, 2]}, None)], DRONE)
+    drone = document(
+        [task(title, {DRONE.task[title].position_parameter or "": [1, 2]}, None)], DRONE
+    )
     write_document(tmp_path / "plan.json", drone)
     assert read_document(tmp_path / "plan.json") == drone
     with pytest.raises(PlannerError, match="another vocabulary"):
@@ -124,11 +165,17 @@ def test_a_plan_of_another_vehicle_is_read_with_its_own_vocabulary(tmp_path: Pat
 def test_differences_say_what_was_changed(plan: PlanDocument) -> None:
     assert differences(plan) == []
     edited = apply(plan, {"kind": "move", "task": "t2", "to": 0}, USV)
-    edited = apply(edited, {"kind": "parameter", "task": "t1", "name": "target_position", "value": [11, 3]}, USV)
+    edited = apply(
+        edited,
+        {"kind": "parameter", "task": "t1", "name": "target_position", "value": [11, 3]},
+        USV,
+    )
     edited = apply(edited, {"kind": "insert", "at": 2, "title": "Diagnostics"}, USV)
     assert [change.text for change in differences(edited)] == [
         "task 2, Transit: target_position [10,2.5] -> [11,3]",
         "task 3, Diagnostics: added",
         "Transit: moved from place 1 to 2",
     ]
-    assert [change.text for change in differences(apply(plan, {"kind": "remove", "task": "t2"}, USV))] == ["Transit (t2): removed"]
+    assert [
+        change.text for change in differences(apply(plan, {"kind": "remove", "task": "t2"}, USV))
+    ] == ["Transit (t2): removed"]

@@ -23,7 +23,10 @@ def elements(command: str) -> dict[str, list[str]]:
 
 
 def test_all_four_are_found() -> None:
-    found = elements("Circle the old lighthouse at [40, 12] with the thermal camera, keep clear of the divers and come home.")
+    found = elements(
+        "Circle the old lighthouse at [40, 12] with the thermal camera, keep clear of the divers"
+        " and come home."
+    )
     assert found["target"][0] == "the old lighthouse at [40, 12]"
     assert "Circle" in found["objective"]
     assert any("thermal" in text for text in found["sensor"])
@@ -43,7 +46,18 @@ def test_what_is_ruled_out_is_a_limit_and_no_objective() -> None:
     assert not any("panorama" in text for text in (*found["objective"], *found["sensor"]))
 
 
-@pytest.mark.parametrize("command", ["...", "?", "检查浮标 然后返回", "<a href='x'>[]</a>", "the the the", "a " * 3000, "[1, 2] " * 2000])
+@pytest.mark.parametrize(
+    "command",
+    [
+        "...",
+        "?",
+        "检查浮标 然后返回",
+        "<a href='x'>[]</a>",
+        "the the the",
+        "a " * 3000,
+        "[1, 2] " * 2000,
+    ],
+)
 def test_any_text_is_checked(command: str) -> None:
     assert set(check(command, USV)) == {"elements", "missing", "questions"}
 
@@ -56,7 +70,11 @@ def test_marked_commands_are_mostly_read_as_marked() -> None:
     """The floor of what benchmarks/command_check.py measures."""
     records = read_jsonl("data/mission/validation.jsonl")
     for element, least in (("target", 20), ("sensor", 10), ("constraint", 7)):
-        marked = [record["prompt"] for record in records if element in {span["element"] for span in record["spans"]}]
+        marked = [
+            record["prompt"]
+            for record in records
+            if element in {span["element"] for span in record["spans"]}
+        ]
         assert sum(element not in check(prompt, USV)["missing"] for prompt in marked) >= least
 
 

@@ -9,7 +9,11 @@ from planner_ft.document.said import pieces, read_command
 from planner_ft.vocabulary import Parameter
 from tests.documents import USV
 
-METRES, TEXT, PLACE = Parameter("radius", "number", "m"), Parameter("what", "text"), Parameter("where", "position", "m")
+METRES, TEXT, PLACE = (
+    Parameter("radius", "number", "m"),
+    Parameter("what", "text"),
+    Parameter("where", "position", "m"),
+)
 FILLER = "Look at the old pier and its ladder. "
 
 
@@ -23,9 +27,17 @@ def test_pieces_add_up_to_the_text(text: str) -> None:
 def test_a_value_far_behind_is_found_where_it_stands() -> None:
     command = FILLER * 1000 + "Circle the green tower at [310, 42] at 77 m."
     said = read_command(command, USV)
-    for value, parameter, words in ((77, METRES, "77 m"), ([310, 42], PLACE, "310, 42"), ("green tower", TEXT, "green tower")):
+    for value, parameter, words in (
+        (77, METRES, "77 m"),
+        ([310, 42], PLACE, "310, 42"),
+        ("green tower", TEXT, "green tower"),
+    ):
         assert said.states(value, parameter)
-        assert [command[start:end] for mention in said.mentions(value, parameter) for start, end in mention.spans] == [words]
+        assert [
+            command[start:end]
+            for mention in said.mentions(value, parameter)
+            for start, end in mention.spans
+        ] == [words]
     assert said.states(78, METRES) is False
 
 
@@ -33,7 +45,10 @@ def test_what_is_read_in_every_way_is_bounded(monkeypatch: pytest.MonkeyPatch) -
     """Other readings of a text cost the most; a longer command must not have more of them."""
     read: list[int] = []
     real = stated.rewritings
-    monkeypatch.setattr("planner_ft.document.said_numbers.rewritings", lambda text: read.append(len(text)) or real(text))
+    monkeypatch.setattr(
+        "planner_ft.document.said_numbers.rewritings",
+        lambda text: read.append(len(text)) or real(text),
+    )
     for length in (300, 3000):
         read.clear()
         read_command(f"{length} " + FILLER * length, USV).states(5, METRES)
@@ -42,7 +57,12 @@ def test_what_is_read_in_every_way_is_bounded(monkeypatch: pytest.MonkeyPatch) -
 
 
 @pytest.mark.parametrize(
-    "command", ["检查浮标 然后返回 七 米", "Прибудьте к бую и обойдите его на расстоянии пяти метров, затем вернитесь", "<b>[[,]]</b> {} \x00"]
+    "command",
+    [
+        "检查浮标 然后返回 七 米",
+        "Прибудьте к бую и обойдите его на расстоянии пяти метров, затем вернитесь",
+        "<b>[[,]]</b> {} \x00",
+    ],
 )
 def test_other_languages_and_markup_are_no_error(command: str) -> None:
     assert read_command(command, USV).states(5, METRES) in (None, False)

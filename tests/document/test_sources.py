@@ -1,4 +1,6 @@
-"""Where values are from: the words of the command, a place that was located, a rule, the operator, the model."""
+"""Where values are from: the words of the command, a place that was located, a rule, the operator,
+the model.
+"""
 
 from __future__ import annotations
 
@@ -17,25 +19,65 @@ def source(command: str, title: str, parameters: dict[str, Any], name: str) -> d
 
 
 def words(plan: PlanDocument, index: int, name: str) -> list[str]:
-    return [plan["command"][start:end] for start, end in plan["tasks"][index]["sources"][name].get("spans", [])]
+    return [
+        plan["command"][start:end]
+        for start, end in plan["tasks"][index]["sources"][name].get("spans", [])
+    ]
 
 
 @pytest.mark.parametrize(
     ("command", "title", "parameters", "said"),
     [
         ("Hold for half an hour.", "KeepStation", {"duration": 1800}, ["half an hour"]),
-        ("Hold for two minutes and thirty seconds.", "KeepStation", {"duration": 150}, ["two minutes and thirty seconds"]),
+        (
+            "Hold for two minutes and thirty seconds.",
+            "KeepStation",
+            {"duration": 150},
+            ["two minutes and thirty seconds"],
+        ),
         ("Drift for twenty minuets.", "DriftAudit", {"duration": 1200}, ["twenty minuets"]),
         ("Go to x=-40, y=12 now.", "Transit", {"target_position": [-40, 12]}, ["-40, y=12"]),
-        ("Go 120 east 45 south.", "Transit", {"target_position": [120, -45]}, ["120 east 45 south"]),
-        ("Find the grean barell.", "SearchAndDetect", {"target_description": "green barrel"}, ["grean barell"]),
-        ("There are two buoys. Inspect the red one.", "SearchAndDetect", {"target_description": "red buoy"}, ["buoys", "red"]),
-        ("Send the sonar log, then the photos.", "SmartDataHarvest", {"target_list": ["sonar log", "photos"]}, ["sonar log", "photos"]),
-        ("Shoot a panorama and wait minute at each.", "HorizontalPanorama", {"wait": 60}, ["minute"]),
-        ("Pass it at one metre per second.", "ParallelStructurePass", {"speed": 1}, ["one metre per second"]),
+        (
+            "Go 120 east 45 south.",
+            "Transit",
+            {"target_position": [120, -45]},
+            ["120 east 45 south"],
+        ),
+        (
+            "Find the grean barell.",
+            "SearchAndDetect",
+            {"target_description": "green barrel"},
+            ["grean barell"],
+        ),
+        (
+            "There are two buoys. Inspect the red one.",
+            "SearchAndDetect",
+            {"target_description": "red buoy"},
+            ["buoys", "red"],
+        ),
+        (
+            "Send the sonar log, then the photos.",
+            "SmartDataHarvest",
+            {"target_list": ["sonar log", "photos"]},
+            ["sonar log", "photos"],
+        ),
+        (
+            "Shoot a panorama and wait minute at each.",
+            "HorizontalPanorama",
+            {"wait": 60},
+            ["minute"],
+        ),
+        (
+            "Pass it at one metre per second.",
+            "ParallelStructurePass",
+            {"speed": 1},
+            ["one metre per second"],
+        ),
     ],
 )
-def test_the_narrowest_words_that_say_a_value(command: str, title: str, parameters: dict[str, Any], said: list[str]) -> None:
+def test_the_narrowest_words_that_say_a_value(
+    command: str, title: str, parameters: dict[str, Any], said: list[str]
+) -> None:
     plan = document([task(title, parameters, None)], command=command)
     name = next(iter(parameters))
     assert plan["tasks"][0]["sources"][name]["kind"] == "command"
@@ -43,49 +85,116 @@ def test_the_narrowest_words_that_say_a_value(command: str, title: str, paramete
 
 
 def test_a_compass_direction_is_a_heading_and_a_part_of_a_circle_an_arc() -> None:
-    cable = document([task("SubseaCableTrack", {"start": [1, 2], "heading": 315}, None)], command="Track the cable from [1, 2] to the north-west.")
+    cable = document(
+        [task("SubseaCableTrack", {"start": [1, 2], "heading": 315}, None)],
+        command="Track the cable from [1, 2] to the north-west.",
+    )
     assert words(cable, 0, "heading") == ["north-west"]
-    orbit = source("Half a circle round the pier at [1, 2], south wall too.", "PerformOrbit", {"center": [1, 2], "arc": 180}, "arc")
-    assert orbit == {"kind": "derived", "spans": [[0, 4]], "note": "Half of a circle is 180 degrees"}
+    orbit = source(
+        "Half a circle round the pier at [1, 2], south wall too.",
+        "PerformOrbit",
+        {"center": [1, 2], "arc": 180},
+        "arc",
+    )
+    assert orbit == {
+        "kind": "derived",
+        "spans": [[0, 4]],
+        "note": "Half of a circle is 180 degrees",
+    }
 
 
 def test_a_value_that_is_said_twice_is_from_the_words_near_its_task() -> None:
     command = "Circle the pier at [10, 20] at 12 m, then circle the mast at [50, 60] at 12 m."
-    tasks = [task("PerformOrbit", {"center": center, "radius": 12}, None) for center in ([10, 20], [50, 60])]
+    tasks = [
+        task("PerformOrbit", {"center": center, "radius": 12}, None)
+        for center in ([10, 20], [50, 60])
+    ]
     plan = document(tasks, command=command)
-    assert plan["tasks"][0]["sources"]["radius"]["spans"] == [[command.index("12 m"), command.index("12 m") + 4]]
-    assert plan["tasks"][1]["sources"]["radius"]["spans"] == [[command.rindex("12 m"), command.rindex("12 m") + 4]]
+    assert plan["tasks"][0]["sources"]["radius"]["spans"] == [
+        [command.index("12 m"), command.index("12 m") + 4]
+    ]
+    assert plan["tasks"][1]["sources"]["radius"]["spans"] == [
+        [command.rindex("12 m"), command.rindex("12 m") + 4]
+    ]
 
 
 def test_home_and_open_places_are_derived() -> None:
     plan = document(
-        [task("Transit", {"target_position": [-99, -99]}, None), task("Transit", {"target_position": [0, 0]}, None)], command="Visit it, come home."
+        [
+            task("Transit", {"target_position": [-99, -99]}, None),
+            task("Transit", {"target_position": [0, 0]}, None),
+        ],
+        command="Visit it, come home.",
     )
-    assert [entry["sources"]["target_position"]["kind"] for entry in plan["tasks"]] == ["derived", "derived"]
+    assert [entry["sources"]["target_position"]["kind"] for entry in plan["tasks"]] == [
+        "derived",
+        "derived",
+    ]
     assert words(plan, 1, "target_position") == ["come home"]
 
 
 def test_what_nobody_said_is_the_model_s() -> None:
-    assert source("Circle the pier at [1, 2].", "PerformOrbit", {"center": [1, 2], "radius": 25}, "radius")["kind"] == "model"
-    assert source("Circle the pier at [1, 25].", "PerformOrbit", {"center": [1, 25], "radius": 20}, "radius")["kind"] == "model"
-    assert source("Go out.", "Transit", {"target_position": [0, 0]}, "target_position")["kind"] == "model"
+    assert (
+        source(
+            "Circle the pier at [1, 2].", "PerformOrbit", {"center": [1, 2], "radius": 25}, "radius"
+        )["kind"]
+        == "model"
+    )
+    assert (
+        source(
+            "Circle the pier at [1, 25].",
+            "PerformOrbit",
+            {"center": [1, 25], "radius": 20},
+            "radius",
+        )["kind"]
+        == "model"
+    )
+    assert (
+        source("Go out.", "Transit", {"target_position": [0, 0]}, "target_position")["kind"]
+        == "model"
+    )
 
 
 def test_the_operator_s_changes_are_the_operator_s() -> None:
-    plan = document([task("KeepStation", {"duration": 60}, None)], command="Hold for a minute or for 90 s.")
+    plan = document(
+        [task("KeepStation", {"duration": 60}, None)], command="Hold for a minute or for 90 s."
+    )
     edited = apply(plan, {"kind": "parameter", "task": "t1", "name": "duration", "value": 90}, USV)
     assert edited["tasks"][0]["sources"]["duration"] == {"kind": "operator", "note": "proposed: 60"}
-    inserted = apply(edited, {"kind": "insert", "at": 0, "title": "Transit", "parameters": {"target_position": [5, 5]}, "task_prompt": "Go."}, USV)
-    assert inserted["tasks"][0]["sources"]["target_position"] == {"kind": "operator", "note": "inserted"}
+    inserted = apply(
+        edited,
+        {
+            "kind": "insert",
+            "at": 0,
+            "title": "Transit",
+            "parameters": {"target_position": [5, 5]},
+            "task_prompt": "Go.",
+        },
+        USV,
+    )
+    assert inserted["tasks"][0]["sources"]["target_position"] == {
+        "kind": "operator",
+        "note": "inserted",
+    }
 
 
 def test_a_located_place_says_its_name() -> None:
     search = task("SearchAndDetect", {"target_description": "buoy"}, None)
-    plan = document([search, task("Transit", {"target_position": [-99, -99]}, None)], command="Find the buoy and go there.")
+    plan = document(
+        [search, task("Transit", {"target_position": [-99, -99]}, None)],
+        command="Find the buoy and go there.",
+    )
     placed = apply(plan, {"kind": "locate", "name": "buoy", "position": [7, 8]}, USV)
-    assert placed["tasks"][1]["sources"]["target_position"] == {"kind": "located", "note": "resolved location buoy"}
+    assert placed["tasks"][1]["sources"]["target_position"] == {
+        "kind": "located",
+        "note": "resolved location buoy",
+    }
 
 
 def test_another_vehicle() -> None:
-    plan = document([task("TowerOrbit", {"center": [3, 4], "radius": 9}, None)], DRONE, command="Fly round the tower at [3, 4], nine metres off.")
+    plan = document(
+        [task("TowerOrbit", {"center": [3, 4], "radius": 9}, None)],
+        DRONE,
+        command="Fly round the tower at [3, 4], nine metres off.",
+    )
     assert words(plan, 0, "radius") == ["nine metres"] and words(plan, 0, "center") == ["3, 4"]

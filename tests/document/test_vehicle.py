@@ -20,9 +20,15 @@ def test_the_bundled_profile_stands_beside_the_definition() -> None:
 
 
 def test_a_file_replaces_what_it_says(tmp_path: Path) -> None:
-    (tmp_path / "mine.toml").write_text('name = "Tern"\ncruise_speed = 3\narea = [[0, 0], [9, 0], [9, 9]]\n')
+    (tmp_path / "mine.toml").write_text(
+        'name = "Tern"\ncruise_speed = 3\narea = [[0, 0], [9, 0], [9, 9]]\n'
+    )
     vehicle = load_vehicle(tmp_path / "mine.toml", USV)
-    assert (vehicle.name, vehicle.cruise_speed, vehicle.endurance) == ("Tern", 3, load_vehicle(None, USV).endurance)
+    assert (vehicle.name, vehicle.cruise_speed, vehicle.endurance) == (
+        "Tern",
+        3,
+        load_vehicle(None, USV).endurance,
+    )
     assert vehicle.as_json()["area"] == [[0, 0], [9, 0], [9, 9]]
 
 
@@ -49,10 +55,18 @@ def test_a_profile_with_mistakes_is_refused_by_name(tmp_path: Path, text: str, s
 def test_a_vehicle_without_companion_files_needs_a_profile_and_nothing_else(tmp_path: Path) -> None:
     shutil.copy(BUNDLED / "inspection_drone.toml", tmp_path / "mine.toml")
     mine = load_vocabulary(tmp_path / "mine.toml")
-    with pytest.raises(PlannerError, match=r"no vehicle profile; write mine\.vehicle\.toml .*--vehicle"):
+    with pytest.raises(
+        PlannerError, match=r"no vehicle profile; write mine\.vehicle\.toml .*--vehicle"
+    ):
         load_vehicle(None, mine)
-    (tmp_path / "mine.vehicle.toml").write_text('name = "mine"\ncruise_speed = 2\nendurance = 900\nturn_rate = 30\n')
-    plan = document([task("FlyToPoint", {"target_position": [5, 5]}, [step("FlyToXY", {"x": 5, "y": 5})])], mine, command="Fly to [5, 5].")
+    (tmp_path / "mine.vehicle.toml").write_text(
+        'name = "mine"\ncruise_speed = 2\nendurance = 900\nturn_rate = 30\n'
+    )
+    plan = document(
+        [task("FlyToPoint", {"target_position": [5, 5]}, [step("FlyToXY", {"x": 5, "y": 5})])],
+        mine,
+        command="Fly to [5, 5].",
+    )
     assert plan["estimate"] == {"length": 0, "seconds": 0, "open": ["t1"]}
     assert plan["tasks"][0]["sources"]["target_position"]["kind"] == "command"
 

@@ -1,7 +1,8 @@
-"""Reading behaviour trees back: the schema, a small interpreter of the library's nodes, and what a plan says in a tree.
+"""Reading behaviour trees back: the schema, a small interpreter of the library's nodes, and what a
+plan says in a tree.
 
-BehaviorTree.CPP itself is in no Python registry. The interpreter follows its documentation of the nodes
-(https://www.behaviortree.dev/docs/nodes-library/).
+BehaviorTree.CPP itself is in no Python registry. The interpreter follows its documentation of the
+nodes (https://www.behaviortree.dev/docs/nodes-library/).
 """
 
 from __future__ import annotations
@@ -13,7 +14,14 @@ from typing import Any
 from lxml import etree
 
 SCHEMA = Path(__file__).parents[2] / "schemas" / "behaviortree.xsd"
-TYPES = {"double": "number", "int": "whole", "std::string": "text", "std::vector<double>": "numbers", "std::vector<std::string>": "text", "": "entry"}
+TYPES = {
+    "double": "number",
+    "int": "whole",
+    "std::string": "text",
+    "std::vector<double>": "numbers",
+    "std::vector<std::string>": "text",
+    "": "entry",
+}
 
 Tick = Callable[[str, dict[str, str]], str]
 """What a leaf answers, by its name and its ports: "S", "F" or "R"."""
@@ -22,21 +30,31 @@ Tick = Callable[[str, dict[str, str]], str]
 def read(text: str) -> Any:
     """The root element of a file that the schema finds nothing wrong with."""
     root = etree.fromstring(text.encode())
-    schema = etree.XMLSchema(etree.fromstring(_with_leaves(SCHEMA.read_text(encoding="utf-8"), root).encode()))
+    schema = etree.XMLSchema(
+        etree.fromstring(_with_leaves(SCHEMA.read_text(encoding="utf-8"), root).encode())
+    )
     schema.assertValid(root)
     return root
 
 
 def _with_leaves(schema: str, root: Any) -> str:
-    """The schema with an element for every leaf of the file's model; places on the blackboard may stand for any value."""
+    """The schema with an element for every leaf of the file's model; places on the blackboard may
+    stand for any value.
+    """
     elements = []
     for leaf in root.find("TreeNodesModel"):
         attributes = []
         for port in leaf.findall("input_port") + leaf.findall("output_port"):
             kind = TYPES[port.get("type", "")] if port.tag == "input_port" else "entry"
             attributes.append(f'<xs:attribute name="{port.get("name")}" type="{kind}"/>')
-        content = f'<xs:complexContent><xs:extension base="anyNode">{"".join(attributes)}</xs:extension></xs:complexContent>'
-        elements.append(f'<xs:element name="{leaf.get("ID")}" substitutionGroup="node"><xs:complexType>{content}</xs:complexType></xs:element>')
+        content = (
+            "<xs:complexContent><xs:extension"
+            f' base="anyNode">{"".join(attributes)}</xs:extension></xs:complexContent>'
+        )
+        elements.append(
+            f'<xs:element name="{leaf.get("ID")}"'
+            f' substitutionGroup="node"><xs:complexType>{content}</xs:complexType></xs:element>'
+        )
     return schema.replace("</xs:schema>", "".join(elements) + "</xs:schema>")
 
 
@@ -45,7 +63,9 @@ def numbers(text: str) -> list[float]:
 
 
 class Runner:
-    """Runs a file's main tree, tick by tick. `done` lists the leaves that were asked, by name, each time they began anew."""
+    """Runs a file's main tree, tick by tick. `done` lists the leaves that were asked, by name, each
+    time they began anew.
+    """
 
     def __init__(self, root: Any, tick: Tick) -> None:
         self.trees = {tree.get("ID"): tree for tree in root.findall("BehaviorTree")}
@@ -67,11 +87,21 @@ class Runner:
             "Fallback": lambda node, children: self._in_turn(node, children, "S"),
             "Parallel": self._parallel,
             "ParallelAll": self._parallel_all,
-            "ForceSuccess": lambda _node, children: {"F": "S"}.get(answer := self._tick(children[0]), answer),
-            "Inverter": lambda _node, children: {"S": "F", "F": "S"}.get(answer := self._tick(children[0]), answer),
-            "KeepRunningUntilFailure": lambda _node, children: {"S": "R"}.get(answer := self._tick(children[0]), answer),
+            "ForceSuccess": (
+                lambda _node, children: {"F": "S"}.get(answer := self._tick(children[0]), answer)
+            ),
+            "Inverter": (
+                lambda _node, children: {"S": "F", "F": "S"}.get(
+                    answer := self._tick(children[0]), answer
+                )
+            ),
+            "KeepRunningUntilFailure": (
+                lambda _node, children: {"S": "R"}.get(answer := self._tick(children[0]), answer)
+            ),
             "AlwaysSuccess": lambda _node, _children: "S",
-            "SubTree": lambda node, _children: self._tick(next(child for child in self.trees[node.get("ID")] if isinstance(child.tag, str))),
+            "SubTree": lambda node, _children: self._tick(
+                next(child for child in self.trees[node.get("ID")] if isinstance(child.tag, str))
+            ),
         }
         return kinds.get(node.tag, self._leaf)(node, children)
 

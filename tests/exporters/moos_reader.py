@@ -1,7 +1,8 @@
 """A strict reader of behaviour files, and a helm that takes movements as done.
 
-No registry has a reader of MOOS-IvP's behaviour files. This one follows the helm's documentation and its parser (the sources are named in
-planner_ft.exporters.moos_text): continued lines are joined, "//" begins a comment, a statement stands on a line of its own.
+No registry has a reader of MOOS-IvP's behaviour files. This one follows the helm's documentation
+and its parser (the sources are named in planner_ft.exporters.moos_text): continued lines are
+joined, "//" begins a comment, a statement stands on a line of its own.
 """
 
 from __future__ import annotations
@@ -10,21 +11,59 @@ import re
 from dataclasses import dataclass
 
 LONGEST = 4999
-GENERAL = {"name", "pwt", "condition", "activeflag", "idleflag", "endflag", "duration", "perpetual", "updates", "templating"}
+GENERAL = {
+    "name",
+    "pwt",
+    "condition",
+    "activeflag",
+    "idleflag",
+    "endflag",
+    "duration",
+    "perpetual",
+    "updates",
+    "templating",
+}
 SETTINGS = {
     "BHV_Waypoint": {"speed", "capture_radius", "slip_radius", "points"},
-    "BHV_StationKeep": {"center_activate", "outer_speed", "transit_speed", "inner_radius", "outer_radius"},
+    "BHV_StationKeep": {
+        "center_activate",
+        "outer_speed",
+        "transit_speed",
+        "inner_radius",
+        "outer_radius",
+    },
     "BHV_FullStop": {"delay_complete"},
     "BHV_ConstantHeading": {"heading", "complete_thresh"},
     "BHV_ConstantSpeed": {"speed"},
     "BHV_FixedTurn": {"fix_turn", "turn_dir", "speed", "timeout"},
     "BHV_OpRegionV24": {"save_poly"},
-    "BHV_AvoidObstacleV24": {"min_util_cpa_dist", "max_util_cpa_dist", "pwt_inner_dist", "pwt_outer_dist", "completed_dist"},
+    "BHV_AvoidObstacleV24": {
+        "min_util_cpa_dist",
+        "max_util_cpa_dist",
+        "pwt_inner_dist",
+        "pwt_outer_dist",
+        "completed_dist",
+    },
 }
-COURSE_AND_SPEED = [{"BHV_Waypoint"}, {"BHV_StationKeep"}, {"BHV_FullStop"}, {"BHV_FixedTurn"}, {"BHV_ConstantHeading", "BHV_ConstantSpeed"}]
+COURSE_AND_SPEED = [
+    {"BHV_Waypoint"},
+    {"BHV_StationKeep"},
+    {"BHV_FullStop"},
+    {"BHV_FixedTurn"},
+    {"BHV_ConstantHeading", "BHV_ConstantSpeed"},
+]
 NUMBER = r"-?\d+(\.\d+)?"
-VALUES = {"points": rf"{NUMBER},{NUMBER}(\s*:\s*{NUMBER},{NUMBER})*", "save_poly": rf"{NUMBER},{NUMBER}(\s*:\s*{NUMBER},{NUMBER}){{2,}}"}
-WORDS = {"center_activate": "true", "perpetual": "true", "turn_dir": "star|port", "templating": "spawn", "updates": r"OBSTACLE_ALERT_\d+"}
+VALUES = {
+    "points": rf"{NUMBER},{NUMBER}(\s*:\s*{NUMBER},{NUMBER})*",
+    "save_poly": rf"{NUMBER},{NUMBER}(\s*:\s*{NUMBER},{NUMBER}){{2,}}",
+}
+WORDS = {
+    "center_activate": "true",
+    "perpetual": "true",
+    "turn_dir": "star|port",
+    "templating": "spawn",
+    "updates": r"OBSTACLE_ALERT_\d+",
+}
 FLAG = re.compile(r'(?P<name>[A-Z][A-Z0-9_]*) = (?P<value>"[^"]*"|\S+)$')
 
 
@@ -59,7 +98,11 @@ class File:
 
     def moving(self) -> list[Behaviour]:
         """Behaviours of movements, without those that guard them."""
-        return [one for one in self.behaviours if one.kind not in ("BHV_OpRegionV24", "BHV_AvoidObstacleV24")]
+        return [
+            one
+            for one in self.behaviours
+            if one.kind not in ("BHV_OpRegionV24", "BHV_AvoidObstacleV24")
+        ]
 
 
 def flag(text: str) -> tuple[str, str]:
@@ -69,7 +112,9 @@ def flag(text: str) -> tuple[str, str]:
 
 
 def read(text: str) -> File:
-    """The content of a behaviour file. Fails on whatever the helm would not take, or would take as something else."""
+    """The content of a behaviour file. Fails on whatever the helm would not take, or would take as
+    something else.
+    """
     variables: dict[str, str] = {}
     behaviours: list[Behaviour] = []
     lines = iter(statements(text))
@@ -87,13 +132,21 @@ def read(text: str) -> File:
         behaviours.append(Behaviour(kind, settings))
         _check(behaviours[-1])
     names = [behaviour.name for behaviour in behaviours]
-    assert not [(one, other) for one in names for other in names if one is not other and other.startswith(one)]
+    assert not [
+        (one, other)
+        for one in names
+        for other in names
+        if one is not other and other.startswith(one)
+    ]
     return File(variables, behaviours)
 
 
 def statements(text: str) -> list[str]:
     """Lines that say something, joined where they are continued, without comments."""
-    assert all(len(line) <= LONGEST and not re.search(r"[\x00-\x09\x0b-\x1f\x7f]", line) for line in text.split("\n"))
+    assert all(
+        len(line) <= LONGEST and not re.search(r"[\x00-\x09\x0b-\x1f\x7f]", line)
+        for line in text.split("\n")
+    )
     joined = re.sub(r"\\[ \t]*\n", "", text).split("\n")
     assert not any(line.startswith("#") or re.search(r"[$%][\[({]", line) for line in joined)
     return [said for line in joined if (said := line.split("//")[0].strip())]
@@ -104,7 +157,11 @@ def _check(behaviour: Behaviour) -> None:
     assert not unknown, unknown
     for key, value in behaviour.settings:
         if key == "condition":
-            assert re.fullmatch(r"DEPLOY = true|MISSION_STEP = \d+|\(MISSION_STEP >= \d+\) and \(MISSION_STEP <= \d+\)", value), value
+            assert re.fullmatch(
+                r"DEPLOY = true|MISSION_STEP = \d+|\(MISSION_STEP >= \d+\) and \(MISSION_STEP <="
+                r" \d+\)",
+                value,
+            ), value
         elif key.endswith("flag"):
             flag(value)
             assert "[if]" not in value
@@ -115,7 +172,8 @@ def _check(behaviour: Behaviour) -> None:
 
 
 class Helm:
-    """Runs a file, one movement after the other. `log` lists the movements, and the flags as they are posted.
+    """Runs a file, one movement after the other. `log` lists the movements, and the flags as they
+    are posted.
 
     A movement that nothing ends is ended from outside, as whoever sees that it is over does.
     """
@@ -125,7 +183,11 @@ class Helm:
         self.values["DEPLOY"] = "true"
 
     def running(self) -> list[Behaviour]:
-        return [one for one in self.file.behaviours if all(self._holds(condition) for condition in one.all("condition"))]
+        return [
+            one
+            for one in self.file.behaviours
+            if all(self._holds(condition) for condition in one.all("condition"))
+        ]
 
     def run(self) -> list[str]:
         while moving := [one for one in self.running() if one in self.file.moving()]:
@@ -135,7 +197,12 @@ class Helm:
             self._post(first.flags("activeflag"))
             if not any(name == "MISSION_STEP" for name, _value in first.flags("endflag")):
                 assert first.one("perpetual") == "true" and not first.all("duration")
-                self._post([("MISSION_STEP", str(int(self.values["MISSION_STEP"]) + 1)), *first.flags("idleflag")])
+                self._post(
+                    [
+                        ("MISSION_STEP", str(int(self.values["MISSION_STEP"]) + 1)),
+                        *first.flags("idleflag"),
+                    ]
+                )
             self._post(first.flags("endflag"))
         return self.log
 

@@ -18,17 +18,42 @@ def load_waypoints(path: Path) -> list[Any]:
 
 
 def plan_items(plan: dict[str, Any]) -> list[tuple[int, list[float]]]:
-    """(command, its seven parameters) of every item of a .plan file, by the rules that QGroundControl's and MAVSDK's readers have for it."""
+    """(command, its seven parameters) of every item of a .plan file, by the rules that
+    QGroundControl's and MAVSDK's readers have for it.
+    """
     mission, fence, rally = plan["mission"], plan["geoFence"], plan["rallyPoints"]
-    assert (plan["fileType"], plan["version"], mission["version"], fence["version"], rally["version"]) == ("Plan", 1, 2, 2, 2)
+    assert (
+        plan["fileType"],
+        plan["version"],
+        mission["version"],
+        fence["version"],
+        rally["version"],
+    ) == ("Plan", 1, 2, 2, 2)
     assert isinstance(plan["groundStation"], str) and len(mission["plannedHomePosition"]) == 3
-    assert all(isinstance(mission[key], int | float) for key in ("firmwareType", "vehicleType", "globalPlanAltitudeMode", "cruiseSpeed", "hoverSpeed"))
+    assert all(
+        isinstance(mission[key], int | float)
+        for key in (
+            "firmwareType",
+            "vehicleType",
+            "globalPlanAltitudeMode",
+            "cruiseSpeed",
+            "hoverSpeed",
+        )
+    )
     assert isinstance(rally["points"], list) and isinstance(fence["circles"], list)
     for polygon in fence["polygons"]:
-        assert (polygon["version"], polygon["inclusion"]) == (1, True) and len(polygon["polygon"]) >= 3
+        assert (polygon["version"], polygon["inclusion"]) == (1, True) and len(
+            polygon["polygon"]
+        ) >= 3
     for number, item in enumerate(mission["items"], start=1):
-        assert (item["type"], item["doJumpId"], item["autoContinue"]) == ("SimpleItem", number, True)
-        assert len(item["params"]) == 7 and all(isinstance(value, int | float) for value in item["params"])
+        assert (item["type"], item["doJumpId"], item["autoContinue"]) == (
+            "SimpleItem",
+            number,
+            True,
+        )
+        assert len(item["params"]) == 7 and all(
+            isinstance(value, int | float) for value in item["params"]
+        )
         assert isinstance(item["command"], int) and item["frame"] in (2, 3)
     return [(item["command"], item["params"]) for item in mission["items"]]
 
@@ -38,5 +63,11 @@ def command(name: str) -> int:
     return int(getattr(mavutil.mavlink, f"MAV_CMD_{name}"))
 
 
-def local_waypoints(items: list[tuple[int, list[float]]], origin: Origin) -> list[tuple[float, float]]:
-    return [origin.to_local(values[4], values[5]) for number, values in items if number == command("NAV_WAYPOINT")]
+def local_waypoints(
+    items: list[tuple[int, list[float]]], origin: Origin
+) -> list[tuple[float, float]]:
+    return [
+        origin.to_local(values[4], values[5])
+        for number, values in items
+        if number == command("NAV_WAYPOINT")
+    ]

@@ -8,13 +8,28 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, given, settings
 
-from planner_ft.exporters import DRAFT, Format, Handover, Origin, Written, format_names, formats, load_format
+from planner_ft.exporters import (
+    DRAFT,
+    Format,
+    Handover,
+    Origin,
+    Written,
+    format_names,
+    formats,
+    load_format,
+)
 from planner_ft.exporters.formats import GROUP
 from planner_ft.support.errors import PlannerError
 
 from .plans import BUOY, DRONE, MAST, USV, document, documents, step, task
 
-OURS = Format("ours", ".txt", "for our own vehicle", needs_origin=False, write=lambda handover: Written(handover.name, handover.ledger().close()))
+OURS = Format(
+    "ours",
+    ".txt",
+    "for our own vehicle",
+    needs_origin=False,
+    write=lambda handover: Written(handover.name, handover.ledger().close()),
+)
 NOT_OURS = "no format"
 
 
@@ -36,7 +51,12 @@ def test_a_lab_adds_a_format_of_its_own() -> None:
 
 @pytest.mark.usefixtures("added")
 @pytest.mark.parametrize(
-    ("name", "said"), [("broken", "cannot be loaded"), ("wrong", "is no planner_ft.exporters.Format"), ("qgcc", "must be one of qgc, waypoints")]
+    ("name", "said"),
+    [
+        ("broken", "cannot be loaded"),
+        ("wrong", "is no planner_ft.exporters.Format"),
+        ("qgcc", "must be one of qgc, waypoints"),
+    ],
 )
 def test_a_format_that_cannot_be_used_says_why(name: str, said: str) -> None:
     with pytest.raises(PlannerError, match=said) as raised:
@@ -59,13 +79,20 @@ def test_what_waits_for_a_place_blocks_the_rest() -> None:
 
 
 def test_a_task_without_skills_blocks_the_rest_unless_its_parameters_say_the_movement() -> None:
-    transit, hold = task("Transit", {"target_position": [5, 5]}, None), task("KeepStation", {"duration": 5}, None)
+    transit, hold = (
+        task("Transit", {"target_position": [5, 5]}, None),
+        task("KeepStation", {"duration": 5}, None),
+    )
     assert Handover(document([transit, transit]), USV).blocked is None
     assert Handover(document([transit, hold, transit]), USV).ready == 1
 
 
 def test_a_step_of_unknown_movement_blocks_nothing() -> None:
-    arc = task("GlareFreeApproach", {}, [step("ArcTurn", {"delta_yaw": 40}), step("GoToXY", {"x": 5, "y": 5})])
+    arc = task(
+        "GlareFreeApproach",
+        {},
+        [step("ArcTurn", {"delta_yaw": 40}), step("GoToXY", {"x": 5, "y": 5})],
+    )
     assert Handover(document([arc]), USV).blocked is None
 
 
@@ -82,7 +109,10 @@ def test_nothing_is_dropped_silently(name: str, vocabulary: Any) -> None:
             assert "nothing of the plan can be written" in str(error)
             return
         said = set(handover.ledger().items)
-        assert account.carried | account.lost_paths == said and not account.carried & account.lost_paths
+        assert (
+            account.carried | account.lost_paths == said
+            and not account.carried & account.lost_paths
+        )
         assert account.changed_paths <= account.carried
         assert all(loss.what and loss.why for loss in (*account.lost, *account.changed))
 
@@ -93,7 +123,9 @@ def test_nothing_is_dropped_silently(name: str, vocabulary: Any) -> None:
 def test_a_file_says_that_it_is_a_draft_and_who_approved_it(name: str) -> None:
     chosen, plan = load_format(name), document(MAST)
     draft = chosen.write(Handover(plan, USV, Origin(59.9, 10.7))).text
-    approved = chosen.write(Handover(plan, USV, Origin(59.9, 10.7), approval="approved by Ada at noon (record 7)")).text
+    approved = chosen.write(
+        Handover(plan, USV, Origin(59.9, 10.7), approval="approved by Ada at noon (record 7)")
+    ).text
     assert DRAFT in draft and DRAFT not in approved
     assert "approved by Ada" in approved or name == "waypoints"
 

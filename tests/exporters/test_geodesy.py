@@ -30,14 +30,22 @@ def test_degrees_are_in_range(origin: Origin, x: float, y: float) -> None:
 
 
 @given(st.floats(-80, 80), st.floats(-170, 170), st.floats(-5000, 5000), st.floats(-5000, 5000))
-def test_it_is_projs_azimuthal_equidistant_projection(latitude: float, longitude: float, x: float, y: float) -> None:
-    projection = Transformer.from_crs("EPSG:4326", f"+proj=aeqd +lat_0={latitude!r} +lon_0={longitude!r} +datum=WGS84", always_xy=True)
+def test_it_is_projs_azimuthal_equidistant_projection(
+    latitude: float, longitude: float, x: float, y: float
+) -> None:
+    projection = Transformer.from_crs(
+        "EPSG:4326",
+        f"+proj=aeqd +lat_0={latitude!r} +lon_0={longitude!r} +datum=WGS84",
+        always_xy=True,
+    )
     there_latitude, there_longitude = Origin(latitude, longitude).to_geographic(x, y)
     assert projection.transform(there_longitude, there_latitude) == pytest.approx((x, y), abs=1e-3)
 
 
 @given(origins(), st.floats(0, 2 * math.pi), st.floats(0, 2 * math.pi))
-def test_between_two_places_10_km_away_lengths_are_off_by_millimetres(origin: Origin, one: float, other: float) -> None:
+def test_between_two_places_10_km_away_lengths_are_off_by_millimetres(
+    origin: Origin, one: float, other: float
+) -> None:
     ends = [(10_000 * math.cos(angle), 10_000 * math.sin(angle)) for angle in (one, other)]
     (south, west), (north, east) = (origin.to_geographic(*end) for end in ends)
     _azimuth, _back, length = GEOD.inv(west, south, east, north)

@@ -35,7 +35,9 @@ ONE = ("parameters", "vehicle", "located")
 
 
 def leaves(value: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[str | int, ...]]:
-    """Every value of a document that a person or vehicle would miss, found without the ledger's own walk."""
+    """Every value of a document that a person or vehicle would miss, found without the ledger's own
+    walk.
+    """
     entry = path[:1] in (("warnings",), ("open_places",)) and len(path) == 2
     whole = entry or path[-2:-1] in [(key,) for key in ONE]
     if whole or not isinstance(value, dict | list):
@@ -71,7 +73,15 @@ def test_a_path_stands_for_what_lies_below_and_carrying_wins() -> None:
     ledger.carry("tasks", 0, "skill_sequence")
     ledger.lose("tasks", 0, why="no reason")
     account = ledger.close()
-    assert ("tasks", 0, "skill_sequence", 0, "navigation_skill", "parameters", "yaw") in account.carried
+    assert (
+        "tasks",
+        0,
+        "skill_sequence",
+        0,
+        "navigation_skill",
+        "parameters",
+        "yaw",
+    ) in account.carried
     assert ("tasks", 0, "title") in account.lost_paths
     assert not account.carried & account.lost_paths
 
@@ -82,10 +92,19 @@ def test_what_the_plan_does_not_say_cannot_be_carried() -> None:
 
 
 def test_losses_say_task_and_steps() -> None:
-    steps = [step("GoToXY", {"x": x, "y": 0}, perception=[("GetSeabedDepth", {})]) for x in (1, 2, 3, 4, 5)]
+    steps = [
+        step("GoToXY", {"x": x, "y": 0}, perception=[("GetSeabedDepth", {})])
+        for x in (1, 2, 3, 4, 5)
+    ]
     del steps[3]["perception_skills"][0]
-    told = Ledger(document([task("Transit", {"target_position": [5, 0]}, steps)])).close("no sonar").lost
-    assert "GetSeabedDepth (steps 1-3, 5)" in next(loss for loss in told if loss.task == "t1").what.split("; ")
+    told = (
+        Ledger(document([task("Transit", {"target_position": [5, 0]}, steps)]))
+        .close("no sonar")
+        .lost
+    )
+    assert "GetSeabedDepth (steps 1-3, 5)" in next(
+        loss for loss in told if loss.task == "t1"
+    ).what.split("; ")
 
 
 def test_an_open_place_is_told() -> None:

@@ -20,24 +20,51 @@ ORIGIN = Origin(-33.9, 151.2)
 METRES = st.floats(-20_000, 20_000, allow_nan=False)
 
 
-def text(name: str, plan: dict[str, Any], *, origin: Origin = ORIGIN, vocabulary: Any = USV, approval: str | None = "approved by Ada") -> str:
+def text(
+    name: str,
+    plan: dict[str, Any],
+    *,
+    origin: Origin = ORIGIN,
+    vocabulary: Any = USV,
+    approval: str | None = "approved by Ada",
+) -> str:
     return load_format(name).write(Handover(plan, vocabulary, origin, approval)).text
 
 
 @settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
-@given(st.lists(st.tuples(METRES, METRES), min_size=1, max_size=8), origins(), st.sampled_from([USV, DRONE]))
+@given(
+    st.lists(st.tuples(METRES, METRES), min_size=1, max_size=8),
+    origins(),
+    st.sampled_from([USV, DRONE]),
+)
 def test_every_waypoint_returns_to_the_centimetre(
-    tmp_path_factory: pytest.TempPathFactory, points: list[tuple[float, float]], origin: Origin, vocabulary: Any
+    tmp_path_factory: pytest.TempPathFactory,
+    points: list[tuple[float, float]],
+    origin: Origin,
+    vocabulary: Any,
 ) -> None:
     assume(list(vocabulary.unresolved) not in [list(point) for point in points])
     go = next(skill.name for skill in vocabulary.skills if skill.motion == "goto")
-    plan = document([task(vocabulary.transit, {"target_position": list(points[-1])}, [step(go, {"x": x, "y": y}) for x, y in points])], vocabulary)
-    read = local_waypoints(plan_items(json.loads(text("qgc", plan, origin=origin, vocabulary=vocabulary))), origin)
+    plan = document(
+        [
+            task(
+                vocabulary.transit,
+                {"target_position": list(points[-1])},
+                [step(go, {"x": x, "y": y}) for x, y in points],
+            )
+        ],
+        vocabulary,
+    )
+    read = local_waypoints(
+        plan_items(json.loads(text("qgc", plan, origin=origin, vocabulary=vocabulary))), origin
+    )
     assert [pytest.approx(point, abs=0.01) for point in points] == read
     path = tmp_path_factory.mktemp("mission") / "plan.waypoints"
     path.write_text(text("waypoints", plan, origin=origin, vocabulary=vocabulary), encoding="utf-8")
     loaded = load_waypoints(path)
-    assert [pytest.approx(point, abs=0.01) for point in points] == [origin.to_local(item.x, item.y) for item in loaded[1:]]
+    assert [pytest.approx(point, abs=0.01) for point in points] == [
+        origin.to_local(item.x, item.y) for item in loaded[1:]
+    ]
 
 
 def test_pymavlink_reads_the_text_mission_as_it_was_meant(tmp_path: Path) -> None:
@@ -46,9 +73,10 @@ def test_pymavlink_reads_the_text_mission_as_it_was_meant(tmp_path: Path) -> Non
     home, *items = load_waypoints(path)
     assert (home.seq, home.current, home.frame, home.command) == (0, 1, 0, command("NAV_WAYPOINT"))
     assert (home.x, home.y) == (-33.9, 151.2)
-    assert [(item.command, [item.param1, item.param2, item.param3, item.param4, item.x, item.y, item.z]) for item in items] == plan_items(
-        json.loads(text("qgc", document(MAST)))
-    )
+    assert [
+        (item.command, [item.param1, item.param2, item.param3, item.param4, item.x, item.y, item.z])
+        for item in items
+    ] == plan_items(json.loads(text("qgc", document(MAST))))
     assert all(item.autocontinue == 1 and item.current == 0 for item in items)
 
 
@@ -59,13 +87,21 @@ def test_a_draft_reads_like_the_approved_mission(tmp_path: Path) -> None:
         path.write_text(text("waypoints", document(MAST), approval=approval), encoding="utf-8")
         loaded.append([(item.command, item.x, item.y) for item in load_waypoints(path)])
     assert loaded[0] == loaded[1]
-    assert (tmp_path / "0.waypoints").read_text().splitlines()[:2] == [HEADER, f"# {DRAFT}: plan {document(MAST)['digest'][:12]}"]
+    assert (tmp_path / "0.waypoints").read_text().splitlines()[:2] == [
+        HEADER,
+        f"# {DRAFT}: plan {document(MAST)['digest'][:12]}",
+    ]
 
 
 def test_the_plan_file_says_vehicle_home_speed_and_approval() -> None:
     plan = json.loads(text("qgc", document(MAST)))
     mission = plan["mission"]
-    assert (mission["firmwareType"], mission["vehicleType"], mission["cruiseSpeed"], mission["plannedHomePosition"]) == (3, 11, 1.5, [-33.9, 151.2, 0])
+    assert (
+        mission["firmwareType"],
+        mission["vehicleType"],
+        mission["cruiseSpeed"],
+        mission["plannedHomePosition"],
+    ) == (3, 11, 1.5, [-33.9, 151.2, 0])
     assert plan["planner_ft"]["approval"] == "approved by Ada"
     assert plan["geoFence"]["polygons"] != []
 

@@ -43,9 +43,14 @@ def test_an_approved_plan_is_written_with_its_report(plan: Path) -> None:
     assert written["planner_ft"]["approval"].startswith("approved by Ada at ")
     report = done[0].report.read_text(encoding="utf-8")
     assert done[0].report.name == "plan.plan.losses.md"
-    assert "| t1 | ObstacleAvoidance (step 1); ObstacleAvoidance min\\_distance = 5 (step 1) |" in report
+    assert (
+        "| t1 | ObstacleAvoidance (step 1); ObstacleAvoidance min\\_distance = 5 (step 1) |"
+        in report
+    )
     assert DRAFT not in report and "## Lost" in report and "## Carried in another form" in report
-    assert "0 lost" in done[1].report.read_text(encoding="utf-8") and "## Lost" not in done[1].report.read_text(encoding="utf-8")
+    assert "0 lost" in done[1].report.read_text(encoding="utf-8") and "## Lost" not in done[
+        1
+    ].report.read_text(encoding="utf-8")
 
 
 def test_a_plan_without_approval_is_refused(tmp_path: Path) -> None:
@@ -78,9 +83,13 @@ def test_the_log_may_lie_elsewhere(plan: Path, tmp_path: Path) -> None:
 def test_a_draft_is_marked_in_its_name_in_itself_and_in_its_report(tmp_path: Path) -> None:
     path = tmp_path / "plan.json"
     write_document(path, built(MAST))
-    for done in hand_over(HandoverSettings(path, ("qgc", "waypoints", "geojson"), ORIGIN, draft=True)):
+    for done in hand_over(
+        HandoverSettings(path, ("qgc", "waypoints", "geojson"), ORIGIN, draft=True)
+    ):
         assert done.file.name.startswith("plan.DRAFT.")
-        assert DRAFT in done.file.read_text(encoding="utf-8") and DRAFT in done.report.read_text(encoding="utf-8")
+        assert DRAFT in done.file.read_text(encoding="utf-8") and DRAFT in done.report.read_text(
+            encoding="utf-8"
+        )
 
 
 def test_nothing_is_overwritten_unless_told(plan: Path) -> None:
@@ -104,14 +113,40 @@ def test_when_one_format_cannot_take_the_plan_none_is_written(tmp_path: Path) ->
 
 def test_every_format_at_once_for_another_vehicle(tmp_path: Path) -> None:
     path = tmp_path / "flight.json"
-    write_document(path, built([task("FlyToPoint", {"target_position": [9, 9]}, [step("FlyToXY", {"x": 9, "y": 9, "altitude": 20})])], DRONE))
+    write_document(
+        path,
+        built(
+            [
+                task(
+                    "FlyToPoint",
+                    {"target_position": [9, 9]},
+                    [step("FlyToXY", {"x": 9, "y": 9, "altitude": 20})],
+                )
+            ],
+            DRONE,
+        ),
+    )
     approve(read_document(path), log_beside(path), "Ada", ["all"])
     done = hand_over(HandoverSettings(path, ("all",), ORIGIN))
     assert {one.format.name for one in done} >= {"qgc", "waypoints", "geojson", "bt", "moos"}
 
 
-def test_the_command_prints_what_is_lost(plan: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(monkeypatch, plan, "--format", "qgc", "--origin", "-33.9,151.2", "--out", plan.with_name("boat.plan")) == 0
+def test_the_command_prints_what_is_lost(
+    plan: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert (
+        run(
+            monkeypatch,
+            plan,
+            "--format",
+            "qgc",
+            "--origin",
+            "-33.9,151.2",
+            "--out",
+            plan.with_name("boat.plan"),
+        )
+        == 0
+    )
     shown = capsys.readouterr().out
     assert f"{plan.with_name('boat.plan')}: " in shown and "entries carried" in shown
     assert "  lost     t3: LockHeading (step 1) - the autopilot keeps the bow on its way" in shown
@@ -123,22 +158,30 @@ def test_a_circle_without_an_angle_is_the_vehicles_own_and_said_to_be(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "plan.json"
-    orbit = task("PerformOrbit", {"center": [120, -35], "radius": 25}, [step("ArcTurn", {"radius": 25})])
+    orbit = task(
+        "PerformOrbit", {"center": [120, -35], "radius": 25}, [step("ArcTurn", {"radius": 25})]
+    )
     write_document(path, built([MAST[0], orbit, MAST[3]]))
     assert run(monkeypatch, path, "--format", name, "--origin", "1,1", "--draft") == 0
     shown = capsys.readouterr().out
     assert "MOVEMENTS LOST" not in shown and "the plan says no angle" in shown
 
 
-def test_a_movement_that_is_lost_stands_in_the_first_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_movement_that_is_lost_stands_in_the_first_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = tmp_path / "plan.json"
     lost = task("PerformOrbit", {"center": [120, -35], "radius": 25}, [step("ArcTurn")])
     write_document(path, built([MAST[0], lost, lost, MAST[3]]))
     assert run(monkeypatch, path, "--format", "qgc", "--origin", "1,1", "--draft") == 0
     assert "; MOVEMENTS LOST in tasks 2-3 (report: " in capsys.readouterr().out.splitlines()[0]
-    assert "MOVEMENTS LOST in tasks 2-3." in (tmp_path / "plan.DRAFT.plan.losses.md").read_text(encoding="utf-8")
+    assert "MOVEMENTS LOST in tasks 2-3." in (tmp_path / "plan.DRAFT.plan.losses.md").read_text(
+        encoding="utf-8"
+    )
     write_document(path, built(MAST))
-    assert run(monkeypatch, path, "--format", "qgc", "--origin", "1,1", "--draft", "--overwrite") == 0
+    assert (
+        run(monkeypatch, path, "--format", "qgc", "--origin", "1,1", "--draft", "--overwrite") == 0
+    )
     assert "MOVEMENTS LOST" not in capsys.readouterr().out
 
 
@@ -161,9 +204,20 @@ def test_a_movement_that_is_lost_stands_in_the_first_line(tmp_path: Path, monkey
         (["{folder}/none.json", "--format", "qgc", "--origin", "1,1"], "none.json: no such file"),
     ],
 )
-def test_a_mistake_is_one_sentence(arguments: list[str], said: str, plan: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_mistake_is_one_sentence(
+    arguments: list[str],
+    said: str,
+    plan: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     before = sorted(plan.parent.iterdir())
-    assert run(monkeypatch, *(argument.format(plan=plan, folder=plan.parent) for argument in arguments)) == 2
+    assert (
+        run(
+            monkeypatch, *(argument.format(plan=plan, folder=plan.parent) for argument in arguments)
+        )
+        == 2
+    )
     shown = capsys.readouterr()
     assert said in shown.err and shown.err.count("\n") == 1 and not shown.out
     assert sorted(plan.parent.iterdir()) == before
@@ -171,7 +225,11 @@ def test_a_mistake_is_one_sentence(arguments: list[str], said: str, plan: Path, 
 
 def test_text_of_a_command_cannot_shape_the_report(tmp_path: Path) -> None:
     path = tmp_path / "plan.json"
-    odd = task("SearchAndDetect", {"target_description": "a | b\n# c \x1b[31m<b>"}, [step("StationKeep", {"time": 5})])
+    odd = task(
+        "SearchAndDetect",
+        {"target_description": "a | b\n# c \x1b[31m<b>"},
+        [step("StationKeep", {"time": 5})],
+    )
     write_document(path, built([odd]))
     (done,) = hand_over(HandoverSettings(path, ("qgc",), ORIGIN, draft=True))
     report = done.report.read_text(encoding="utf-8")

@@ -24,25 +24,54 @@ async def count_words(text: str) -> int:
 
 
 @pytest.mark.parametrize(
-    ("level", "name", "data"), [("mission", "mission", "data/mission/test.jsonl"), ("task", "task_level", "eval/challenge/task_unseen.jsonl")]
+    ("level", "name", "data"),
+    [
+        ("mission", "mission", "data/mission/test.jsonl"),
+        ("task", "task_level", "eval/challenge/task_unseen.jsonl"),
+    ],
 )
-def test_figures_are_our_scores(level: str, name: str, data: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_figures_are_our_scores(
+    level: str, name: str, data: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     from inspect_ai import eval
     from inspect_ai.model import ModelOutput, get_model
 
     vocabulary = load_vocabulary()
     samples = load_bench_data(ROOT / data, level, vocabulary).samples[:6]
-    texts = [json.dumps(samples[0].expected), "no plan", *(json.dumps(sample.expected) for sample in samples[3:6]), "{}"]
-    model = get_model("mockllm/model", custom_outputs=[ModelOutput.from_content("mockllm/model", text) for text in texts])
+    texts = [
+        json.dumps(samples[0].expected),
+        "no plan",
+        *(json.dumps(sample.expected) for sample in samples[3:6]),
+        "{}",
+    ]
+    model = get_model(
+        "mockllm/model",
+        custom_outputs=[ModelOutput.from_content("mockllm/model", text) for text in texts],
+    )
     # The model that is made up would count tokens with an encoding that it downloads.
     monkeypatch.setattr(model.api, "count_text_tokens", count_words)
 
-    (log,) = eval(f"{FILE}@{name}", model=model, task_args={"data": data}, limit=6, max_samples=1, max_connections=1, log_dir=str(tmp_path), display="none")
+    (log,) = eval(
+        f"{FILE}@{name}",
+        model=model,
+        task_args={"data": data},
+        limit=6,
+        max_samples=1,
+        max_connections=1,
+        log_dir=str(tmp_path),
+        display="none",
+    )
 
     assert log.status == "success", log.error
-    expected = [score_sample(level, sample, {"output": text}, vocabulary).values for sample, text in zip(samples, texts, strict=True)]
+    expected = [
+        score_sample(level, sample, {"output": text}, vocabulary).values
+        for sample, text in zip(samples, texts, strict=True)
+    ]
     found = {result.name: result.metrics["mean"].value for result in log.results.scores}
     for metric in ("f1", "schema_valid", "exact_sequence"):
         assert found[metric] == pytest.approx(sum(float(values[metric]) for values in expected) / 6)
     asked = [(message.role, message.content) for message in log.samples[0].messages[:2]]
-    assert asked == [(message["role"], message["content"]) for message in prompt_messages(level, samples[0].record, vocabulary, with_vocabulary=True)]
+    assert asked == [
+        (message["role"], message["content"])
+        for message in prompt_messages(level, samples[0].record, vocabulary, with_vocabulary=True)
+    ]

@@ -1,4 +1,6 @@
-"""lm-evaluation-harness on our tasks: the prompts' ids, the answers and the scores of `plannerft bench`."""
+"""lm-evaluation-harness on our tasks: the prompts' ids, the answers and the scores of `plannerft
+bench`.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +42,14 @@ def manager(**metadata: Any) -> TaskManager:
 @pytest.fixture(scope="module")
 def engine() -> Engine:
     """The embedded candidate in float32, where an answer depends on no kernel's rounding."""
-    engine = Engine.load(resolve_candidate("embedded"), load_vocabulary(), device="cpu", quantization="none", threads=1, lean=False)
+    engine = Engine.load(
+        resolve_candidate("embedded"),
+        load_vocabulary(),
+        device="cpu",
+        quantization="none",
+        threads=1,
+        lean=False,
+    )
     engine.model.float()
     return engine
 
@@ -51,27 +60,47 @@ def harness(engine: Engine) -> HFLM:
 
 
 @pytest.mark.parametrize("task", FILES)
-def test_the_same_model_answers_and_scores_the_same(task: str, engine: Engine, harness: HFLM) -> None:
+def test_the_same_model_answers_and_scores_the_same(
+    task: str, engine: Engine, harness: HFLM
+) -> None:
     level, path = FILES[task]
     data = load_bench_data(ROOT / path, level, engine.vocabulary, LIMIT)
     queries = [engine.query(level, sample.record) for sample in data.samples]
-    texts = {index: engine.text(answer) for index, answer in engine.answers(queries, Configuration(adapter=False), batch_size=8)}
-    scores = [score_sample(level, sample, {"output": texts[index]}, engine.vocabulary).values for index, sample in enumerate(data.samples)]
+    texts = {
+        index: engine.text(answer)
+        for index, answer in engine.answers(queries, Configuration(adapter=False), batch_size=8)
+    }
+    scores = [
+        score_sample(level, sample, {"output": texts[index]}, engine.vocabulary).values
+        for index, sample in enumerate(data.samples)
+    ]
 
     found = simple_evaluate(
-        model=harness, tasks=[task], task_manager=manager(with_vocabulary=False), apply_chat_template=True, limit=LIMIT, log_samples=True, bootstrap_iters=0
+        model=harness,
+        tasks=[task],
+        task_manager=manager(with_vocabulary=False),
+        apply_chat_template=True,
+        limit=LIMIT,
+        log_samples=True,
+        bootstrap_iters=0,
     )
 
     theirs = {sample["doc"]["id"]: sample["filtered_resps"][0] for sample in found["samples"][task]}
     assert theirs == {sample.id: texts[index] for index, sample in enumerate(data.samples)}
     assert any('"title"' in text or '"name"' in text for text in theirs.values())
     for metric in ("f1", "exact_sequence", "strict_valid"):
-        assert found["results"][task][f"{metric},none"] == pytest.approx(sum(float(score[metric]) for score in scores) / len(scores))
+        assert found["results"][task][f"{metric},none"] == pytest.approx(
+            sum(float(score[metric]) for score in scores) / len(scores)
+        )
     matched = sum(score["parameters_matched"] for score in scores)
-    assert found["results"][task]["parameters_right,none"] == pytest.approx(sum(score["parameters_right"] for score in scores) / matched)
+    assert found["results"][task]["parameters_right,none"] == pytest.approx(
+        sum(score["parameters_right"] for score in scores) / matched
+    )
 
 
-@pytest.mark.parametrize("candidate", ["Llama-3.2-1B", "Llama-3.2-1B-Instruct", "Qwen2.5-3B-Instruct"])
+@pytest.mark.parametrize(
+    "candidate", ["Llama-3.2-1B", "Llama-3.2-1B-Instruct", "Qwen2.5-3B-Instruct"]
+)
 @pytest.mark.parametrize("task", FILES)
 def test_prompts_have_the_ids_that_bench_gives(task: str, candidate: str, models: Path) -> None:
     level, path = FILES[task]
@@ -82,9 +111,16 @@ def test_prompts_have_the_ids_that_bench_gives(task: str, candidate: str, models
     documents = list(loaded.test_docs())
     assert [document["id"] for document in documents] == [sample.id for sample in data.samples]
     for sample, document in zip(data.samples, documents, strict=True):
-        text = loaded.fewshot_context(document, 0, apply_chat_template=chat, chat_template=model.apply_chat_template if chat else None)
+        text = loaded.fewshot_context(
+            document,
+            0,
+            apply_chat_template=chat,
+            chat_template=model.apply_chat_template if chat else None,
+        )
         ids, _mask = model.tok_batch_encode([text])
-        assert ids[0].tolist() == render_prompt(level, sample.record, model.tokenizer, load_vocabulary(), with_vocabulary=True)
+        assert ids[0].tolist() == render_prompt(
+            level, sample.record, model.tokenizer, load_vocabulary(), with_vocabulary=True
+        )
 
 
 @pytest.mark.parametrize(
@@ -97,7 +133,9 @@ def test_prompts_have_the_ids_that_bench_gives(task: str, candidate: str, models
         ({"pretrained": "planner_ft/candidates/embedded", "with_vocabulary": True}, True),
     ],
 )
-def test_the_prompt_holds_the_vocabulary_as_in_bench(metadata: dict[str, Any], told: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_prompt_holds_the_vocabulary_as_in_bench(
+    metadata: dict[str, Any], told: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(ROOT)
     (task,) = manager(**metadata).load(["planner_mission_test"])["tasks"].values()
     assert ("SearchAndDetect" in next(iter(task.test_docs()))["system"]) == told
@@ -118,5 +156,7 @@ def test_logged_answers_can_be_scored_by_us(tmp_path: Path) -> None:
 
     predictions = runpy.run_path(str(TASKS / "predictions.py"))["predictions"]
     log = tmp_path / "samples.jsonl"
-    log.write_text(json.dumps({"doc": {"id": "a"}, "filtered_resps": ["{}"], "resps": [["{}"]]}) + "\n")
+    log.write_text(
+        json.dumps({"doc": {"id": "a"}, "filtered_resps": ["{}"], "resps": [["{}"]]}) + "\n"
+    )
     assert list(predictions(log)) == [{"id": "a", "output": "{}"}]

@@ -1,4 +1,6 @@
-"""Exports of stand-ins: tiny random models with the architecture of the candidates, and random adapters."""
+"""Exports of stand-ins: tiny random models with the architecture of the candidates, and random
+adapters.
+"""
 
 from __future__ import annotations
 
@@ -33,19 +35,35 @@ def adapters(standins: Path, tmp_path_factory: pytest.TempPathFactory) -> Callab
         if name not in made:
             made[name] = tmp_path_factory.mktemp("adapter")
             torch.manual_seed(0)
-            settings = peft.LoraConfig(r=4, lora_alpha=64, target_modules=["q_proj", "v_proj", "down_proj"], init_lora_weights=False)
-            peft.get_peft_model(AutoModelForCausalLM.from_pretrained(str(standins / name)), settings).save_pretrained(str(made[name]))
+            settings = peft.LoraConfig(
+                r=4,
+                lora_alpha=64,
+                target_modules=["q_proj", "v_proj", "down_proj"],
+                init_lora_weights=False,
+            )
+            peft.get_peft_model(
+                AutoModelForCausalLM.from_pretrained(str(standins / name)), settings
+            ).save_pretrained(str(made[name]))
         return made[name]
 
     return adapter
 
 
 @pytest.fixture
-def exported(models: Path, adapters: Callable[[str], Path], tmp_path: Path) -> Callable[..., Exported]:
+def exported(
+    models: Path, adapters: Callable[[str], Path], tmp_path: Path
+) -> Callable[..., Exported]:
     """Exports a stand-in with its random adapter."""
 
     def run(name: str = LLAMA, **changes: object) -> Exported:
-        values = {"candidate": name, "out": tmp_path / "out", "merge": True, "adapter": str(adapters(name)), "checks": 2, **changes}
+        values = {
+            "candidate": name,
+            "out": tmp_path / "out",
+            "merge": True,
+            "adapter": str(adapters(name)),
+            "checks": 2,
+            **changes,
+        }
         return export(ExportSettings(**values))  # type: ignore[arg-type]
 
     return run

@@ -1,4 +1,6 @@
-"""The exported folder is the candidate with its adapter: for plain transformers, for the benchmark, and in its manifest."""
+"""The exported folder is the candidate with its adapter: for plain transformers, for the benchmark,
+and in its manifest.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,9 @@ from .conftest import LLAMA
 IDS = torch.tensor([[1, 5, 9, 200, 7]])
 
 
-def test_the_folder_is_base_and_adapter_for_plain_transformers(exported: Callable[..., Exported], models: Path, adapters: Callable[[str], Path]) -> None:
+def test_the_folder_is_base_and_adapter_for_plain_transformers(
+    exported: Callable[..., Exported], models: Path, adapters: Callable[[str], Path]
+) -> None:
     from peft import PeftModel
     from transformers import AutoModelForCausalLM, AutoTokenizer
 
@@ -42,7 +46,9 @@ def test_the_folder_is_base_and_adapter_for_plain_transformers(exported: Callabl
         beside = PeftModel.from_pretrained(base, str(adapters(LLAMA)))(IDS).logits
         after = merged(IDS).logits
     assert torch.allclose(after, beside, atol=1e-4) and not torch.allclose(after, before, atol=1e-2)
-    assert AutoTokenizer.from_pretrained(str(done.folder)).encode("two buoys") == AutoTokenizer.from_pretrained(str(models / LLAMA)).encode("two buoys")
+    assert AutoTokenizer.from_pretrained(str(done.folder)).encode(
+        "two buoys"
+    ) == AutoTokenizer.from_pretrained(str(models / LLAMA)).encode("two buoys")
     assert done.check.same == done.check.count == 2 and done.check.largest_logit_difference < 1e-3
 
 
@@ -50,32 +56,53 @@ def test_the_manifest_says_what_was_put_together(exported: Callable[..., Exporte
     done = exported()
     manifest = json.loads((done.folder / "manifest.json").read_text())
     jsonschema.Draft202012Validator(manifest_schema()).validate(manifest)
-    assert (manifest["kind"], manifest["base"]["name"], manifest["base"]["standin"], manifest["check"]["same_answers"]) == ("export", LLAMA, True, 2)
+    assert (
+        manifest["kind"],
+        manifest["base"]["name"],
+        manifest["base"]["standin"],
+        manifest["check"]["same_answers"],
+    ) == ("export", LLAMA, True, 2)
     card = (done.folder / "README.md").read_text()
     assert f"# Mission Agent on {LLAMA}, merged" in card and "Stand-in" in card and "2 of 2" in card
 
 
-def test_an_exported_model_is_not_told_the_vocabulary_again(exported: Callable[..., Exported]) -> None:
+def test_an_exported_model_is_not_told_the_vocabulary_again(
+    exported: Callable[..., Exported],
+) -> None:
     candidate = resolve_candidate(exported().folder)
-    assert candidate.knows(load_vocabulary("usv")) and not candidate.knows(load_vocabulary("inspection_drone"))
+    assert candidate.knows(load_vocabulary("usv")) and not candidate.knows(
+        load_vocabulary("inspection_drone")
+    )
     assert candidate.is_standin
-    assert VOCABULARY_KEY not in json.loads((resolve_candidate(LLAMA).folder / "config.json").read_text())  # type: ignore[operator]
+    assert VOCABULARY_KEY not in json.loads(
+        (resolve_candidate(LLAMA).folder / "config.json").read_text()
+    )  # type: ignore[operator]
 
 
-def test_llama_prompts_hold_the_date_of_training_whoever_renders_them(exported: Callable[..., Exported], models: Path) -> None:
+def test_llama_prompts_hold_the_date_of_training_whoever_renders_them(
+    exported: Callable[..., Exported], models: Path
+) -> None:
     from transformers import AutoTokenizer
 
     tokenizer = AutoTokenizer.from_pretrained(str(exported().folder))
     messages = [{"role": "system", "content": "Hello."}, {"role": "user", "content": "Go."}]
     assert f"Today Date: {TODAY}" in tokenizer.apply_chat_template(messages, tokenize=False)
     record, vocabulary = {"prompt": "Go home."}, load_vocabulary("usv")
-    ours = render_prompt("mission", record, AutoTokenizer.from_pretrained(str(models / LLAMA)), vocabulary, with_vocabulary=False)
+    ours = render_prompt(
+        "mission",
+        record,
+        AutoTokenizer.from_pretrained(str(models / LLAMA)),
+        vocabulary,
+        with_vocabulary=False,
+    )
     assert render_prompt("mission", record, tokenizer, vocabulary, with_vocabulary=False) == ours
     assert with_fixed_date(tokenizer.chat_template) == tokenizer.chat_template
     assert with_fixed_date("{{ messages }}") == "{{ messages }}" and with_fixed_date(None) is None
 
 
-def test_nothing_is_written_when_an_answer_changes(exported: Callable[..., Exported], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_is_written_when_an_answer_changes(
+    exported: Callable[..., Exported], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Merging is made wrong: the adapter is dropped."""
     monkeypatch.setattr(merge_module, "merged", lambda model: model.unload())
     monkeypatch.setattr("planner_ft.model_export.run.merged", lambda model: model.unload())
@@ -84,7 +111,9 @@ def test_nothing_is_written_when_an_answer_changes(exported: Callable[..., Expor
     assert list(tmp_path.iterdir()) == []
 
 
-def test_an_earlier_export_is_replaced_only_when_asked_and_nothing_else_ever(exported: Callable[..., Exported], tmp_path: Path) -> None:
+def test_an_earlier_export_is_replaced_only_when_asked_and_nothing_else_ever(
+    exported: Callable[..., Exported], tmp_path: Path
+) -> None:
     done = exported()
     with pytest.raises(PlannerError, match="give --overwrite"):
         exported()
@@ -104,9 +133,13 @@ def test_without_merge_the_base_is_exported(models: Path, tmp_path: Path) -> Non
     assert not resolve_candidate(done.folder).knows(load_vocabulary("usv"))
 
 
-def test_commands_of_the_users_own_are_the_check(exported: Callable[..., Exported], tmp_path: Path) -> None:
+def test_commands_of_the_users_own_are_the_check(
+    exported: Callable[..., Exported], tmp_path: Path
+) -> None:
     data = tmp_path / "mine.jsonl"
-    data.write_text("".join(json.dumps({"prompt": f"go to {number}"}) + "\n" for number in range(3)))
+    data.write_text(
+        "".join(json.dumps({"prompt": f"go to {number}"}) + "\n" for number in range(3))
+    )
     assert exported(data=data, checks=3).check.count == 3
     data.write_text('{"command": "go"}\n')
     with pytest.raises(PlannerError, match="record 1 has no prompt"):
@@ -128,8 +161,19 @@ def test_tasks_of_the_validation_split_are_checked_at_task_level() -> None:
         (["--check-data", "nowhere.jsonl"], "nowhere.jsonl: no such file"),
     ],
 )
-def test_mistakes_are_one_sentence(flags: list[str], message: str, models: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any) -> None:
-    monkeypatch.setattr(sys, "argv", ["plannerft", "export", "--candidate", LLAMA, "--out", str(tmp_path / "out"), *flags])
+def test_mistakes_are_one_sentence(
+    flags: list[str],
+    message: str,
+    models: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: Any,
+) -> None:
+    monkeypatch.setattr(
+        sys,
+        "argv",
+        ["plannerft", "export", "--candidate", LLAMA, "--out", str(tmp_path / "out"), *flags],
+    )
     with pytest.raises(SystemExit) as ended:
         main()
     said = capsys.readouterr().err

@@ -1,6 +1,7 @@
 """The exported embedded candidate in llama.cpp's server: same ids, same answers as in float32 here.
 
-Needs llama-cpp-python, which builds from source for minutes: `make server-test` makes an environment for it.
+Needs llama-cpp-python, which builds from source for minutes: `make server-test` makes an
+environment for it.
 """
 
 from __future__ import annotations
@@ -19,9 +20,22 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.mark.server
 def test_a_real_server_answers_as_we_do(tmp_path: Path) -> None:
-    assert PYTHON, "PLANNERFT_SERVER_PYTHON names no interpreter with llama-cpp-python[server]; run `make server-test`"
+    assert PYTHON, (
+        "PLANNERFT_SERVER_PYTHON names no interpreter with llama-cpp-python[server]; run `make"
+        " server-test`"
+    )
     out = tmp_path / "served.json"
-    command = [sys.executable, "benchmarks/served_agreement.py", "--server-python", PYTHON, "--limit", "6", "--schema", "--out", str(out)]
+    command = [
+        sys.executable,
+        "benchmarks/served_agreement.py",
+        "--server-python",
+        PYTHON,
+        "--limit",
+        "6",
+        "--schema",
+        "--out",
+        str(out),
+    ]
     subprocess.run(command, cwd=ROOT, check=True)
     result = json.loads(out.read_text())
     assert result["prompts_with_same_ids"] == "1000 of 1000"

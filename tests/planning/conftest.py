@@ -13,10 +13,13 @@ from planner_ft.decoding.generate import Generation, Query
 from planner_ft.vocabulary.plans import Level
 
 HOLD = {
-    "navigation_skill": {"name": "StationKeep", "parameters": {"time": 30}}, "filter_skills": [],
+    "navigation_skill": {"name": "StationKeep", "parameters": {"time": 30}},
+    "filter_skills": [],
     "perception_skills": [{"name": "DetectObjects", "parameters": {"class_list": ["buoy"]}}],
-    "stop_conditions": ["time over"], "failure_modes": [], "expected_outputs": [],
-}  # fmt: skip
+    "stop_conditions": ["time over"],
+    "failure_modes": [],
+    "expected_outputs": [],
+}
 SKILLS = {"skill_sequence": [HOLD]}
 
 
@@ -25,7 +28,11 @@ def task(title: str, prompt: str, **parameters: Any) -> dict[str, Any]:
 
 
 def mission(*tasks: dict[str, Any]) -> dict[str, Any]:
-    return {"tasks": list(tasks), "assumptions": ["Home is [0, 0]."], "constraints": ["Keep clear of the ferry."]}
+    return {
+        "tasks": list(tasks),
+        "assumptions": ["Home is [0, 0]."],
+        "constraints": ["Keep clear of the ferry."],
+    }
 
 
 FIND_AND_ORBIT = mission(
@@ -37,18 +44,30 @@ FIND_AND_ORBIT = mission(
 
 
 class KnownAnswers:
-    """Stands in for Engine. `texts` are the answers by level, the last one repeated; `asked` the records that came."""
+    """Stands in for Engine. `texts` are the answers by level, the last one repeated; `asked` the
+    records that came.
+    """
 
     def __init__(self, texts: Mapping[Level, list[str]], generation: Mapping[str, Any]) -> None:
         self.texts, self.generation = texts, generation
         self.asked: list[tuple[Level, dict[str, Any]]] = []
 
-    def query(self, level: Level, record: dict[str, Any], *, with_vocabulary: bool = False) -> Query:
+    def query(
+        self, level: Level, record: dict[str, Any], *, with_vocabulary: bool = False
+    ) -> Query:
         return Query(level, record, (1, 2, 3))
 
     def answer(self, query: Query, _configuration: object) -> Generation:
         self.asked.append((query.level, query.record))
-        return Generation(**{"ids": (7,) * 10, "finish_reason": "stop", "seconds": 0.25, "forward_passes": 6, **self.generation})
+        return Generation(
+            **{
+                "ids": (7,) * 10,
+                "finish_reason": "stop",
+                "seconds": 0.25,
+                "forward_passes": 6,
+                **self.generation,
+            }
+        )
 
     def text(self, _answer: Generation) -> str:
         level = self.asked[-1][0]
@@ -68,10 +87,15 @@ Known = Callable[..., KnownAnswers]
 
 @pytest.fixture
 def known(monkeypatch: pytest.MonkeyPatch) -> Known:
-    """Call it with the Mission Agent's answer, the Task Agent's and fields of Generation: every Engine that loads then gives them."""
+    """Call it with the Mission Agent's answer, the Task Agent's and fields of Generation: every
+    Engine that loads then gives them.
+    """
 
     def give(plan: Any = FIND_AND_ORBIT, *skills: Any, **generation: Any) -> KnownAnswers:
-        engine = KnownAnswers({"mission": [said(plan)], "task": [said(answer) for answer in skills or (SKILLS,)]}, generation)
+        engine = KnownAnswers(
+            {"mission": [said(plan)], "task": [said(answer) for answer in skills or (SKILLS,)]},
+            generation,
+        )
         monkeypatch.setattr(Engine, "load", lambda *_arguments, **_settings: engine)
         return engine
 

@@ -26,11 +26,16 @@ from planner_ft.vocabulary.plans import LEVELS, Level
 
 QWEN, LLAMA = "Qwen2.5-3B", "Llama-3.2-1B"
 STRONGEST = STRENGTHS[-1]
-RECORDS: dict[Level, dict[str, Any]] = {"mission": {"prompt": "go home"}, "task": {"task": "Transit", "parameters": {}, "prompt": "go home"}}
+RECORDS: dict[Level, dict[str, Any]] = {
+    "mission": {"prompt": "go home"},
+    "task": {"task": "Transit", "parameters": {}, "prompt": "go home"},
+}
 
 
 def choose(**settings: Any) -> dict[Level, Agent]:
-    return choose_agents(PlanSettings(**settings), load_vocabulary(settings.get("vocabulary", "usv")))
+    return choose_agents(
+        PlanSettings(**settings), load_vocabulary(settings.get("vocabulary", "usv"))
+    )
 
 
 @pytest.fixture(scope="module")
@@ -44,9 +49,16 @@ def trained(standins: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
         candidate = resolve_candidate(QWEN)
     for seed, level in enumerate(LEVELS):
         torch.manual_seed(seed)
-        config = LoraConfig(r=4, target_modules="all-linear", task_type="CAUSAL_LM", init_lora_weights=False)
-        get_peft_model(load_model(candidate, device="cpu", trainable=True), config).save_pretrained(folder / QWEN / level, save_embedding_layers=False)
-        write_json(folder / QWEN / level / "manifest.json", adapter_record(candidate, level, load_vocabulary()))
+        config = LoraConfig(
+            r=4, target_modules="all-linear", task_type="CAUSAL_LM", init_lora_weights=False
+        )
+        get_peft_model(load_model(candidate, device="cpu", trainable=True), config).save_pretrained(
+            folder / QWEN / level, save_embedding_layers=False
+        )
+        write_json(
+            folder / QWEN / level / "manifest.json",
+            adapter_record(candidate, level, load_vocabulary()),
+        )
     return folder
 
 
@@ -58,11 +70,18 @@ def here(models: Path, trained: Path, tmp_path: Path, monkeypatch: pytest.Monkey
     return tmp_path
 
 
-def test_the_default_is_the_strongest_decoding_with_the_adapter_where_there_is_one(here: Path) -> None:
+def test_the_default_is_the_strongest_decoding_with_the_adapter_where_there_is_one(
+    here: Path,
+) -> None:
     shutil.rmtree(here / "adapters" / QWEN / "task")
     agents = choose(candidate=QWEN)
-    assert agents["mission"].configuration.name == f"lora+{STRONGEST}" and agents["mission"].adapter == Path("adapters") / QWEN / "mission"
-    assert agents["task"].configuration.name == f"base+{STRONGEST}" and agents["task"].adapter is None
+    assert (
+        agents["mission"].configuration.name == f"lora+{STRONGEST}"
+        and agents["mission"].adapter == Path("adapters") / QWEN / "mission"
+    )
+    assert (
+        agents["task"].configuration.name == f"base+{STRONGEST}" and agents["task"].adapter is None
+    )
     assert [agent.with_vocabulary for agent in agents.values()] == [False, True]
 
 
@@ -84,19 +103,36 @@ def test_adapters_may_lie_anywhere(here: Path) -> None:
     [
         (
             {"candidate": LLAMA, "configuration": "lora"},
-            "Llama-3.2-1B has no adapter of the mission level here; train one with `plannerft train",
+            (
+                "Llama-3.2-1B has no adapter of the mission level here; train one with `plannerft"
+                " train"
+            ),
         ),
-        ({"candidate": QWEN, "configuration": "base", "mission_adapter": "x"}, "--mission-adapter x: configuration base uses no adapter"),
+        (
+            {"candidate": QWEN, "configuration": "base", "mission_adapter": "x"},
+            "--mission-adapter x: configuration base uses no adapter",
+        ),
         ({"candidate": QWEN, "mission_adapter": "x"}, "x: no such adapter folder"),
-        ({"candidate": LLAMA, "task_adapter": f"adapters/{QWEN}/task"}, "trained on Qwen2.5-3B (stand-in) and does not fit Llama-3.2-1B (stand-in)"),
-        ({"candidate": QWEN, "task_adapter": f"adapters/{QWEN}/mission"}, "this is an adapter of the mission level"),
-        ({"candidate": QWEN, "mission_only": True, "task_candidate": LLAMA}, "--task-candidate: there is no Task Agent with --mission-only"),
+        (
+            {"candidate": LLAMA, "task_adapter": f"adapters/{QWEN}/task"},
+            "trained on Qwen2.5-3B (stand-in) and does not fit Llama-3.2-1B (stand-in)",
+        ),
+        (
+            {"candidate": QWEN, "task_adapter": f"adapters/{QWEN}/mission"},
+            "this is an adapter of the mission level",
+        ),
+        (
+            {"candidate": QWEN, "mission_only": True, "task_candidate": LLAMA},
+            "--task-candidate: there is no Task Agent with --mission-only",
+        ),
         ({"candidate": "Qwen3"}, "unknown candidate 'Qwen3'"),
         ({"candidate": QWEN, "configuration": "best"}, "best: unknown"),
         ({"quantization": "int8"}, "--quantization int8: must be nf4 or none"),
     ],
 )
-def test_what_does_not_go_together_is_one_sentence(here: Path, settings: dict[str, Any], message: str) -> None:
+def test_what_does_not_go_together_is_one_sentence(
+    here: Path, settings: dict[str, Any], message: str
+) -> None:
     with pytest.raises(PlannerError) as error:
         choose(**settings)
     assert message in str(error.value) and "\n" not in str(error.value)
@@ -105,12 +141,18 @@ def test_what_does_not_go_together_is_one_sentence(here: Path, settings: dict[st
 def test_an_adapter_of_another_vocabulary_is_not_this_planners(here: Path) -> None:
     assert choose(candidate=QWEN, vocabulary="inspection_drone")["mission"].adapter is None
     with pytest.raises(PlannerError, match="trained with the vocabulary usv, not inspection_drone"):
-        choose(candidate=QWEN, vocabulary="inspection_drone", mission_adapter=f"adapters/{QWEN}/mission")
+        choose(
+            candidate=QWEN,
+            vocabulary="inspection_drone",
+            mission_adapter=f"adapters/{QWEN}/mission",
+        )
 
 
 @pytest.fixture
 def loads(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """Folders of the bases that are loaded, in order; loading fails while an earlier one is in memory."""
+    """Folders of the bases that are loaded, in order; loading fails while an earlier one is in
+    memory.
+    """
     names: list[str] = []
     alive: list[weakref.ref[Any]] = []
     load: Callable[..., Any] = engine_module.load_model
@@ -129,12 +171,17 @@ def loads(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 def ask_both(planner: Planner) -> None:
     for engine in (planner.agents.load(level) for level in LEVELS):
-        engine.limits = {level: type(limits)(limits.end_ids, limits.pad_id, 8) for level, limits in engine.limits.items()}
+        engine.limits = {
+            level: type(limits)(limits.end_ids, limits.pad_id, 8)
+            for level, limits in engine.limits.items()
+        }
     for level in LEVELS:
         assert not planner.agents.ask(level, RECORDS[level]).plan
 
 
-def test_agents_of_one_candidate_share_a_base_with_an_adapter_each(here: Path, loads: list[str]) -> None:
+def test_agents_of_one_candidate_share_a_base_with_an_adapter_each(
+    here: Path, loads: list[str]
+) -> None:
     planner = Planner.load(QWEN, configuration="lora", device="cpu")
     ask_both(planner)
     ask_both(planner)
@@ -143,8 +190,12 @@ def test_agents_of_one_candidate_share_a_base_with_an_adapter_each(here: Path, l
     assert engine.adapters == set(LEVELS)
 
 
-def test_of_two_candidates_the_first_is_released_before_the_second_is_loaded(here: Path, loads: list[str]) -> None:
-    planner = Planner.load(configuration="base", mission_candidate=QWEN, task_candidate=LLAMA, device="cpu")
+def test_of_two_candidates_the_first_is_released_before_the_second_is_loaded(
+    here: Path, loads: list[str]
+) -> None:
+    planner = Planner.load(
+        configuration="base", mission_candidate=QWEN, task_candidate=LLAMA, device="cpu"
+    )
     assert loads == [QWEN]
     engine = planner.agents.load("mission")
     del engine
@@ -155,12 +206,17 @@ def test_of_two_candidates_the_first_is_released_before_the_second_is_loaded(her
 
 
 def test_two_precisions_of_one_candidate_are_two_bases(models: Path) -> None:
-    four_bit, whole = (choose(candidate=QWEN, configuration="base", quantization=quantization) for quantization in ("nf4", "none"))
+    four_bit, whole = (
+        choose(candidate=QWEN, configuration="base", quantization=quantization)
+        for quantization in ("nf4", "none")
+    )
     assert four_bit["mission"].base == four_bit["task"].base != whole["task"].base
 
 
 def test_with_the_mission_agent_alone_no_other_base_is_loaded(here: Path, loads: list[str]) -> None:
-    planner = Planner.load(mission_candidate=QWEN, configuration="base", mission_only=True, device="cpu")
+    planner = Planner.load(
+        mission_candidate=QWEN, configuration="base", mission_only=True, device="cpu"
+    )
     planner.agents.load("mission")
     assert loads == [QWEN] and list(planner.agents.agents) == ["mission"]
 
@@ -178,4 +234,7 @@ def test_the_record_of_an_agent_names_weights_and_adapter_by_their_digests(here:
     config = here / "adapters" / QWEN / "mission" / "adapter_config.json"
     write_json(config, {**read_json(config), "lora_alpha": 99})
     after = choose(candidate=QWEN)["mission"].record()
-    assert after["weights_sha256"] == before["weights_sha256"] and after["adapter_sha256"] != before["adapter_sha256"]
+    assert (
+        after["weights_sha256"] == before["weights_sha256"]
+        and after["adapter_sha256"] != before["adapter_sha256"]
+    )

@@ -6,7 +6,13 @@ from typing import Any
 
 import pytest
 
-from planner_ft.planning.locations import OpenPlace, open_places, parse_location, parse_locations, resolve
+from planner_ft.planning.locations import (
+    OpenPlace,
+    open_places,
+    parse_location,
+    parse_locations,
+    resolve,
+)
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 
@@ -15,7 +21,10 @@ OPEN = [-99, -99]
 
 
 def plan(*tasks: tuple[str, dict[str, Any], str]) -> dict[str, Any]:
-    entries = [{"title": title, "parameters": parameters, "task_prompt": prompt} for title, parameters, prompt in tasks]
+    entries = [
+        {"title": title, "parameters": parameters, "task_prompt": prompt}
+        for title, parameters, prompt in tasks
+    ]
     return {"tasks": entries, "assumptions": [], "constraints": []}
 
 
@@ -29,8 +38,14 @@ TWO_TARGETS = plan(
 )
 
 
-def test_a_place_is_called_by_the_search_that_the_task_speaks_of_and_a_berth_by_the_task_itself() -> None:
-    assert open_places(TWO_TARGETS, USV) == [OpenPlace("green buoy", (3,)), OpenPlace("green barge", (4,)), OpenPlace("fuel pontoon", (6,))]
+def test_a_place_is_called_by_the_search_that_the_task_speaks_of_and_a_berth_by_the_task_itself() -> (
+    None
+):
+    assert open_places(TWO_TARGETS, USV) == [
+        OpenPlace("green buoy", (3,)),
+        OpenPlace("green barge", (4,)),
+        OpenPlace("fuel pontoon", (6,)),
+    ]
 
 
 def test_a_plan_with_coordinates_leaves_nothing_open() -> None:
@@ -45,18 +60,35 @@ def test_a_plan_with_coordinates_leaves_nothing_open() -> None:
         ("berth=3=1,2", ("berth=3", (1.0, 2.0))),
     ],
 )
-def test_a_location_is_a_name_and_two_numbers(text: str, expected: tuple[str, tuple[float, float]]) -> None:
+def test_a_location_is_a_name_and_two_numbers(
+    text: str, expected: tuple[str, tuple[float, float]]
+) -> None:
     assert parse_location(text) == expected
 
 
-@pytest.mark.parametrize("text", ["green buoy", "=1,2", "buoy=1", "buoy=1,2,3", "buoy=here,there", "buoy=nan,1", "buoy=1e999,1", ""])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "green buoy",
+        "=1,2",
+        "buoy=1",
+        "buoy=1,2,3",
+        "buoy=here,there",
+        "buoy=nan,1",
+        "buoy=1e999,1",
+        "",
+    ],
+)
 def test_anything_else_is_refused_with_an_example(text: str) -> None:
     with pytest.raises(PlannerError, match=r'expected "NAME=x,y" in metres'):
         parse_location(text)
 
 
 def test_a_name_has_one_position() -> None:
-    assert parse_locations(["buoy=1,2", "barge=3,4", "buoy=1,2"]) == {"buoy": (1.0, 2.0), "barge": (3.0, 4.0)}
+    assert parse_locations(["buoy=1,2", "barge=3,4", "buoy=1,2"]) == {
+        "buoy": (1.0, 2.0),
+        "barge": (3.0, 4.0),
+    }
     with pytest.raises(PlannerError, match="--locate buoy: two positions are given"):
         parse_locations(["buoy=1,2", "buoy=3,4"])
 
@@ -70,19 +102,35 @@ def test_places_are_filled_in_by_name_without_regard_to_case_article_and_spaces(
 
 
 def test_whole_numbers_are_positions_too() -> None:
-    assert resolve(TWO_TARGETS, {"green barge": (3, 4)}, USV)["tasks"][3]["parameters"]["center"] == [3, 4]
+    assert resolve(TWO_TARGETS, {"green barge": (3, 4)}, USV)["tasks"][3]["parameters"][
+        "center"
+    ] == [3, 4]
 
 
 @pytest.mark.parametrize(
     ("locations", "message"),
     [
-        ({"red buoy": (1.0, 2.0)}, '--locate red buoy: no such place is open; there is "green buoy", "green barge", "fuel pontoon"'),
-        ({"green": (1.0, 2.0)}, '--locate green: fits several places; there is "green buoy", "green barge"'),
-        ({"buoy": (1.0, 2.0), "the green buoy": (3.0, 4.0)}, '"green buoy" is located by "buoy" already'),
+        (
+            {"red buoy": (1.0, 2.0)},
+            (
+                '--locate red buoy: no such place is open; there is "green buoy", "green barge",'
+                ' "fuel pontoon"'
+            ),
+        ),
+        (
+            {"green": (1.0, 2.0)},
+            '--locate green: fits several places; there is "green buoy", "green barge"',
+        ),
+        (
+            {"buoy": (1.0, 2.0), "the green buoy": (3.0, 4.0)},
+            '"green buoy" is located by "buoy" already',
+        ),
         ({"green buoy": (-99.0, -99.0)}, "stands for an unknown place"),
     ],
 )
-def test_a_location_that_cannot_be_used_is_an_error_that_says_what_is_open(locations: dict[str, tuple[float, float]], message: str) -> None:
+def test_a_location_that_cannot_be_used_is_an_error_that_says_what_is_open(
+    locations: dict[str, tuple[float, float]], message: str
+) -> None:
     with pytest.raises(PlannerError) as error:
         resolve(TWO_TARGETS, locations, USV)
     assert message in str(error.value)
@@ -90,4 +138,8 @@ def test_a_location_that_cannot_be_used_is_an_error_that_says_what_is_open(locat
 
 def test_a_location_for_a_plan_without_open_places_is_an_error() -> None:
     with pytest.raises(PlannerError, match="leaves no place open"):
-        resolve(plan(("Transit", {"target_position": [0, 0]}, "Return home.")), {"buoy": (1.0, 2.0)}, USV)
+        resolve(
+            plan(("Transit", {"target_position": [0, 0]}, "Return home.")),
+            {"buoy": (1.0, 2.0)},
+            USV,
+        )

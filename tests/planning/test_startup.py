@@ -1,4 +1,6 @@
-"""What planning with the embedded candidate imports and needs: the start takes longer than the plan."""
+"""What planning with the embedded candidate imports and needs: the start takes longer than the
+plan.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,16 @@ light = "torch" not in sys.modules
 planned = Planner.load(configuration="base+schema", device="cpu").plan("Go to [30, -12], then come home.")
 print(json.dumps({"light": light, "modules": sorted(sys.modules), "valid": planned.valid, "peak": planned.peak_memory}))
 """
-SLOW = ("torch._dynamo", "torch._inductor", "bitsandbytes", "peft", "accelerate", "datasets", "matplotlib", "transformers.modeling_utils")
+SLOW = (
+    "torch._dynamo",
+    "torch._inductor",
+    "bitsandbytes",
+    "peft",
+    "accelerate",
+    "datasets",
+    "matplotlib",
+    "transformers.modeling_utils",
+)
 
 
 def test_the_embedded_candidate_plans_without_what_only_training_needs() -> None:

@@ -19,7 +19,9 @@ VOCABULARY = load_vocabulary()
 @pytest.fixture(scope="session")
 def script() -> ModuleType:
     """scripts/pretrain_embedded.py as a module."""
-    spec = importlib.util.spec_from_file_location("pretrain_embedded", Path("scripts/pretrain_embedded.py"))
+    spec = importlib.util.spec_from_file_location(
+        "pretrain_embedded", Path("scripts/pretrain_embedded.py")
+    )
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -34,6 +36,8 @@ def tokenizer() -> Any:
 @pytest.fixture(scope="session")
 def shard(tokenizer: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("corpus") / "shard.npz"
-    counts = encode_shard(path, tokenizer, VOCABULARY, seed=1, count=80, mission_share=0.5, longest=1024)
+    counts = encode_shard(
+        path, tokenizer, VOCABULARY, seed=1, count=80, mission_share=0.5, longest=1024
+    )
     assert counts["samples"] + counts["left_out"] == 80
     return path

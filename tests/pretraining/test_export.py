@@ -19,12 +19,18 @@ SPECIAL = {"bos": 1, "eos": 2, "pad": 0}
 
 
 def arguments(folder: Path, **given: Any) -> argparse.Namespace:
-    return argparse.Namespace(work=folder / "work", export=folder / "out", **{"init": None, "init_share": 0.0, "average_with": None} | given)
+    return argparse.Namespace(
+        work=folder / "work",
+        export=folder / "out",
+        **{"init": None, "init_share": 0.0, "average_with": None} | given,
+    )
 
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """A work folder whose checkpoint's weights are all 2, and a model folder whose weights are all 4."""
+    """A work folder whose checkpoint's weights are all 2, and a model folder whose weights are all
+    4.
+    """
     (tmp_path / "work" / "corpus").mkdir(parents=True)
     model = new_model(SETTINGS, 64, SPECIAL)
     weights = {name: torch.full_like(value, 2.0) for name, value in model.state_dict().items()}
@@ -35,25 +41,40 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
-@pytest.mark.parametrize(("given", "weight"), [({}, 2.0), ({"init_share": 0.25}, 2.5), ({"init_share": 1.0}, 4.0)])
-def test_a_checkpoint_is_written_alone_or_averaged_with_what_it_started_from(script: ModuleType, folder: Path, given: dict[str, Any], weight: float) -> None:
+@pytest.mark.parametrize(
+    ("given", "weight"), [({}, 2.0), ({"init_share": 0.25}, 2.5), ({"init_share": 1.0}, 4.0)]
+)
+def test_a_checkpoint_is_written_alone_or_averaged_with_what_it_started_from(
+    script: ModuleType, folder: Path, given: dict[str, Any], weight: float
+) -> None:
     tokenizer = SimpleNamespace(save_pretrained=lambda path: None)
-    script.export(new_model(SETTINGS, 64, SPECIAL), tokenizer, SETTINGS, arguments(folder, init=folder / "before", **given))
+    script.export(
+        new_model(SETTINGS, 64, SPECIAL),
+        tokenizer,
+        SETTINGS,
+        arguments(folder, init=folder / "before", **given),
+    )
     written = load_file(folder / "out" / "model.safetensors")
     assert written and all(bool((value.float() == weight).all()) for value in written.values())
     record = json.loads((folder / "out" / "pretraining.json").read_text())
-    assert record["init_share"] == given.get("init_share", 0.0) and [stage["state"]["step"] for stage in record["earlier_stages"]] == [3]
+    assert record["init_share"] == given.get("init_share", 0.0) and [
+        stage["state"]["step"] for stage in record["earlier_stages"]
+    ] == [3]
 
 
 def test_an_average_needs_something_to_average_with(script: ModuleType, folder: Path) -> None:
     with pytest.raises(SystemExit, match="--init-share needs --init"):
-        script.export(new_model(SETTINGS, 64, SPECIAL), None, SETTINGS, arguments(folder, init_share=0.5))
+        script.export(
+            new_model(SETTINGS, 64, SPECIAL), None, SETTINGS, arguments(folder, init_share=0.5)
+        )
     assert not (folder / "out").exists()
 
 
 def test_the_average_may_be_with_an_earlier_stage(script: ModuleType, folder: Path) -> None:
     model = new_model(SETTINGS, 64, SPECIAL)
-    model.load_state_dict({name: torch.full_like(value, 8.0) for name, value in model.state_dict().items()})
+    model.load_state_dict(
+        {name: torch.full_like(value, 8.0) for name, value in model.state_dict().items()}
+    )
     model.save_pretrained(folder / "first")
     (folder / "first" / "pretraining.json").write_text('{"state": {"step": 1}}')
     tokenizer = SimpleNamespace(save_pretrained=lambda path: None)
@@ -62,4 +83,6 @@ def test_the_average_may_be_with_an_earlier_stage(script: ModuleType, folder: Pa
     written = load_file(folder / "out" / "model.safetensors")
     assert all(bool((value.float() == 5.0).all()) for value in written.values())
     record = json.loads((folder / "out" / "pretraining.json").read_text())
-    assert record["averaged_with_stage"] == 1 and [stage["state"]["step"] for stage in record["earlier_stages"]] == [3]
+    assert record["averaged_with_stage"] == 1 and [
+        stage["state"]["step"] for stage in record["earlier_stages"]
+    ] == [3]

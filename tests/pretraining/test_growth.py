@@ -33,7 +33,11 @@ def test_added_layers_can_learn() -> None:
     deep(TOKENS, labels=TOKENS).loss.backward()
     empty = [layer for layer in deep.model.layers if not layer.mlp.down_proj.weight.any()]
     assert len(empty) == 2
-    assert all(bool(layer.mlp.down_proj.weight.grad.any()) and bool(layer.self_attn.o_proj.weight.grad.any()) for layer in empty)
+    assert all(
+        bool(layer.mlp.down_proj.weight.grad.any())
+        and bool(layer.self_attn.o_proj.weight.grad.any())
+        for layer in empty
+    )
 
 
 def test_layers_are_not_taken_away(script: ModuleType, tmp_path: Path) -> None:

@@ -6,7 +6,13 @@ import pytest
 import torch
 from torch import Tensor, nn
 
-from planner_ft.pretraining.kernels import CAUSAL, ROWS, causal_attention, register_attention, summed_cross_entropy
+from planner_ft.pretraining.kernels import (
+    CAUSAL,
+    ROWS,
+    causal_attention,
+    register_attention,
+    summed_cross_entropy,
+)
 
 
 def gradients(result: Tensor, upstream: Tensor, *leaves: Tensor) -> list[Tensor]:
@@ -18,32 +24,56 @@ def test_attention_and_its_gradients_are_those_of_torch() -> None:
     query, key, value = (torch.randn(3, 2, 37, 16, requires_grad=True) for _ in range(3))
     upstream = torch.randn(3, 2, 37, 16)
     ours = causal_attention(query, key, value, 0.25)[0].view(3, 2, 37, 16)
-    theirs = nn.functional.scaled_dot_product_attention(query, key, value, is_causal=True, scale=0.25)
+    theirs = nn.functional.scaled_dot_product_attention(
+        query, key, value, is_causal=True, scale=0.25
+    )
     torch.testing.assert_close(ours, theirs)
-    for mine, reference in zip(gradients(ours, upstream, query, key, value), gradients(theirs, upstream, query, key, value), strict=True):
+    for mine, reference in zip(
+        gradients(ours, upstream, query, key, value),
+        gradients(theirs, upstream, query, key, value),
+        strict=True,
+    ):
         torch.testing.assert_close(mine, reference)
 
 
 def test_the_loss_and_its_gradients_are_those_of_torch() -> None:
     torch.manual_seed(0)
-    hidden, weight = torch.randn(ROWS + 9, 32, requires_grad=True), torch.randn(50, 32, requires_grad=True)
+    hidden, weight = (
+        torch.randn(ROWS + 9, 32, requires_grad=True),
+        torch.randn(50, 32, requires_grad=True),
+    )
     targets = torch.randint(0, 50, (ROWS + 9,))
     ours = summed_cross_entropy(hidden, weight, targets)
     theirs = nn.functional.cross_entropy(hidden @ weight.t(), targets, reduction="sum")
     assert ours.item() == pytest.approx(theirs.item(), rel=1e-3)
     # Products are bfloat16: 8 bits.
-    for mine, reference in zip(gradients(3 * ours, torch.ones(()), hidden, weight), gradients(3 * theirs, torch.ones(()), hidden, weight), strict=True):
-        torch.testing.assert_close(mine, reference, rtol=0, atol=0.02 * float(reference.abs().max()))
+    for mine, reference in zip(
+        gradients(3 * ours, torch.ones(()), hidden, weight),
+        gradients(3 * theirs, torch.ones(()), hidden, weight),
+        strict=True,
+    ):
+        torch.testing.assert_close(
+            mine, reference, rtol=0, atol=0.02 * float(reference.abs().max())
+        )
 
 
 def test_a_model_with_this_attention_computes_what_it_computes_with_torchs() -> None:
     from transformers import LlamaConfig, LlamaForCausalLM
 
     register_attention()
-    shape = {"vocab_size": 64, "hidden_size": 32, "intermediate_size": 48, "num_hidden_layers": 2, "num_attention_heads": 2, "num_key_value_heads": 2}
+    shape = {
+        "vocab_size": 64,
+        "hidden_size": 32,
+        "intermediate_size": 48,
+        "num_hidden_layers": 2,
+        "num_attention_heads": 2,
+        "num_key_value_heads": 2,
+    }
     torch.manual_seed(0)
     ours: Any = LlamaForCausalLM(LlamaConfig(**shape, attn_implementation=CAUSAL)).eval()
     theirs: Any = LlamaForCausalLM(LlamaConfig(**shape, attn_implementation="sdpa")).eval()
     theirs.load_state_dict(ours.state_dict())
     ids = torch.randint(0, 64, (2, 19))
-    torch.testing.assert_close(ours(input_ids=ids).logits, theirs(input_ids=ids).logits, rtol=1e-4, atol=1e-4)
+    torch.testing.assert_close(
+        ours(input_ids=ids).logits, theirs(input_ids=ids).logits, rtol=1e-4, atol=1e-4
+    )

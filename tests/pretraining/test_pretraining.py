@@ -9,13 +9,21 @@ import pytest
 import torch
 
 from planner_ft.pretraining.corpus import IGNORE, batched, load_shard, rows_of, tokenizer_texts
-from planner_ft.pretraining.loop import PretrainSettings, completion_loss, learning_rate, new_model, pretrain
+from planner_ft.pretraining.loop import (
+    PretrainSettings,
+    completion_loss,
+    learning_rate,
+    new_model,
+    pretrain,
+)
 from planner_ft.pretraining.tokenizer import train_tokenizer
 from planner_ft.prompts.text import system_text
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()
-TINY = PretrainSettings(hidden=32, layers=1, heads=2, feed_forward=64, batch_tokens=2048, tokens=6000, compile=False)
+TINY = PretrainSettings(
+    hidden=32, layers=1, heads=2, feed_forward=64, batch_tokens=2048, tokens=6000, compile=False
+)
 SPECIAL = {"bos": 1, "eos": 2, "pad": 0}
 
 
@@ -25,9 +33,25 @@ def test_any_text_survives_the_tokenizer(tokenizer: Any) -> None:
 
 
 def test_digits_stand_apart_and_instructions_are_one_token(tokenizer: Any) -> None:
-    pieces = [tokenizer.decode([token]) for token in tokenizer.encode("at [120, -45]", add_special_tokens=False)]
-    assert [piece.strip() for piece in pieces if piece.strip().isdigit()] == ["1", "2", "0", "4", "5"]
-    assert len(tokenizer.encode(system_text("mission", VOCABULARY, with_vocabulary=False), add_special_tokens=False)) == 1
+    pieces = [
+        tokenizer.decode([token])
+        for token in tokenizer.encode("at [120, -45]", add_special_tokens=False)
+    ]
+    assert [piece.strip() for piece in pieces if piece.strip().isdigit()] == [
+        "1",
+        "2",
+        "0",
+        "4",
+        "5",
+    ]
+    assert (
+        len(
+            tokenizer.encode(
+                system_text("mission", VOCABULARY, with_vocabulary=False), add_special_tokens=False
+            )
+        )
+        == 1
+    )
 
 
 def test_the_tokenizer_is_the_same_for_the_same_texts(tokenizer: Any) -> None:
@@ -38,10 +62,18 @@ def test_the_tokenizer_is_the_same_for_the_same_texts(tokenizer: Any) -> None:
 def test_batches_hold_every_sample_once_and_little_padding(shard: Path) -> None:
     samples = load_shard(shard)
     batches = batched(samples, 2048, 0, seed=3)
-    found = [tuple(row[: len(ids)]) for rows in batches for row in rows.input_ids for ids, _prompt in samples if np.array_equal(row[: len(ids)], ids)]
+    found = [
+        tuple(row[: len(ids)])
+        for rows in batches
+        for row in rows.input_ids
+        for ids, _prompt in samples
+        if np.array_equal(row[: len(ids)], ids)
+    ]
     assert sorted(set(found)) == sorted(tuple(ids) for ids, _prompt in samples)
     assert sum(len(rows.input_ids) for rows in batches) == len(samples)
-    assert sum((rows.labels != IGNORE).sum() for rows in batches) == sum(len(ids) - prompt for ids, prompt in samples)
+    assert sum((rows.labels != IGNORE).sum() for rows in batches) == sum(
+        len(ids) - prompt for ids, prompt in samples
+    )
     assert sum(rows.tokens for rows in batches) == sum(len(ids) for ids, _prompt in samples)
     assert all(rows.input_ids.size <= 2048 + 1024 for rows in batches)
 
@@ -50,8 +82,13 @@ def test_padding_does_not_change_the_loss(shard: Path, tokenizer: Any) -> None:
     samples = sorted(load_shard(shard), key=lambda sample: len(sample[0]))[:4]
     model: Any = new_model(TINY, len(tokenizer), SPECIAL)
     weights = [len(ids) - prompt for ids, prompt in samples]
-    apart = [completion_loss(model, model.model, rows_of([sample], len(sample[0]), 0)).item() for sample in samples]
-    assert completion_loss(model, model.model, rows_of(samples, 256, 0)).item() == pytest.approx(np.average(apart, weights=weights), rel=2e-3)
+    apart = [
+        completion_loss(model, model.model, rows_of([sample], len(sample[0]), 0)).item()
+        for sample in samples
+    ]
+    assert completion_loss(model, model.model, rows_of(samples, 256, 0)).item() == pytest.approx(
+        np.average(apart, weights=weights), rel=2e-3
+    )
 
 
 @pytest.mark.parametrize("count", [1, 2, 5])
@@ -71,10 +108,13 @@ def test_shares_of_a_batch_add_up_to_it(shard: Path, tokenizer: Any, count: int)
     assert sum(losses) == pytest.approx(completion_loss(model, model.model, rows).item(), rel=2e-3)
 
 
-def test_the_loss_falls_and_an_interrupted_run_continues(shard: Path, tokenizer: Any, tmp_path: Path) -> None:
+def test_the_loss_falls_and_an_interrupted_run_continues(
+    shard: Path, tokenizer: Any, tmp_path: Path
+) -> None:
     def run(folder: str, tokens: int) -> tuple[dict[str, Any], Any]:
         model: Any = new_model(TINY, len(tokenizer), SPECIAL)
-        # The plateau of the learning rate is the same for both budgets, so that only the interruption differs.
+        # The plateau of the learning rate is the same for both budgets, so that only the
+        # interruption differs.
         settings = replace(TINY, tokens=tokens, warmup=1e-9, decay=1e-9)
         return pretrain(model, [shard], settings, pad=0, folder=tmp_path / folder), model
 
@@ -82,12 +122,19 @@ def test_the_loss_falls_and_an_interrupted_run_continues(shard: Path, tokenizer:
     run("parts", 12_000)
     resumed, second = run("parts", 30_000)
     assert resumed["step"] == whole["step"] and resumed["tokens"] == whole["tokens"]
-    assert all(torch.equal(a, b) for a, b in zip(first.state_dict().values(), second.state_dict().values(), strict=True))
+    assert all(
+        torch.equal(a, b)
+        for a, b in zip(first.state_dict().values(), second.state_dict().values(), strict=True)
+    )
     fresh: Any = new_model(TINY, len(tokenizer), SPECIAL)
     rows = rows_of(load_shard(shard)[:8], 1024, 0)
-    assert completion_loss(first, first.model, rows) < 0.9 * completion_loss(fresh, fresh.model, rows)
+    assert completion_loss(first, first.model, rows) < 0.9 * completion_loss(
+        fresh, fresh.model, rows
+    )
 
 
 def test_the_learning_rate_rises_stays_and_falls_to_zero() -> None:
     settings = replace(TINY, tokens=1000, warmup=0.1, decay=0.5)
-    assert [round(learning_rate(settings, tokens), 2) for tokens in (0, 50, 100, 500, 750, 1000)] == [0, 0.5, 1, 1, 0.5, 0]
+    assert [
+        round(learning_rate(settings, tokens), 2) for tokens in (0, 50, 100, 500, 750, 1000)
+    ] == [0, 0.5, 1, 1, 0.5, 0]

@@ -12,11 +12,22 @@ from planner_ft.vocabulary.plans import plan_problems
 
 VOCABULARY = load_vocabulary()
 MISSION: dict[str, Any] = {
-    "prompt": "Trawlers everywhere. Find the green trawler Hilda, then hold 60 s at the trawler's north side.",
+    "prompt": (
+        "Trawlers everywhere. Find the green trawler Hilda, then hold 60 s at the trawler's north"
+        " side."
+    ),
     "expected": {
         "tasks": [
-            {"title": "SearchAndDetect", "parameters": {"target_description": "green trawler Hilda"}, "task_prompt": "Search for the green trawler Hilda."},
-            {"title": "KeepStation", "parameters": {"duration": 60}, "task_prompt": "Hold position for 60 seconds at the north side of the trawler."},
+            {
+                "title": "SearchAndDetect",
+                "parameters": {"target_description": "green trawler Hilda"},
+                "task_prompt": "Search for the green trawler Hilda.",
+            },
+            {
+                "title": "KeepStation",
+                "parameters": {"duration": 60},
+                "task_prompt": "Hold position for 60 seconds at the north side of the trawler.",
+            },
         ],
         "assumptions": [],
         "constraints": ["The green trawler Hilda must be found first."],
@@ -41,18 +52,29 @@ def test_a_word_is_replaced_wherever_it_stands_and_nothing_else_is() -> None:
         assert record["prompt"].endswith("north side."), "words of directions stay"
         assert record["expected"]["tasks"][1]["parameters"] == {"duration": 60}
         if "trawler" not in target:
-            assert "rawler" not in json.dumps(record), "neither the plural nor a capital keeps the old word"
+            assert "rawler" not in json.dumps(record), (
+                "neither the plural nor a capital keeps the old word"
+            )
     assert json.dumps(MISSION) == before, "the record itself is left alone"
 
 
 def test_what_names_no_thing_has_nothing_to_replace() -> None:
-    record = {"prompt": "Hold for a minute.", "expected": {"tasks": [{"title": "KeepStation", "parameters": {"duration": 60}, "task_prompt": "Hold."}]}}
+    record = {
+        "prompt": "Hold for a minute.",
+        "expected": {
+            "tasks": [
+                {"title": "KeepStation", "parameters": {"duration": 60}, "task_prompt": "Hold."}
+            ]
+        },
+    }
     assert with_unfamiliar_words(record, VOCABULARY, Random(0)) is None
 
 
 def test_names_stay_names_and_articles_right() -> None:
     rng = Random(3)
-    words = [unfamiliar_word(word, rng) for word in ("Hilda", "anchor", "trawler") for _ in range(200)]
+    words = [
+        unfamiliar_word(word, rng) for word in ("Hilda", "anchor", "trawler") for _ in range(200)
+    ]
     assert all(word[0].isupper() for word in words[:200])
     assert all(word[0] in "aeio" for word in words[200:400])
     assert not any(word[0] in "aeiou" for word in words[400:])
@@ -63,7 +85,13 @@ def test_names_stay_names_and_articles_right() -> None:
 def test_the_corpus_stays_valid_and_the_same_for_a_seed() -> None:
     samples = list(islice(stream(VOCABULARY, 8, 0.5, 1.0), 120))
     assert samples == list(islice(stream(VOCABULARY, 8, 0.5, 1.0), 120))
-    assert not [problem for level, record in samples for problem in plan_problems(level, record["expected"], VOCABULARY, strict=True)]
+    assert not [
+        problem
+        for level, record in samples
+        for problem in plan_problems(level, record["expected"], VOCABULARY, strict=True)
+    ]
     plain = list(islice(stream(VOCABULARY, 8, 0.5), 120))
-    assert [level for level, _record in plain] == [level for level, _record in samples], "the samples drawn are the same ones"
+    assert [level for level, _record in plain] == [level for level, _record in samples], (
+        "the samples drawn are the same ones"
+    )
     assert 20 < sum(one != other for one, other in zip(plain, samples, strict=True)) < 120

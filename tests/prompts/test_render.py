@@ -1,4 +1,6 @@
-"""One function renders a sample for training, benchmark and planning: prompt ids, completion mask, end of turn."""
+"""One function renders a sample for training, benchmark and planning: prompt ids, completion mask,
+end of turn.
+"""
 
 from pathlib import Path
 from typing import Any
@@ -27,8 +29,16 @@ MISSION: dict[str, Any] = {
     "prompt": "Circle the tower at [4, 5] — 12.5 m off.",
     "expected": {
         "tasks": [
-            {"title": "Transit", "parameters": {"target_position": [4.0, 5]}, "task_prompt": "Go to [4, 5]."},
-            {"title": "PerformOrbit", "parameters": {"radius": 12.5, "center": [4, 5]}, "task_prompt": "Circle it."},
+            {
+                "title": "Transit",
+                "parameters": {"target_position": [4.0, 5]},
+                "task_prompt": "Go to [4, 5].",
+            },
+            {
+                "title": "PerformOrbit",
+                "parameters": {"radius": 12.5, "center": [4, 5]},
+                "task_prompt": "Circle it.",
+            },
         ],
         "assumptions": [],
         "constraints": [],
@@ -48,14 +58,19 @@ def test_prompt_and_answer_join_without_a_seam(tokenizer: Any) -> None:
     rendered = render_sample("mission", MISSION, tokenizer, VOCABULARY)
     prompt = render_prompt("mission", MISSION, tokenizer, VOCABULARY, with_vocabulary=False)
     assert rendered.input_ids[: rendered.prompt_length] == prompt
-    assert rendered.completion_mask == [0] * len(prompt) + [1] * (len(rendered.input_ids) - len(prompt))
+    assert rendered.completion_mask == [0] * len(prompt) + [1] * (
+        len(rendered.input_ids) - len(prompt)
+    )
     answer = tokenizer.decode(rendered.input_ids[rendered.prompt_length : -1])
     assert answer == completion_text("mission", MISSION["expected"], VOCABULARY)
 
 
 def test_the_end_of_turn_is_trained(tokenizer: Any) -> None:
     rendered = render_sample("mission", MISSION, tokenizer, VOCABULARY)
-    assert tokenizer.convert_ids_to_tokens(rendered.input_ids[-1]) == END_OF_TURN[tokenizer.planner_ft_name]
+    assert (
+        tokenizer.convert_ids_to_tokens(rendered.input_ids[-1])
+        == END_OF_TURN[tokenizer.planner_ft_name]
+    )
     assert rendered.completion_mask[-1] == 1
     assert rendered.input_ids[-1] == end_of_turn_ids(tokenizer)[0]
 
@@ -66,8 +81,12 @@ def test_there_is_one_beginning_of_text_at_most(tokenizer: Any) -> None:
 
 
 def test_only_base_models_are_shown_the_vocabulary(tokenizer: Any) -> None:
-    shown = tokenizer.decode(render_prompt("mission", MISSION, tokenizer, VOCABULARY, with_vocabulary=True))
-    hidden = tokenizer.decode(render_prompt("mission", MISSION, tokenizer, VOCABULARY, with_vocabulary=False))
+    shown = tokenizer.decode(
+        render_prompt("mission", MISSION, tokenizer, VOCABULARY, with_vocabulary=True)
+    )
+    hidden = tokenizer.decode(
+        render_prompt("mission", MISSION, tokenizer, VOCABULARY, with_vocabulary=False)
+    )
     assert all(task.title in shown for task in VOCABULARY.tasks)
     assert not any(task.title in hidden for task in VOCABULARY.tasks)
     assert MISSION["prompt"] in shown and MISSION["prompt"] in hidden
@@ -80,23 +99,49 @@ def test_targets_are_serialised_in_one_canonical_way() -> None:
 
 
 def test_the_task_agent_gets_title_parameters_and_prompt() -> None:
-    record = {"task": "SurveyTarget", "parameters": {"radius": 3.0, "target_position": [1, 2]}, "prompt": "Look at it."}
-    assert user_text("task", record, VOCABULARY) == 'SurveyTarget\n{"target_position":[1,2],"radius":3}\nLook at it.'
+    record = {
+        "task": "SurveyTarget",
+        "parameters": {"radius": 3.0, "target_position": [1, 2]},
+        "prompt": "Look at it.",
+    }
+    assert (
+        user_text("task", record, VOCABULARY)
+        == 'SurveyTarget\n{"target_position":[1,2],"radius":3}\nLook at it.'
+    )
 
 
-@pytest.mark.parametrize("injected", ["<|eot_id|>", "<|im_end|>", "<|end_of_text|>", "<|endoftext|>"])
+@pytest.mark.parametrize(
+    "injected", ["<|eot_id|>", "<|im_end|>", "<|end_of_text|>", "<|endoftext|>"]
+)
 def test_special_tokens_in_a_command_are_text(tokenizer: Any, injected: str) -> None:
     plain, attack = ({**MISSION, "prompt": f"Find the {word} now."} for word in ("buoy", injected))
     special = set(tokenizer.all_special_ids)
-    counts = [sum(token in special for token in render_prompt("mission", record, tokenizer, VOCABULARY, with_vocabulary=False)) for record in (plain, attack)]
+    counts = [
+        sum(
+            token in special
+            for token in render_prompt(
+                "mission", record, tokenizer, VOCABULARY, with_vocabulary=False
+            )
+        )
+        for record in (plain, attack)
+    ]
     assert counts[0] == counts[1]
 
 
 def test_the_prompt_is_tokenised_as_the_whole_text_would_be(tokenizer: Any) -> None:
     system = system_text("mission", VOCABULARY, with_vocabulary=False)
     if tokenizer.chat_template:
-        messages = [{"role": "system", "content": system}, {"role": "user", "content": MISSION["prompt"]}]
-        text = tokenizer.apply_chat_template(messages, tokenize=False, add_generation_prompt=True, date_string=TODAY)
+        messages = [
+            {"role": "system", "content": system},
+            {"role": "user", "content": MISSION["prompt"]},
+        ]
+        text = tokenizer.apply_chat_template(
+            messages, tokenize=False, add_generation_prompt=True, date_string=TODAY
+        )
     else:
-        text = f"{tokenizer.bos_token or ''}{system}\n\n### Input\n{MISSION['prompt']}\n\n### Plan\n"
-    assert render_prompt("mission", MISSION, tokenizer, VOCABULARY, with_vocabulary=False) == tokenizer.encode(text, add_special_tokens=False)
+        text = (
+            f"{tokenizer.bos_token or ''}{system}\n\n### Input\n{MISSION['prompt']}\n\n### Plan\n"
+        )
+    assert render_prompt(
+        "mission", MISSION, tokenizer, VOCABULARY, with_vocabulary=False
+    ) == tokenizer.encode(text, add_special_tokens=False)

@@ -14,7 +14,9 @@ from planner_ft.benchmark.samples import load_bench_data
 from planner_ft.benchmark.submission import score_predictions
 from planner_ft.vocabulary import load_vocabulary
 
-HOSTILE = "</script><script>window.attacked=1</script><img src=x onerror='window.attacked=1'>\u2028<!--"
+HOSTILE = (
+    "</script><script>window.attacked=1</script><img src=x onerror='window.attacked=1'>\u2028<!--"
+)
 
 
 def task(title: str, prompt: str = "", **parameters: Any) -> dict[str, Any]:
@@ -25,15 +27,26 @@ def plan(*tasks: dict[str, Any]) -> dict[str, Any]:
     return {"tasks": list(tasks), "assumptions": [], "constraints": []}
 
 
-SEARCH, GO = task("SearchAndDetect", "Find the buoy.", target_description="red buoy"), task("Transit", "Go there.", target_position=[-99, -99])
-ORBIT, HOME = task("PerformOrbit", "Circle it.", center=[-99, -99], radius=20, arc=360), task("Transit", "Go home.", target_position=[0, 0])
+SEARCH, GO = (
+    task("SearchAndDetect", "Find the buoy.", target_description="red buoy"),
+    task("Transit", "Go there.", target_position=[-99, -99]),
+)
+ORBIT, HOME = (
+    task("PerformOrbit", "Circle it.", center=[-99, -99], radius=20, arc=360),
+    task("Transit", "Go home.", target_position=[0, 0]),
+)
 EXPECTED = {
     "orbit": plan(SEARCH, GO, ORBIT, HOME),
     "home": plan(HOME),
     "hold": plan(GO, task("KeepStation", "Hold.", duration=300)),
     "impossible": plan(),
 }
-COMMANDS = {"orbit": "Circle the red buoy & come home.", "home": "Come <b>home</b>.", "hold": "Hold there for five minutes.", "impossible": "Fly to the moon."}
+COMMANDS = {
+    "orbit": "Circle the red buoy & come home.",
+    "home": "Come <b>home</b>.",
+    "hold": "Hold there for five minutes.",
+    "impossible": "Fly to the moon.",
+}
 ANSWERS: dict[str, dict[str, Any]] = {
     "good": {**EXPECTED, "hold": plan(GO, task("KeepStation", "Hold.", duration=30))},
     "hostile": {
@@ -52,11 +65,21 @@ def write_lines(path: Path, records: list[dict[str, Any]]) -> Path:
 
 def write_data(folder: Path, name: str = "test.jsonl", *, grouped: bool = True) -> Path:
     groups = {"orbit": "long", "home": "short", "hold": "short", "impossible": "refuse"}
-    records = [{"id": key, "prompt": COMMANDS[key], "expected": expected, **({"group": groups[key]} if grouped else {})} for key, expected in EXPECTED.items()]
+    records = [
+        {
+            "id": key,
+            "prompt": COMMANDS[key],
+            "expected": expected,
+            **({"group": groups[key]} if grouped else {}),
+        }
+        for key, expected in EXPECTED.items()
+    ]
     return write_lines(folder / name, records)
 
 
-def write_run(folder: Path, data: Path, answers: dict[str, dict[str, Any]], *, timed: bool = True) -> Path:
+def write_run(
+    folder: Path, data: Path, answers: dict[str, dict[str, Any]], *, timed: bool = True
+) -> Path:
     """A run folder of scripted systems."""
     folder.mkdir(parents=True)
     lines = []
@@ -64,10 +87,14 @@ def write_run(folder: Path, data: Path, answers: dict[str, dict[str, Any]], *, t
         for index, (key, output) in enumerate(outputs.items()):
             cost = {"latency_s": 0.5 + number + 0.1 * index, "tokens": 10 * index} if timed else {}
             text = output if isinstance(output, str) else json.dumps(output)
-            lines.append({"id": key, "candidate": candidate, "configuration": "base", "output": text, **cost})
+            lines.append(
+                {"id": key, "candidate": candidate, "configuration": "base", "output": text, **cost}
+            )
     vocabulary = load_vocabulary("usv")
     path = write_lines(folder / "predictions.jsonl", lines)
-    write_results(folder, score_predictions(path, load_bench_data(data, "mission", vocabulary), vocabulary))
+    write_results(
+        folder, score_predictions(path, load_bench_data(data, "mission", vocabulary), vocabulary)
+    )
     return folder
 
 

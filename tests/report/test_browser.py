@@ -1,6 +1,7 @@
 """report.html in a real headless browser: filters, keyboard, phone, dark mode, hostile answers.
 
-Skipped where there is no chromium, chromedriver or selenium; PLANNERFT_REQUIRE_BROWSER=1 makes that a failure.
+Skipped where there is no chromium, chromedriver or selenium; PLANNERFT_REQUIRE_BROWSER=1 makes that
+a failure.
 """
 
 from __future__ import annotations
@@ -39,7 +40,9 @@ return found;
 @pytest.fixture(scope="module")
 def report(tmp_path_factory: pytest.TempPathFactory) -> str:
     folder = tmp_path_factory.mktemp("browser")
-    write_report([write_run(folder / "run", write_data(folder), ANSWERS)], folder / "report", pictures="none")
+    write_report(
+        [write_run(folder / "run", write_data(folder), ANSWERS)], folder / "report", pictures="none"
+    )
     return (folder / "report" / "report.html").as_uri()
 
 
@@ -51,12 +54,17 @@ def chromium() -> Iterator[Any]:
 
 @pytest.fixture
 def opened(chromium: Any, report: str) -> Iterator[Callable[..., Any]]:
-    """Opens the report at a width, light or dark; afterwards the console must be empty and nothing may have been asked for."""
+    """Opens the report at a width, light or dark; afterwards the console must be empty and nothing
+    may have been asked for.
+    """
 
     def open_page(width: int = 1280, *, dark: bool = False, fragment: str = "") -> Any:
         screen = {"width": width, "height": 800, "deviceScaleFactor": 1, "mobile": width < 600}
         chromium.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
-        chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]})
+        chromium.execute_cdp_cmd(
+            "Emulation.setEmulatedMedia",
+            {"features": [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]},
+        )
         chromium.get("about:blank")
         chromium.get(report + fragment)
         return chromium
@@ -65,8 +73,14 @@ def opened(chromium: Any, report: str) -> Iterator[Callable[..., Any]]:
         chromium.get_log(kind)
     yield open_page
     assert chromium.get_log("browser") == []
-    asked = [entry["message"] for entry in chromium.get_log("performance") if '"Network.requestWillBeSent"' in entry["message"]]
-    assert [message for message in asked if "http" in message.split('"url":"', 1)[1].split('"', 1)[0]] == []
+    asked = [
+        entry["message"]
+        for entry in chromium.get_log("performance")
+        if '"Network.requestWillBeSent"' in entry["message"]
+    ]
+    assert [
+        message for message in asked if "http" in message.split('"url":"', 1)[1].split('"', 1)[0]
+    ] == []
     assert chromium.execute_script("return window.attacked") is None
 
 
@@ -79,13 +93,18 @@ def choose(driver: Any, label: str, value: str) -> None:
     from selenium.webdriver.support.ui import Select
 
     Select(
-        next(field for field in find(driver, ".filters label") if field.text.startswith(label)).find_element("css selector", "select")
+        next(
+            field for field in find(driver, ".filters label") if field.text.startswith(label)
+        ).find_element("css selector", "select")
     ).select_by_visible_text(value)
 
 
 def shown(driver: Any) -> list[str]:
     """Ids of the samples in the list, read at once: it may be built anew at any time."""
-    script = "return [...document.querySelectorAll('.samples .id')].map((node) => node.textContent.split(' · ')[0])"
+    script = (
+        "return [...document.querySelectorAll('.samples .id')].map((node) =>"
+        " node.textContent.split(' · ')[0])"
+    )
     found: list[str] = driver.execute_script(script)
     return found
 
@@ -124,7 +143,9 @@ def test_search_finds_commands_and_names_in_answers(opened: Callable[..., Any]) 
     wait(driver, lambda: shown(driver) == ["hold"])
 
 
-def test_an_opened_sample_shows_both_plans_and_marks_what_differs(opened: Callable[..., Any]) -> None:
+def test_an_opened_sample_shows_both_plans_and_marks_what_differs(
+    opened: Callable[..., Any],
+) -> None:
     driver = opened()
     choose(driver, "System", "good, Base")
     find(driver, ".samples summary")[2].click()
@@ -140,7 +161,10 @@ def test_hostile_answers_are_shown_as_they_are(opened: Callable[..., Any]) -> No
     for summary in find(driver, ".samples > li > details > summary"):
         summary.click()
     wait(driver, lambda: len(find(driver, ".body section")) == 4)
-    assert HOSTILE.replace("\u2028", "") in [element.get_property("textContent").replace("\u2028", "") for element in find(driver, ".plans .name")]
+    assert HOSTILE.replace("\u2028", "") in [
+        element.get_property("textContent").replace("\u2028", "")
+        for element in find(driver, ".plans .name")
+    ]
     assert find(driver, "main img") == []
     marks = {row.get_attribute("class") for row in find(driver, ".plans tbody tr")}
     assert {"missing", "extra", "substituted"} <= marks
@@ -148,7 +172,11 @@ def test_hostile_answers_are_shown_as_they_are(opened: Callable[..., Any]) -> No
 
 def test_a_count_of_failures_shows_its_samples(opened: Callable[..., Any]) -> None:
     driver = opened()
-    button = next(button for button in find(driver, ".heat button") if "good, Base" in button.get_attribute("aria-label"))
+    button = next(
+        button
+        for button in find(driver, ".heat button")
+        if "good, Base" in button.get_attribute("aria-label")
+    )
     button.click()
     assert shown(driver) == ["hold"]
 
@@ -160,7 +188,10 @@ def test_the_keyboard_reaches_and_opens_everything(opened: Callable[..., Any]) -
     body = find(driver, "body")[0]
     body.send_keys(Keys.TAB)
     assert driver.switch_to.active_element.text == "Skip to the figures"
-    outline = "const s = getComputedStyle(document.activeElement); return [s.outlineStyle, parseFloat(s.outlineWidth)]"
+    outline = (
+        "const s = getComputedStyle(document.activeElement); return [s.outlineStyle,"
+        " parseFloat(s.outlineWidth)]"
+    )
     reached = []
     for _step in range(80):
         driver.switch_to.active_element.send_keys(Keys.TAB)
@@ -169,8 +200,12 @@ def test_the_keyboard_reaches_and_opens_everything(opened: Callable[..., Any]) -
             break
         style, width = driver.execute_script(outline)
         assert (style, width >= 2) == ("solid", True), active.get_attribute("outerHTML")[:200]
-        reached.append((active.tag_name, active.get_attribute("type"), active.get_attribute("class")))
-    assert {"a", "input", "select", "summary", "button", "div"} <= {name for name, _type, _class in reached}
+        reached.append(
+            (active.tag_name, active.get_attribute("type"), active.get_attribute("class"))
+        )
+    assert {"a", "input", "select", "summary", "button", "div"} <= {
+        name for name, _type, _class in reached
+    }
     first = find(driver, ".samples summary")[0]
     driver.execute_script("arguments[0].focus()", first)
     first.send_keys(Keys.ENTER)
@@ -188,7 +223,9 @@ def test_a_link_leads_to_a_sample(opened: Callable[..., Any]) -> None:
 @pytest.mark.parametrize("width", [320, 375, 768, 1280])
 def test_no_width_needs_to_scroll_sideways(opened: Callable[..., Any], width: int) -> None:
     driver = opened(width)
-    driver.execute_script("document.querySelectorAll('details').forEach((node) => { node.open = true; })")
+    driver.execute_script(
+        "document.querySelectorAll('details').forEach((node) => { node.open = true; })"
+    )
     wait(driver, lambda: len(find(driver, ".body section")) >= 4)
     assert driver.execute_script("return document.documentElement.scrollWidth") <= width
 
@@ -196,7 +233,8 @@ def test_no_width_needs_to_scroll_sideways(opened: Callable[..., Any], width: in
 def test_letters_in_charts_are_not_shrunk_on_a_phone(opened: Callable[..., Any]) -> None:
     driver = opened(375)
     scale = (
-        "return [...document.querySelectorAll('svg')].filter((s) => s.checkVisibility()).map((s) => s.getBoundingClientRect().width / s.viewBox.baseVal.width)"
+        "return [...document.querySelectorAll('svg')].filter((s) => s.checkVisibility()).map((s) =>"
+        " s.getBoundingClientRect().width / s.viewBox.baseVal.width)"
     )
     scales = driver.execute_script(scale)
     assert scales
@@ -206,7 +244,9 @@ def test_letters_in_charts_are_not_shrunk_on_a_phone(opened: Callable[..., Any])
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
 def test_text_stands_out_from_its_background(opened: Callable[..., Any], dark: bool) -> None:
     driver = opened(dark=dark)
-    driver.execute_script("document.querySelectorAll('details').forEach((node) => { node.open = true; })")
+    driver.execute_script(
+        "document.querySelectorAll('details').forEach((node) => { node.open = true; })"
+    )
     wait(driver, lambda: len(find(driver, ".body section")) >= 4)
     assert driver.execute_script(CONTRAST) == []
     page = driver.execute_script("return getComputedStyle(document.body).backgroundColor")

@@ -13,7 +13,10 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import sha256_tree
 from planner_ft.training.card import model_card
 
-FRONT = "---\nlibrary_name: peft\nlicense: apache-2.0\ntags: [lora]\n---\n\n# An adapter\n\n## Use\n\nLoad it.\n\n## Training\n\nIt was trained.\n"
+FRONT = (
+    "---\nlibrary_name: peft\nlicense: apache-2.0\ntags: [lora]\n---\n\n# An adapter\n\n##"
+    " Use\n\nLoad it.\n\n## Training\n\nIt was trained.\n"
+)
 
 
 @pytest.fixture
@@ -23,7 +26,9 @@ def adapter(tmp_path: Path) -> Path:
     (folder / "adapter_model.safetensors").write_bytes(b"weights")
     (folder / "adapter_config.json").write_text("{}")
     (folder / "README.md").write_text(FRONT)
-    (folder / "manifest.json").write_text(json.dumps({"base": {"name": "embedded"}, "level": "mission"}))
+    (folder / "manifest.json").write_text(
+        json.dumps({"base": {"name": "embedded"}, "level": "mission"})
+    )
     return folder
 
 
@@ -33,7 +38,12 @@ def record_adapter(run: Path, adapter: Path, candidate: str) -> None:
     results = json.loads(path.read_text())
     digest = sha256_tree(adapter, ("adapter_model.safetensors", "adapter_config.json"))
     results["manifest"]["jobs"] = {
-        f"{name} base": {"candidate": name, "configuration": "base", "adapter": digest if name == candidate else "0" * 64} for name in ("good", "hostile")
+        f"{name} base": {
+            "candidate": name,
+            "configuration": "base",
+            "adapter": digest if name == candidate else "0" * 64,
+        }
+        for name in ("good", "hostile")
     }
     path.write_text(json.dumps(results))
 
@@ -42,10 +52,15 @@ def test_the_hub_reads_the_figures_of_this_adapter_alone(run: Path, adapter: Pat
     record_adapter(run, adapter, "good")
     count = write_card(adapter, [run])
     card = ModelCard.load(adapter / "README.md")
-    measured = {row["candidate"]: row["metrics"] for row in json.loads((run / "results.json").read_text())["rows"]}["good"]
+    measured = {
+        row["candidate"]: row["metrics"]
+        for row in json.loads((run / "results.json").read_text())["rows"]
+    }["good"]
     figures = {result.metric_type: result.metric_value for result in card.data.eval_results}
     assert count == len(figures) == sum(figure["value"] is not None for figure in measured.values())
-    assert figures == {name: figure["value"] for name, figure in measured.items() if figure["value"] is not None}
+    assert figures == {
+        name: figure["value"] for name, figure in measured.items() if figure["value"] is not None
+    }
     assert card.data.model_name == "embedded mission adapter"
     assert card.data.license == "apache-2.0"
     first = card.data.eval_results[0]
@@ -78,7 +93,14 @@ def test_a_folder_without_a_card_is_refused(run: Path, tmp_path: Path) -> None:
 
 
 def test_a_card_names_its_training_data_and_limits() -> None:
-    manifest = json.loads((Path(__file__).parents[2] / "adapters" / "embedded" / "mission" / "manifest.json").read_text())
+    manifest = json.loads(
+        (
+            Path(__file__).parents[2] / "adapters" / "embedded" / "mission" / "manifest.json"
+        ).read_text()
+    )
     card = model_card(manifest)
-    assert f"| training data | train.jsonl, SHA-256 {manifest['inputs']['training']['sha256'][:12]}" in card
+    assert (
+        f"| training data | train.jsonl, SHA-256 {manifest['inputs']['training']['sha256'][:12]}"
+        in card
+    )
     assert "A plan that is valid need not be right" in card

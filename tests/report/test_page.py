@@ -42,8 +42,13 @@ def test_nothing_is_loaded_from_anywhere(page: str) -> None:
 
 
 def test_the_policy_allows_the_one_script_and_the_one_style_sheet(page: str) -> None:
-    policy = html.unescape(re.findall(r'http-equiv="Content-Security-Policy" content="([^"]*)"', page)[0])
-    for element, content in (("style", re.findall(r"<style>(.*?)</style>", page, re.S)), ("script", re.findall(r"<script>(.*?)</script>", page, re.S))):
+    policy = html.unescape(
+        re.findall(r'http-equiv="Content-Security-Policy" content="([^"]*)"', page)[0]
+    )
+    for element, content in (
+        ("style", re.findall(r"<style>(.*?)</style>", page, re.S)),
+        ("script", re.findall(r"<script>(.*?)</script>", page, re.S)),
+    ):
         assert len(content) == 1
         digest = base64.b64encode(hashlib.sha256(content[0].encode()).digest()).decode()
         assert f"{element}-src 'sha256-{digest}'" in policy
@@ -68,11 +73,18 @@ def test_json_inside_a_script_reads_back_and_cannot_end_it() -> None:
 def test_every_sample_and_answer_is_there(page: str) -> None:
     index = json.loads(embedded(page, "index-0"))
     assert [sample[:3] for sample in index["samples"]] == [
-        ["orbit", COMMANDS["orbit"], "long"], ["home", COMMANDS["home"], "short"], ["hold", COMMANDS["hold"], "short"],
+        ["orbit", COMMANDS["orbit"], "long"],
+        ["home", COMMANDS["home"], "short"],
+        ["hold", COMMANDS["hold"], "short"],
         ["impossible", COMMANDS["impossible"], "refuse"],
-    ]  # fmt: skip
+    ]
     good = index["systems"].index("good, Base")
-    assert [index["outcomes"][sample[4][good][0]] for sample in index["samples"]] == ["right", "right", "parameter propagation", "right"]
+    assert [index["outcomes"][sample[4][good][0]] for sample in index["samples"]] == [
+        "right",
+        "right",
+        "parameter propagation",
+        "right",
+    ]
     expected, answers, _given = details(page)[2]
     assert [entry[0] for entry in expected] == ["Transit", "KeepStation"]
     assert answers[good][1] == [["same", 0, 0, []], ["changed", 1, 1, ["duration"]]]

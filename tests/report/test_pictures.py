@@ -18,10 +18,33 @@ CHARTS: list[Chart] = [
         "",
         "F1",
         "seconds",
-        (Bar("one", 0.5, 0.4, 0.6, 1.5, group="Base"), Bar(HOSTILE, None), Bar("three", 1, second=2, muted=True, group="Base")),
+        (
+            Bar("one", 0.5, 0.4, 0.6, 1.5, group="Base"),
+            Bar(HOSTILE, None),
+            Bar("three", 1, second=2, muted=True, group="Base"),
+        ),
     ),
-    Lines("lines", "Lines", "", "tasks", "seconds", (Series("one", (Point(1, 0.5, 0.4, 0.7, 3), Point(4, 1.5))), Series(HOSTILE, (Point(2, 0),)))),
-    Dots("dots", "Dots", "", "share", ("precision", "recall"), (DotRow("one", (0.5, None), "1 / 2"), DotRow(HOSTILE, (1.0, 1.0))), "right", 1.0),
+    Lines(
+        "lines",
+        "Lines",
+        "",
+        "tasks",
+        "seconds",
+        (
+            Series("one", (Point(1, 0.5, 0.4, 0.7, 3), Point(4, 1.5))),
+            Series(HOSTILE, (Point(2, 0),)),
+        ),
+    ),
+    Dots(
+        "dots",
+        "Dots",
+        "",
+        "share",
+        ("precision", "recall"),
+        (DotRow("one", (0.5, None), "1 / 2"), DotRow(HOSTILE, (1.0, 1.0))),
+        "right",
+        1.0,
+    ),
     Matrix("matrix", "Matrix", "", "Expected", ("one", HOSTILE), ("two",), ((3,), (None,))),
 ]
 
@@ -31,7 +54,14 @@ CHARTS: list[Chart] = [
 def test_a_chart_is_a_png_and_an_svg_whose_letters_stay_text(chart: Chart) -> None:
     files = picture(chart)
     assert files["png"].startswith(b"\x89PNG")
-    texts = ["".join(node.itertext()) for node in ElementTree.parse(BytesIO(files["svg"])).getroot().iter("{http://www.w3.org/2000/svg}text")]
+    texts = [
+        "".join(node.itertext())
+        for node in (
+            ElementTree.parse(BytesIO(files["svg"]))
+            .getroot()
+            .iter("{http://www.w3.org/2000/svg}text")
+        )
+    ]
     assert "one" in texts
     assert chart.title in texts
     assert any(text.startswith("<b> $x_1$ & long") for text in texts)

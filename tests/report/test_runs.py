@@ -17,28 +17,44 @@ from tests.report.conftest import ANSWERS, EXPECTED, write_data, write_run
 
 def test_a_run_is_read_with_its_answers_and_commands(run: Path) -> None:
     (tests,) = load_test_sets([run])
-    assert [system.name for system in tests.systems if not system.is_baseline] == ["good, Base", "hostile, Base"]
+    assert [system.name for system in tests.systems if not system.is_baseline] == [
+        "good, Base",
+        "hostile, Base",
+    ]
     assert list(tests.samples) == list(EXPECTED)
     assert set(tests.systems[0].answers) == set(EXPECTED) == set(tests.systems[0].scores)
     assert not [note for note in tests.notes if "not shown" in note]
 
 
-def test_runs_on_the_same_data_share_a_section_and_are_told_apart(run: Path, make_run: Callable[..., Path]) -> None:
+def test_runs_on_the_same_data_share_a_section_and_are_told_apart(
+    run: Path, make_run: Callable[..., Path]
+) -> None:
     other = make_run("again", {"good": ANSWERS["good"]})
     (tests,) = load_test_sets([run, other])
-    assert [system.name for system in tests.systems if not system.is_baseline] == ["good, Base (run)", "hostile, Base", "good, Base (again)"]
+    assert [system.name for system in tests.systems if not system.is_baseline] == [
+        "good, Base (run)",
+        "hostile, Base",
+        "good, Base (again)",
+    ]
 
 
 def test_runs_on_other_data_have_a_section_of_their_own(run: Path, tmp_path: Path) -> None:
-    challenge = write_run(tmp_path / "second", write_data(tmp_path, "challenge.jsonl", grouped=False), ANSWERS)
-    assert [Path(tests.path).name for tests in load_test_sets([run, challenge])] == ["test.jsonl", "challenge.jsonl"]
+    challenge = write_run(
+        tmp_path / "second", write_data(tmp_path, "challenge.jsonl", grouped=False), ANSWERS
+    )
+    assert [Path(tests.path).name for tests in load_test_sets([run, challenge])] == [
+        "test.jsonl",
+        "challenge.jsonl",
+    ]
 
 
 def test_runs_below_a_folder_are_found(run: Path) -> None:
     assert len(load_test_sets([run.parent])) == 1
 
 
-def test_changed_or_missing_test_data_is_said_and_can_be_named(run: Path, data: Path, tmp_path: Path) -> None:
+def test_changed_or_missing_test_data_is_said_and_can_be_named(
+    run: Path, data: Path, tmp_path: Path
+) -> None:
     moved = tmp_path / "moved.jsonl"
     data.rename(moved)
     (tests,) = load_test_sets([run])
@@ -50,8 +66,12 @@ def test_changed_or_missing_test_data_is_said_and_can_be_named(run: Path, data: 
     assert any("test.jsonl has changed" in note for note in tests.notes)
 
 
-@pytest.mark.parametrize("absent", [["predictions.jsonl"], ["scores.jsonl"], ["predictions.jsonl", "scores.jsonl"]])
-def test_a_run_of_which_parts_are_missing_still_gives_a_report(run: Path, tmp_path: Path, absent: list[str]) -> None:
+@pytest.mark.parametrize(
+    "absent", [["predictions.jsonl"], ["scores.jsonl"], ["predictions.jsonl", "scores.jsonl"]]
+)
+def test_a_run_of_which_parts_are_missing_still_gives_a_report(
+    run: Path, tmp_path: Path, absent: list[str]
+) -> None:
     for name in absent:
         (run / name).unlink()
     write_report([run], tmp_path / "report", pictures="none")
@@ -60,7 +80,9 @@ def test_a_run_of_which_parts_are_missing_still_gives_a_report(run: Path, tmp_pa
         assert f"{name} is not there" in page
 
 
-def test_an_old_run_with_the_published_metrics_alone_gives_a_report(run: Path, tmp_path: Path) -> None:
+def test_an_old_run_with_the_published_metrics_alone_gives_a_report(
+    run: Path, tmp_path: Path
+) -> None:
     results = json.loads((run / "results.json").read_text())
     for row in results["rows"]:
         row["metrics"] = {"f1": row["metrics"]["f1"]}
@@ -84,7 +106,9 @@ def test_no_run_and_damaged_runs_are_refused_in_one_sentence(run: Path, tmp_path
         load_test_sets([run])
 
 
-def test_a_suite_is_a_section_for_each_data_set_and_names_who_failed(run: Path, tmp_path: Path) -> None:
+def test_a_suite_is_a_section_for_each_data_set_and_names_who_failed(
+    run: Path, tmp_path: Path
+) -> None:
     suite = tmp_path / "suite"
     part, empty = suite / "curated", suite / "unseen"
     (part / "embedded").mkdir(parents=True)
@@ -92,10 +116,27 @@ def test_a_suite_is_a_section_for_each_data_set_and_names_who_failed(run: Path, 
     for name in ("results.json", "scores.jsonl", "baselines.jsonl"):
         shutil.copy(run / name, part / name)
     shutil.copy(run / "predictions.jsonl", part / "embedded" / "predictions.jsonl")
-    failed = [{"candidate": "big", "label": "Big", "configuration": "lora", "reason": "no memory for <it>"}]
+    failed = [
+        {
+            "candidate": "big",
+            "label": "Big",
+            "configuration": "lora",
+            "reason": "no memory for <it>",
+        }
+    ]
     results = json.loads((part / "results.json").read_text()) | {"failed": failed}
     (part / "results.json").write_text(json.dumps(results))
-    (empty / "results.json").write_text(json.dumps(results | {"rows": [], "baselines": [], "comparisons": {}, "data": results["data"] | {"sha256": "1" * 64}}))
+    (empty / "results.json").write_text(
+        json.dumps(
+            results
+            | {
+                "rows": [],
+                "baselines": [],
+                "comparisons": {},
+                "data": results["data"] | {"sha256": "1" * 64},
+            }
+        )
+    )
     (suite / "results.json").write_text(json.dumps({"title": "A suite", "parts": []}))
     sets = load_test_sets([suite])
     assert [len(tests.candidates) for tests in sets] == [2, 0]
@@ -111,7 +152,11 @@ def test_the_data_sets_of_a_suite_stand_in_its_own_order(run: Path, tmp_path: Pa
     for number, name in enumerate(("apart", "published")):
         (suite / name).mkdir(parents=True)
         results = json.loads((run / "results.json").read_text())
-        (suite / name / "results.json").write_text(json.dumps(results | {"data": results["data"] | {"sha256": str(number) * 64}}))
-    (suite / "results.json").write_text(json.dumps({"title": "A suite", "parts": [{"name": "published"}, {"name": "apart"}]}))
+        (suite / name / "results.json").write_text(
+            json.dumps(results | {"data": results["data"] | {"sha256": str(number) * 64}})
+        )
+    (suite / "results.json").write_text(
+        json.dumps({"title": "A suite", "parts": [{"name": "published"}, {"name": "apart"}]})
+    )
     first, second = load_test_sets([suite])
     assert (first.sha256, second.sha256) == ("1" * 64, "0" * 64)

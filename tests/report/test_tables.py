@@ -10,15 +10,29 @@ import pytest
 from planner_ft.report.charts import Bar, Bars, number, ticks
 from planner_ft.report.markup import Markup, tag
 from planner_ft.report.svg import NARROW, WIDE, bars
-from planner_ft.report.tables import Cell, Table, TableRow, csv_table, html_table, latex_table, markdown_table
+from planner_ft.report.tables import (
+    Cell,
+    Table,
+    TableRow,
+    csv_table,
+    html_table,
+    latex_table,
+    markdown_table,
+)
 
 TABLE = Table(
-    "t", "A table", "Read it.", "System", ("F1 ↑", "A & B (%)"),
+    "t",
+    "A table",
+    "Read it.",
+    "System",
+    ("F1 ↑", "A & B (%)"),
     (
-        TableRow("one|two <x>", (Cell("0.50", "[0.25, 0.75]", "▲", bounds=(0.5, 0.25, 0.75)), Cell("12"))),
+        TableRow(
+            "one|two <x>", (Cell("0.50", "[0.25, 0.75]", "▲", bounds=(0.5, 0.25, 0.75)), Cell("12"))
+        ),
         TableRow("theirs", (Cell("0.61", bounds=(0.61, None, None)), Cell("–")), "published"),
     ),
-)  # fmt: skip
+)
 
 
 def test_html_is_escaped_and_names_its_rows_and_columns() -> None:
@@ -38,7 +52,12 @@ def test_markdown_has_a_line_per_row_and_its_bars_are_escaped() -> None:
 
 def test_csv_reads_back_with_bounds_as_numbers() -> None:
     rows = list(csv.DictReader(io.StringIO(csv_table(TABLE))))
-    assert (rows[0]["F1 ↑"], rows[0]["F1 ↑_low"], rows[0]["F1 ↑_high"], rows[0]["F1 ↑_mark"]) == ("0.5", "0.25", "0.75", "▲")
+    assert (rows[0]["F1 ↑"], rows[0]["F1 ↑_low"], rows[0]["F1 ↑_high"], rows[0]["F1 ↑_mark"]) == (
+        "0.5",
+        "0.25",
+        "0.75",
+        "▲",
+    )
     assert (rows[1]["kind"], rows[1]["F1 ↑_low"], rows[1]["A & B (%)"]) == ("published", "", "")
 
 
@@ -51,24 +70,46 @@ def test_latex_is_escaped_and_balanced() -> None:
 
 
 def test_attributes_and_children_are_escaped_but_markup_is_not() -> None:
-    assert tag("p", "<b>", Markup("<i>"), title='"x"') == '<p title="&quot;x&quot;">&lt;b&gt;<i></p>'
+    assert (
+        tag("p", "<b>", Markup("<i>"), title='"x"') == '<p title="&quot;x&quot;">&lt;b&gt;<i></p>'
+    )
 
 
-@pytest.mark.parametrize(("high", "expected"), [(1, 1.0), (0.93, 1.0), (27.3, 30), (0.0013, 0.0015), (0, 1.0), (4, 4.0)])
+@pytest.mark.parametrize(
+    ("high", "expected"), [(1, 1.0), (0.93, 1.0), (27.3, 30), (0.0013, 0.0015), (0, 1.0), (4, 4.0)]
+)
 def test_axes_end_at_a_round_number_not_below_the_data(high: float, expected: float) -> None:
     assert ticks(high)[-1] == pytest.approx(expected)
     assert ticks(high)[0] == 0
 
 
 def test_numbers_are_short() -> None:
-    assert [number(value) for value in (None, 0, 0.12345, 12.345, 1234.5, 1e9)] == ["–", "0", "0.123", "12.3", "1,234", "1.00e+09"]
+    assert [number(value) for value in (None, 0, 0.12345, 12.345, 1234.5, 1e9)] == [
+        "–",
+        "0",
+        "0.123",
+        "12.3",
+        "1,234",
+        "1.00e+09",
+    ]
 
 
 @pytest.mark.parametrize("width", [WIDE, NARROW])
 def test_bars_are_as_long_as_their_values_and_labels_are_escaped(width: int) -> None:
-    chart = Bars("n", "t", "c", "F1", "s", (Bar("<one>", 0.25, 0.2, 0.3, 1.0), Bar("two", 0.5, second=2.0), Bar("three", None)))
+    chart = Bars(
+        "n",
+        "t",
+        "c",
+        "F1",
+        "s",
+        (Bar("<one>", 0.25, 0.2, 0.3, 1.0), Bar("two", 0.5, second=2.0), Bar("three", None)),
+    )
     text = bars(chart, width)
-    lengths = [float(part.split('"')[0]) for part in text.split('width="')[1:] if 'class="bar' in part.split(">")[0]]
+    lengths = [
+        float(part.split('"')[0])
+        for part in text.split('width="')[1:]
+        if 'class="bar' in part.split(">")[0]
+    ]
     assert lengths[1] == pytest.approx(2 * lengths[0], abs=0.02)
     assert "&lt;one&gt;" in text
     assert "<one>" not in text

@@ -20,7 +20,11 @@ from planner_ft.vocabulary import load_vocabulary
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+    return {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
 
 
 def test_the_same_run_gives_the_same_bytes(run: Path, tmp_path: Path) -> None:
@@ -32,7 +36,11 @@ def test_the_same_run_gives_the_same_bytes(run: Path, tmp_path: Path) -> None:
 def test_figures_become_files(run: Path, tmp_path: Path) -> None:
     written = write_report([run], tmp_path / "report", pictures="overall")
     names = {path.name.split("-", 3)[3] for path in written if path.parent.name == "figures"}
-    assert names == {f"{kind}.{suffix}" for kind in ("f1", "failures", "stops", "latency", "latency-by-size") for suffix in ("png", "svg")}
+    assert names == {
+        f"{kind}.{suffix}"
+        for kind in ("f1", "failures", "stops", "latency", "latency-by-size")
+        for suffix in ("png", "svg")
+    }
     assert all(path.stat().st_size > 1000 for path in written if path.parent.name == "figures")
 
 
@@ -48,23 +56,31 @@ def test_the_main_table_holds_the_figures_of_every_system(run: Path, tmp_path: P
         assert "good, Base" in path.with_suffix(f".{suffix}").read_text()
 
 
-def test_published_figures_stand_beside_the_test_split_alone(run: Path, data: Path, tmp_path: Path) -> None:
+def test_published_figures_stand_beside_the_test_split_alone(
+    run: Path, data: Path, tmp_path: Path
+) -> None:
     renamed = data.with_name("challenge.jsonl")
     data.rename(renamed)
-    (run / "results.json").write_text((run / "results.json").read_text().replace("test.jsonl", "challenge.jsonl"))
+    (run / "results.json").write_text(
+        (run / "results.json").read_text().replace("test.jsonl", "challenge.jsonl")
+    )
     write_report([run], tmp_path / "report", pictures="none")
     (path,) = (tmp_path / "report" / "tables").glob("*-main.md")
     assert "published" not in path.read_text()
 
 
-def test_a_report_is_not_overwritten_unasked_and_files_of_the_user_stay(run: Path, tmp_path: Path) -> None:
+def test_a_report_is_not_overwritten_unasked_and_files_of_the_user_stay(
+    run: Path, tmp_path: Path
+) -> None:
     out = tmp_path / "report"
     write_report([run], out, pictures="none")
     (out / "figures").mkdir()
     own, former = out / "figures" / "my-drawing.png", out / "figures" / "mission-test-aaaaaa-f1.png"
     own.write_bytes(b"mine")
     former.write_bytes(b"of an earlier run")
-    with pytest.raises(PlannerError, match=r"report\.html: a report is there already; give --overwrite"):
+    with pytest.raises(
+        PlannerError, match=r"report\.html: a report is there already; give --overwrite"
+    ):
         write_report([run], out)
     write_report([run], out, overwrite=True, pictures="none")
     assert own.read_bytes() == b"mine"
@@ -98,12 +114,22 @@ def test_a_failing_report_is_said_and_loses_nothing(run: Path) -> None:
 
 
 @pytest.mark.parametrize("flags", [[], ["--no-report"]])
-def test_bench_writes_a_report_beside_its_results(run: Path, monkeypatch: pytest.MonkeyPatch, flags: list[str]) -> None:
+def test_bench_writes_a_report_beside_its_results(
+    run: Path, monkeypatch: pytest.MonkeyPatch, flags: list[str]
+) -> None:
     row = System("good", "base", "good")
-    results = Results("mission", {"path": "d.jsonl", "sha256": "0" * 64, "n": 4}, (Row(row, 4, {}, dict.fromkeys(FAILURES, 0), {}),))
+    results = Results(
+        "mission",
+        {"path": "d.jsonl", "sha256": "0" * 64, "n": 4},
+        (Row(row, 4, {}, dict.fromkeys(FAILURES, 0), {}),),
+    )
     monkeypatch.setattr("planner_ft.benchmark.runner.run_bench", lambda *_arguments: results)
-    monkeypatch.setattr("planner_ft.report.pictures.picture", lambda _chart: {})  # drawing is tested elsewhere
-    done = CliRunner().invoke(app, ["bench", "--level", "mission", "--candidates", "embedded", "--out", str(run), *flags])
+    monkeypatch.setattr(
+        "planner_ft.report.pictures.picture", lambda _chart: {}
+    )  # drawing is tested elsewhere
+    done = CliRunner().invoke(
+        app, ["bench", "--level", "mission", "--candidates", "embedded", "--out", str(run), *flags]
+    )
     assert done.exit_code == 0, done.output
     assert (run / "report.html").is_file() is not bool(flags)
 
@@ -111,5 +137,10 @@ def test_bench_writes_a_report_beside_its_results(run: Path, monkeypatch: pytest
 def test_new_results_remove_the_report_of_former_ones(run: Path, data: Path) -> None:
     write_report([run], run, pictures="none")
     vocabulary = load_vocabulary("usv")
-    write_results(run, score_predictions(run / "predictions.jsonl", load_bench_data(data, "mission", vocabulary), vocabulary))
+    write_results(
+        run,
+        score_predictions(
+            run / "predictions.jsonl", load_bench_data(data, "mission", vocabulary), vocabulary
+        ),
+    )
     assert not (run / "report.html").exists()

@@ -21,7 +21,13 @@ def answer(plan: dict[str, Any] | None, problem: str = "") -> Answer:
 
 
 def step(name: str, **parameters: Any) -> dict[str, Any]:
-    rest = {"filter_skills": [], "perception_skills": [], "stop_conditions": ["done"], "failure_modes": ["lost"], "expected_outputs": ["there"]}
+    rest = {
+        "filter_skills": [],
+        "perception_skills": [],
+        "stop_conditions": ["done"],
+        "failure_modes": ["lost"],
+        "expected_outputs": ["there"],
+    }
     return {"navigation_skill": {"name": name, "parameters": parameters}, **rest}
 
 
@@ -34,7 +40,11 @@ def task(title: str, parameters: dict[str, Any], prompt: str = "") -> dict[str, 
 
 
 def mission_document(
-    command: str, tasks: list[dict[str, Any]], skills: dict[int, list[dict[str, Any]]], vocabulary: Vocabulary, assumptions: tuple[str, ...] = ()
+    command: str,
+    tasks: list[dict[str, Any]],
+    skills: dict[int, list[dict[str, Any]]],
+    vocabulary: Vocabulary,
+    assumptions: tuple[str, ...] = (),
 ) -> PlanDocument:
     """The document of a mission plan, with the skills of some of its tasks (by number, from 1)."""
     plan = {"tasks": tasks, "assumptions": list(assumptions), "constraints": []}
@@ -42,14 +52,32 @@ def mission_document(
     waiting = {number: place.name for place in places for number in place.tasks}
     planned = tuple(
         PlannedTask(
-            entry["title"], entry["parameters"], entry["task_prompt"],
-            answer({"skill_sequence": skills[number]}) if number in skills else None, waiting.get(number),
+            entry["title"],
+            entry["parameters"],
+            entry["task_prompt"],
+            answer({"skill_sequence": skills[number]}) if number in skills else None,
+            waiting.get(number),
         )
         for number, entry in enumerate(tasks, start=1)
-    )  # fmt: skip
+    )
     use = AgentUse.of("embedded", "lora+grounded", None, 0.0, [])
-    manifest = build_manifest("plan", seed=None, configuration={}, agents={"mission": {"candidate": "embedded"}, "task": {"candidate": "embedded"}})
-    return build(Planned(command, answer(plan), planned, tuple(places), usage={"mission": use, "task": use}, manifest=manifest), vocabulary)
+    manifest = build_manifest(
+        "plan",
+        seed=None,
+        configuration={},
+        agents={"mission": {"candidate": "embedded"}, "task": {"candidate": "embedded"}},
+    )
+    return build(
+        Planned(
+            command,
+            answer(plan),
+            planned,
+            tuple(places),
+            usage={"mission": use, "task": use},
+            manifest=manifest,
+        ),
+        vocabulary,
+    )
 
 
 @pytest.fixture(scope="session")
@@ -63,7 +91,9 @@ def document(usv: Vocabulary) -> PlanDocument:
     tasks = [
         task("SearchAndDetect", {"target_description": "green buoy"}, "Search for the green buoy."),
         task("Transit", {"target_position": [-99, -99]}, "Go to the green buoy."),
-        task("PerformOrbit", {"center": [-99, -99], "radius": 12}, "Circle the green buoy at 12 m."),
+        task(
+            "PerformOrbit", {"center": [-99, -99], "radius": 12}, "Circle the green buoy at 12 m."
+        ),
         task("Transit", {"target_position": [0, 0]}, "Return home."),
     ]
     return mission_document(COMMAND, tasks, {1: [step("StationKeep", time=60)], 4: go((0, 0))}, usv)

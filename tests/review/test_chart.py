@@ -8,12 +8,19 @@ from planner_ft.document.track import Boundary, Circle, Leg, Point, Target, Trac
 from planner_ft.review.chart import chart
 
 
-def path(*points: Point, circles: tuple[Circle, ...] = (), boundaries: tuple[Boundary, ...] = (), targets: tuple[Target, ...] = ()) -> Track:
+def path(
+    *points: Point,
+    circles: tuple[Circle, ...] = (),
+    boundaries: tuple[Boundary, ...] = (),
+    targets: tuple[Target, ...] = (),
+) -> Track:
     legs = (Leg("t1", 0, "GoToXY", "go", points, 0.0, 0.0),) if points else ()
     return Track(legs, circles, boundaries, targets, ())
 
 
-def sketch(track: Track, columns: int = 60, rows: int = 16, braille: bool = True) -> tuple[list[str], list[str]]:
+def sketch(
+    track: Track, columns: int = 60, rows: int = 16, braille: bool = True
+) -> tuple[list[str], list[str]]:
     """The drawing, and the lines below it."""
     lines = chart(track, ["t1", "t2"], (0, 0), columns=columns, rows=rows, braille=braille)
     end = next((number for number, line in enumerate(lines) if "north is up" in line), 0)
@@ -26,11 +33,17 @@ def place(drawing: list[str], mark: str) -> tuple[int, int]:
     return drawing[row].index(mark), row
 
 
-@pytest.mark.parametrize(("end", "right", "down"), [((100, 0), 1, 0), ((-100, 0), -1, 0), ((0, 100), 0, -1), ((0, -100), 0, 1), ((50, 50), 1, -1)])
+@pytest.mark.parametrize(
+    ("end", "right", "down"),
+    [((100, 0), 1, 0), ((-100, 0), -1, 0), ((0, 100), 0, -1), ((0, -100), 0, 1), ((50, 50), 1, -1)],
+)
 def test_east_is_right_and_north_is_up(end: Point, right: int, down: int) -> None:
     drawing, _legend = sketch(path((0, 0), end))
     (home_column, home_row), (column, row) = place(drawing, "H"), place(drawing, "1")
-    assert ((column > home_column) - (column < home_column), (row > home_row) - (row < home_row)) == (right, down)
+    assert (
+        (column > home_column) - (column < home_column),
+        (row > home_row) - (row < home_row),
+    ) == (right, down)
 
 
 @pytest.mark.parametrize("extent", [0.01, 7.0, 250.0, 1e6])
@@ -57,8 +70,15 @@ def test_circles_and_boundaries_are_drawn_around_what_they_enclose() -> None:
 def test_targets_without_a_place_stand_below_by_name() -> None:
     targets = (Target("green buoy", None, "t1"), Target("pier", (30.0, 4.5), "t2"))
     drawing, legend = sketch(path((0, 0), (50, 0), targets=targets))
-    assert "not located yet: green buoy" in legend and "* pier at [30, 4.5]" in legend and any("*" in line for line in drawing)
-    assert sketch(path(targets=targets[:1]))[1] == ["(nothing moves that can be drawn)", "not located yet: green buoy"]
+    assert (
+        "not located yet: green buoy" in legend
+        and "* pier at [30, 4.5]" in legend
+        and any("*" in line for line in drawing)
+    )
+    assert sketch(path(targets=targets[:1]))[1] == [
+        "(nothing moves that can be drawn)",
+        "not located yet: green buoy",
+    ]
 
 
 @pytest.mark.parametrize("far", [1e12, 1e308, -1e308])
@@ -67,4 +87,9 @@ def test_what_is_beyond_all_maps_is_left_out(far: float) -> None:
 
 
 def test_without_braille_there_is_only_ascii() -> None:
-    assert all("\n".join(part).isascii() for part in sketch(path((0, 0), (30, 40), circles=(Circle("t1", (0, 0), 10, 90),)), braille=False))
+    assert all(
+        "\n".join(part).isascii()
+        for part in sketch(
+            path((0, 0), (30, 40), circles=(Circle("t1", (0, 0), 10, 90),)), braille=False
+        )
+    )

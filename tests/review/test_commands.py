@@ -17,27 +17,91 @@ from tests.review.conftest import go, mission_document, task
     ("text", "edit"),
     [
         ("3.radius=15", {"kind": "parameter", "task": "t3", "name": "radius", "value": 15}),
-        (" 3.radius = 1.5e1 ", {"kind": "parameter", "task": "t3", "name": "radius", "value": 15.0}),
+        (
+            " 3.radius = 1.5e1 ",
+            {"kind": "parameter", "task": "t3", "name": "radius", "value": 15.0},
+        ),
         ("3.radius=", {"kind": "parameter", "task": "t3", "name": "radius", "value": None}),
-        ("2.target_position=1,-2", {"kind": "parameter", "task": "t2", "name": "target_position", "value": [1, -2]}),
-        ("2.target_position=[1, -2]", {"kind": "parameter", "task": "t2", "name": "target_position", "value": [1, -2]}),
-        ("1.target_description=red buoy = 2", {"kind": "parameter", "task": "t1", "name": "target_description", "value": "red buoy = 2"}),
-        ('1.target_description="42"', {"kind": "parameter", "task": "t1", "name": "target_description", "value": "42"}),
-        ("1.target_description=42", {"kind": "parameter", "task": "t1", "name": "target_description", "value": "42"}),
-        ("4.1.x=30", {"kind": "skill", "task": "t4", "step": 0, "role": "navigation", "index": 0, "name": "x", "value": 30}),
-        ("4.1.GoToXY.y=", {"kind": "skill", "task": "t4", "step": 0, "role": "navigation", "index": 0, "name": "y", "value": None}),
+        (
+            "2.target_position=1,-2",
+            {"kind": "parameter", "task": "t2", "name": "target_position", "value": [1, -2]},
+        ),
+        (
+            "2.target_position=[1, -2]",
+            {"kind": "parameter", "task": "t2", "name": "target_position", "value": [1, -2]},
+        ),
+        (
+            "1.target_description=red buoy = 2",
+            {
+                "kind": "parameter",
+                "task": "t1",
+                "name": "target_description",
+                "value": "red buoy = 2",
+            },
+        ),
+        (
+            '1.target_description="42"',
+            {"kind": "parameter", "task": "t1", "name": "target_description", "value": "42"},
+        ),
+        (
+            "1.target_description=42",
+            {"kind": "parameter", "task": "t1", "name": "target_description", "value": "42"},
+        ),
+        (
+            "4.1.x=30",
+            {
+                "kind": "skill",
+                "task": "t4",
+                "step": 0,
+                "role": "navigation",
+                "index": 0,
+                "name": "x",
+                "value": 30,
+            },
+        ),
+        (
+            "4.1.GoToXY.y=",
+            {
+                "kind": "skill",
+                "task": "t4",
+                "step": 0,
+                "role": "navigation",
+                "index": 0,
+                "name": "y",
+                "value": None,
+            },
+        ),
         ("remove 3", {"kind": "remove", "task": "t3"}),
         ("Move 3 1", {"kind": "move", "task": "t3", "to": 0}),
-        ("locate GREEN buoy=120,-35", {"kind": "locate", "name": "green buoy", "position": [120.0, -35.0]}),
+        (
+            "locate GREEN buoy=120,-35",
+            {"kind": "locate", "name": "green buoy", "position": [120.0, -35.0]},
+        ),
         ("prompt 2 = Go = there.", {"kind": "prompt", "task": "t2", "text": "Go = there."}),
-        ("insert 2 Transit target_position=[0, 0] prompt=Go home now.",
-         {"kind": "insert", "at": 1, "title": "Transit", "parameters": {"target_position": [0, 0]}, "task_prompt": "Go home now."}),
-        ("insert 1 SmartDataHarvest target_list=sonar log, photos",
-         {"kind": "insert", "at": 0, "title": "SmartDataHarvest", "parameters": {"target_list": ["sonar log", "photos"]}, "task_prompt": ""}),
+        (
+            "insert 2 Transit target_position=[0, 0] prompt=Go home now.",
+            {
+                "kind": "insert",
+                "at": 1,
+                "title": "Transit",
+                "parameters": {"target_position": [0, 0]},
+                "task_prompt": "Go home now.",
+            },
+        ),
+        (
+            "insert 1 SmartDataHarvest target_list=sonar log, photos",
+            {
+                "kind": "insert",
+                "at": 0,
+                "title": "SmartDataHarvest",
+                "parameters": {"target_list": ["sonar log", "photos"]},
+                "task_prompt": "",
+            },
+        ),
         ("skills 4", {"kind": "ask", "tasks": ["t4"]}),
         ("undo", {"kind": "undo"}),
     ],
-)  # fmt: skip
+)
 def test_edits(document: PlanDocument, usv: Vocabulary, text: str, edit: dict[str, Any]) -> None:
     assert parse_edit(text, document, usv) == edit
 
@@ -63,30 +127,53 @@ def test_edits(document: PlanDocument, usv: Vocabulary, text: str, edit: dict[st
         ("undo 3", "needs nothing after it"),
     ],
 )
-def test_mistakes_are_one_sentence_with_the_way_out(document: PlanDocument, usv: Vocabulary, text: str, sentence: str) -> None:
+def test_mistakes_are_one_sentence_with_the_way_out(
+    document: PlanDocument, usv: Vocabulary, text: str, sentence: str
+) -> None:
     with pytest.raises(PlannerError) as caught:
         parse_edit(text, document, usv)
     assert sentence in str(caught.value) and "\n" not in str(caught.value)
 
 
-def test_values_out_of_range_are_refused_when_they_are_applied(document: PlanDocument, usv: Vocabulary) -> None:
-    for text in ("3.radius=NaN", "3.radius=-4", "3.radius=wide", "2.target_position=1", "2.target_position=1,2,3", "2.target_position=[[[", "4.1.x=far"):
+def test_values_out_of_range_are_refused_when_they_are_applied(
+    document: PlanDocument, usv: Vocabulary
+) -> None:
+    for text in (
+        "3.radius=NaN",
+        "3.radius=-4",
+        "3.radius=wide",
+        "2.target_position=1",
+        "2.target_position=1,2,3",
+        "2.target_position=[[[",
+        "4.1.x=far",
+    ):
         with pytest.raises(PlannerError):
             apply(document, parse_edit(text, document, usv), usv)
 
 
 def test_the_second_skill_of_a_name_can_be_meant(usv: Vocabulary) -> None:
     skills = go((0, 0))
-    names = [skill.name for skill in usv.skills_in_role("perception") if any(parameter.type == "number" for parameter in skill.parameters)]
+    names = [
+        skill.name
+        for skill in usv.skills_in_role("perception")
+        if any(parameter.type == "number" for parameter in skill.parameters)
+    ]
     parameter = next(item.name for item in usv.skill[names[0]].parameters if item.type == "number")
-    skills[0]["perception_skills"] = [{"name": names[0], "parameters": {}}, {"name": names[0], "parameters": {}}]
-    document = mission_document("Go home.", [task("Transit", {"target_position": [0, 0]})], {1: skills}, usv)
+    skills[0]["perception_skills"] = [
+        {"name": names[0], "parameters": {}},
+        {"name": names[0], "parameters": {}},
+    ]
+    document = mission_document(
+        "Go home.", [task("Transit", {"target_position": [0, 0]})], {1: skills}, usv
+    )
     edit = parse_edit(f"1.1.{names[0]}#2.{parameter}=1", document, usv)
     assert (edit["role"], edit["index"]) == ("perception", 1)
     assert parse_edit(f"1.1.{names[0]}.{parameter}=1", document, usv)["index"] == 0
 
 
-def test_skills_without_a_number_are_for_every_task_that_lacks_them(document: PlanDocument, usv: Vocabulary) -> None:
+def test_skills_without_a_number_are_for_every_task_that_lacks_them(
+    document: PlanDocument, usv: Vocabulary
+) -> None:
     assert parse_edit("skills", document, usv) == {"kind": "ask", "tasks": []}
     located = apply(document, parse_edit("locate green buoy=120,-35", document, usv), usv)
     assert parse_edit("skills", located, usv)["tasks"] == ["t2", "t3"]

@@ -45,16 +45,28 @@ def test_an_edit_is_on_the_disk_when_it_is_shown(desk: Desk, plan: Path) -> None
 
 def test_a_refused_edit_leaves_the_plan_as_it_was(desk: Desk, plan: Path) -> None:
     before = plan.read_bytes()
-    for text in ("3.radius=-1", "2.target_position=", "remove 9", "locate red buoy=1,2", "insert 9 Transit target_position=1,2"):
+    for text in (
+        "3.radius=-1",
+        "2.target_position=",
+        "remove 9",
+        "locate red buoy=1,2",
+        "insert 9 Transit target_position=1,2",
+    ):
         with pytest.raises(PlannerError):
             desk.edit(text)
     assert plan.read_bytes() == before and desk.document == read_document(plan)
 
 
-def test_two_reviewers_of_one_plan_cannot_overwrite_each_other(desk: Desk, plan: Path, usv: Vocabulary) -> None:
+def test_two_reviewers_of_one_plan_cannot_overwrite_each_other(
+    desk: Desk, plan: Path, usv: Vocabulary
+) -> None:
     other = Desk(plan, log_beside(plan), usv, circling, "Bob")
     desk.edit("3.radius=15")
-    for use in (lambda: other.edit("3.radius=20"), lambda: other.approve("Bob", ["all"]), lambda: other.reject("Bob", "no")):
+    for use in (
+        lambda: other.edit("3.radius=20"),
+        lambda: other.approve("Bob", ["all"]),
+        lambda: other.reject("Bob", "no"),
+    ):
         with pytest.raises(ChangedError, match="changed by somebody else"):
             use()
     assert radius(plan) == 15 and not read_log(log_beside(plan))
@@ -78,11 +90,16 @@ def test_skills_are_asked_for_again(desk: Desk) -> None:
 
 def test_an_answer_that_is_not_valid_is_not_taken(plan: Path, usv: Vocabulary) -> None:
     desk = Desk(plan, log_beside(plan), usv, lambda task: answer(None, "no such skill"))
-    with pytest.raises(PlannerError, match=r"SearchAndDetect: the Task Agent's answer is not valid \(no such skill\)"):
+    with pytest.raises(
+        PlannerError,
+        match=r"SearchAndDetect: the Task Agent's answer is not valid \(no such skill\)",
+    ):
         desk.edit("skills 1")
 
 
-def test_without_a_model_the_rest_of_the_review_works(plan: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_model_the_rest_of_the_review_works(
+    plan: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     desk = open_desk(plan, None, None, None, candidate="Llama-3.2-1B-Instruct")
     monkeypatch.setenv("PLANNERFT_MODELS", "")
     monkeypatch.chdir(plan.parent)
@@ -110,17 +127,25 @@ def test_a_plan_altered_by_hand_is_adopted_explicitly(desk: Desk, plan: Path) ->
     altered_by_hand(plan, 20)
     desk.read()
     assert desk.altered and desk.approval().status == "altered"
-    assert "task 3, radius: approved 12, now 20" in [change.text for change in desk.approval().changes]
+    assert "task 3, radius: approved 12, now 20" in [
+        change.text for change in desk.approval().changes
+    ]
     for use in (lambda: desk.edit("3.radius=15"), lambda: desk.approve("Ann", ["all"])):
         with pytest.raises(PlannerError, match="alter"):
             use()
     desk.adopt()
-    assert not desk.altered and radius(plan) == 20 and desk.document["edits"][-1]["edit"]["kind"] == "replace"
+    assert (
+        not desk.altered
+        and radius(plan) == 20
+        and desk.document["edits"][-1]["edit"]["kind"] == "replace"
+    )
     desk.edit("undo")
     assert radius(plan) == 12
 
 
-def test_warnings_that_were_taken_out_of_the_file_come_back_before_the_approval(desk: Desk, plan: Path) -> None:
+def test_warnings_that_were_taken_out_of_the_file_come_back_before_the_approval(
+    desk: Desk, plan: Path
+) -> None:
     """Whoever takes them out can put the digest right, too."""
     desk.edit("remove 4")
     assert desk.document["warnings"]

@@ -21,16 +21,29 @@ from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import Vocabulary
 from tests.review.conftest import mission_document, task
 
-COMMAND = "Before the tide turns, dig out the grey fishing smack for me, round it at 12 m and then come home."
+COMMAND = (
+    "Before the tide turns, dig out the grey fishing smack for me, round it at 12 m and then come"
+    " home."
+)
 ASSUMPTION = "The position of the grey fishing smack is unknown until it has been found."
 
 
-def wrong(usv: Vocabulary, command: str = COMMAND, assumptions: tuple[str, ...] = (ASSUMPTION,)) -> PlanDocument:
+def wrong(
+    usv: Vocabulary, command: str = COMMAND, assumptions: tuple[str, ...] = (ASSUMPTION,)
+) -> PlanDocument:
     """A plan with a radius that nobody said and without the way home."""
     tasks = [
-        task("SearchAndDetect", {"target_description": "grey fishing smack"}, "Search for the grey fishing smack."),
+        task(
+            "SearchAndDetect",
+            {"target_description": "grey fishing smack"},
+            "Search for the grey fishing smack.",
+        ),
         task("Transit", {"target_position": [-99, -99]}, "Go to the grey fishing smack."),
-        task("PerformOrbit", {"center": [-99, -99], "radius": 20}, "Circle the grey fishing smack at 20 m."),
+        task(
+            "PerformOrbit",
+            {"center": [-99, -99], "radius": 20},
+            "Circle the grey fishing smack at 20 m.",
+        ),
     ]
     return mission_document(command, tasks, {}, usv, assumptions)
 
@@ -58,9 +71,13 @@ def refusal(out: Path, *plans: Path) -> str:
     return str(caught.value)
 
 
-def test_a_corrected_plan_is_a_sample_that_validate_accepts(tmp_path: Path, usv: Vocabulary) -> None:
+def test_a_corrected_plan_is_a_sample_that_validate_accepts(
+    tmp_path: Path, usv: Vocabulary
+) -> None:
     out = tmp_path / "corrections.jsonl"
-    plan = reviewed(tmp_path / "plan.json", wrong(usv), usv, *CORRECTIONS, "locate grey fishing smack=120,-35")
+    plan = reviewed(
+        tmp_path / "plan.json", wrong(usv), usv, *CORRECTIONS, "locate grey fishing smack=120,-35"
+    )
     done, (sample,) = harvested(out, plan)
     assert not validate_file(out, usv, "mission").problems and not done.left_out
     assert sample["prompt"] == COMMAND
@@ -73,28 +90,51 @@ def test_a_corrected_plan_is_a_sample_that_validate_accepts(tmp_path: Path, usv:
     assert sample["expected"]["tasks"][2]["task_prompt"] == "Circle the grey fishing smack at 12 m."
     assert sample["expected"]["assumptions"] == [ASSUMPTION]
     made = sample["provenance"]
-    assert (made["reviewer"], made["sequence"], made["digest"]) == ("Ann", 1, json.loads(plan.read_text())["digest"])
-    assert any("radius 20 -> 12" in text for text in made["corrected"]) and not any("120" in text for text in made["corrected"])
-    assert "radius 20 -> 12" in "\n".join(done.lines()) and "--corrections" in "\n".join(done.lines())
+    assert (made["reviewer"], made["sequence"], made["digest"]) == (
+        "Ann",
+        1,
+        json.loads(plan.read_text())["digest"],
+    )
+    assert any("radius 20 -> 12" in text for text in made["corrected"]) and not any(
+        "120" in text for text in made["corrected"]
+    )
+    assert "radius 20 -> 12" in "\n".join(done.lines()) and "--corrections" in "\n".join(
+        done.lines()
+    )
 
 
 def test_a_place_that_the_command_does_say_stays(tmp_path: Path, usv: Vocabulary) -> None:
-    command = "Before the tide turns, dig out the grey fishing smack at [120, -35] for me, round it at 12 m and then come home."
+    command = (
+        "Before the tide turns, dig out the grey fishing smack at [120, -35] for me, round it at 12"
+        " m and then come home."
+    )
     edits = (*CORRECTIONS, "locate grey fishing smack=120,-35", "remove 1")
-    _done, (sample,) = harvested(tmp_path / "out.jsonl", reviewed(tmp_path / "plan.json", wrong(usv, command), usv, *edits))
+    _done, (sample,) = harvested(
+        tmp_path / "out.jsonl", reviewed(tmp_path / "plan.json", wrong(usv, command), usv, *edits)
+    )
     assert sample["expected"]["tasks"][0]["parameters"] == {"target_position": [120, -35]}
 
 
-def test_plans_that_give_no_sample_are_left_out_with_the_reason(tmp_path: Path, usv: Vocabulary) -> None:
+def test_plans_that_give_no_sample_are_left_out_with_the_reason(
+    tmp_path: Path, usv: Vocabulary
+) -> None:
     out = tmp_path / "out.jsonl"
     unseen = tmp_path / "unseen.json"
     write_document(unseen, wrong(usv))
     assert "holds no decision" in refusal(out, unseen)
-    located = reviewed(tmp_path / "located.json", wrong(usv), usv, "locate grey fishing smack=120,-35")
+    located = reviewed(
+        tmp_path / "located.json", wrong(usv), usv, "locate grey fishing smack=120,-35"
+    )
     assert "as the model proposed them" in refusal(out, located)
     invented = reviewed(tmp_path / "invented.json", wrong(usv), usv, "3.radius=13")
     assert "breaks a labelling rule" in refusal(out, invented) and "13" in refusal(out, invented)
-    wordless = reviewed(tmp_path / "wordless.json", wrong(usv), usv, "3.radius=12", "insert 4 Transit target_position=[0,0]")
+    wordless = reviewed(
+        tmp_path / "wordless.json",
+        wrong(usv),
+        usv,
+        "3.radius=12",
+        "insert 4 Transit target_position=[0,0]",
+    )
     assert "task_prompt is empty" in refusal(out, wordless)
     early = reviewed(tmp_path / "early.json", wrong(usv), usv, *CORRECTIONS, "move 4 1")
     assert "breaks a labelling rule" in refusal(out, early)
@@ -110,17 +150,36 @@ def test_plans_that_give_no_sample_are_left_out_with_the_reason(tmp_path: Path, 
 @pytest.mark.parametrize("name", ["validation", "test", "challenge"])
 def test_what_is_kept_for_scoring_is_refused(tmp_path: Path, usv: Vocabulary, name: str) -> None:
     record = next(
-        record for record in read_jsonl(find_source() / f"{name}.jsonl")
-        if record["expected"]["tasks"] and record["expected"]["tasks"][-1]["parameters"] == {"target_position": [0, 0]} and len(record["expected"]["tasks"]) > 1
-    )  # fmt: skip
-    tasks = [{**entry, "task_prompt": entry.get("task_prompt") or "Go."} for entry in record["expected"]["tasks"]]
-    document = mission_document(record["prompt"].upper(), tasks[:-1], {}, usv, ("The position is unknown until it has been found.",))
-    plan = reviewed(tmp_path / "plan.json", document, usv, f"insert {len(tasks)} Transit target_position=[0,0] prompt=Return home.")
+        record
+        for record in read_jsonl(find_source() / f"{name}.jsonl")
+        if record["expected"]["tasks"]
+        and record["expected"]["tasks"][-1]["parameters"] == {"target_position": [0, 0]}
+        and len(record["expected"]["tasks"]) > 1
+    )
+    tasks = [
+        {**entry, "task_prompt": entry.get("task_prompt") or "Go."}
+        for entry in record["expected"]["tasks"]
+    ]
+    document = mission_document(
+        record["prompt"].upper(),
+        tasks[:-1],
+        {},
+        usv,
+        ("The position is unknown until it has been found.",),
+    )
+    plan = reviewed(
+        tmp_path / "plan.json",
+        document,
+        usv,
+        f"insert {len(tasks)} Transit target_position=[0,0] prompt=Return home.",
+    )
     reason = refusal(tmp_path / "out.jsonl", plan)
     assert f"near duplicate of {record['id']} in the {name} set" in reason
 
 
-def test_of_two_plans_of_one_command_the_last_approval_counts(tmp_path: Path, usv: Vocabulary) -> None:
+def test_of_two_plans_of_one_command_the_last_approval_counts(
+    tmp_path: Path, usv: Vocabulary
+) -> None:
     first = reviewed(tmp_path / "first.json", wrong(usv), usv, "3.radius=12")
     second = reviewed(tmp_path / "second.json", wrong(usv), usv, *CORRECTIONS)
     done, samples = harvested(tmp_path / "out.jsonl", second, first)
@@ -131,8 +190,14 @@ def test_of_two_plans_of_one_command_the_last_approval_counts(tmp_path: Path, us
 def test_notes_of_the_decoding_are_no_assumptions_to_learn(tmp_path: Path, usv: Vocabulary) -> None:
     command = f"{COMMAND} Käpt'n Ωμέγα"
     notes = read(command, usv).notes
-    document = wrong(usv, command, (ASSUMPTION, *notes, f"{CUT_NOTE} and was ended after 9; something may be missing."))
-    _done, (sample,) = harvested(tmp_path / "out.jsonl", reviewed(tmp_path / "plan.json", document, usv, *CORRECTIONS))
+    document = wrong(
+        usv,
+        command,
+        (ASSUMPTION, *notes, f"{CUT_NOTE} and was ended after 9; something may be missing."),
+    )
+    _done, (sample,) = harvested(
+        tmp_path / "out.jsonl", reviewed(tmp_path / "plan.json", document, usv, *CORRECTIONS)
+    )
     assert notes and sample["expected"]["assumptions"] == [ASSUMPTION]
 
 
@@ -145,15 +210,38 @@ def test_what_is_missing_in_the_call_is_said(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("assumption", "reason"),
     [
-        ("The position of the grey fishing Inack is unknown until it has been found.", "has a word that neither the command nor the lexicon has: inack"),
-        ("The position of the grey fishing is unknown until it has been found.", "speaks of 'grey fishing', which was taken out"),
+        (
+            "The position of the grey fishing Inack is unknown until it has been found.",
+            "has a word that neither the command nor the lexicon has: inack",
+        ),
+        (
+            "The position of the grey fishing is unknown until it has been found.",
+            "speaks of 'grey fishing', which was taken out",
+        ),
     ],
 )
-def test_sentences_about_what_the_plan_does_not_have_are_not_learned(tmp_path: Path, usv: Vocabulary, assumption: str, reason: str) -> None:
+def test_sentences_about_what_the_plan_does_not_have_are_not_learned(
+    tmp_path: Path, usv: Vocabulary, assumption: str, reason: str
+) -> None:
     document = wrong(usv, assumptions=(assumption,))
-    searched = [task("SearchAndDetect", {"target_description": "grey fishing"}, "Search for the grey fishing smack."), *document["tasks"]]
-    entries = [{key: entry[key] for key in ("title", "parameters", "task_prompt")} for entry in searched]
-    plan = reviewed(tmp_path / "plan.json", mission_document(COMMAND, entries, {}, usv, (assumption,)), usv, "remove 1", *CORRECTIONS)
+    searched = [
+        task(
+            "SearchAndDetect",
+            {"target_description": "grey fishing"},
+            "Search for the grey fishing smack.",
+        ),
+        *document["tasks"],
+    ]
+    entries = [
+        {key: entry[key] for key in ("title", "parameters", "task_prompt")} for entry in searched
+    ]
+    plan = reviewed(
+        tmp_path / "plan.json",
+        mission_document(COMMAND, entries, {}, usv, (assumption,)),
+        usv,
+        "remove 1",
+        *CORRECTIONS,
+    )
     assert reason in refusal(tmp_path / "out.jsonl", plan)
 
 

@@ -29,7 +29,15 @@ RECORDS = 6
 
 def written(log: Path, count: int = RECORDS) -> list[bytes]:
     for number in range(count):
-        append(log, {"event": "approved", "reviewer": f"Änn {number}", "digest": f"{number:064x}", "plan": {"length": 12.0, "tasks": [number]}})
+        append(
+            log,
+            {
+                "event": "approved",
+                "reviewer": f"Änn {number}",
+                "digest": f"{number:064x}",
+                "plan": {"length": 12.0, "tasks": [number]},
+            },
+        )
     return log.read_bytes().splitlines(keepends=True)
 
 
@@ -81,7 +89,9 @@ def test_hash_chain_can_be_computed_from_the_file_alone(tmp_path: Path) -> None:
         assert hashlib.sha256(rfc8785.dumps(record)).hexdigest() == claimed
         previous = claimed
     assert json.loads(head_file(log).read_text()) == {"sequence": RECORDS, "hash": previous}
-    assert [record["reviewer"] for record in read_log(log)] == [f"Änn {number}" for number in range(RECORDS)]
+    assert [record["reviewer"] for record in read_log(log)] == [
+        f"Änn {number}" for number in range(RECORDS)
+    ]
 
 
 @pytest.mark.parametrize("number", range(RECORDS))
@@ -105,8 +115,14 @@ def test_every_changed_byte_is_named(whole: Path, data: st.DataObject) -> None:
 
     def changed(lines: list[bytes]) -> list[bytes]:
         place = data.draw(st.integers(0, len(lines[number]) - 2))
-        byte = data.draw(st.integers(0, 255).filter(lambda byte: byte not in (lines[number][place], ord("\n"))))
-        return [*lines[:number], lines[number][:place] + bytes([byte]) + lines[number][place + 1 :], *lines[number + 1 :]]
+        byte = data.draw(
+            st.integers(0, 255).filter(lambda byte: byte not in (lines[number][place], ord("\n")))
+        )
+        return [
+            *lines[:number],
+            lines[number][:place] + bytes([byte]) + lines[number][place + 1 :],
+            *lines[number + 1 :],
+        ]
 
     with copy_of(whole, changed) as log:
         assert any(f"line {number + 1} " in problem.text for problem in check_log(log).problems)
@@ -135,7 +151,10 @@ def test_a_line_with_a_new_hash_of_its_own_is_named(tmp_path: Path) -> None:
         record = json.loads(lines[number])
         del record["hash"]
         record["reviewer"] = "Eve"
-        forged = rfc8785.dumps({**record, "hash": hashlib.sha256(rfc8785.dumps(record)).hexdigest()}) + b"\n"
+        forged = (
+            rfc8785.dumps({**record, "hash": hashlib.sha256(rfc8785.dumps(record)).hexdigest()})
+            + b"\n"
+        )
         log.write_bytes(b"".join([*lines[:number], forged, *lines[number + 1 :]]))
         text = problem_of(log)
         assert f"line {number + 1}" in text and "was replaced" in text
@@ -175,7 +194,9 @@ def test_a_line_that_was_never_finished_is_moved_aside(tmp_path: Path, torn: byt
     done = append(log, {"event": "rejected"})
     assert done.set_aside is not None and done.set_aside.read_bytes() == torn
     assert log.read_bytes().splitlines(keepends=True)[:-1] == lines
-    assert [record["sequence"] for record in read_log(log)] == list(range(1, RECORDS + 2)) and not check_log(log).torn
+    assert [record["sequence"] for record in read_log(log)] == list(
+        range(1, RECORDS + 2)
+    ) and not check_log(log).torn
 
 
 def test_a_confirmed_line_that_lost_its_end_is_an_error(tmp_path: Path) -> None:
@@ -197,10 +218,14 @@ def test_two_processes_append_a_hundred_records_each(tmp_path: Path) -> None:
     records = read_log(log)
     assert [record["sequence"] for record in records] == list(range(1, 201))
     for name in ("Ann", "Bob"):
-        assert [int(record["digest"], 16) for record in records if record["reviewer"] == name] == list(range(100))
+        assert [
+            int(record["digest"], 16) for record in records if record["reviewer"] == name
+        ] == list(range(100))
 
 
-def test_a_killed_process_loses_no_confirmed_approval(tmp_path: Path, document: PlanDocument) -> None:
+def test_a_killed_process_loses_no_confirmed_approval(
+    tmp_path: Path, document: PlanDocument
+) -> None:
     log = tmp_path / "approvals.jsonl"
     chance, confirmed = random.Random(0), 0
     for _round in range(20):
@@ -208,7 +233,10 @@ def test_a_killed_process_loses_no_confirmed_approval(tmp_path: Path, document: 
 
         def approve_on(writer: int = writer) -> None:
             while True:
-                os.write(writer, f"{approve(document, log, 'Ann', ['all']).record['sequence']}\n".encode())
+                os.write(
+                    writer,
+                    f"{approve(document, log, 'Ann', ['all']).record['sequence']}\n".encode(),
+                )
 
         child = fork(approve_on)
         os.close(writer)

@@ -57,30 +57,66 @@ def test_the_plan_is_shown_with_what_a_reviewer_needs(plan: Path) -> None:
 
 def test_edit_approve_and_verify(plan: Path) -> None:
     assert run("verify", plan).exit_code == 1
-    result = run("review", plan, "--edit", "locate green buoy=120,-35", "--edit", "3.radius=15", "--approve", "--name", "Ann", "--acknowledge", "all")
-    assert result.exit_code == 0 and "radius 12 -> 15" in result.output and "approved by Ann: record 1" in result.output
+    result = run(
+        "review",
+        plan,
+        "--edit",
+        "locate green buoy=120,-35",
+        "--edit",
+        "3.radius=15",
+        "--approve",
+        "--name",
+        "Ann",
+        "--acknowledge",
+        "all",
+    )
+    assert (
+        result.exit_code == 0
+        and "radius 12 -> 15" in result.output
+        and "approved by Ann: record 1" in result.output
+    )
     result = run("verify", plan)
     assert result.exit_code == 0 and result.output.startswith("approved by Ann at ")
     run("review", plan, "--edit", "3.radius=20")
     result = run("verify", plan, "--json")
     assert result.exit_code == 1
-    assert "task 3, radius: approved 15, now 20" in [change["text"] for change in json.loads(result.output)["changes"]]
+    assert "task 3, radius: approved 15, now 20" in [
+        change["text"] for change in json.loads(result.output)["changes"]
+    ]
     run("review", plan, "--reject", "too wide", "--name", "Bob")
     result = run("verify", plan)
-    assert result.exit_code == 1 and "rejected by Bob" in result.output and "too wide" in result.output
+    assert (
+        result.exit_code == 1 and "rejected by Bob" in result.output and "too wide" in result.output
+    )
 
 
 def test_edits_before_one_that_fails_are_kept_and_nothing_is_approved(plan: Path) -> None:
-    result = run("review", plan, "--edit", "3.radius=15", "--edit", "3.radius=-1", "--approve", "--name", "Ann", "--acknowledge", "all")
+    result = run(
+        "review",
+        plan,
+        "--edit",
+        "3.radius=15",
+        "--edit",
+        "3.radius=-1",
+        "--approve",
+        "--name",
+        "Ann",
+        "--acknowledge",
+        "all",
+    )
     assert isinstance(result.exception, PlannerError)
-    assert read_document(plan)["tasks"][2]["parameters"]["radius"] == 15 and not read_log(log_beside(plan))
+    assert read_document(plan)["tasks"][2]["parameters"]["radius"] == 15 and not read_log(
+        log_beside(plan)
+    )
 
 
 def test_approval_needs_a_name_and_the_warnings(plan: Path) -> None:
     run("review", plan, "--edit", "remove 4")
     assert "give --name" in sentence("review", plan, "--approve", "--acknowledge", "all")
     assert "not acknowledged" in sentence("review", plan, "--approve", "--name", "Ann")
-    assert "exclude each other" in sentence("review", plan, "--approve", "--reject", "no", "--name", "Ann")
+    assert "exclude each other" in sentence(
+        "review", plan, "--approve", "--reject", "no", "--name", "Ann"
+    )
     assert "goes with --approve" in sentence("review", plan, "--acknowledge", "all")
     assert "does not go with --web" in sentence("review", plan, "--web", "--approve")
     assert "does not go with" in sentence("review", plan, "--out", "x.jsonl")
@@ -94,7 +130,9 @@ def test_a_plan_altered_by_hand_is_shown_as_such_and_can_be_adopted(plan: Path) 
     plan.write_text(json.dumps(document))
     shown = run("review", plan, "--show").output
     assert "altered by hand" in shown and "task 3, radius: approved 12, now 20" in shown
-    assert "--adopt" in sentence("review", plan, "--approve", "--name", "Ann", "--acknowledge", "all")
+    assert "--adopt" in sentence(
+        "review", plan, "--approve", "--name", "Ann", "--acknowledge", "all"
+    )
     result = run("review", plan, "--adopt", "--approve", "--name", "Ann", "--acknowledge", "all")
     assert result.exit_code == 0 and "radius 12 -> 20" in result.output
     assert run("verify", plan).exit_code == 0
@@ -110,10 +148,15 @@ def test_the_log_alone_is_checked(plan: Path) -> None:
     assert result.exit_code == 0 and "2 records: nothing removed" in result.output
     log.write_bytes(log.read_bytes().replace(b"Ann", b"Eve"))
     result = run("verify", "--log", log)
-    assert result.exit_code == 2 and f"{log}:1: line 1 (record 1) is not what was recorded" in result.output
+    assert (
+        result.exit_code == 2
+        and f"{log}:1: line 1 (record 1) is not what was recorded" in result.output
+    )
     assert json.loads(run("verify", "--log", log, "--json").output)["problems"][0]["line"] == 1
     assert "begin a new log" in sentence("verify", plan)
-    assert "begin a new log" in sentence("review", plan, "--approve", "--name", "Ann", "--acknowledge", "all")
+    assert "begin a new log" in sentence(
+        "review", plan, "--approve", "--name", "Ann", "--acknowledge", "all"
+    )
 
 
 @pytest.mark.parametrize("command", ["review", "verify"])
@@ -127,12 +170,36 @@ def test_files_that_are_no_plan_are_one_sentence(plan: Path, command: str, usv: 
     assert "no such file" in sentence(command, plan.with_name("none.json"))
 
 
-def test_markup_and_control_characters_of_a_command_are_never_interpreted(plan: Path, usv: Vocabulary) -> None:
-    command = "[bold red]Go[/bold red] :boom: \x1b[2J\x1b]0;x\x07 home\r\x9b31m [link=http://x]y[/link]\nDROP"
-    write_document(plan, mission_document(command, [task("Transit", {"target_position": [0, 0]}, command)], {1: go((0, 0))}, usv))
-    result = run("review", plan, "--edit", "prompt 1 = [red]\x1b[5mx[/red]", "--approve", "--name", "[bold]Ann[/bold]", "--acknowledge", "all")
+def test_markup_and_control_characters_of_a_command_are_never_interpreted(
+    plan: Path, usv: Vocabulary
+) -> None:
+    command = (
+        "[bold red]Go[/bold red] :boom: \x1b[2J\x1b]0;x\x07 home\r\x9b31m"
+        " [link=http://x]y[/link]\nDROP"
+    )
+    write_document(
+        plan,
+        mission_document(
+            command, [task("Transit", {"target_position": [0, 0]}, command)], {1: go((0, 0))}, usv
+        ),
+    )
+    result = run(
+        "review",
+        plan,
+        "--edit",
+        "prompt 1 = [red]\x1b[5mx[/red]",
+        "--approve",
+        "--name",
+        "[bold]Ann[/bold]",
+        "--acknowledge",
+        "all",
+    )
     shown = run("review", plan, "--show").output
-    assert "[bold red]Go[/bold red] :boom: \\x1b[2J" in shown and "[red]\\x1b[5mx[/red]" in result.output and "approved by [bold]Ann[/bold]" in result.output
+    assert (
+        "[bold red]Go[/bold red] :boom: \\x1b[2J" in shown
+        and "[red]\\x1b[5mx[/red]" in result.output
+        and "approved by [bold]Ann[/bold]" in result.output
+    )
     assert not {char for char in shown + result.output if not char.isprintable()} - {"\n"}
 
 
@@ -140,7 +207,17 @@ def test_five_hundred_tasks(tmp_path: Path, usv: Vocabulary) -> None:
     tasks = [task("Transit", {"target_position": [number, -number]}) for number in range(500)]
     skills = {number: go((number - 1, 1 - number)) for number in range(1, 501)}
     write_document(tmp_path / "plan.json", mission_document("Go on and on.", tasks, skills, usv))
-    result = run("review", tmp_path / "plan.json", "--edit", "500.target_position=7,7", "--approve", "--name", "Ann", "--acknowledge", "all")
+    result = run(
+        "review",
+        tmp_path / "plan.json",
+        "--edit",
+        "500.target_position=7,7",
+        "--approve",
+        "--name",
+        "Ann",
+        "--acknowledge",
+        "all",
+    )
     assert result.exit_code == 0, result.output
     assert "500 Transit(target_position=[7,7])" in run("review", tmp_path / "plan.json").output
     assert run("verify", tmp_path / "plan.json").exit_code == 0
@@ -149,8 +226,23 @@ def test_five_hundred_tasks(tmp_path: Path, usv: Vocabulary) -> None:
 def test_another_vehicle(tmp_path: Path) -> None:
     drone = load_vocabulary("inspection_drone")
     known = drone.task[drone.transit]
-    write_document(tmp_path / "plan.json", mission_document("Go home.", [task(known.title, {known.position_parameter or "": [0, 0]})], {}, drone))
-    result = run("review", tmp_path / "plan.json", "--edit", f"1.{known.position_parameter}=3,4", "--approve", "--name", "Ann", "--acknowledge", "all")
+    write_document(
+        tmp_path / "plan.json",
+        mission_document(
+            "Go home.", [task(known.title, {known.position_parameter or "": [0, 0]})], {}, drone
+        ),
+    )
+    result = run(
+        "review",
+        tmp_path / "plan.json",
+        "--edit",
+        f"1.{known.position_parameter}=3,4",
+        "--approve",
+        "--name",
+        "Ann",
+        "--acknowledge",
+        "all",
+    )
     assert result.exit_code == 0, result.exception
     assert run("verify", tmp_path / "plan.json").exit_code == 0
 
@@ -164,8 +256,16 @@ class Terminal:
     def __init__(self, *arguments: object) -> None:
         self.screen, end = pty.openpty()
         command = [sys.executable, "-m", "planner_ft", *map(str, arguments)]
-        environment = {**os.environ, "TERM": "xterm", "COLUMNS": "100", "LANG": "C.UTF-8", "PYTHONUTF8": "1"}
-        self.process = subprocess.Popen(command, stdin=end, stdout=end, stderr=end, env=environment, start_new_session=True)
+        environment = {
+            **os.environ,
+            "TERM": "xterm",
+            "COLUMNS": "100",
+            "LANG": "C.UTF-8",
+            "PYTHONUTF8": "1",
+        }
+        self.process = subprocess.Popen(
+            command, stdin=end, stdout=end, stderr=end, env=environment, start_new_session=True
+        )
         os.close(end)
         self.text = ""
 
@@ -183,7 +283,9 @@ class Terminal:
         os.write(self.screen, line.encode() + b"\n")
 
     def interrupt(self) -> None:
-        """Ctrl-C, pressed again while nothing comes of it: readline misses a signal between its prompt and its wait."""
+        """Ctrl-C, pressed again while nothing comes of it: readline misses a signal between its
+        prompt and its wait.
+        """
         for _ in range(10):
             os.kill(self.process.pid, signal.SIGINT)
             if select.select([self.screen], [], [], 10)[0]:
@@ -238,7 +340,10 @@ def test_a_conversation_in_which_a_warning_is_not_acknowledged(plan: Path) -> No
 
 
 def test_two_terminals_on_one_plan(plan: Path) -> None:
-    first, second = Terminal("review", plan, "--name", "Ann"), Terminal("review", plan, "--name", "Bob")
+    first, second = (
+        Terminal("review", plan, "--name", "Ann"),
+        Terminal("review", plan, "--name", "Bob"),
+    )
     first.until(PROMPT)
     second.until(PROMPT)
     first.type("3.radius=15")

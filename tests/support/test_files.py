@@ -7,7 +7,15 @@ from pathlib import Path
 import pytest
 
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import atomic_writer, compact_json, read_json, read_jsonl, sha256_tree, write_json, write_jsonl
+from planner_ft.support.files import (
+    atomic_writer,
+    compact_json,
+    read_json,
+    read_jsonl,
+    sha256_tree,
+    write_json,
+    write_jsonl,
+)
 
 
 def test_an_interrupted_write_leaves_the_old_file(tmp_path: Path) -> None:

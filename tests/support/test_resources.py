@@ -10,7 +10,10 @@ import torch
 from planner_ft.support.resources import peak_memory
 
 CPU = torch.device("cpu")
-TOLD = "from types import SimpleNamespace as N; from planner_ft.support.resources import peak_memory; print(peak_memory(N(type='cpu')))"
+TOLD = (
+    "from types import SimpleNamespace as N; from planner_ft.support.resources import peak_memory;"
+    " print(peak_memory(N(type='cpu')))"
+)
 
 
 def test_the_peak_stays_when_memory_is_given_back() -> None:
@@ -24,5 +27,9 @@ def test_the_peak_stays_when_memory_is_given_back() -> None:
 
 def test_a_process_does_not_count_what_its_parent_needed() -> None:
     held = torch.ones(2**28 // 4)
-    told = int(subprocess.run([sys.executable, "-c", TOLD], capture_output=True, text=True, check=True).stdout)
+    told = int(
+        subprocess.run(
+            [sys.executable, "-c", TOLD], capture_output=True, text=True, check=True
+        ).stdout
+    )
     assert told < 2**27 < held.nbytes < peak_memory(CPU)

@@ -48,10 +48,26 @@ def ask(models: Path, data: Path, tmp_path: Path) -> Callable[..., Any]:
     from planner_ft.training.request import build_request
 
     def build(**values: Any) -> Any:
-        run = {"level": "mission", "candidate": STANDIN, "data_dir": str(data), "output": str(tmp_path / "adapter")}
-        names = ("level", "candidate", "data_dir", "output", "vocabulary", "train_file", "validation_file", "corrections")
+        run = {
+            "level": "mission",
+            "candidate": STANDIN,
+            "data_dir": str(data),
+            "output": str(tmp_path / "adapter"),
+        }
+        names = (
+            "level",
+            "candidate",
+            "data_dir",
+            "output",
+            "vocabulary",
+            "train_file",
+            "validation_file",
+            "corrections",
+        )
         run |= {key: values.pop(key) for key in names if key in values}
-        options = {key: values.pop(key) for key in ("recipe", "overwrite", "resume") if key in values}
+        options = {
+            key: values.pop(key) for key in ("recipe", "overwrite", "resume") if key in values
+        }
         return build_request(run, values, **options)
 
     return build
@@ -93,12 +109,17 @@ def reference(ask: Callable[..., Any], quiet: Console, tmp_path: Path) -> tuple[
     from planner_ft.training.run import train
 
     train(ask(**SHORT, output=str(tmp_path / "reference")), quiet)
-    return losses(tmp_path / "reference"), (tmp_path / "reference" / "adapter_model.safetensors").read_bytes()
+    return (
+        losses(tmp_path / "reference"),
+        (tmp_path / "reference" / "adapter_model.safetensors").read_bytes(),
+    )
 
 
 @pytest.fixture
 def interrupt_at() -> Callable[..., None]:
-    """Let this process get a signal while a run works on a step: `interrupt_at(patch, step, signal)`."""
+    """Let this process get a signal while a run works on a step: `interrupt_at(patch, step,
+    signal)`.
+    """
     from planner_ft.training.report import PlainDisplay
 
     def arrange(monkeypatch: pytest.MonkeyPatch, step: int, number: int = signal.SIGINT) -> None:

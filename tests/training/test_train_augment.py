@@ -23,7 +23,9 @@ def test_synthetic_samples_join_the_training_split_and_change_its_digest(ask) ->
     found = list(run_preflight(ask(augment=5), mixed))
     assert mixed.train and plain.train and mixed.validation and plain.validation
     assert (len(plain.train.samples), len(mixed.train.samples)) == (8, 13)
-    assert mixed.train.sha256 != plain.train.sha256 and len(mixed.validation.samples) == len(plain.validation.samples)
+    assert mixed.train.sha256 != plain.train.sha256 and len(mixed.validation.samples) == len(
+        plain.validation.samples
+    )
     assert any("5 of the training samples synthetic" in finding.text for finding in found)
 
 
@@ -37,4 +39,7 @@ def test_both_levels_give_strictly_valid_plans() -> None:
     for level in ("mission", "task"):
         records = augmented(split(), level, VOCABULARY, 0, 8).records[1:]
         assert len(records) == 8
-        assert all(plan_problems(level, record.value["expected"], VOCABULARY, strict=True) == [] for record in records)
+        assert all(
+            plan_problems(level, record.value["expected"], VOCABULARY, strict=True) == []
+            for record in records
+        )

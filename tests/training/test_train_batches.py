@@ -6,12 +6,22 @@ import pytest
 import torch
 
 from planner_ft.prompts import Rendered
-from planner_ft.training.batches import VALIDATION_TOKENS, WIDTH_MULTIPLE, collate, epoch_order, epoch_steps, packed_places, validation_batches
+from planner_ft.training.batches import (
+    VALIDATION_TOKENS,
+    WIDTH_MULTIPLE,
+    collate,
+    epoch_order,
+    epoch_steps,
+    packed_places,
+    validation_batches,
+)
 from planner_ft.training.samples import Sample
 
 
 def sample(name: str, prompt: list[int], answer: list[int]) -> Sample:
-    return Sample(name, Rendered(prompt + answer, [0] * len(prompt) + [1] * len(answer), len(prompt)))
+    return Sample(
+        name, Rendered(prompt + answer, [0] * len(prompt) + [1] * len(answer), len(prompt))
+    )
 
 
 def test_the_order_depends_on_seed_and_epoch_alone():
@@ -29,14 +39,20 @@ def test_an_epoch_trains_every_sample_once():
 def test_samples_of_a_step_are_put_together_by_length():
     lengths = [10, 500, 12, 480]
     (step,) = epoch_steps(lengths, batch_size=2, accumulation=2, seed=0, epoch=0)
-    assert sorted(sorted(lengths[index] for index in batch) for batch in step) == [[10, 12], [480, 500]]
+    assert sorted(sorted(lengths[index] for index in batch) for batch in step) == [
+        [10, 12],
+        [480, 500],
+    ]
 
 
 def test_validation_batches_hold_every_sample_within_the_limit():
     lengths = [700, 100, 3000, 900, 50, 1200]
     batches = list(validation_batches(lengths))
     assert sorted(index for batch in batches for index in batch) == list(range(6))
-    assert all(len(batch) == 1 or max(lengths[index] for index in batch) * len(batch) <= VALIDATION_TOKENS for batch in batches)
+    assert all(
+        len(batch) == 1 or max(lengths[index] for index in batch) * len(batch) <= VALIDATION_TOKENS
+        for batch in batches
+    )
 
 
 def test_completion_tokens_are_predicted_from_the_token_before():
@@ -44,7 +60,9 @@ def test_completion_tokens_are_predicted_from_the_token_before():
     assert batch.input_ids.shape == (2, WIDTH_MULTIPLE)
     assert batch.input_ids[0, :4].tolist() == [5, 6, 7, 8]
     assert batch.input_ids[1, :2].tolist() == [1, 0]
-    assert list(zip(batch.rows.tolist(), batch.columns.tolist(), batch.targets.tolist(), strict=True)) == [(0, 2, 8), (0, 3, 9), (1, 0, 2)]
+    assert list(
+        zip(batch.rows.tolist(), batch.columns.tolist(), batch.targets.tolist(), strict=True)
+    ) == [(0, 2, 8), (0, 3, 9), (1, 0, 2)]
     assert batch.tokens == 7
 
 
@@ -57,7 +75,14 @@ def tiny():
     from planner_ft.training.settings import TrainSettings
 
     torch.manual_seed(0)
-    config = LlamaConfig(vocab_size=97, hidden_size=32, intermediate_size=64, num_hidden_layers=2, num_attention_heads=2, num_key_value_heads=2)
+    config = LlamaConfig(
+        vocab_size=97,
+        hidden_size=32,
+        intermediate_size=64,
+        num_hidden_layers=2,
+        num_attention_heads=2,
+        num_key_value_heads=2,
+    )
     model = attach_adapter(LlamaForCausalLM(config), TrainSettings(rank=4, dropout=0.0), "tiny")
     with torch.no_grad():
         for name, value in model.named_parameters():
@@ -66,7 +91,10 @@ def tiny():
     return model
 
 
-SAMPLES = [sample(str(index), list(range(1, 4 + 3 * index)), list(range(50, 60 + index))) for index in range(4)]
+SAMPLES = [
+    sample(str(index), list(range(1, 4 + 3 * index)), list(range(50, 60 + index)))
+    for index in range(4)
+]
 
 
 def gradients(model, batches) -> tuple[float, dict[str, torch.Tensor]]:
@@ -101,14 +129,20 @@ def test_the_loss_is_the_models_own_on_completion_tokens(tiny):
     ids = torch.tensor([item.rendered.input_ids])
     labels = ids.masked_fill(torch.tensor([item.rendered.completion_mask]) == 0, -100)
     ours = loss_sum(tiny, collate([item], 0), torch.float32) / item.completion_length
-    assert float(ours.detach()) == pytest.approx(float(tiny(input_ids=ids, labels=labels).loss.detach()), rel=1e-5)
+    assert float(ours.detach()) == pytest.approx(
+        float(tiny(input_ids=ids, labels=labels).loss.detach()), rel=1e-5
+    )
 
 
 def test_logits_exist_for_completion_tokens_alone(tiny):
     from planner_ft.training.model import loss_sum
 
     seen = []
-    handle = tiny.get_base_model().get_output_embeddings().register_forward_hook(lambda module, args, output: seen.append(output.shape))
+    handle = (
+        tiny.get_base_model()
+        .get_output_embeddings()
+        .register_forward_hook(lambda module, args, output: seen.append(output.shape))
+    )
     loss_sum(tiny, collate(SAMPLES, 0), torch.float32)
     handle.remove()
     assert seen == [(sum(item.completion_length for item in SAMPLES), 97)]
@@ -131,15 +165,26 @@ def test_the_learning_rate_warms_up_and_falls_to_zero():
         assert max(rates) == rates[9] == rates[10] == 1.0
         assert rates[10:] == sorted(rates[10:], reverse=True)
         assert 0 < rates[-1] < 0.02
-    assert learning_rate(TrainSettings(learning_rate=1.0, warmup=0.0, schedule="constant"), 99, 100) == 1.0
+    assert (
+        learning_rate(TrainSettings(learning_rate=1.0, warmup=0.0, schedule="constant"), 99, 100)
+        == 1.0
+    )
 
 
 def test_short_samples_share_rows_as_wide_as_the_longest():
     places = packed_places([30, 10, 16, 8, 5], 32)
     assert places == [(0, 0), (1, 16), (1, 0), (2, 0), (1, 26)]
-    batch = collate([sample(str(length), [3] * (length - 4), [9] * 5) for length in (30, 10, 16, 8, 5)], 0, packed=True)
+    batch = collate(
+        [sample(str(length), [3] * (length - 4), [9] * 5) for length in (30, 10, 16, 8, 5)],
+        0,
+        packed=True,
+    )
     assert batch.input_ids.shape == (3, 32)
-    assert batch.positions is not None and batch.positions[1].tolist() == [*range(16), *range(10), *range(6)]
+    assert batch.positions is not None and batch.positions[1].tolist() == [
+        *range(16),
+        *range(10),
+        *range(6),
+    ]
     assert (batch.input_ids[batch.rows, batch.columns] != 0).all()
 
 
@@ -159,10 +204,15 @@ def test_the_candidates_keep_samples_of_a_row_apart(name, models):
     from planner_ft.training.model import attach_adapter, packs
     from planner_ft.training.settings import TrainSettings
 
-    base = load_model(resolve_candidate(name), device="cpu", quantization="none", trainable=True).float()
+    base = load_model(
+        resolve_candidate(name), device="cpu", quantization="none", trainable=True
+    ).float()
     model = attach_adapter(base, TrainSettings(rank=4, dropout=0.0), name)
     assert packs(model)
-    assert_same(gradients(model, [collate(SAMPLES, 0)]), gradients(model, [collate(SAMPLES, 0, packed=True)]))
+    assert_same(
+        gradients(model, [collate(SAMPLES, 0)]),
+        gradients(model, [collate(SAMPLES, 0, packed=True)]),
+    )
 
 
 def test_models_with_other_layers_keep_a_row_for_each_sample(tiny, monkeypatch):

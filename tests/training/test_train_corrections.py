@@ -15,8 +15,18 @@ VOCABULARY = load_vocabulary()
 
 
 def record(name: str) -> dict[str, Any]:
-    tasks = [{"title": "Transit", "parameters": {"target_position": [0, 0]}, "task_prompt": "Return home."}]
-    return {"id": name, "prompt": f"Come home, {name}.", "expected": {"tasks": tasks, "assumptions": [], "constraints": []}}
+    tasks = [
+        {
+            "title": "Transit",
+            "parameters": {"target_position": [0, 0]},
+            "task_prompt": "Return home.",
+        }
+    ]
+    return {
+        "id": name,
+        "prompt": f"Come home, {name}.",
+        "expected": {"tasks": tasks, "assumptions": [], "constraints": []},
+    }
 
 
 def written(path: Path, *names: str) -> Path:
@@ -33,27 +43,46 @@ def split(folder: Path) -> Split:
 def test_corrections_come_after_the_training_samples_and_change_the_digest(tmp_path: Path) -> None:
     problems: list[str] = []
     train = split(tmp_path)
-    both = with_corrections(train, written(tmp_path / "corrections.jsonl", "c"), "mission", VOCABULARY, problems)
+    both = with_corrections(
+        train, written(tmp_path / "corrections.jsonl", "c"), "mission", VOCABULARY, problems
+    )
     assert not problems and [item.id for item in both.records] == ["a", "b", "c"]
-    other = with_corrections(train, written(tmp_path / "corrections.jsonl", "d"), "mission", VOCABULARY, problems)
+    other = with_corrections(
+        train, written(tmp_path / "corrections.jsonl", "d"), "mission", VOCABULARY, problems
+    )
     assert len({train.sha256, both.sha256, other.sha256}) == 3
 
 
 def test_what_is_wrong_with_the_file_is_a_problem_of_the_run(tmp_path: Path) -> None:
     for names, problem in ((("b",), "id 'b' stands in"), (("c", "c"), "stands in line 1 already")):
         problems: list[str] = []
-        with_corrections(split(tmp_path), written(tmp_path / "corrections.jsonl", *names), "mission", VOCABULARY, problems)
+        with_corrections(
+            split(tmp_path),
+            written(tmp_path / "corrections.jsonl", *names),
+            "mission",
+            VOCABULARY,
+            problems,
+        )
         assert len(problems) == 1 and problem in problems[0]
     missing: list[str] = []
     with_corrections(split(tmp_path), tmp_path / "none.jsonl", "mission", VOCABULARY, missing)
     assert len(missing) == 1 and "none.jsonl: no such file" in missing[0]
 
 
-def test_the_preflight_says_how_many_there_are_and_leaves_the_validation_split_alone(ask: Any, tmp_path: Path) -> None:
+def test_the_preflight_says_how_many_there_are_and_leaves_the_validation_split_alone(
+    ask: Any, tmp_path: Path
+) -> None:
     plain, corrected = Prepared(), Prepared()
     list(run_preflight(ask(), plain))
-    found = list(run_preflight(ask(corrections=str(written(tmp_path / "corrections.jsonl", "c", "d"))), corrected))
+    found = list(
+        run_preflight(
+            ask(corrections=str(written(tmp_path / "corrections.jsonl", "c", "d"))), corrected
+        )
+    )
     assert plain.train and corrected.train and plain.validation and corrected.validation
-    assert len(corrected.train.samples) == len(plain.train.samples) + 2 and corrected.train.sha256 != plain.train.sha256
+    assert (
+        len(corrected.train.samples) == len(plain.train.samples) + 2
+        and corrected.train.sha256 != plain.train.sha256
+    )
     assert corrected.validation.sha256 == plain.validation.sha256
     assert any("2 of the training samples from" in finding.text for finding in found)

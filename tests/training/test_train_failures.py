@@ -1,4 +1,6 @@
-"""What goes wrong in the middle of a run: one sentence with the way out, and the last checkpoint is kept."""
+"""What goes wrong in the middle of a run: one sentence with the way out, and the last checkpoint is
+kept.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,9 @@ def fail_at(monkeypatch, call: int, outcome) -> None:
     monkeypatch.setattr(loop, "loss_sum", failing)
 
 
-def test_a_loss_that_is_not_finite_stops_the_run_and_leaves_the_checkpoint(ask, quiet, tmp_path, monkeypatch, reference, step_losses, short):
+def test_a_loss_that_is_not_finite_stops_the_run_and_leaves_the_checkpoint(
+    ask, quiet, tmp_path, monkeypatch, reference, step_losses, short
+):
     with monkeypatch.context() as patch:
         original = loop.loss_sum
         fail_at(patch, 5, lambda *args: original(*args) * float("nan"))
@@ -34,14 +38,21 @@ def test_a_loss_that_is_not_finite_stops_the_run_and_leaves_the_checkpoint(ask, 
     assert "step 5, sample mission-train-" in str(caught.value)
     assert "the loss is nan; lower --learning-rate (now 0.0002)" in str(caught.value)
     assert [path.name for path in checkpoint.checkpoints(tmp_path / "adapter")] == ["step-00000004"]
-    assert "failed" in json.loads((tmp_path / "adapter" / "checkpoints" / "run.json").read_text())["status"]
+    assert (
+        "failed"
+        in json.loads((tmp_path / "adapter" / "checkpoints" / "run.json").read_text())["status"]
+    )
     train(ask(**short, resume=True), quiet)
     assert step_losses(tmp_path / "adapter") == reference[0]
 
 
-def test_a_gradient_that_is_not_finite_stops_before_the_weights_are_lost(ask, quiet, monkeypatch, short):
+def test_a_gradient_that_is_not_finite_stops_before_the_weights_are_lost(
+    ask, quiet, monkeypatch, short
+):
     original = torch.nn.utils.clip_grad_norm_
-    monkeypatch.setattr(torch.nn.utils, "clip_grad_norm_", lambda *args: original(*args) * float("inf"))
+    monkeypatch.setattr(
+        torch.nn.utils, "clip_grad_norm_", lambda *args: original(*args) * float("inf")
+    )
     with pytest.raises(PlannerError, match=r"step 1, sample .*: the gradient norm is inf"):
         train(ask(**short), quiet)
 
@@ -51,11 +62,19 @@ def test_out_of_memory_names_the_next_lever(ask, quiet, monkeypatch, short):
         raise torch.OutOfMemoryError("CUDA out of memory. Tried to allocate 2.00 GiB")
 
     fail_at(monkeypatch, 2, exhausted)
-    with pytest.raises(PlannerError, match=r"out of memory on cpu; next: --gradient-checkpointing on; then --batch-size 1 --gradient-accumulation 2"):
+    with pytest.raises(
+        PlannerError,
+        match=(
+            r"out of memory on cpu; next: --gradient-checkpointing on; then --batch-size 1"
+            r" --gradient-accumulation 2"
+        ),
+    ):
         train(ask(**short, batch_size=2), quiet)
 
 
-def test_a_full_disk_keeps_the_last_checkpoint(ask, quiet, tmp_path, monkeypatch, reference, step_losses, short):
+def test_a_full_disk_keeps_the_last_checkpoint(
+    ask, quiet, tmp_path, monkeypatch, reference, step_losses, short
+):
     original = checkpoint._write
 
     def full(path, content):
@@ -65,9 +84,17 @@ def test_a_full_disk_keeps_the_last_checkpoint(ask, quiet, tmp_path, monkeypatch
 
     with monkeypatch.context() as patch:
         patch.setattr(checkpoint, "_write", full)
-        with pytest.raises(PlannerError, match=r"step-00000004: the checkpoint cannot be written \(No space left on device\); free some space"):
+        with pytest.raises(
+            PlannerError,
+            match=(
+                r"step-00000004: the checkpoint cannot be written \(No space left on device\); free"
+                r" some space"
+            ),
+        ):
             train(ask(**short, checkpoint_steps=2), quiet)
-    assert [path.name for path in (tmp_path / "adapter" / "checkpoints").glob("*step*")] == ["step-00000002"]
+    assert [path.name for path in (tmp_path / "adapter" / "checkpoints").glob("*step*")] == [
+        "step-00000002"
+    ]
     train(ask(**short, resume=True), quiet)
     assert step_losses(tmp_path / "adapter") == reference[0]
 
@@ -79,7 +106,10 @@ def test_a_corrupt_checkpoint_is_named(ask, quiet, tmp_path, monkeypatch, short,
             train(ask(**short), quiet)
     path = tmp_path / "adapter" / "checkpoints" / "step-00000002" / "tensors.safetensors"
     path.write_bytes(path.read_bytes()[:100])
-    with pytest.raises(PlannerError, match=r"step-00000002: the checkpoint cannot be read .* start again with --overwrite"):
+    with pytest.raises(
+        PlannerError,
+        match=r"step-00000002: the checkpoint cannot be read .* start again with --overwrite",
+    ):
         train(ask(**short, resume=True), quiet)
 
 

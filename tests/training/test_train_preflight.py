@@ -30,18 +30,32 @@ def test_a_sound_run_has_no_problems(ask):
     assert list(found) == ["candidate", "data", "rendering", "special tokens", "output", "memory"]
     assert all(not finding.problems and finding.text for finding in found.values())
     assert (len(prepared.train.samples), len(prepared.validation.samples)) == (8, 3)
-    assert "every answer ends with a trained <|eot_id|>; one <|begin_of_text|> at the beginning" in found["special tokens"].text
+    assert (
+        "every answer ends with a trained <|eot_id|>; one <|begin_of_text|> at the beginning"
+        in found["special tokens"].text
+    )
 
 
 def test_everything_wrong_is_reported_at_once_and_nothing_is_written(ask, tmp_path, quiet):
     taken = tmp_path / "taken"
     taken.mkdir()
     (taken / "thesis.txt").write_text("mine")
-    request = ask(data_dir=str(tmp_path / "none"), output=str(taken), device="cuda:7", report_to="fax", optimizer="paged-adamw-8bit")
+    request = ask(
+        data_dir=str(tmp_path / "none"),
+        output=str(taken),
+        device="cuda:7",
+        report_to="fax",
+        optimizer="paged-adamw-8bit",
+    )
     with pytest.raises(PlannerError) as caught:
         train(request, quiet)
     message = str(caught.value)
-    for part in ("--device cuda:7", "--report-to fax: unknown", "plannerft gen-data --level mission", "is no folder of a training run"):
+    for part in (
+        "--device cuda:7",
+        "--report-to fax: unknown",
+        "plannerft gen-data --level mission",
+        "is no folder of a training run",
+    ):
         assert part in message
     assert [path.name for path in taken.iterdir()] == ["thesis.txt"]
 
@@ -62,15 +76,26 @@ def test_bad_records_are_named_by_line(ask, data, write, curated):
     path.write_text(path.read_text() + "{oops\n")
     found = problems(ask())
     assert found[0] == f"{path}:2: id {good[0]['id']!r} stands in line 1 already"
-    assert found[1].startswith(f"{path}:3: expected: tasks[0]: 'FlyHome' is no task title of the vocabulary")
+    assert found[1].startswith(
+        f"{path}:3: expected: tasks[0]: 'FlyHome' is no task title of the vocabulary"
+    )
     assert found[2] == f"{path}:4: expected (the plan) is missing"
     assert found[3].startswith(f"{path}:5: not JSON")
 
 
-@pytest.mark.parametrize(("content", "part"), [(b"", "holds no records"), (b"\xff\xfe{}", "not UTF-8"), (b"[1]\n", "a JSON object is expected, not list")])
+@pytest.mark.parametrize(
+    ("content", "part"),
+    [
+        (b"", "holds no records"),
+        (b"\xff\xfe{}", "not UTF-8"),
+        (b"[1]\n", "a JSON object is expected, not list"),
+    ],
+)
 def test_files_of_another_kind_are_named(ask, data, content, part):
     (data / "train.jsonl").write_bytes(content)
-    assert any(part in problem and str(data / "train.jsonl") in problem for problem in problems(ask()))
+    assert any(
+        part in problem and str(data / "train.jsonl") in problem for problem in problems(ask())
+    )
 
 
 def test_records_of_the_other_level_are_refused(ask):
@@ -83,7 +108,10 @@ def test_only_the_first_samples_are_trained_on_request(ask):
 
 
 def test_prompts_in_both_splits_are_pointed_out(ask, data, write, curated):
-    write(data / "validation.jsonl", [{**item, "id": f"v{index}"} for index, item in enumerate(curated(2))])
+    write(
+        data / "validation.jsonl",
+        [{**item, "id": f"v{index}"} for index, item in enumerate(curated(2))],
+    )
     found, _ = findings(ask())
     assert "2 validation prompts are in the training split" in found["data"].notes[0]
 
@@ -105,7 +133,9 @@ def test_a_run_without_validation_says_so(ask, data):
 )
 def test_special_tokens_in_wrong_places_are_found(ids, prompt, part):
     sample = Sample("s", Rendered(ids, [0] * prompt + [1] * (len(ids) - prompt), prompt))
-    assert any(part in problem for problem in preflight._token_problems(sample, end=9, bos=1, size=100))
+    assert any(
+        part in problem for problem in preflight._token_problems(sample, end=9, bos=1, size=100)
+    )
     sound = Sample("s", Rendered([1, 5, 6, 9], [0, 0, 1, 1], 2))
     assert list(preflight._token_problems(sound, end=9, bos=1, size=100)) == []
 
@@ -117,7 +147,15 @@ def test_an_answer_without_trained_tokens_is_named(ask, monkeypatch):
         result = original(split, *args, **kwargs)
         first = result.samples[0].rendered
         return type(result)(
-            result.path, result.sha256, result.records, [Sample("blank", Rendered(first.input_ids, [0] * len(first.input_ids), first.prompt_length))]
+            result.path,
+            result.sha256,
+            result.records,
+            [
+                Sample(
+                    "blank",
+                    Rendered(first.input_ids, [0] * len(first.input_ids), first.prompt_length),
+                )
+            ],
         )
 
     monkeypatch.setattr(preflight, "render_split", unmasked)
@@ -127,7 +165,10 @@ def test_an_answer_without_trained_tokens_is_named(ask, monkeypatch):
 
 def test_a_full_disk_is_found_before_training(ask, monkeypatch):
     monkeypatch.setattr(preflight.shutil, "disk_usage", lambda path: SimpleNamespace(free=2**20))
-    assert any("needed for checkpoints and 1 MiB free; choose another disk" in problem for problem in problems(ask()))
+    assert any(
+        "needed for checkpoints and 1 MiB free; choose another disk" in problem
+        for problem in problems(ask())
+    )
 
 
 def test_a_folder_that_cannot_be_written_is_found(ask, data):
@@ -138,7 +179,9 @@ def test_a_folder_that_cannot_be_written_is_found(ask, data):
 def test_too_little_memory_names_the_next_lever(ask, monkeypatch):
     monkeypatch.setattr(preflight, "device_memory", lambda device: (2**20, 2**21))
     (found,) = problems(ask(batch_size=4))
-    assert "next: --gradient-checkpointing on; then --batch-size 2 --gradient-accumulation 2" in found
+    assert (
+        "next: --gradient-checkpointing on; then --batch-size 2 --gradient-accumulation 2" in found
+    )
     monkeypatch.setattr(preflight, "device_memory", lambda device: (2**20, 2**40))
     result, _ = findings(ask())
     assert not result["memory"].problems

@@ -18,7 +18,9 @@ CPU = torch.device("cpu")
 def prepared(ask):
     request = ask(dropout=0.1)
     result = Prepared()
-    problems = [problem for finding in run_preflight(request, result) for problem in finding.problems]
+    problems = [
+        problem for finding in run_preflight(request, result) for problem in finding.problems
+    ]
     assert problems == []
     return request, result
 
@@ -38,8 +40,13 @@ def test_a_sound_model_passes_and_is_left_as_it_was(prepared):
     torch.manual_seed(5)
     assert probe(model, found) == []
     assert torch.equal(torch.rand(3), expected)
-    assert all(torch.equal(value, before[name]) and value.grad is None for name, value in model.named_parameters())
-    assert all(not value.any() for name, value in adapter_parameters(model).items() if "lora_B" in name)
+    assert all(
+        torch.equal(value, before[name]) and value.grad is None
+        for name, value in model.named_parameters()
+    )
+    assert all(
+        not value.any() for name, value in adapter_parameters(model).items() if "lora_B" in name
+    )
 
 
 def test_an_adapter_that_learns_nothing_is_counted(prepared, monkeypatch):
@@ -49,12 +56,16 @@ def test_an_adapter_that_learns_nothing_is_counted(prepared, monkeypatch):
     forward = layer.forward
     monkeypatch.setattr(layer, "forward", lambda hidden: forward(hidden).detach())
     (problem,) = probe(model, found)
-    assert problem.startswith("6 of 28 adapter matrices get no gradient (first: base_model.model.model.layers.0.mlp.")
+    assert problem.startswith(
+        "6 of 28 adapter matrices get no gradient (first: base_model.model.model.layers.0.mlp."
+    )
 
 
 @pytest.mark.filterwarnings("ignore:bitsandbytes")
 def test_weights_packed_by_evaluation_are_found(prepared):
-    """The failure of bitsandbytes 0.50 on CPUs with AVX512-BF16: its layers pack in the first evaluation."""
+    """The failure of bitsandbytes 0.50 on CPUs with AVX512-BF16: its layers pack in the first
+    evaluation.
+    """
     from planner_ft.candidates.packing import set_packing
 
     request, found = prepared
@@ -78,14 +89,18 @@ def test_gradients_stay_whole_after_a_validation_pass(prepared):
     validation_loss(model, found.validation.samples, 0, CPU, FLOAT)
     assert model.training
     loss_sum(model, collate(found.train.samples[:1], 0), FLOAT).backward()
-    assert all(value.grad is not None and value.grad.any() for value in adapter_parameters(model).values())
+    assert all(
+        value.grad is not None and value.grad.any() for value in adapter_parameters(model).values()
+    )
 
 
 def test_trainable_base_weights_are_found(prepared):
     request, found = prepared
     model, _ = ready_model(request, found)
     next(value for name, value in model.named_parameters() if "norm" in name).requires_grad_(True)
-    assert any("weights of the base model would be trained" in problem for problem in probe(model, found))
+    assert any(
+        "weights of the base model would be trained" in problem for problem in probe(model, found)
+    )
 
 
 def test_an_architecture_with_other_logits_is_refused(prepared, monkeypatch):

@@ -1,4 +1,6 @@
-"""Whole runs on stand-ins: the adapter folder, interruption and resuming, and everything that can go wrong on the way."""
+"""Whole runs on stand-ins: the adapter folder, interruption and resuming, and everything that can
+go wrong on the way.
+"""
 
 from __future__ import annotations
 
@@ -25,21 +27,36 @@ def test_the_folder_of_a_finished_run(ask, quiet, tmp_path, short):
     output = tmp_path / "adapter"
     names = {path.name for path in output.iterdir()}
     assert names == {
-        "adapter_config.json", "adapter_model.safetensors", "tokenizer.json", "tokenizer_config.json", "chat_template.jinja",
-        "manifest.json", "README.md", "train_log.jsonl", "loss.png", "loss.svg",
-    }  # fmt: skip
+        "adapter_config.json",
+        "adapter_model.safetensors",
+        "tokenizer.json",
+        "tokenizer_config.json",
+        "chat_template.jinja",
+        "manifest.json",
+        "README.md",
+        "train_log.jsonl",
+        "loss.png",
+        "loss.svg",
+    }
     assert json.loads((output / "manifest.json").read_text()) == json.loads(json.dumps(manifest))
-    schema = json.loads((Path(__file__).parents[2] / "schemas" / "manifest.schema.json").read_text())
+    schema = json.loads(
+        (Path(__file__).parents[2] / "schemas" / "manifest.schema.json").read_text()
+    )
     jsonschema.validate(manifest, schema)
     assert manifest["is_standin"] is True
     assert manifest["samples"] == {"training": 8, "validation": 3}
     assert manifest["result"]["steps"] == 16
-    assert manifest["result"]["tokens"] == sum(json.loads(line).get("step_tokens", 0) for line in (output / "train_log.jsonl").read_text().splitlines())
+    assert manifest["result"]["tokens"] == sum(
+        json.loads(line).get("step_tokens", 0)
+        for line in (output / "train_log.jsonl").read_text().splitlines()
+    )
     assert [entry["epoch"] for entry in manifest["result"]["history"]] == [1, 2]
     assert manifest["configuration"]["alpha"] == 8
     assert (output / "loss.png").read_bytes().startswith(b"\x89PNG")
     card = (output / "README.md").read_text()
-    assert card.startswith("---\nbase_model: meta-llama/Llama-3.2-1B-Instruct\nlibrary_name: peft\n")
+    assert card.startswith(
+        "---\nbase_model: meta-llama/Llama-3.2-1B-Instruct\nlibrary_name: peft\n"
+    )
     assert "**Stand-in.**" in card
 
 
@@ -57,10 +74,17 @@ def test_the_adapter_loads_with_plain_peft_and_has_learned(ask, quiet, tmp_path,
     model = PeftModel.from_pretrained(base, str(tmp_path / "adapter")).eval()
     tokenizer = AutoTokenizer.from_pretrained(tmp_path / "adapter")
     assert tokenizer.chat_template
-    assert validation(model, request, tokenizer) == pytest.approx(manifest["result"]["validation_loss"], rel=0.01)
+    assert validation(model, request, tokenizer) == pytest.approx(
+        manifest["result"]["validation_loss"], rel=0.01
+    )
     history = manifest["result"]["history"]
     assert history[-1]["train_loss"] < history[0]["train_loss"] - 0.3
-    assert check_adapter(tmp_path / "adapter", request.candidate, level="mission", vocabulary=request.vocabulary).rank == 16
+    assert (
+        check_adapter(
+            tmp_path / "adapter", request.candidate, level="mission", vocabulary=request.vocabulary
+        ).rank
+        == 16
+    )
 
 
 def validation(model, request, tokenizer) -> float:
@@ -73,12 +97,16 @@ def validation(model, request, tokenizer) -> float:
         ids = torch.tensor([rendered.input_ids])
         mask = torch.tensor([rendered.completion_mask])
         with torch.no_grad():
-            total += float(model(input_ids=ids, labels=ids.masked_fill(mask == 0, -100)).loss) * int(mask.sum())
+            total += float(
+                model(input_ids=ids, labels=ids.masked_fill(mask == 0, -100)).loss
+            ) * int(mask.sum())
         count += int(mask.sum())
     return total / count
 
 
-def test_the_same_seed_gives_the_same_run_and_another_seed_another(ask, quiet, tmp_path, reference, step_losses, short):
+def test_the_same_seed_gives_the_same_run_and_another_seed_another(
+    ask, quiet, tmp_path, reference, step_losses, short
+):
     train(ask(**short), quiet)
     assert step_losses(tmp_path / "adapter") == reference[0]
     train(ask(**short, seed=1, output=str(tmp_path / "other")), quiet)
@@ -102,13 +130,19 @@ def test_the_best_adapter_is_kept(ask, quiet, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("step", [3, 8, 11])
-def test_ctrl_c_then_resume_gives_the_losses_of_an_uninterrupted_run(ask, quiet, tmp_path, monkeypatch, reference, step_losses, step, short, interrupt_at):
+def test_ctrl_c_then_resume_gives_the_losses_of_an_uninterrupted_run(
+    ask, quiet, tmp_path, monkeypatch, reference, step_losses, step, short, interrupt_at
+):
     """In an epoch, at its end, and after the best adapter was put aside."""
     with monkeypatch.context() as patch:
         interrupt_at(patch, step)
         with pytest.raises(InterruptedRunError) as stop:
             train(ask(**short), quiet)
-    assert (stop.value.step, stop.value.total, stop.value.signal_number) == (step, 16, signal.SIGINT)
+    assert (stop.value.step, stop.value.total, stop.value.signal_number) == (
+        step,
+        16,
+        signal.SIGINT,
+    )
     assert not (tmp_path / "adapter" / "manifest.json").exists()
     torch.manual_seed(999)
     train(ask(**short, resume=True), quiet)
@@ -117,8 +151,16 @@ def test_ctrl_c_then_resume_gives_the_losses_of_an_uninterrupted_run(ask, quiet,
     assert not (tmp_path / "adapter" / "checkpoints").exists()
 
 
-@pytest.mark.parametrize("values", [{"optimizer": "adamw-8bit", "rank": 64}, {"batch_size": 2, "gradient_accumulation": 2, "gradient_checkpointing": "on"}])
-def test_resuming_is_exact_with_other_optimizers_and_batches(ask, quiet, tmp_path, monkeypatch, step_losses, values, short, interrupt_at):
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"optimizer": "adamw-8bit", "rank": 64},
+        {"batch_size": 2, "gradient_accumulation": 2, "gradient_checkpointing": "on"},
+    ],
+)
+def test_resuming_is_exact_with_other_optimizers_and_batches(
+    ask, quiet, tmp_path, monkeypatch, step_losses, values, short, interrupt_at
+):
     settings = {**short, "epochs": 3, **values}
     train(ask(**settings, output=str(tmp_path / "whole")), quiet)
     with monkeypatch.context() as patch:
@@ -129,17 +171,40 @@ def test_resuming_is_exact_with_other_optimizers_and_batches(ask, quiet, tmp_pat
     assert step_losses(tmp_path / "adapter") == step_losses(tmp_path / "whole")
 
 
-COMMAND = ("--level", "mission", "--candidate", "Llama-3.2-1B-Instruct", "--rank", "4", "--epochs", "2", "--log-every", "1")
+COMMAND = (
+    "--level",
+    "mission",
+    "--candidate",
+    "Llama-3.2-1B-Instruct",
+    "--rank",
+    "4",
+    "--epochs",
+    "2",
+    "--log-every",
+    "1",
+)
 
 
-def test_kill_9_loses_only_what_came_after_the_last_checkpoint(ask, quiet, data, tmp_path, reference, step_losses, short):
+def test_kill_9_loses_only_what_came_after_the_last_checkpoint(
+    ask, quiet, data, tmp_path, reference, step_losses, short
+):
     output = tmp_path / "killed"
-    # A pause before each step, so that the kill meets the run between the checkpoint after step 8 and the end.
-    slow = "import time, planner_ft.training.loop as l; s = l._step; l._step = lambda *a: (time.sleep(0.1), s(*a)); from planner_ft.cli import main; main()"
+    # A pause before each step, so that the kill meets the run between the checkpoint after step 8
+    # and the end.
+    slow = (
+        "import time, planner_ft.training.loop as l; s = l._step; l._step = lambda *a:"
+        " (time.sleep(0.1), s(*a)); from planner_ft.cli import main; main()"
+    )
     arguments = ["train", *COMMAND, "--data-dir", str(data), "--output", str(output)]
-    process = subprocess.Popen([sys.executable, "-c", slow, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    process = subprocess.Popen(
+        [sys.executable, "-c", slow, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
+    )
     deadline = time.monotonic() + 100
-    while process.poll() is None and time.monotonic() < deadline and not ((output / "train_log.jsonl").exists() and len(step_losses(output)) >= 10):
+    while (
+        process.poll() is None
+        and time.monotonic() < deadline
+        and not ((output / "train_log.jsonl").exists() and len(step_losses(output)) >= 10)
+    ):
         time.sleep(0.02)
     process.kill()
     _, errors = process.communicate()
@@ -153,7 +218,9 @@ def test_kill_9_loses_only_what_came_after_the_last_checkpoint(ask, quiet, data,
     assert (output / "adapter_model.safetensors").read_bytes() == reference[1]
 
 
-def test_a_resumed_run_still_knows_the_best_adapter(ask, quiet, tmp_path, monkeypatch, short, interrupt_at):
+def test_a_resumed_run_still_knows_the_best_adapter(
+    ask, quiet, tmp_path, monkeypatch, short, interrupt_at
+):
     seen = []
     values = iter([1.0, 2.0])
 
@@ -168,14 +235,31 @@ def test_a_resumed_run_still_knows_the_best_adapter(ask, quiet, tmp_path, monkey
             train(ask(**short), quiet)
     assert train(ask(**short, resume=True), quiet)["result"]["best_epoch"] == 1
     saved = load_file(tmp_path / "adapter" / "adapter_model.safetensors")
-    assert all(torch.equal(saved[name.replace(".default", "")], value) for name, value in seen[0].items())
+    assert all(
+        torch.equal(saved[name.replace(".default", "")], value) for name, value in seen[0].items()
+    )
 
 
-def test_ctrl_c_on_the_command_line_exits_with_130_and_says_how_to_go_on(models, data, tmp_path, monkeypatch, capsys, interrupt_at):
+def test_ctrl_c_on_the_command_line_exits_with_130_and_says_how_to_go_on(
+    models, data, tmp_path, monkeypatch, capsys, interrupt_at
+):
     from planner_ft.cli import main
 
     output = str(tmp_path / "adapter")
-    monkeypatch.setattr(sys, "argv", ["plannerft", "train", *COMMAND, "--data-dir", str(data), "--output", output, "--overwrite"])
+    monkeypatch.setattr(
+        sys,
+        "argv",
+        [
+            "plannerft",
+            "train",
+            *COMMAND,
+            "--data-dir",
+            str(data),
+            "--output",
+            output,
+            "--overwrite",
+        ],
+    )
     with monkeypatch.context() as patch:
         interrupt_at(patch, 4)
         with pytest.raises(SystemExit) as stop:
@@ -183,13 +267,23 @@ def test_ctrl_c_on_the_command_line_exits_with_130_and_says_how_to_go_on(models,
     assert stop.value.code == 130
     printed = capsys.readouterr().out
     assert "stopped at step 4 of 16" in printed
-    assert f"plannerft train {' '.join(COMMAND)} --data-dir {data} --output {output} --resume" in printed
+    assert (
+        f"plannerft train {' '.join(COMMAND)} --data-dir {data} --output {output} --resume"
+        in printed
+    )
     with monkeypatch.context() as patch:
-        patch.setattr(sys, "argv", ["plannerft", "train", *COMMAND, "--data-dir", str(data), "--output", output])
+        patch.setattr(
+            sys,
+            "argv",
+            ["plannerft", "train", *COMMAND, "--data-dir", str(data), "--output", output],
+        )
         with pytest.raises(SystemExit) as stop:
             main()
     assert stop.value.code == 2
-    assert "holds an unfinished run; give --resume to continue it, --overwrite to start again" in capsys.readouterr().err
+    assert (
+        "holds an unfinished run; give --resume to continue it, --overwrite to start again"
+        in capsys.readouterr().err
+    )
 
 
 def test_termination_saves_as_well(ask, quiet, monkeypatch, short, interrupt_at):
@@ -199,12 +293,16 @@ def test_termination_saves_as_well(ask, quiet, monkeypatch, short, interrupt_at)
     assert stop.value.signal_number == signal.SIGTERM
 
 
-def test_resume_refuses_another_run(ask, quiet, data, monkeypatch, write, curated, short, interrupt_at):
+def test_resume_refuses_another_run(
+    ask, quiet, data, monkeypatch, write, curated, short, interrupt_at
+):
     with monkeypatch.context() as patch:
         interrupt_at(patch, 2)
         with pytest.raises(InterruptedRunError):
             train(ask(**short), quiet)
-    with pytest.raises(PlannerError, match=r"--learning-rate was 0.0002 and is 0.001; --seed was 0 and is 3"):
+    with pytest.raises(
+        PlannerError, match=r"--learning-rate was 0.0002 and is 0.001; --seed was 0 and is 3"
+    ):
         train(ask(**short, seed=3, learning_rate=1e-3, resume=True), quiet)
     write(data / "train.jsonl", curated(8, skip=1))
     with pytest.raises(PlannerError, match="the training data changed since"):
@@ -219,7 +317,10 @@ def test_a_finished_run_is_complete_protected_and_can_be_replaced(ask, quiet, tm
     with pytest.raises(PlannerError, match="holds a finished adapter; give --overwrite"):
         train(ask(**short), quiet)
     second = train(ask(**short, overwrite=True), quiet)
-    assert second["outputs"]["adapter_model.safetensors"] == first["outputs"]["adapter_model.safetensors"]
+    assert (
+        second["outputs"]["adapter_model.safetensors"]
+        == first["outputs"]["adapter_model.safetensors"]
+    )
     assert (tmp_path / "adapter" / "notes.txt").read_text() == "mine"
 
 
@@ -230,7 +331,9 @@ def test_resume_without_a_run_says_so(ask, quiet, short):
 
 def test_checkpoints_can_be_kept(ask, quiet, tmp_path, short):
     train(ask(**short, keep_checkpoints=True), quiet)
-    assert [path.name for path in (tmp_path / "adapter" / "checkpoints").iterdir()] == ["step-00000016"]
+    assert [path.name for path in (tmp_path / "adapter" / "checkpoints").iterdir()] == [
+        "step-00000016"
+    ]
     assert train(ask(**short, resume=True), quiet) is None
 
 
@@ -258,7 +361,16 @@ def test_trackers_get_the_losses(ask, quiet, tmp_path, short):
 
 
 @pytest.mark.parametrize(
-    "name", ["Llama-3.2-1B", "Llama-3.2-1B-Instruct", "Llama-3.2-3B", "Llama-3.2-3B-Instruct", "Qwen2.5-3B", "Qwen2.5-3B-Instruct", "Llama-3.1-8B"]
+    "name",
+    [
+        "Llama-3.2-1B",
+        "Llama-3.2-1B-Instruct",
+        "Llama-3.2-3B",
+        "Llama-3.2-3B-Instruct",
+        "Qwen2.5-3B",
+        "Qwen2.5-3B-Instruct",
+        "Llama-3.1-8B",
+    ],
 )
 def test_every_published_candidate_trains(ask, quiet, name):
     manifest = train(ask(candidate=name, max_steps=2, max_samples=2), quiet)
@@ -270,7 +382,9 @@ def test_the_task_level_trains(ask, quiet, write, tmp_path):
     from planner_ft.data.task.sampler import sample_tasks
     from planner_ft.vocabulary import load_vocabulary
 
-    records = sorted(sample_tasks(load_vocabulary(), 0, 40, "train"), key=lambda record: len(str(record)))
+    records = sorted(
+        sample_tasks(load_vocabulary(), 0, 40, "train"), key=lambda record: len(str(record))
+    )
     write(tmp_path / "task" / "train.jsonl", records[:4])
     write(tmp_path / "task" / "validation.jsonl", records[4:6])
     manifest = train(ask(level="task", data_dir=str(tmp_path / "task")), quiet)

@@ -23,26 +23,36 @@ def test_the_published_settings_are_the_defaults():
     mission, task = resolved().settings, resolved(level="task").settings
     assert (mission.rank, mission.epochs, task.rank, task.epochs) == (16, 5, 8, 2)
     for settings in (mission, task):
-        assert (settings.learning_rate, settings.batch_size, settings.quantization) == (2e-4, 1, "nf4")
+        assert (settings.learning_rate, settings.batch_size, settings.quantization) == (
+            2e-4,
+            1,
+            "nf4",
+        )
 
 
 def test_flag_beats_recipe_beats_candidate_beats_published():
-    flag, recipe = Source("flag", {"rank": 2, "epochs": None}, flags=True), Source("r.toml", {"rank": 3, "epochs": 4})
+    flag, recipe = (
+        Source("flag", {"rank": 2, "epochs": None}, flags=True),
+        Source("r.toml", {"rank": 3, "epochs": 4}),
+    )
     candidate = Source("embedded", {"rank": 5, "epochs": 6.0, "learning_rate": 1e-3})
     result = resolved(flag, recipe, candidate)
-    assert (result.settings.rank, result.settings.epochs, result.settings.learning_rate, result.settings.batch_size) == (2, 4, 1e-3, 1)
-    assert [result.origin[name] for name in ("rank", "epochs", "learning_rate", "batch_size", "dropout")] == [
-        "flag",
-        "r.toml",
-        "embedded",
-        "published",
-        "default",
-    ]
+    assert (
+        result.settings.rank,
+        result.settings.epochs,
+        result.settings.learning_rate,
+        result.settings.batch_size,
+    ) == (2, 4, 1e-3, 1)
+    assert [
+        result.origin[name] for name in ("rank", "epochs", "learning_rate", "batch_size", "dropout")
+    ] == ["flag", "r.toml", "embedded", "published", "default"]
 
 
 def test_departures_from_the_published_settings_are_said():
     result = resolved(Source("embedded", {"learning_rate": 1e-3}))
-    assert result.departures("mission") == ["learning rate 0.001 (embedded) instead of the published 0.0002"]
+    assert result.departures("mission") == [
+        "learning rate 0.001 (embedded) instead of the published 0.0002"
+    ]
     assert resolved().departures("mission") == []
 
 
@@ -76,7 +86,9 @@ def test_all_configuration_errors_are_reported_at_once(tmp_path: Path):
     recipe = tmp_path / "mine.toml"
     recipe.write_text('level = "misson"\nlerning_rate = 1e-4\nepochs = -1\n')
     with pytest.raises(PlannerError) as caught:
-        build_request({"candidate": "Llama-9"}, {"rank": 0}, recipe=str(recipe), overwrite=True, resume=True)
+        build_request(
+            {"candidate": "Llama-9"}, {"rank": 0}, recipe=str(recipe), overwrite=True, resume=True
+        )
     message = str(caught.value)
     assert "--level misson" in message
     assert "unknown candidate 'Llama-9'" in message
@@ -88,7 +100,12 @@ def test_all_configuration_errors_are_reported_at_once(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    ("run", "part"), [({}, "--level is missing"), ({"level": "mission"}, "--candidate is missing"), ({"level": "x", "candidate": "embedded"}, "--level x")]
+    ("run", "part"),
+    [
+        ({}, "--level is missing"),
+        ({"level": "mission"}, "--candidate is missing"),
+        ({"level": "x", "candidate": "embedded"}, "--level x"),
+    ],
 )
 def test_what_is_missing_is_named(run, part):
     with pytest.raises(PlannerError, match=part):
@@ -102,7 +119,10 @@ def test_a_recipe_that_is_missing_names_the_bundled_ones():
 
 def test_data_and_output_have_places_of_their_own():
     request = build_request({"level": "task", "candidate": "Qwen2.5-3B"}, {})
-    assert (request.train_file, request.validation_file) == (Path("data/task/train.jsonl"), Path("data/task/validation.jsonl"))
+    assert (request.train_file, request.validation_file) == (
+        Path("data/task/train.jsonl"),
+        Path("data/task/validation.jsonl"),
+    )
     assert request.output == Path("adapters/Qwen2.5-3B/task")
 
 
@@ -112,7 +132,11 @@ def test_a_bundled_recipe_runs_by_its_first_line_and_says_every_setting(name):
     assert first == f"# plannerft train --recipe {name}"
     request = build_request({}, {}, recipe=name)
     for setting in FIELDS:
-        if FIELDS[setting].metadata["panel"] != "run" and setting not in ("max_samples", "max_steps", "augment"):
+        if FIELDS[setting].metadata["panel"] != "run" and setting not in (
+            "max_samples",
+            "max_steps",
+            "augment",
+        ):
             assert request.resolved.origin[setting].endswith(f"{name}.toml"), setting
     assert request.resolved.departures(request.level) == []
     assert request.settings.learned() == TrainSettings(**PUBLISHED[request.level]).learned()

@@ -44,11 +44,15 @@ def test_adapters_get_the_gradients_that_they_got(models: Path) -> None:
         with torch.autocast("cpu", dtype=torch.bfloat16):
             ids = torch.arange(40)[None]
             adapted(input_ids=ids, labels=ids).loss.backward()
-        gradients.append({name: value.grad for name, value in adapted.named_parameters() if value.requires_grad})
+        gradients.append(
+            {name: value.grad for name, value in adapted.named_parameters() if value.requires_grad}
+        )
     packed, dense = gradients
     assert packed.keys() == dense.keys() and len(packed) == 28
     for name, gradient in packed.items():
-        torch.testing.assert_close(dense[name], gradient, rtol=0.05, atol=0.02 * float(gradient.abs().max()), msg=name)
+        torch.testing.assert_close(
+            dense[name], gradient, rtol=0.05, atol=0.02 * float(gradient.abs().max()), msg=name
+        )
 
 
 def test_without_memory_the_layers_stay(models: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -35,7 +35,11 @@ def changed(**vehicle: Any) -> dict[str, Any]:
 def test_the_vehicle_has_21_tasks_and_37_skills_in_three_roles() -> None:
     usv = load_vocabulary()
     assert (len(usv.tasks), len(usv.skills)) == (21, 37)
-    assert [len(usv.skills_in_role(role)) for role in ("navigation", "filter", "perception")] == [8, 3, 26]
+    assert [len(usv.skills_in_role(role)) for role in ("navigation", "filter", "perception")] == [
+        8,
+        3,
+        26,
+    ]
 
 
 def test_bundled_vocabularies_load_by_name_and_files_by_path(tmp_path: Path) -> None:
@@ -48,12 +52,19 @@ def test_bundled_vocabularies_load_by_name_and_files_by_path(tmp_path: Path) -> 
 
 
 def test_an_unknown_vocabulary_names_the_bundled_ones() -> None:
-    with pytest.raises(PlannerError, match=r"--vocabulary submarine: no such file, .*inspection_drone, usv"):
+    with pytest.raises(
+        PlannerError, match=r"--vocabulary submarine: no such file, .*inspection_drone, usv"
+    ):
         load_vocabulary("submarine")
 
 
-@pytest.mark.parametrize(("content", "message"), [(b"[vehicle\n", "not TOML"), (b"\xff", "not UTF-8"), (b"", r"a table \[vehicle\] is needed")])
-def test_a_file_that_is_no_definition_is_named(tmp_path: Path, content: bytes, message: str) -> None:
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [(b"[vehicle\n", "not TOML"), (b"\xff", "not UTF-8"), (b"", r"a table \[vehicle\] is needed")],
+)
+def test_a_file_that_is_no_definition_is_named(
+    tmp_path: Path, content: bytes, message: str
+) -> None:
     path = tmp_path / "drone.toml"
     path.write_bytes(content)
     with pytest.raises(PlannerError, match=rf"drone.toml: .*{message}"):
@@ -68,7 +79,13 @@ def test_all_mistakes_are_reported_at_once() -> None:
     raw["skill"][0]["role"] = "pilot"
     raw["skill"][1]["colour"] = "red"
     message = refused(raw)
-    for part in ("[vehicle]: lacks home", "arrival = 'teleport' must be one of", "type = 'metres' must be one of", "role = 'pilot'", "unknown key 'colour'"):
+    for part in (
+        "[vehicle]: lacks home",
+        "arrival = 'teleport' must be one of",
+        "type = 'metres' must be one of",
+        "role = 'pilot'",
+        "unknown key 'colour'",
+    ):
         assert part in message
 
 
@@ -77,9 +94,15 @@ def test_all_mistakes_are_reported_at_once() -> None:
     [
         ({"name": "height", "type": "number", "minimum": 5, "maximum": 1}, "the smaller one first"),
         ({"name": "height", "type": "number", "minimum": 5}, "stand together"),
-        ({"name": "height", "type": "number", "minimum": "low", "maximum": 9}, "minimum = 'low' must be a number"),
+        (
+            {"name": "height", "type": "number", "minimum": "low", "maximum": 9},
+            "minimum = 'low' must be a number",
+        ),
         ({"name": "height", "type": "text", "minimum": 1, "maximum": 2}, "only numbers have"),
-        ({"name": "height", "type": "number", "required": "yes"}, "required = 'yes' must be true or false"),
+        (
+            {"name": "height", "type": "number", "required": "yes"},
+            "required = 'yes' must be true or false",
+        ),
         ({"type": "number"}, "lacks name"),
     ],
 )
@@ -123,7 +146,13 @@ JUNK = st.one_of(
 
 
 def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
-    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    items = (
+        value.items()
+        if isinstance(value, dict)
+        else enumerate(value)
+        if isinstance(value, list)
+        else ()
+    )
     return [found for key, item in items for found in [(*path, key), *places(item, (*path, key))]]
 
 

@@ -40,7 +40,13 @@ def test_curated_records_are_valid_by_the_record_schema() -> None:
 
 def test_a_manifest_is_valid_by_the_manifest_schema() -> None:
     schema = jsonschema.Draft202012Validator(all_schemas(USV)["manifest.schema.json"])
-    manifest = build_manifest("data", seed=0, configuration={}, inputs={"page": ROOT / "docs" / "vocabulary.md"}, outputs={"train.jsonl": "0" * 64})
+    manifest = build_manifest(
+        "data",
+        seed=0,
+        configuration={},
+        inputs={"page": ROOT / "docs" / "vocabulary.md"},
+        outputs={"train.jsonl": "0" * 64},
+    )
     schema.validate(manifest)
     assert not schema.is_valid({**manifest, "outputs": {"train.jsonl": "short"}})
 
@@ -48,7 +54,11 @@ def test_a_manifest_is_valid_by_the_manifest_schema() -> None:
 @pytest.mark.parametrize("vocabulary", ["usv", "inspection_drone"])
 def test_texts_name_every_task_skill_and_parameter(vocabulary: str) -> None:
     definition = load_vocabulary(vocabulary)
-    page, mission, task = documentation_page(definition), prompt_text("mission", definition), prompt_text("task", definition)
+    page, mission, task = (
+        documentation_page(definition),
+        prompt_text("mission", definition),
+        prompt_text("task", definition),
+    )
     for owner in definition.tasks:
         assert f"`{owner.title}`" in page and f"- {owner.title}(" in mission
         assert all(f"{parameter.name}: " in mission for parameter in owner.parameters)

@@ -1,4 +1,6 @@
-"""The logic file beside a definition: what is read, what is refused, and that it changes nothing else."""
+"""The logic file beside a definition: what is read, what is refused, and that it changes nothing
+else.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +44,9 @@ def test_a_vehicle_without_a_logic_file_declares_nothing(tmp_path: Path) -> None
 
 
 def test_words_of_logic_files_are_no_known_words() -> None:
-    """Decoding with strength grounded corrects words that are not known: a logic file must not change answers."""
+    """Decoding with strength grounded corrects words that are not known: a logic file must not
+    change answers.
+    """
     assert "timelapse" in (BUNDLED / "usv.logic.toml").read_text()
     assert "timelapse" not in known_words()
 
@@ -51,9 +55,15 @@ def test_words_of_logic_files_are_no_known_words() -> None:
     ("logic", "said"),
     [
         (FACT + "[task.Sail]\n", "task Sail: it is not defined"),
-        (FACT + '[task.SendReport]\nneeds = ["pictures"]\n', "needs names the fact 'pictures', which is not declared"),
+        (
+            FACT + '[task.SendReport]\nneeds = ["pictures"]\n',
+            "needs names the fact 'pictures', which is not declared",
+        ),
         (FACT + '[task.SendReport]\nneeds = "data"\n', "needs = 'data' must be a list of names"),
-        (FACT + '[task.SendReport]\nsends = "items"\n', "sends = 'items' must name a parameter of type texts"),
+        (
+            FACT + '[task.SendReport]\nsends = "items"\n',
+            "sends = 'items' must name a parameter of type texts",
+        ),
         (FACT + '[task.SendReport]\nbrings = ["data"]\n', "unknown key 'brings'"),
         ('[fact.data]\nlacking = "nothing"\n', "no task gives the fact 'data'"),
         ("[fact.data]\n[task.RoofScan]\n", "fact data must have a text lacking"),

@@ -1,4 +1,6 @@
-"""The motion file beside a definition: what is read, what is refused, and that it changes nothing else."""
+"""The motion file beside a definition: what is read, what is refused, and that it changes nothing
+else.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,11 @@ def drone(folder: Path, motion: str) -> Path:
 @pytest.mark.parametrize("name", bundled_vocabularies())
 def test_every_navigation_skill_of_a_bundled_vehicle_has_a_motion(name: str) -> None:
     vocabulary = load_vocabulary(name)
-    assert [skill.name for skill in vocabulary.skills_in_role("navigation") if vocabulary.motion.of(skill.name) is None] == []
+    assert [
+        skill.name
+        for skill in vocabulary.skills_in_role("navigation")
+        if vocabulary.motion.of(skill.name) is None
+    ] == []
 
 
 def test_roles_name_the_parameters_of_a_skill() -> None:
@@ -40,8 +46,14 @@ def test_the_digest_of_a_vocabulary_is_that_of_its_definition_alone(tmp_path: Pa
 
 
 def test_words_of_companion_files_are_no_known_words() -> None:
-    """Decoding with strength grounded corrects words that are not known: these files must not change answers."""
-    for ending, word in (("motion", "exporting"), ("ontology", "summarize"), ("vehicle", "estimates")):
+    """Decoding with strength grounded corrects words that are not known: these files must not
+    change answers.
+    """
+    for ending, word in (
+        ("motion", "exporting"),
+        ("ontology", "summarize"),
+        ("vehicle", "estimates"),
+    ):
         assert word in (BUNDLED / f"usv.{ending}.toml").read_text()
         assert word not in known_words()
 
@@ -52,11 +64,20 @@ def test_words_of_companion_files_are_no_known_words() -> None:
         ('[skill.Sail]\nmotion = "go"\n', "skill Sail: it is not defined"),
         ('[skill.Hover]\nmotion = "swim"\n', "motion = 'swim' must be one of go, hold"),
         ('[skill.FlyToXY]\nmotion = "go"\nx = "x"\n', "go needs y"),
-        ('[skill.Hover]\nmotion = "hold"\ntime = "duration"\n', "time = 'duration' must name a parameter of type number"),
+        (
+            '[skill.Hover]\nmotion = "hold"\ntime = "duration"\n',
+            "time = 'duration' must name a parameter of type number",
+        ),
         ('[skill.Hover]\nmotion = "hold"\nspeed = "time"\n', "unknown key 'speed'"),
-        ('[skill.Hover]\nmotion = "boundary"\npolygon = "time"\n', "does not fit the role navigation"),
+        (
+            '[skill.Hover]\nmotion = "boundary"\npolygon = "time"\n',
+            "does not fit the role navigation",
+        ),
         ('[task.TowerOrbit]\ncenter = "center"\n', "a stand-off needs radius"),
-        ('[task.TowerOrbit]\ncenter = "radius"\nradius = "radius"\n', "center = 'radius' must name a parameter of type position"),
+        (
+            '[task.TowerOrbit]\ncenter = "radius"\nradius = "radius"\n',
+            "center = 'radius' must name a parameter of type position",
+        ),
         ("skill = 3\n", "needs tables [skill.NAME]"),
         ("[skills]\n", "unknown key 'skills'"),
     ],

@@ -15,47 +15,89 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import Skill, Task
-from planner_ft.vocabulary.plans import Level, canonical_plan, check_level, plan_names, plan_problems
+from planner_ft.vocabulary.plans import (
+    Level,
+    canonical_plan,
+    check_level,
+    plan_names,
+    plan_problems,
+)
 from planner_ft.vocabulary.schema import plan_schema
 
 USV, DRONE = load_vocabulary(), load_vocabulary("inspection_drone")
-NUMBER = st.one_of(st.integers(-1000, 1000), st.floats(-1000, 1000, allow_nan=False), st.sampled_from([0, 360, 1e6, 10**30]))
+NUMBER = st.one_of(
+    st.integers(-1000, 1000),
+    st.floats(-1000, 1000, allow_nan=False),
+    st.sampled_from([0, 360, 1e6, 10**30]),
+)
 POSITION = st.lists(NUMBER, min_size=2, max_size=2)
 TEXT = st.sampled_from(["buoy", "x", "", " ", "\u2003", "\x1c", "Sierra 2"])
-JUNK = st.one_of(st.none(), st.booleans(), NUMBER, TEXT, st.lists(NUMBER, max_size=3), st.lists(POSITION, max_size=3), st.just({}))
+JUNK = st.one_of(
+    st.none(),
+    st.booleans(),
+    NUMBER,
+    TEXT,
+    st.lists(NUMBER, max_size=3),
+    st.lists(POSITION, max_size=3),
+    st.just({}),
+)
 ANY: dict[str, st.SearchStrategy[Any]] = {
-    "position": POSITION, "polygon": st.lists(POSITION, min_size=2, max_size=4), "number": NUMBER, "integer": st.one_of(st.integers(0, 400), NUMBER),
-    "text": TEXT, "id": st.one_of(TEXT, NUMBER), "texts": st.lists(TEXT, max_size=2),
-}  # fmt: skip
+    "position": POSITION,
+    "polygon": st.lists(POSITION, min_size=2, max_size=4),
+    "number": NUMBER,
+    "integer": st.one_of(st.integers(0, 400), NUMBER),
+    "text": TEXT,
+    "id": st.one_of(TEXT, NUMBER),
+    "texts": st.lists(TEXT, max_size=2),
+}
 
 
 @functools.cache
-def validator(level: Level, vocabulary: Vocabulary, strict: bool) -> jsonschema.Draft202012Validator:
+def validator(
+    level: Level, vocabulary: Vocabulary, strict: bool
+) -> jsonschema.Draft202012Validator:
     return jsonschema.Draft202012Validator(plan_schema(level, vocabulary, strict=strict))
 
 
-def sometimes(strategy: st.SearchStrategy[Any], otherwise: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
+def sometimes(
+    strategy: st.SearchStrategy[Any], otherwise: st.SearchStrategy[Any]
+) -> st.SearchStrategy[Any]:
     return st.integers(0, 11).flatmap(lambda roll: otherwise if roll == 0 else strategy)
 
 
 def dropping(value: dict[str, Any]) -> st.SearchStrategy[dict[str, Any]]:
     """Mostly the object as it is; now and then a key is missing or one too many."""
-    without = st.sampled_from(sorted(value)).map(lambda gone: {key: item for key, item in value.items() if key != gone})
-    return st.integers(0, 9).flatmap(lambda roll: without if roll == 0 else st.just({**value, "more": 1} if roll == 1 else value))
+    without = st.sampled_from(sorted(value)).map(
+        lambda gone: {key: item for key, item in value.items() if key != gone}
+    )
+    return st.integers(0, 9).flatmap(
+        lambda roll: without if roll == 0 else st.just({**value, "more": 1} if roll == 1 else value)
+    )
 
 
 def parameters(owner: Task | Skill) -> st.SearchStrategy[dict[str, Any]]:
     def value(parameter: Parameter) -> st.SearchStrategy[Any]:
         return sometimes(ANY[parameter.type], JUNK)
 
-    optional = {parameter.name: value(parameter) for parameter in owner.parameters if not parameter.required}
-    required = {parameter.name: value(parameter) for parameter in owner.parameters if parameter.required}
-    return st.fixed_dictionaries(required, optional=optional).flatmap(lambda given: dropping(given) if given else st.just(given))
+    optional = {
+        parameter.name: value(parameter) for parameter in owner.parameters if not parameter.required
+    }
+    required = {
+        parameter.name: value(parameter) for parameter in owner.parameters if parameter.required
+    }
+    return st.fixed_dictionaries(required, optional=optional).flatmap(
+        lambda given: dropping(given) if given else st.just(given)
+    )
 
 
 def named(key: str, owners: tuple[Any, ...]) -> st.SearchStrategy[dict[str, Any]]:
     def of(owner: Any) -> st.SearchStrategy[dict[str, Any]]:
-        return st.fixed_dictionaries({key: sometimes(st.just(getattr(owner, key)), JUNK), "parameters": sometimes(parameters(owner), JUNK)})
+        return st.fixed_dictionaries(
+            {
+                key: sometimes(st.just(getattr(owner, key)), JUNK),
+                "parameters": sometimes(parameters(owner), JUNK),
+            }
+        )
 
     return st.sampled_from(owners).flatmap(of)
 
@@ -64,9 +106,18 @@ TEXTS = sometimes(st.lists(TEXT, max_size=2), JUNK)
 
 
 def mission_plans(vocabulary: Vocabulary) -> st.SearchStrategy[Any]:
-    task = st.tuples(named("title", vocabulary.tasks), sometimes(st.just("Go."), JUNK)).map(lambda pair: {**pair[0], "task_prompt": pair[1]}).flatmap(dropping)
+    task = (
+        st.tuples(named("title", vocabulary.tasks), sometimes(st.just("Go."), JUNK))
+        .map(lambda pair: {**pair[0], "task_prompt": pair[1]})
+        .flatmap(dropping)
+    )
     tasks = sometimes(st.lists(sometimes(task, JUNK), max_size=3), JUNK)
-    return sometimes(st.fixed_dictionaries({"tasks": tasks, "assumptions": TEXTS, "constraints": TEXTS}).flatmap(dropping), JUNK)
+    return sometimes(
+        st.fixed_dictionaries({"tasks": tasks, "assumptions": TEXTS, "constraints": TEXTS}).flatmap(
+            dropping
+        ),
+        JUNK,
+    )
 
 
 def skill_plans(vocabulary: Vocabulary) -> st.SearchStrategy[Any]:
@@ -74,10 +125,20 @@ def skill_plans(vocabulary: Vocabulary) -> st.SearchStrategy[Any]:
         fitting = named("name", vocabulary.skills_in_role(role)).flatmap(dropping)
         return sometimes(fitting, st.one_of(JUNK, named("name", vocabulary.skills)))
 
-    several = {f"{role}_skills": sometimes(st.lists(skills(role), max_size=2), JUNK) for role in ("filter", "perception")}
+    several = {
+        f"{role}_skills": sometimes(st.lists(skills(role), max_size=2), JUNK)
+        for role in ("filter", "perception")
+    }
     texts = dict.fromkeys(("stop_conditions", "failure_modes", "expected_outputs"), TEXTS)
-    step = st.fixed_dictionaries({"navigation_skill": skills("navigation"), **several, **texts}).flatmap(dropping)
-    return sometimes(st.fixed_dictionaries({"skill_sequence": sometimes(st.lists(step, max_size=2), JUNK)}).flatmap(dropping), JUNK)
+    step = st.fixed_dictionaries(
+        {"navigation_skill": skills("navigation"), **several, **texts}
+    ).flatmap(dropping)
+    return sometimes(
+        st.fixed_dictionaries(
+            {"skill_sequence": sometimes(st.lists(step, max_size=2), JUNK)}
+        ).flatmap(dropping),
+        JUNK,
+    )
 
 
 PLANS: list[tuple[Level, Vocabulary, st.SearchStrategy[Any]]] = [
@@ -88,8 +149,14 @@ PLANS: list[tuple[Level, Vocabulary, st.SearchStrategy[Any]]] = [
 
 
 @pytest.mark.parametrize("strict", [False, True])
-@pytest.mark.parametrize(("level", "vocabulary", "plans"), PLANS, ids=lambda value: value if isinstance(value, str) else "")
-def test_plan_problems_agrees_with_the_schema(level: Level, vocabulary: Vocabulary, plans: st.SearchStrategy[Any], strict: bool) -> None:
+@pytest.mark.parametrize(
+    ("level", "vocabulary", "plans"),
+    PLANS,
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_plan_problems_agrees_with_the_schema(
+    level: Level, vocabulary: Vocabulary, plans: st.SearchStrategy[Any], strict: bool
+) -> None:
     verdicts = set()
 
     @settings(max_examples=150, deadline=None, derandomize=True)
@@ -105,7 +172,18 @@ def test_plan_problems_agrees_with_the_schema(level: Level, vocabulary: Vocabula
 
 
 def go(**more: Any) -> dict[str, Any]:
-    return {"tasks": [{"title": "Transit", "parameters": {"target_position": [1, 2]}, "task_prompt": "Go.", **more}], "assumptions": [], "constraints": []}
+    return {
+        "tasks": [
+            {
+                "title": "Transit",
+                "parameters": {"target_position": [1, 2]},
+                "task_prompt": "Go.",
+                **more,
+            }
+        ],
+        "assumptions": [],
+        "constraints": [],
+    }
 
 
 @pytest.mark.parametrize(
@@ -113,10 +191,22 @@ def go(**more: Any) -> dict[str, Any]:
     [
         (go(title="Teleport"), "tasks[0]: 'Teleport' is no task title of the vocabulary"),
         (go(parameters={}), "tasks[0]: Transit needs target_position"),
-        (go(parameters={"target_position": [1]}), "tasks[0].parameters.target_position: [1] is no position [x, y]"),
-        (go(parameters={"target_position": [1, 2], "speed": 3}), "tasks[0].parameters.speed: is no parameter of Transit"),
-        (go(title="FollowTarget", parameters={}), "tasks[0]: FollowTarget needs target_id or target_position"),
-        (go(title="PerformOrbit", parameters={"center": [0, 0], "radius": -1}), "tasks[0].parameters.radius: -1 is not between 0 and 10000"),
+        (
+            go(parameters={"target_position": [1]}),
+            "tasks[0].parameters.target_position: [1] is no position [x, y]",
+        ),
+        (
+            go(parameters={"target_position": [1, 2], "speed": 3}),
+            "tasks[0].parameters.speed: is no parameter of Transit",
+        ),
+        (
+            go(title="FollowTarget", parameters={}),
+            "tasks[0]: FollowTarget needs target_id or target_position",
+        ),
+        (
+            go(title="PerformOrbit", parameters={"center": [0, 0], "radius": -1}),
+            "tasks[0].parameters.radius: -1 is not between 0 and 10000",
+        ),
         ({"tasks": []}, "assumptions is missing"),
         ([], "a JSON object is expected, not a list"),
     ],
@@ -133,16 +223,25 @@ def test_an_invented_name_is_schema_valid_but_not_strictly_valid() -> None:
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), 10**400])
 def test_numbers_that_cannot_be_calculated_with_are_none(value: float) -> None:
-    assert plan_problems("mission", go(parameters={"target_position": [value, 0]}), USV, strict=True)
+    assert plan_problems(
+        "mission", go(parameters={"target_position": [value, 0]}), USV, strict=True
+    )
 
 
 def test_canonical_form_orders_keys_and_parameters_and_writes_whole_numbers_without_point() -> None:
     plan = {
         "constraints": [],
-        "tasks": [{"task_prompt": "Circle.", "parameters": {"arc": 360.0, "radius": 12.5, "center": [1.0, 2.5]}, "title": "PerformOrbit"}],
+        "tasks": [
+            {
+                "task_prompt": "Circle.",
+                "parameters": {"arc": 360.0, "radius": 12.5, "center": [1.0, 2.5]},
+                "title": "PerformOrbit",
+            }
+        ],
     }
-    assert compact_json(canonical_plan("mission", plan, USV)) == (
-        '{"tasks":[{"title":"PerformOrbit","parameters":{"center":[1,2.5],"radius":12.5,"arc":360},"task_prompt":"Circle."}],"assumptions":[],"constraints":[]}'
+    assert (
+        compact_json(canonical_plan("mission", plan, USV))
+        == '{"tasks":[{"title":"PerformOrbit","parameters":{"center":[1,2.5],"radius":12.5,"arc":360},"task_prompt":"Circle."}],"assumptions":[],"constraints":[]}'
     )
 
 
@@ -153,12 +252,20 @@ def test_the_canonical_form_of_a_valid_plan_is_valid_and_stays_as_it_is(plan: An
         return
     canonical = canonical_plan("task", plan, USV)
     assert plan_problems("task", canonical, USV, strict=True) == []
-    assert compact_json(canonical_plan("task", json.loads(compact_json(canonical)), USV)) == compact_json(canonical)
+    assert compact_json(
+        canonical_plan("task", json.loads(compact_json(canonical)), USV)
+    ) == compact_json(canonical)
 
 
 def test_names_are_read_in_order_and_strange_entries_passed_over() -> None:
-    assert plan_names("mission", {"tasks": [{"title": "Transit"}, 3, {"title": None}, {"title": "KeepStation"}]}) == ["Transit", "KeepStation"]
-    step = {"navigation_skill": {"name": "GoToXY"}, "filter_skills": [{"name": "LockHeading"}], "perception_skills": None}
+    assert plan_names(
+        "mission", {"tasks": [{"title": "Transit"}, 3, {"title": None}, {"title": "KeepStation"}]}
+    ) == ["Transit", "KeepStation"]
+    step = {
+        "navigation_skill": {"name": "GoToXY"},
+        "filter_skills": [{"name": "LockHeading"}],
+        "perception_skills": None,
+    }
     assert plan_names("task", {"skill_sequence": [step, None]}) == ["GoToXY", "LockHeading"]
     assert plan_names("mission", "nothing") == []
 

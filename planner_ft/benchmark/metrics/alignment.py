@@ -1,6 +1,8 @@
-"""Which predicted task or skill stands for which expected one: an optimal assignment over equal names.
+"""Which predicted task or skill stands for which expected one: an optimal assignment over equal
+names.
 
-Kuhn 1955, as scipy's linear_sum_assignment computes it; a greedy choice can leave the better partner to nobody.
+Kuhn 1955, as scipy's linear_sum_assignment computes it; a greedy choice can leave the better
+partner to nobody.
 """
 
 from __future__ import annotations
@@ -22,13 +24,17 @@ Company = Callable[[int, int], float]
 LEADING = (TASK, "navigation")
 """Roles of entries that are paired first: one of them makes a step."""
 COMPANY, NEARNESS = 1e-2, 1e-4
-"""Weights of what decides between equals, over all pairs together, beside 1 for the parameters of one pair."""
+"""Weights of what decides between equals, over all pairs together, beside 1 for the parameters of
+one pair.
+"""
 
 
 @dataclass(frozen=True)
 class Alignment:
-    """Entries of an expected and a predicted plan. `pairs` are (expected, predicted) indices, in the order of the expected ones;
-    `missing` are expected entries without a partner, `extra` predicted ones."""
+    """Entries of an expected and a predicted plan. `pairs` are (expected, predicted) indices, in
+    the order of the expected ones; `missing` are expected entries without a partner, `extra`
+    predicted ones.
+    """
 
     expected: Entries
     predicted: Entries
@@ -46,52 +52,84 @@ class Alignment:
 
     def to_json(self) -> dict[str, list[Any]]:
         """Indices into the entries of the expected and the predicted plan (`plan_entries`)."""
-        return {"pairs": [list(pair) for pair in self.pairs], "missing": list(self.missing), "extra": list(self.extra)}
+        return {
+            "pairs": [list(pair) for pair in self.pairs],
+            "missing": list(self.missing),
+            "extra": list(self.extra),
+        }
 
 
 def align(level: Level, expected: Entries, predicted: Entries, vocabulary: Vocabulary) -> Alignment:
-    """Pair as many entries of equal name as there are, each at most once, so that the sum of their likeness is greatest.
+    """Pair as many entries of equal name as there are, each at most once, so that the sum of their
+    likeness is greatest.
 
-    Likeness counts, in this order: parameters that are all right; the share of key-value pairs that agree; the same company (tasks: the same
-    neighbours; navigation skills: the same other skills in their step; other skills: a step whose navigation skill is paired with that of
-    theirs); nearness in the plan. Roles do not count: a skill in a role that is not its own is paired like any other.
+    Likeness counts, in this order: parameters that are all right; the share of key-value pairs that
+    agree; the same company (tasks: the same neighbours; navigation skills: the same other skills in
+    their step; other skills: a step whose navigation skill is paired with that of theirs); nearness
+    in the plan. Roles do not count: a skill in a role that is not its own is paired like any other.
     """
     if expected == predicted:
-        return Alignment(expected, predicted, tuple((index, index) for index in range(len(expected))))
+        return Alignment(
+            expected, predicted, tuple((index, index) for index in range(len(expected)))
+        )
     leading = {entry.name for entry in expected if entry.role in LEADING}
     ours, theirs = _surroundings(expected), _surroundings(predicted)
 
     def beside(one: int, other: int) -> float:
-        return (ours[one] & theirs[other]).total() / max(ours[one].total(), theirs[other].total(), 1)
+        return (ours[one] & theirs[other]).total() / max(
+            ours[one].total(), theirs[other].total(), 1
+        )
 
     def in_step(one: int, other: int) -> float:
         return float((expected[one].step, predicted[other].step) in steps)
 
     leads = _assigned(level, expected, predicted, leading, beside, vocabulary)
     steps = {(expected[one].step, predicted[other].step) for one, other in leads}
-    rest = _assigned(level, expected, predicted, {entry.name for entry in expected} - leading, in_step, vocabulary)
+    rest = _assigned(
+        level,
+        expected,
+        predicted,
+        {entry.name for entry in expected} - leading,
+        in_step,
+        vocabulary,
+    )
     return Alignment(expected, predicted, tuple(sorted([*leads, *rest])))
 
 
 def _surroundings(entries: Entries) -> list[Counter[str]]:
-    """What stands beside each entry: the titles before and after a task, the other skills of a step."""
+    """What stands beside each entry: the titles before and after a task, the other skills of a
+    step.
+    """
     if any(entry.role == TASK for entry in entries):
         names = ["", *(entry.name for entry in entries), ""]
-        return [Counter((f"after {names[index]}", f"before {names[index + 2]}")) for index in range(len(entries))]
+        return [
+            Counter((f"after {names[index]}", f"before {names[index + 2]}"))
+            for index in range(len(entries))
+        ]
     steps: dict[int, Counter[str]] = defaultdict(Counter)
     for entry in entries:
         steps[entry.step][f"{entry.role} {entry.name}"] += 1
     return [steps[entry.step] for entry in entries]
 
 
-def _assigned(level: Level, expected: Entries, predicted: Entries, names: set[str], company: Company, vocabulary: Vocabulary) -> list[Pair]:
+def _assigned(
+    level: Level,
+    expected: Entries,
+    predicted: Entries,
+    names: set[str],
+    company: Company,
+    vocabulary: Vocabulary,
+) -> list[Pair]:
     """The best pairs for each of these names."""
     ours, theirs = _by_name(expected, names), _by_name(predicted, names)
     size = max(len(expected), len(predicted))
 
     def weight(one: int, other: int) -> float:
         near = 1 - ((one - other) / size) ** 2
-        return _likeness(level, expected[one], predicted[other], size, vocabulary) + (COMPANY * company(one, other) + NEARNESS * near) / size
+        return (
+            _likeness(level, expected[one], predicted[other], size, vocabulary)
+            + (COMPANY * company(one, other) + NEARNESS * near) / size
+        )
 
     pairs: list[Pair] = []
     for name, rows in ours.items():
@@ -105,14 +143,24 @@ def _assigned(level: Level, expected: Entries, predicted: Entries, names: set[st
 
 
 def _likeness(level: Level, ours: Entry, theirs: Entry, size: int, vocabulary: Vocabulary) -> float:
-    """Share of key-value pairs that agree (their F1), and more than all shares together where the parameters are all right."""
+    """Share of key-value pairs that agree (their F1), and more than all shares together where the
+    parameters are all right.
+    """
     if not ours.stated:
         return 0.0
     if ours.parameters == theirs.parameters:
         return 1.0 + 2 * size
     keys = len(ours.parameters) + len(theirs.parameters)
-    share = 2 * len(agreeing_keys(level, ours.name, theirs.parameters, ours.parameters, vocabulary)) / keys if keys else 1.0
-    right = share == 1.0 and parameters_agree(level, ours.name, theirs.parameters, ours.parameters, vocabulary)
+    share = (
+        2
+        * len(agreeing_keys(level, ours.name, theirs.parameters, ours.parameters, vocabulary))
+        / keys
+        if keys
+        else 1.0
+    )
+    right = share == 1.0 and parameters_agree(
+        level, ours.name, theirs.parameters, ours.parameters, vocabulary
+    )
     return share + 2 * size * right
 
 

@@ -25,7 +25,8 @@ class Counts:
 
     @property
     def f1(self) -> float:
-        """Harmonic mean of precision and recall (van Rijsbergen 1979), 2 right / (predicted + expected); 1 where nothing is expected and nothing
-        predicted."""
+        """Harmonic mean of precision and recall (van Rijsbergen 1979), 2 right / (predicted +
+        expected); 1 where nothing is expected and nothing predicted.
+        """
         total = self.predicted + self.expected
         return 2 * self.right / total if total else 1.0

@@ -10,10 +10,11 @@ Sequence = list[tuple[str, ...]]
 
 
 def name_sequence(level: Level, plan: dict[str, Any]) -> Sequence:
-    """The names in order: one title per task, or per step the navigation skill, then filters and perception skills.
+    """The names in order: one title per task, or per step the navigation skill, then filters and
+    perception skills.
 
-    Skills of one step run at the same time, so the order within its filters and within its perception skills is
-    dropped; their roles are kept.
+    Skills of one step run at the same time, so the order within its filters and within its
+    perception skills is dropped; their roles are kept.
     """
     if level == "mission":
         return [(title,) for title in plan_names(level, plan)]
@@ -22,12 +23,15 @@ def name_sequence(level: Level, plan: dict[str, Any]) -> Sequence:
 
 
 def flat_sequence(level: Level, plan: dict[str, Any]) -> list[str]:
-    """The names of `name_sequence` one by one: titles, or per step role and name, in a fixed order within a step."""
+    """The names of `name_sequence` one by one: titles, or per step role and name, in a fixed order
+    within a step.
+    """
     return [name for step in name_sequence(level, plan) for name in step]
 
 
 def exact_sequence(level: Level, plan: dict[str, Any] | None, expected: dict[str, Any]) -> bool:
-    """Whether an answer names the expected tasks, or steps with their skills, in the expected order and nothing else.
+    """Whether an answer names the expected tasks, or steps with their skills, in the expected order
+    and nothing else.
 
     An answer that does not parse is never right, also where nothing is expected.
     """

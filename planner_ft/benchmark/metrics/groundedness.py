@@ -1,8 +1,10 @@
 """Groundedness: values that somebody gave.
 
-A value is grounded when the command states it (at task level the task prompt or the task's parameters), in any unit and wording, when the
-vocabulary gives it (home, the unresolved location), or when it follows from what is stated (at task level: waypoints of a grid, a square or
-a ring, points a stated way off, angles of equal turns). It need not be the right value: a value in the wrong place is grounded, too.
+A value is grounded when the command states it (at task level the task prompt or the task's
+parameters), in any unit and wording, when the vocabulary gives it (home, the unresolved location),
+or when it follows from what is stated (at task level: waypoints of a grid, a square or a ring,
+points a stated way off, angles of equal turns). It need not be the right value: a value in the
+wrong place is grounded, too.
 """
 
 from __future__ import annotations
@@ -35,14 +37,26 @@ class Groundedness:
     ungrounded: tuple[Given, ...]
 
 
-def groundedness(level: Level, entries: Sequence[Entry], source: Source, vocabulary: Vocabulary) -> Groundedness:
-    """Judge every value of a plan's entries; what cannot be judged, since the input cannot be read with certainty, is left out."""
-    verdicts = [(given, source.gives(given.value, given.parameter)) for given in given_values(level, entries, vocabulary)]
-    return Groundedness(sum(verdict is not None for _given, verdict in verdicts), tuple(given for given, verdict in verdicts if verdict is False))
+def groundedness(
+    level: Level, entries: Sequence[Entry], source: Source, vocabulary: Vocabulary
+) -> Groundedness:
+    """Judge every value of a plan's entries; what cannot be judged, since the input cannot be read
+    with certainty, is left out.
+    """
+    verdicts = [
+        (given, source.gives(given.value, given.parameter))
+        for given in given_values(level, entries, vocabulary)
+    ]
+    return Groundedness(
+        sum(verdict is not None for _given, verdict in verdicts),
+        tuple(given for given, verdict in verdicts if verdict is False),
+    )
 
 
 def given_values(level: Level, entries: Sequence[Entry], vocabulary: Vocabulary) -> Iterator[Given]:
-    """Every value of a plan. The coordinates of a destination are one; a parameter that the vocabulary does not have is judged by its form."""
+    """Every value of a plan. The coordinates of a destination are one; a parameter that the
+    vocabulary does not have is judged by its form.
+    """
     for index, entry in enumerate(entries):
         skill = vocabulary.skill.get(entry.name) if level == "task" else None
         pair = [item.name for item in skill.coordinates] if skill else []
@@ -60,5 +74,7 @@ def by_form(name: str, value: Any) -> Parameter:
     if is_number(value):
         return Parameter(name, "number")
     if isinstance(value, list):
-        return Parameter(name, "position" if len(value) == 2 and all(map(is_number, value)) else "texts")
+        return Parameter(
+            name, "position" if len(value) == 2 and all(map(is_number, value)) else "texts"
+        )
     return Parameter(name, "text")

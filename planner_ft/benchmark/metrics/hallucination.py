@@ -8,11 +8,17 @@ from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, plan_names
 
 UNPARSED_COUNTS: dict[Level, bool] = {"mission": True, "task": False}
-"""How the published tables count an answer that does not parse: hallucinated at mission level, not at task level."""
+"""How the published tables count an answer that does not parse: hallucinated at mission level, not
+at task level.
+"""
 
 
-def hallucinated(level: Level, plan: dict[str, Any] | None, vocabulary: Vocabulary, *, unparsed: bool) -> bool:
-    """Whether an answer has at least one name that is not in the vocabulary; `unparsed` is the verdict on a plan of None."""
+def hallucinated(
+    level: Level, plan: dict[str, Any] | None, vocabulary: Vocabulary, *, unparsed: bool
+) -> bool:
+    """Whether an answer has at least one name that is not in the vocabulary; `unparsed` is the
+    verdict on a plan of None.
+    """
     if plan is None:
         return unparsed
     return bool(invented_names(level, plan, vocabulary))

@@ -1,6 +1,8 @@
-"""The worst case over paraphrases: a planner that needs the right wording is only as good as its worst answer.
+"""The worst case over paraphrases: a planner that needs the right wording is only as good as its
+worst answer.
 
-Samples of one family say like things in like words (`family` of a record). Families of one sample have no worst case and are left out.
+Samples of one family say like things in like words (`family` of a record). Families of one sample
+have no worst case and are left out.
 """
 
 from __future__ import annotations
@@ -9,8 +11,11 @@ from collections import defaultdict
 from collections.abc import Sequence
 
 
-def worst_cases(values: Sequence[float], samples: Sequence[str], families: Sequence[str]) -> dict[str, float]:
-    """The smallest value of each family that has at least two samples, which are told by id; for truths, whether all are true.
+def worst_cases(
+    values: Sequence[float], samples: Sequence[str], families: Sequence[str]
+) -> dict[str, float]:
+    """The smallest value of each family that has at least two samples, which are told by id; for
+    truths, whether all are true.
 
     Of a sample that was answered several times every answer counts.
     """

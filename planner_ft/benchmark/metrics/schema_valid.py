@@ -9,7 +9,8 @@ from planner_ft.vocabulary.plans import Level, plan_problems
 
 
 def schema_valid(level: Level, plan: dict[str, Any] | None, vocabulary: Vocabulary) -> bool:
-    """Whether an answer parsed and has the structure of a plan of this level (`schemas/LEVEL.schema.json`).
+    """Whether an answer parsed and has the structure of a plan of this level
+    (`schemas/LEVEL.schema.json`).
 
     The published definition: an invented name can be schema-valid.
     """

@@ -1,8 +1,11 @@
-"""Slot propagation through the two-agent pipeline: from the command to the skills of the right task.
+"""Slot propagation through the two-agent pipeline: from the command to the skills of the right
+task.
 
-The plan is that of `plannerft plan --json`: mission tasks, each with its skill sequence. A slot has reached the skills when one of the right
-task's skills has the value as a parameter of the same unit, or when the waypoints have it as geometry: a position as a waypoint or as their
-middle, a length as an extent, half of one, a leg or the distance between lanes, a bearing as the course of a leg, a number as that of turns.
+The plan is that of `plannerft plan --json`: mission tasks, each with its skill sequence. A slot has
+reached the skills when one of the right task's skills has the value as a parameter of the same
+unit, or when the waypoints have it as geometry: a position as a waypoint or as their middle, a
+length as an extent, half of one, a leg or the distance between lanes, a bearing as the course of a
+leg, a number as that of turns.
 """
 
 from __future__ import annotations
@@ -25,15 +28,18 @@ from planner_ft.vocabulary import Parameter, Task, Vocabulary
 
 Point = Sequence[float]
 CLOSE = 0.02
-"""Metres by which lengths between waypoints, which have two decimals, can differ from the length that they were made with."""
+"""Metres by which lengths between waypoints, which have two decimals, can differ from the length
+that they were made with.
+"""
 
 
 @dataclass(frozen=True)
 class SkillSlots:
     """The slots of a command in a pipeline's plan, per kind.
 
-    `stated`: all; `carried`: those that some skill of their task could carry at all (no skill has a speed); `reached`: of these, those
-    that the skills of the right task carry; `waiting`: of these, those of tasks that have no skills yet, since their place is open.
+    `stated`: all; `carried`: those that some skill of their task could carry at all (no skill has a
+    speed); `reached`: of these, those that the skills of the right task carry; `waiting`: of these,
+    those of tasks that have no skills yet, since their place is open.
     """
 
     stated: Counter[str]
@@ -42,12 +48,21 @@ class SkillSlots:
     waiting: Counter[str]
 
 
-def skill_slots(record: dict[str, Any], planned: Mapping[str, Any], vocabulary: Vocabulary) -> SkillSlots:
-    """Follow every slot of a mission record ({"prompt", "expected"}) into the skills of `planned`, the object of `plannerft plan --json`."""
-    expected, predicted = plan_entries("mission", record["expected"]), plan_entries("mission", planned)
+def skill_slots(
+    record: dict[str, Any], planned: Mapping[str, Any], vocabulary: Vocabulary
+) -> SkillSlots:
+    """Follow every slot of a mission record ({"prompt", "expected"}) into the skills of `planned`,
+    the object of `plannerft plan --json`.
+    """
+    expected, predicted = (
+        plan_entries("mission", record["expected"]),
+        plan_entries("mission", planned),
+    )
     partner = dict(align("mission", expected, predicted, vocabulary).pairs)
     slots = SkillSlots(Counter(), Counter(), Counter(), Counter())
-    for slot in stated_slots("mission", expected, source_of("mission", record, vocabulary), vocabulary):
+    for slot in stated_slots(
+        "mission", expected, source_of("mission", record, vocabulary), vocabulary
+    ):
         kind, task = slot_kind(slot.parameter), vocabulary.task[expected[slot.entry].name]
         slots.stated[kind] += 1
         if not can_carry(task, slot.parameter, vocabulary):
@@ -61,9 +76,14 @@ def skill_slots(record: dict[str, Any], planned: Mapping[str, Any], vocabulary: 
 
 
 def can_carry(task: Task, parameter: Parameter, vocabulary: Vocabulary) -> bool:
-    """Whether a skill that fits the task has a parameter of this kind, or moves, where the parameter is a place, a length or a bearing."""
+    """Whether a skill that fits the task has a parameter of this kind, or moves, where the
+    parameter is a place, a length or a bearing.
+    """
     skills = [vocabulary.skill[name] for names in task.skills.values() for name in names]
-    moves, turns = (any(skill.motion in motions for skill in skills) for motions in (("goto",), ("turn_to", "turn_by")))
+    moves, turns = (
+        any(skill.motion in motions for skill in skills)
+        for motions in (("goto",), ("turn_to", "turn_by"))
+    )
     kind = slot_kind(parameter)
     if kind == "coordinates":
         return moves
@@ -71,21 +91,43 @@ def can_carry(task: Task, parameter: Parameter, vocabulary: Vocabulary) -> bool:
         return turns
     if moves and kind in ("lengths", "angles"):
         return True
-    return any(slot_kind(item) == kind and item.unit == parameter.unit for skill in skills for item in skill.parameters)
+    return any(
+        slot_kind(item) == kind and item.unit == parameter.unit
+        for skill in skills
+        for item in skill.parameters
+    )
 
 
 def skills_carry(slot: Given, steps: Any, vocabulary: Vocabulary) -> bool:
     """Whether a task's skill sequence carries a value out."""
     entries = plan_entries("task", {"skill_sequence": steps})
     values = list(given_values("task", entries, vocabulary))
-    kind, waypoints = slot_kind(slot.parameter), [given.value for given in values if given.parameter is WAYPOINT]
+    kind, waypoints = (
+        slot_kind(slot.parameter),
+        [given.value for given in values if given.parameter is WAYPOINT],
+    )
     if kind == "names":
-        texts = [str(text) for given in values if slot_kind(given.parameter) == "names" for text in _listed(given.value)]
-        return all(any(not says(text, normalised(str(wanted)), misspelt=False) for text in texts) for wanted in _listed(slot.value))
+        texts = [
+            str(text)
+            for given in values
+            if slot_kind(given.parameter) == "names"
+            for text in _listed(given.value)
+        ]
+        return all(
+            any(not says(text, normalised(str(wanted)), misspelt=False) for text in texts)
+            for wanted in _listed(slot.value)
+        )
     if kind == "coordinates":
-        spots = [*waypoints, *_middle(waypoints)] if slot.parameter.type == "position" else [given.value for given in values]
+        spots = (
+            [*waypoints, *_middle(waypoints)]
+            if slot.parameter.type == "position"
+            else [given.value for given in values]
+        )
         return any(values_agree(spot, slot.value, slot.parameter, vocabulary) for spot in spots)
-    if any(given.parameter.unit == slot.parameter.unit and _near(given.value, slot.value) for given in values):
+    if any(
+        given.parameter.unit == slot.parameter.unit and _near(given.value, slot.value)
+        for given in values
+    ):
         return True
     if kind == "numbers":
         often = Counter(entry.name for entry in entries if entry.role == "navigation")
@@ -95,7 +137,9 @@ def skills_carry(slot: Given, steps: Any, vocabulary: Vocabulary) -> bool:
 
 
 def _lengths(waypoints: Sequence[Point]) -> Iterator[float]:
-    """Lengths that waypoints lie apart: extents and their halves, legs, distances between lanes and from the middle."""
+    """Lengths that waypoints lie apart: extents and their halves, legs, distances between lanes and
+    from the middle.
+    """
     if len(waypoints) < 2:
         return
     for axis in (0, 1):

@@ -1,7 +1,9 @@
-"""What the input of an answer gives: the facts of a command, or of a task prompt with the task's parameters.
+"""What the input of an answer gives: the facts of a command, or of a task prompt with the task's
+parameters.
 
-The reading is that of the decoding strength `grounded` (planner_ft.decoding.constraints), so that an answer that was held to the
-command's facts is grounded by construction. Where a text cannot be read with certainty, nothing is said about a value (None).
+The reading is that of the decoding strength `grounded` (planner_ft.decoding.constraints), so that
+an answer that was held to the command's facts is grounded by construction. Where a text cannot be
+read with certainty, nothing is said about a value (None).
 """
 
 from __future__ import annotations
@@ -18,7 +20,17 @@ from planner_ft.data.quantities import bearings, close, positions, quantities
 from planner_ft.data.stated import stated_positions
 from planner_ft.data.task import geometry as g
 from planner_ft.data.words import says
-from planner_ft.decoding.constraints.facts import MEASURES, Reading, own_numbers, own_texts, read, sector_counts, turned, without_counts, without_pairs
+from planner_ft.decoding.constraints.facts import (
+    MEASURES,
+    Reading,
+    own_numbers,
+    own_texts,
+    read,
+    sector_counts,
+    turned,
+    without_counts,
+    without_pairs,
+)
 from planner_ft.decoding.constraints.ground import Ground
 from planner_ft.decoding.constraints.waypoints import read_ground
 from planner_ft.vocabulary import Parameter, Vocabulary
@@ -32,10 +44,11 @@ Place = tuple[float, float]
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """The facts that an answer can draw on. `record` is a task input, and `own_numbers`, `own_places` and `own_texts` are those of its
-    parameters; None for a command.
+    """The facts that an answer can draw on. `record` is a task input, and `own_numbers`,
+    `own_places` and `own_texts` are those of its parameters; None for a command.
 
-    The plainest reading is asked first: most values of most answers are there, and only a value that is not makes the others worth their time.
+    The plainest reading is asked first: most values of most answers are there, and only a value
+    that is not makes the others worth their time.
     """
 
     text: str
@@ -46,7 +59,8 @@ class Source:
     own_texts: tuple[str, ...] = ()
 
     def states(self, value: Any, parameter: Parameter) -> bool | None:
-        """Whether the input says the value itself; None where its numbers cannot be read with certainty.
+        """Whether the input says the value itself; None where its numbers cannot be read with
+        certainty.
 
         Numbers may differ by what scoring allows (2 %), texts may have their spelling put right.
         """
@@ -56,13 +70,19 @@ class Source:
         if kind == "position":
             return self._states_place(value)
         if kind == "polygon":
-            return _all(self._states_place(corner) for corner in value) if isinstance(value, list) else False
+            return (
+                _all(self._states_place(corner) for corner in value)
+                if isinstance(value, list)
+                else False
+            )
         if isinstance(value, list):
             return all(self._says(str(text)) for text in value)
         return self._says(str(value))
 
     def gives(self, value: Any, parameter: Parameter) -> bool | None:
-        """Whether the input or the vocabulary gives the value: stated, home, the unresolved location, or derived from what is stated."""
+        """Whether the input or the vocabulary gives the value: stated, home, the unresolved
+        location, or derived from what is stated.
+        """
         if parameter is WAYPOINT:
             return self._leads_to(value)
         if parameter.type == "position" and self._is_named(value):
@@ -70,7 +90,12 @@ class Source:
         if parameter.type == "polygon" and isinstance(value, list):
             return _all(self._is_corner(corner) for corner in value)
         verdict = self.states(value, parameter)
-        if verdict is False and self.record is not None and parameter.unit == "deg" and is_number(value):
+        if (
+            verdict is False
+            and self.record is not None
+            and parameter.unit == "deg"
+            and is_number(value)
+        ):
             return self._follows(value)
         return verdict
 
@@ -91,37 +116,56 @@ class Source:
         if not _is_place(value):
             return False
         plain = ((x, y) for x, y, _start, _end in positions(self.text))
-        if any(positions_agree(value, place, self.vocabulary) for place in itertools.chain(self.own_places, plain)):
+        if any(
+            positions_agree(value, place, self.vocabulary)
+            for place in itertools.chain(self.own_places, plain)
+        ):
             return True
-        if any(positions_agree(value, place, self.vocabulary) for place in stated_positions(self.text)):
+        if any(
+            positions_agree(value, place, self.vocabulary) for place in stated_positions(self.text)
+        ):
             return True
         if self.reading.numbers_free:
             return None
-        return bool(self.reading.loose) and all(any(_near(abs(part), abs(number)) for number in self.reading.loose) for part in value)
+        return bool(self.reading.loose) and all(
+            any(_near(abs(part), abs(number)) for number in self.reading.loose) for part in value
+        )
 
     def _is_named(self, value: Any) -> bool:
-        return isinstance(value, list) and tuple(value) in (self.vocabulary.home, self.vocabulary.unresolved)
+        return isinstance(value, list) and tuple(value) in (
+            self.vocabulary.home,
+            self.vocabulary.unresolved,
+        )
 
     def _is_corner(self, corner: Any) -> bool | None:
-        """Whether a corner's coordinates are those of stated places: "the box from (0, 0) to (40, 20)"."""
+        """Whether a corner's coordinates are those of stated places: "the box from (0, 0) to (40,
+        20)".
+        """
         if self.reading.numbers_free or self.reading.loose or not _is_place(corner):
             return None if _is_place(corner) else False
         places = (*self.own_places, *self.reading.places)
         return all(any(_near(corner[axis], place[axis]) for place in places) for axis in (0, 1))
 
     def _follows(self, angle: float) -> bool:
-        """Whether an angle follows from those that are stated: a turn to port, headings evenly round the compass."""
+        """Whether an angle follows from those that are stated: a turn to port, headings evenly
+        round the compass.
+        """
         numbers = [*(self.reading.said("deg") or ()), *self.own_numbers]
-        counts = sector_counts([*(quantity.said for quantity in quantities(self.text)), *self.own_numbers])
+        counts = sector_counts(
+            [*(quantity.said for quantity in quantities(self.text)), *self.own_numbers]
+        )
         return any(close(angle, other) for other in turned(numbers, counts))
 
     def _leads_to(self, point: Any) -> bool | None:
         if not _is_place(point) or tuple(point) == self.vocabulary.home:
             return _is_place(point)
-        # Any waypoint may be meant where the geometry cannot be read, also one that looks like a stated place.
+        # Any waypoint may be meant where the geometry cannot be read, also one that looks like a
+        # stated place.
         if self._ground.free:
             return None
-        return tuple(point) in self._derived or any(positions_agree(point, place, self.vocabulary) for place in self._derived)
+        return tuple(point) in self._derived or any(
+            positions_agree(point, place, self.vocabulary) for place in self._derived
+        )
 
     def _plain(self, unit: str | None) -> Iterator[float]:
         """Numbers of the plainest reading, as `Reading.said` has them beside others."""
@@ -147,9 +191,16 @@ class Source:
 
     @functools.cached_property
     def _derived(self) -> frozenset[Place]:
-        """Stated places, waypoints of the paths that follow from the facts, and points a stated way off one of them in a stated direction."""
+        """Stated places, waypoints of the paths that follow from the facts, and points a stated way
+        off one of them in a stated direction.
+        """
         ground = self._ground
-        off = (g.offset(base, bearing, length) for base in ground.places for bearing in ground.bearings for length in ground.lengths)
+        off = (
+            g.offset(base, bearing, length)
+            for base in ground.places
+            for bearing in ground.bearings
+            for length in ground.lengths
+        )
         return frozenset(itertools.chain(ground.places, off, ground.itinerary or (), *ground.paths))
 
 
@@ -157,7 +208,11 @@ def source_of(level: Level, record: dict[str, Any], vocabulary: Vocabulary) -> S
     """The facts that a sample gives to its answer, kept for the next system that answers it."""
     if level == "mission":
         return _mission_source(str(record.get("prompt", "")), vocabulary)
-    given = {"prompt": str(record.get("prompt", "")), "task": record.get("task"), "parameters": record.get("parameters")}
+    given = {
+        "prompt": str(record.get("prompt", "")),
+        "task": record.get("task"),
+        "parameters": record.get("parameters"),
+    }
     return _task_source(json.dumps(given), vocabulary)
 
 
@@ -186,7 +241,11 @@ def _near(value: float, said: float) -> bool:
 
 
 def _is_place(value: Any) -> bool:
-    return isinstance(value, list | tuple) and len(value) == 2 and all(is_number(part) for part in value)
+    return (
+        isinstance(value, list | tuple)
+        and len(value) == 2
+        and all(is_number(part) for part in value)
+    )
 
 
 def _all(verdicts: Iterable[bool | None]) -> bool | None:

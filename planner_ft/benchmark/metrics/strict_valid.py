@@ -9,7 +9,8 @@ from planner_ft.vocabulary.plans import Level, plan_problems
 
 
 def strict_valid(level: Level, plan: dict[str, Any] | None, vocabulary: Vocabulary) -> bool:
-    """Whether an answer is schema-valid and every name, role, parameter name, type and range is of the vocabulary.
+    """Whether an answer is schema-valid and every name, role, parameter name, type and range is of
+    the vocabulary.
 
     `schemas/LEVEL.strict.schema.json` states the same rules.
     """

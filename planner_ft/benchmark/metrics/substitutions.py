@@ -11,20 +11,39 @@ Substitution = tuple[str | None, str | None]
 
 
 def substitutions(alignment: Alignment) -> list[Substitution]:
-    """Unaligned entries in pairs: a predicted one stands for an expected one of its role that has the same aligned neighbours before and after,
-    or one of them (a plan's beginning and end count as neighbours). The rest was omitted (no predicted name) or added (no expected one)."""
+    """Unaligned entries in pairs: a predicted one stands for an expected one of its role that has
+    the same aligned neighbours before and after, or one of them (a plan's beginning and end count
+    as neighbours). The rest was omitted (no predicted name) or added (no expected one).
+    """
     missing, extra = list(alignment.missing), list(alignment.extra)
-    ours, theirs = _neighbours(alignment.pairs, len(alignment.expected), 0), _neighbours(alignment.pairs, len(alignment.predicted), 1)
+    ours, theirs = (
+        _neighbours(alignment.pairs, len(alignment.expected), 0),
+        _neighbours(alignment.pairs, len(alignment.predicted), 1),
+    )
     found: dict[int, int] = {}
     for shared in (2, 1):
         for index in missing:
             role = alignment.expected[index].role
-            free = [other for other in extra if other not in found.values() and alignment.predicted[other].role == role]
-            partner = next((other for other in free if len(ours[index] & theirs[other]) == shared), None)
+            free = [
+                other
+                for other in extra
+                if other not in found.values() and alignment.predicted[other].role == role
+            ]
+            partner = next(
+                (other for other in free if len(ours[index] & theirs[other]) == shared), None
+            )
             if index not in found and partner is not None:
                 found[index] = partner
-    named: list[Substitution] = [(alignment.expected[index].name, alignment.predicted[found[index]].name if index in found else None) for index in missing]
-    return named + [(None, alignment.predicted[other].name) for other in extra if other not in found.values()]
+    named: list[Substitution] = [
+        (
+            alignment.expected[index].name,
+            alignment.predicted[found[index]].name if index in found else None,
+        )
+        for index in missing
+    ]
+    return named + [
+        (None, alignment.predicted[other].name) for other in extra if other not in found.values()
+    ]
 
 
 def _neighbours(pairs: Sequence[Pair], size: int, side: int) -> list[set[tuple[str, int]]]:

@@ -12,28 +12,40 @@ from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import Level
 
 RELATIVE = 0.02
-"""Tolerance of numbers, relative to the expected value (labelling rules: converted values are allowed 2 %)."""
+"""Tolerance of numbers, relative to the expected value (labelling rules: converted values are
+allowed 2 %).
+"""
 ABSOLUTE = 0.005
 """Half a unit of the second decimal, to which converted and computed values are rounded."""
 FARTHEST = 0.5
-"""Metres that a position may lie off at most: another whole metre than the stated one is another place."""
+"""Metres that a position may lie off at most: another whole metre than the stated one is another
+place.
+"""
 ROUNDING = 1e-9
 LONGEST = 40
 """Characters of a text that is read as one quantity."""
 
 
-def values_agree(given: Any, stated: Any, parameter: Parameter | None, vocabulary: Vocabulary, *, loose: bool = False) -> bool:
+def values_agree(
+    given: Any,
+    stated: Any,
+    parameter: Parameter | None,
+    vocabulary: Vocabulary,
+    *,
+    loose: bool = False,
+) -> bool:
     """Whether a predicted value is the stated one.
 
     - Numbers: within 2 % of the stated one, or half a unit of the second decimal.
-    - Positions: by distance, within 2 % of the stated position's distance from the origin, but half a metre at most. The unresolved
-      location agrees with itself alone.
+    - Positions: by distance, within 2 % of the stated position's distance from the origin, but half
+      a metre at most. The unresolved location agrees with itself alone.
     - Polygons: as rings, from any corner in either direction, closed or not.
-    - Texts: without regard to case, spacing and a leading article. An identifier may be a number or its text.
+    - Texts: without regard to case, spacing and a leading article. An identifier may be a number or
+      its text.
     - Lists: in order, which is that of urgency.
 
-    `loose` asks for the content and not for the form: a list of texts is a set, and a text with a unit ("5 min") is the number that it
-    means in the parameter's unit.
+    `loose` asks for the content and not for the form: a list of texts is a set, and a text with a
+    unit ("5 min") is the number that it means in the parameter's unit.
     """
     kind = parameter.type if parameter is not None else None
     if kind == "polygon":
@@ -48,17 +60,26 @@ def values_agree(given: Any, stated: Any, parameter: Parameter | None, vocabular
         return positions_agree(given, stated, vocabulary)
     if isinstance(stated, list):
         same = isinstance(given, list) and len(given) == len(stated)
-        return same and all(values_agree(ours, theirs, None, vocabulary) for ours, theirs in zip(given, stated, strict=True))
+        return same and all(
+            values_agree(ours, theirs, None, vocabulary)
+            for ours, theirs in zip(given, stated, strict=True)
+        )
     if is_number(stated):
-        return is_number(given) and math.isclose(given, stated, rel_tol=0, abs_tol=tolerance(abs(stated)))
+        return is_number(given) and math.isclose(
+            given, stated, rel_tol=0, abs_tol=tolerance(abs(stated))
+        )
     if isinstance(stated, str):
         return isinstance(given, str) and normalised(given) == normalised(stated)
     return bool(type(given) is type(stated) and given == stated)
 
 
-def positions_agree(given: Sequence[float], stated: Sequence[float], vocabulary: Vocabulary) -> bool:
+def positions_agree(
+    given: Sequence[float], stated: Sequence[float], vocabulary: Vocabulary
+) -> bool:
     """Whether two positions, in metres, are the same place."""
-    if (list(given) == list(vocabulary.unresolved)) != (list(stated) == list(vocabulary.unresolved)):
+    if (list(given) == list(vocabulary.unresolved)) != (
+        list(stated) == list(vocabulary.unresolved)
+    ):
         return False
     allowed = min(tolerance(math.hypot(*stated)), FARTHEST + ROUNDING)
     return math.dist(given, stated) <= allowed
@@ -75,20 +96,30 @@ def known_parameters(level: Level, name: str, vocabulary: Vocabulary) -> dict[st
     return owner.by_name if owner else {}
 
 
-def parameters_agree(level: Level, name: str, given: dict[str, Any], stated: dict[str, Any], vocabulary: Vocabulary) -> bool:
+def parameters_agree(
+    level: Level, name: str, given: dict[str, Any], stated: dict[str, Any], vocabulary: Vocabulary
+) -> bool:
     """Whether two parameter objects of a task or skill have the same keys with agreeing values."""
     if given == stated:
         return True
     known = known_parameters(level, name, vocabulary)
-    return given.keys() == stated.keys() and all(values_agree(given[key], value, known.get(key), vocabulary) for key, value in stated.items())
+    return given.keys() == stated.keys() and all(
+        values_agree(given[key], value, known.get(key), vocabulary) for key, value in stated.items()
+    )
 
 
-def agreeing_keys(level: Level, name: str, given: dict[str, Any], stated: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
+def agreeing_keys(
+    level: Level, name: str, given: dict[str, Any], stated: dict[str, Any], vocabulary: Vocabulary
+) -> list[str]:
     """Keys under which both objects have the same content (`values_agree`, loose)."""
     if given == stated:
         return list(stated)
     known = known_parameters(level, name, vocabulary)
-    return [key for key, value in stated.items() if key in given and values_agree(given[key], value, known.get(key), vocabulary, loose=True)]
+    return [
+        key
+        for key, value in stated.items()
+        if key in given and values_agree(given[key], value, known.get(key), vocabulary, loose=True)
+    ]
 
 
 def normalised(text: str) -> str:
@@ -102,7 +133,9 @@ def is_number(value: Any) -> bool:
 
 
 def _measured(text: str, unit: str | None) -> float | None:
-    """What a text that is one quantity means in `unit`; None when it is something else or in another unit."""
+    """What a text that is one quantity means in `unit`; None when it is something else or in
+    another unit.
+    """
     text = text.strip()
     found = quantities(text) if len(text) <= LONGEST else ()
     if len(found) != 1 or found[0].end != len(text) or text[: found[0].start] not in ("", "-"):
@@ -116,7 +149,11 @@ def _rings_agree(given: Any, stated: Any, vocabulary: Vocabulary) -> bool:
     given, stated = _opened(given), _opened(stated)
     if len(given) != len(stated):
         return False
-    turns = [ring[start:] + ring[:start] for ring in (given, given[::-1]) for start in range(max(len(ring), 1))]
+    turns = [
+        ring[start:] + ring[:start]
+        for ring in (given, given[::-1])
+        for start in range(max(len(ring), 1))
+    ]
     return any(values_agree(turn, stated, None, vocabulary) for turn in turns)
 
 

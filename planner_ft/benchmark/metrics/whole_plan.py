@@ -19,46 +19,74 @@ from planner_ft.vocabulary.plans import Level
 Step = tuple[Entry, ...]
 
 
-def parameters_right(level: Level, plan: dict[str, Any], expected: dict[str, Any], vocabulary: Vocabulary) -> bool:
-    """Of two plans with the same sequence of names, whether the parameters are right task by task, or step by step: the two targets of two
-    Transits must not be swapped."""
+def parameters_right(
+    level: Level, plan: dict[str, Any], expected: dict[str, Any], vocabulary: Vocabulary
+) -> bool:
+    """Of two plans with the same sequence of names, whether the parameters are right task by task,
+    or step by step: the two targets of two Transits must not be swapped.
+    """
     wanted, given = plan_entries(level, expected), plan_entries(level, plan)
     if wanted == given:
         return True
     ours, theirs = _steps(wanted), _steps(given)
-    return all(_step_right(level, one, other, vocabulary) for one, other in zip(ours, theirs, strict=True))
+    return all(
+        _step_right(level, one, other, vocabulary) for one, other in zip(ours, theirs, strict=True)
+    )
 
 
-def whole_plan_unordered(level: Level, plan: dict[str, Any] | None, expected: dict[str, Any], vocabulary: Vocabulary, *, valid: bool | None = None) -> bool:
-    """Whether the answer has the right tasks, or steps, with the right parameters, in whatever order.
+def whole_plan_unordered(
+    level: Level,
+    plan: dict[str, Any] | None,
+    expected: dict[str, Any],
+    vocabulary: Vocabulary,
+    *,
+    valid: bool | None = None,
+) -> bool:
+    """Whether the answer has the right tasks, or steps, with the right parameters, in whatever
+    order.
 
-    Skills that run in one step must stand in one step. An answer that is not schema-valid is never right; `valid` says whether it is, where
-    that is known.
+    Skills that run in one step must stand in one step. An answer that is not schema-valid is never
+    right; `valid` says whether it is, where that is known.
     """
     if plan is None or not (schema_valid(level, plan, vocabulary) if valid is None else valid):
         return False
     if sorted(name_sequence(level, plan)) != sorted(name_sequence(level, expected)):
         return False
-    ours, theirs = _alike(_steps(plan_entries(level, expected))), _alike(_steps(plan_entries(level, plan)))
+    ours, theirs = (
+        _alike(_steps(plan_entries(level, expected))),
+        _alike(_steps(plan_entries(level, plan))),
+    )
     return all(_matchable(level, steps, theirs[names], vocabulary) for names, steps in ours.items())
 
 
-def _matchable(level: Level, expected: Sequence[Step], predicted: Sequence[Step], vocabulary: Vocabulary) -> bool:
+def _matchable(
+    level: Level, expected: Sequence[Step], predicted: Sequence[Step], vocabulary: Vocabulary
+) -> bool:
     """Whether each expected step has a right one of its own among as many predicted ones."""
     if len(expected) == 1:
         return _step_right(level, expected[0], predicted[0], vocabulary)
     from scipy.optimize import linear_sum_assignment
 
-    right = [[_step_right(level, one, other, vocabulary) for other in predicted] for one in expected]
+    right = [
+        [_step_right(level, one, other, vocabulary) for other in predicted] for one in expected
+    ]
     rows, columns = linear_sum_assignment(right, maximize=True)
     return all(right[row][column] for row, column in zip(rows, columns, strict=True))
 
 
 def _step_right(level: Level, expected: Step, predicted: Step, vocabulary: Vocabulary) -> bool:
-    """Whether two steps with the same names have the same parameters; names that stand twice in a step are aligned first."""
+    """Whether two steps with the same names have the same parameters; names that stand twice in a
+    step are aligned first.
+    """
     given = {(entry.role, entry.name): entry.parameters for entry in predicted}
     if len(given) == len(predicted):
-        return all(parameters_agree(level, entry.name, given[entry.role, entry.name], entry.parameters, vocabulary) for entry in expected if entry.stated)
+        return all(
+            parameters_agree(
+                level, entry.name, given[entry.role, entry.name], entry.parameters, vocabulary
+            )
+            for entry in expected
+            if entry.stated
+        )
     agreement = right_entries(level, align(level, expected, predicted, vocabulary), vocabulary)
     return agreement.right == agreement.matched
 

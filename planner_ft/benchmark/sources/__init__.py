@@ -1,7 +1,7 @@
 """Where answers come from: a loaded candidate, or whatever else can be asked.
 
-A source serves the jobs of one candidate. The runner asks it for what is missing and writes every answer down as it
-comes, so a source that fails half-way loses nothing.
+A source serves the jobs of one candidate. The runner asks it for what is missing and writes every
+answer down as it comes, so a source that fails half-way loses nothing.
 """
 
 from __future__ import annotations
@@ -34,7 +34,9 @@ class Answered:
 
 @dataclass(frozen=True)
 class Timed:
-    """One query timed alone, as latency.jsonl records it. `first_token_s` is the time until the first token was known."""
+    """One query timed alone, as latency.jsonl records it. `first_token_s` is the time until the
+    first token was known.
+    """
 
     seconds: float
     tokens: int | None = None
@@ -53,7 +55,9 @@ class AnswerSource(Protocol):
         """Yield (index of the sample, timed query), one query after the other, after a warm-up."""
 
     def costs(self) -> dict[str, Any]:
-        """What answering cost beside the queries, as run.json records it per candidate: load_s, peak_memory_bytes, ..."""
+        """What answering cost beside the queries, as run.json records it per candidate: load_s,
+        peak_memory_bytes, ...
+        """
 
     def release(self) -> None:
         """Give memory or connections back."""

@@ -1,4 +1,6 @@
-"""Batches by length, with a size that finds itself: it is halved when memory runs out, and doubled while there is room."""
+"""Batches by length, with a size that finds itself: it is halved when memory runs out, and doubled
+while there is room.
+"""
 
 from __future__ import annotations
 
@@ -13,13 +15,17 @@ Room = Callable[[int], bool]
 """Whether a batch of this size would fit, judged by those that did."""
 
 FIRST = 16
-"""Where the size begins without being told: on a CPU larger ones gain nothing, and a lost process would be the only sign of too large ones."""
+"""Where the size begins without being told: on a CPU larger ones gain nothing, and a lost process
+would be the only sign of too large ones.
+"""
 LARGEST = 256
 
 
 @dataclass
 class BatchSize:
-    """The queries that are generated together. `room` is asked before the size is doubled; None keeps it from growing."""
+    """The queries that are generated together. `room` is asked before the size is doubled; None
+    keeps it from growing.
+    """
 
     size: int = FIRST
     room: Room | None = None
@@ -27,25 +33,37 @@ class BatchSize:
 
     def fitted(self, used: int) -> None:
         """A batch of `used` queries had enough memory."""
-        if self.room is not None and used == self.size and 2 * used <= self.largest and self.room(2 * used):
+        if (
+            self.room is not None
+            and used == self.size
+            and 2 * used <= self.largest
+            and self.room(2 * used)
+        ):
             self.size = 2 * used
 
     def overflowed(self, used: int) -> None:
-        """A batch of `used` queries did not have enough. Raises PlannerError when it was a single one."""
+        """A batch of `used` queries did not have enough. Raises PlannerError when it was a single
+        one.
+        """
         if used == 1:
             raise PlannerError(
-                "the device has too little memory for a single query; give a smaller candidate or another --device (what is done is kept for --resume)"
+                "the device has too little memory for a single query; give a smaller candidate or"
+                " another --device (what is done is kept for --resume)"
             )
         self.size = self.largest = used // 2
 
 
 def in_batches(
-    ask: Callable[[list[int]], Iterator[tuple[int, Answer]]], lengths: Sequence[int], batch: BatchSize, out_of_memory: Callable[[Exception], bool]
+    ask: Callable[[list[int]], Iterator[tuple[int, Answer]]],
+    lengths: Sequence[int],
+    batch: BatchSize,
+    out_of_memory: Callable[[Exception], bool],
 ) -> Iterator[tuple[int, Answer, int]]:
-    """Yield (index, answer, size of its batch), longest queries first; those that a full memory left unanswered are asked again.
+    """Yield (index, answer, size of its batch), longest queries first; those that a full memory
+    left unanswered are asked again.
 
-    `ask` answers the queries of some indices and yields (place among them, answer). Longest first: what does not fit shows
-    at once, and not after an hour.
+    `ask` answers the queries of some indices and yields (place among them, answer). Longest first:
+    what does not fit shows at once, and not after an hour.
     """
     waiting = sorted(range(len(lengths)), key=lambda index: (-lengths[index], index))
     while waiting:
@@ -70,7 +88,9 @@ def is_out_of_memory(error: BaseException) -> bool:
     """Whether the accelerator's memory was too small; its cached memory is given back then."""
     import torch
 
-    found = isinstance(error, torch.OutOfMemoryError) or isinstance(error.__cause__, torch.OutOfMemoryError)
+    found = isinstance(error, torch.OutOfMemoryError) or isinstance(
+        error.__cause__, torch.OutOfMemoryError
+    )
     if found and torch.cuda.is_available():
         torch.cuda.empty_cache()
     return found

@@ -11,12 +11,17 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 
-def bounded(function: Callable[[Item], Result], items: Sequence[Item], workers: int, on_failure: Callable[[], None]) -> Iterator[tuple[int, Result]]:
+def bounded(
+    function: Callable[[Item], Result],
+    items: Sequence[Item],
+    workers: int,
+    on_failure: Callable[[], None],
+) -> Iterator[tuple[int, Result]]:
     """Yield (index of the item, result) as results come, at most `workers` at a time.
 
-    When a call raises, `on_failure` is called, no further item is begun, those that were begun are waited for and yielded
-    if they succeed, and then the first exception is raised: nothing that was paid for is lost. The threads are daemons, so
-    that a program can end while a server hangs.
+    When a call raises, `on_failure` is called, no further item is begun, those that were begun are
+    waited for and yielded if they succeed, and then the first exception is raised: nothing that was
+    paid for is lost. The threads are daemons, so that a program can end while a server hangs.
     """
     waiting: queue.SimpleQueue[int] = queue.SimpleQueue()
     for index in range(len(items)):

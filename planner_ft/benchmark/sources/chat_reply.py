@@ -13,12 +13,16 @@ LARGEST = 2**25
 
 
 class BadReply(Exception):
-    """What came back is no answer: cut off, too slow, no JSON, of another form. Worth asking again."""
+    """What came back is no answer: cut off, too slow, no JSON, of another form. Worth asking
+    again.
+    """
 
 
 @dataclass(frozen=True)
 class Reply:
-    """An answer. `seconds` is the time from the question to its end, `first_token_s` to the first text (streams alone)."""
+    """An answer. `seconds` is the time from the question to its end, `first_token_s` to the first
+    text (streams alone).
+    """
 
     text: str
     seconds: float
@@ -30,7 +34,9 @@ class Reply:
 
 
 def within(chunks: Iterable[bytes], deadline: float) -> Iterator[bytes]:
-    """The chunks of a reply. Raises BadReply when they go on after `deadline` (of `time.perf_counter`) or are too many."""
+    """The chunks of a reply. Raises BadReply when they go on after `deadline` (of
+    `time.perf_counter`) or are too many.
+    """
     size = 0
     for chunk in chunks:
         size += len(chunk)
@@ -50,7 +56,9 @@ def read_whole(chunks: Iterable[bytes], started: float) -> Reply:
     if not isinstance(message, dict):
         raise BadReply(f"answered without a message: {excerpt(body)}")
     tokens, prompt_tokens = _usage(value)
-    return Reply(_text(message), time.perf_counter() - started, _reason(choice), tokens, prompt_tokens)
+    return Reply(
+        _text(message), time.perf_counter() - started, _reason(choice), tokens, prompt_tokens
+    )
 
 
 def read_events(chunks: Iterable[bytes], started: float) -> Reply:
@@ -101,7 +109,10 @@ def _json_object(body: bytes) -> dict[str, Any]:
     except (ValueError, RecursionError):
         raise BadReply(f"answered with something that is not JSON: {excerpt(body)}") from None
     if not isinstance(value, dict) or value.get("error"):
-        raise BadReply(f"answered with {'an error' if isinstance(value, dict) else 'no object'}: {excerpt(body)}")
+        raise BadReply(
+            f"answered with {'an error' if isinstance(value, dict) else 'no object'}:"
+            f" {excerpt(body)}"
+        )
     return value
 
 
@@ -127,4 +138,6 @@ def _usage(value: dict[str, Any]) -> tuple[int | None, int | None]:
     usage = value.get("usage")
     counts = usage if isinstance(usage, dict) else {}
     tokens, prompt_tokens = counts.get("completion_tokens"), counts.get("prompt_tokens")
-    return tokens if isinstance(tokens, int) else None, prompt_tokens if isinstance(prompt_tokens, int) else None
+    return tokens if isinstance(tokens, int) else None, (
+        prompt_tokens if isinstance(prompt_tokens, int) else None
+    )

@@ -40,9 +40,14 @@ class EngineSource:
         started = time.perf_counter()
         adapter = next((job.adapter for job in jobs if job.adapter), None)
         engine = Engine.load(
-            jobs[0].candidate, plan.vocabulary, adapters={plan.settings.level: adapter} if adapter else None, device=plan.device,
-            quantization=jobs[0].quantization, max_new_tokens=plan.settings.token_limit, threads=jobs[0].threads,
-        )  # fmt: skip
+            jobs[0].candidate,
+            plan.vocabulary,
+            adapters={plan.settings.level: adapter} if adapter else None,
+            device=plan.device,
+            quantization=jobs[0].quantization,
+            max_new_tokens=plan.settings.token_limit,
+            threads=jobs[0].threads,
+        )
         return cls(engine, plan, time.perf_counter() - started)
 
     def answers(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Answered]]:
@@ -50,29 +55,52 @@ class EngineSource:
         queries = self._queries(job, samples)
 
         def ask(indices: list[int]) -> Iterator[tuple[int, Generation]]:
-            return self.engine.answers([queries[index] for index in indices], job.configuration, batch_size=len(indices), sampling=job.sampling)
+            return self.engine.answers(
+                [queries[index] for index in indices],
+                job.configuration,
+                batch_size=len(indices),
+                sampling=job.sampling,
+            )
 
-        for index, answer, size in in_batches(ask, [len(query.prompt) for query in queries], self.batch, is_out_of_memory):
+        for index, answer, size in in_batches(
+            ask, [len(query.prompt) for query in queries], self.batch, is_out_of_memory
+        ):
             yield index, self._answered(answer, len(queries[index].prompt), size)
 
     def _answered(self, answer: Generation, prompt_tokens: int, size: int) -> Answered:
         extra = {"alternatives": answer.alternatives, "working": self.engine.working(answer)}
         more = {"batch": size, **{name: value for name, value in extra.items() if value}}
         return Answered(
-            output=self.engine.text(answer), seconds=answer.seconds, finish_reason=answer.finish_reason, tokens=len(answer.ids),
-            prompt_tokens=prompt_tokens, forward_passes=answer.forward_passes, error=answer.error, more=more,
-        )  # fmt: skip
+            output=self.engine.text(answer),
+            seconds=answer.seconds,
+            finish_reason=answer.finish_reason,
+            tokens=len(answer.ids),
+            prompt_tokens=prompt_tokens,
+            forward_passes=answer.forward_passes,
+            error=answer.error,
+            more=more,
+        )
 
     def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Timed]]:
-        for index, latency in self.engine.latencies(self._queries(job, samples), job.configuration, sampling=job.sampling):
-            yield index, Timed(latency.seconds, latency.tokens, latency.forward_passes, latency.first_token_s)
+        for index, latency in self.engine.latencies(
+            self._queries(job, samples), job.configuration, sampling=job.sampling
+        ):
+            yield (
+                index,
+                Timed(
+                    latency.seconds, latency.tokens, latency.forward_passes, latency.first_token_s
+                ),
+            )
 
     def costs(self) -> dict[str, Any]:
-        """Seconds to load base and adapter, the mean of a switch between them, and the most memory since loading began."""
+        """Seconds to load base and adapter, the mean of a switch between them, and the most memory
+        since loading began.
+        """
         return {
-            "load_s": round(self.load_seconds, 3), "adapter_swap_s": self._swap_seconds(),
+            "load_s": round(self.load_seconds, 3),
+            "adapter_swap_s": self._swap_seconds(),
             "peak_memory_bytes": max(self.load_peak, peak_memory(resolve_device(self.plan.device))),
-        }  # fmt: skip
+        }
 
     def _swap_seconds(self) -> float | None:
         level = self.plan.settings.level
@@ -88,4 +116,9 @@ class EngineSource:
         self.engine.release()
 
     def _queries(self, job: Job, samples: Sequence[Sample]) -> list[Query]:
-        return [self.engine.query(self.plan.settings.level, sample.record, with_vocabulary=job.with_vocabulary) for sample in samples]
+        return [
+            self.engine.query(
+                self.plan.settings.level, sample.record, with_vocabulary=job.with_vocabulary
+            )
+            for sample in samples
+        ]

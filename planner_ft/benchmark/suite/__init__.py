@@ -1,1 +1,3 @@
-"""Suites: many candidates on several data sets with one command, one process for each, gone on with after a kill at any point."""
+"""Suites: many candidates on several data sets with one command, one process for each, gone on with
+after a kill at any point.
+"""

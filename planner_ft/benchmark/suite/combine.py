@@ -1,4 +1,6 @@
-"""What a suite's units measured, put together: results per data set, scored again from the answers that are there."""
+"""What a suite's units measured, put together: results per data set, scored again from the answers
+that are there.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,9 @@ class Failed:
 
 @dataclass(frozen=True)
 class PartResults:
-    """One data set of a suite with everything that was measured on it. `results` has no rows where nothing was."""
+    """One data set of a suite with everything that was measured on it. `results` has no rows where
+    nothing was.
+    """
 
     part: Part
     results: Results
@@ -44,22 +48,38 @@ def combine(session: Session) -> tuple[list[PartResults], dict[str, Any]]:
 
 
 def suite_manifest(session: Session) -> dict[str, Any]:
-    """One manifest for all: the suite file, every data set, and what each unit was run with and took."""
+    """One manifest for all: the suite file, every data set, and what each unit was run with and
+    took.
+    """
     suite = session.suite
     units: dict[str, Any] = {}
     for unit in session.units:
         recorded = read_run(unit.folder) if (unit.folder / folder.RUN).is_file() else None
         units[unit.name] = {
-            "arguments": unit.arguments(), "seconds": round(session.seconds[unit.name], 1) if unit.name in session.seconds else None,
-            "finished_before": unit.name in session.skipped, "jobs": recorded.jobs if recorded else {}, "costs": recorded.costs if recorded else {},
-        }  # fmt: skip
+            "arguments": unit.arguments(),
+            "seconds": round(session.seconds[unit.name], 1)
+            if unit.name in session.seconds
+            else None,
+            "finished_before": unit.name in session.skipped,
+            "jobs": recorded.jobs if recorded else {},
+            "costs": recorded.costs if recorded else {},
+        }
     flags = session.units[0].flags
     configuration = {
-        "title": suite.title, "vocabulary": {"name": session.vocabulary.name, "sha256": session.vocabulary.sha256}, "device": flags.device,
-        "batch_size": flags.batch_size or "auto", "limit": flags.limit, "processes": flags.processes,
-    }  # fmt: skip
-    inputs: dict[str, Path | str] = {"suite": suite.path, **{part.name: part.data for part in suite.parts}}
-    return build_manifest("suite", seed=flags.seed, configuration=configuration, inputs=inputs, units=units)
+        "title": suite.title,
+        "vocabulary": {"name": session.vocabulary.name, "sha256": session.vocabulary.sha256},
+        "device": flags.device,
+        "batch_size": flags.batch_size or "auto",
+        "limit": flags.limit,
+        "processes": flags.processes,
+    }
+    inputs: dict[str, Path | str] = {
+        "suite": suite.path,
+        **{part.name: part.data for part in suite.parts},
+    }
+    return build_manifest(
+        "suite", seed=flags.seed, configuration=configuration, inputs=inputs, units=units
+    )
 
 
 def _part(session: Session, part: Part, manifest: Mapping[str, Any]) -> PartResults:
@@ -74,8 +94,19 @@ def _part(session: Session, part: Part, manifest: Mapping[str, Any]) -> PartResu
             if entry is not None and whole:
                 measured.append(entry)
             else:
-                kept = f" ({len(entry.predictions)} of {len(unit.data.samples)} answers are kept)" if entry and entry.predictions else ""
-                failed.append(Failed(unit.candidate.name, unit.candidate.row_name, configuration, (reason or "not run yet") + kept))
+                kept = (
+                    f" ({len(entry.predictions)} of {len(unit.data.samples)} answers are kept)"
+                    if entry and entry.predictions
+                    else ""
+                )
+                failed.append(
+                    Failed(
+                        unit.candidate.name,
+                        unit.candidate.row_name,
+                        configuration,
+                        (reason or "not run yet") + kept,
+                    )
+                )
     data = units[0].data
     own = {
         **manifest,
@@ -83,7 +114,11 @@ def _part(session: Session, part: Part, manifest: Mapping[str, Any]) -> PartResu
         "units": {unit.name: manifest["units"][unit.name] for unit in units},
     }
     seed = units[0].flags.seed
-    results = assemble(data, session.vocabulary, measured, seed=seed, manifest=own) if measured else Results(part.level, data.summary(), (), own)
+    results = (
+        assemble(data, session.vocabulary, measured, seed=seed, manifest=own)
+        if measured
+        else Results(part.level, data.summary(), (), own)
+    )
     return PartResults(part, results, tuple(failed))
 
 

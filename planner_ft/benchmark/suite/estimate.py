@@ -23,7 +23,9 @@ class Work:
 
 @dataclass
 class Pace:
-    """Seconds per query as they were measured, and seconds that a process took beside its queries (loading, scoring)."""
+    """Seconds per query as they were measured, and seconds that a process took beside its queries
+    (loading, scoring).
+    """
 
     measured: dict[Work, tuple[float, int]] = field(default_factory=dict)
     overheads: dict[str, list[float]] = field(default_factory=dict)
@@ -39,7 +41,9 @@ class Pace:
         self.overheads.setdefault(candidate, []).append(max(0.0, seconds))
 
     def seconds_per_query(self, work: Work) -> float | None:
-        """The pace of the nearest thing that was measured, from the same queries to any; of another candidate, in proportion to its size."""
+        """The pace of the nearest thing that was measured, from the same queries to any; of another
+        candidate, in proportion to its size.
+        """
         known = [(key, seconds / count) for key, (seconds, count) in self.measured.items() if count]
         for same in (
             ("candidate", "level", "configuration", "kind"),
@@ -48,19 +52,27 @@ class Pace:
             ("level", "kind"),
             (),
         ):
-            found = [_scaled(rate, key, work) for key, rate in known if all(getattr(key, name) == getattr(work, name) for name in same)]
+            found = [
+                _scaled(rate, key, work)
+                for key, rate in known
+                if all(getattr(key, name) == getattr(work, name) for name in same)
+            ]
             if found:
                 return sum(found) / len(found)
         return None
 
     def overhead(self, candidate: str) -> float:
         """What the next process of a candidate takes beside its queries."""
-        known = self.overheads.get(candidate) or [seconds for all_of in self.overheads.values() for seconds in all_of]
+        known = self.overheads.get(candidate) or [
+            seconds for all_of in self.overheads.values() for seconds in all_of
+        ]
         return sum(known) / len(known) if known else 0.0
 
 
 def time_left(pace: Pace, work: Iterable[Work], processes: Iterable[str]) -> float | None:
-    """Seconds for the queries that are left and the `processes` (by candidate) that are not begun; None while nothing was measured."""
+    """Seconds for the queries that are left and the `processes` (by candidate) that are not begun;
+    None while nothing was measured.
+    """
     total = 0.0
     for part in work:
         if part.count:
@@ -72,7 +84,9 @@ def time_left(pace: Pace, work: Iterable[Work], processes: Iterable[str]) -> flo
 
 
 def _key(work: Work) -> Work:
-    return Work(work.candidate, work.level, work.configuration, work.kind, parameters=work.parameters)
+    return Work(
+        work.candidate, work.level, work.configuration, work.kind, parameters=work.parameters
+    )
 
 
 def _scaled(rate: float, measured: Work, wanted: Work) -> float:

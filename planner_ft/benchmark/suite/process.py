@@ -1,4 +1,6 @@
-"""The process that runs a unit: the same command line, ended with its parent, its words kept in a log."""
+"""The process that runs a unit: the same command line, ended with its parent, its words kept in a
+log.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,11 @@ class Process:
         log.parent.mkdir(parents=True, exist_ok=True)
         with open(log, "wb") as stream:
             self.child = subprocess.Popen(
-                command(arguments, processes), stdin=subprocess.DEVNULL, stdout=stream, stderr=subprocess.STDOUT, preexec_fn=end_with_parent
+                command(arguments, processes),
+                stdin=subprocess.DEVNULL,
+                stdout=stream,
+                stderr=subprocess.STDOUT,
+                preexec_fn=end_with_parent,
             )
 
     def running(self) -> bool:
@@ -45,7 +51,10 @@ class Process:
             return None
         if code < 0:
             name = signal.Signals(-code).name
-            return f"its process was ended by {name}{', most likely for want of memory' if -code == signal.SIGKILL else ''}"
+            return (
+                "its process was ended by"
+                f" {name}{', most likely for want of memory' if -code == signal.SIGKILL else ''}"
+            )
         return last_words(self.log) or f"its process ended with status {code}"
 
     def __enter__(self) -> Process:
@@ -61,12 +70,26 @@ def command(arguments: list[str], processes: int = 1) -> list[str]:
     ours = ["-m", "planner_ft", *arguments]
     if processes == 1:
         return [sys.executable, *ours]
-    settings = ["--num_processes", str(processes), "--num_machines", "1", "--mixed_precision", "no", "--dynamo_backend", "no", "--multi_gpu"]
+    settings = [
+        "--num_processes",
+        str(processes),
+        "--num_machines",
+        "1",
+        "--mixed_precision",
+        "no",
+        "--dynamo_backend",
+        "no",
+        "--multi_gpu",
+    ]
     return [sys.executable, "-m", "accelerate.commands.launch", *settings, *ours]
 
 
 def last_words(log: Path) -> str:
     """The sentence with which a command refused, else the last line that it wrote."""
-    lines = [line.strip() for line in log.read_text(encoding="utf-8", errors="replace").splitlines() if line.strip()]
+    lines = [
+        line.strip()
+        for line in log.read_text(encoding="utf-8", errors="replace").splitlines()
+        if line.strip()
+    ]
     ours = [line.removeprefix("plannerft: ") for line in lines if line.startswith("plannerft: ")]
     return (ours or lines or [""])[-1]

@@ -20,7 +20,8 @@ BUNDLED = Path(__file__).parent / "curated"
 
 
 def find_source(asked: Path | None = None) -> Path:
-    """The folder with the curated set: `asked`, else that of the checkout that we work in or run from, else the package's copy.
+    """The folder with the curated set: `asked`, else that of the checkout that we work in or run
+    from, else the package's copy.
 
     ./data/mission counts in a checkout alone: elsewhere it is what an earlier run has written.
     """
@@ -29,34 +30,58 @@ def find_source(asked: Path | None = None) -> Path:
             raise PlannerError(f"--source {asked}: no such folder")
         return asked
     package = Path(planner_ft.__file__).parent
-    checkouts = [root for root in (Path(), package.parent) if (root / package.name / "__init__.py").is_file()]
+    checkouts = [
+        root for root in (Path(), package.parent) if (root / package.name / "__init__.py").is_file()
+    ]
     for folder in (*(root / SOURCE for root in checkouts), BUNDLED):
         if (folder / "train.jsonl").is_file():
             return folder
-    raise PlannerError("the curated mission set is neither in a checkout nor in the package; give its folder with --source, or --level task alone")
+    raise PlannerError(
+        "the curated mission set is neither in a checkout nor in the package; give its folder with"
+        " --source, or --level task alone"
+    )
 
 
-def curated_splits(source: Path, counts: Mapping[Any, int | None], vocabulary: Vocabulary, named: str = DEFAULT) -> dict[str, list[dict[str, Any]]]:
+def curated_splits(
+    source: Path, counts: Mapping[Any, int | None], vocabulary: Vocabulary, named: str = DEFAULT
+) -> dict[str, list[dict[str, Any]]]:
     """The first `counts` records of each split, all of them where the count is None.
 
-    Raises PlannerError when a record is not valid, the whole set lacks coverage, or a split is smaller than asked for.
-    The coverage is that of the published set and is asked of the default vocabulary's alone.
+    Raises PlannerError when a record is not valid, the whole set lacks coverage, or a split is
+    smaller than asked for. The coverage is that of the published set and is asked of the default
+    vocabulary's alone.
     """
     splits, problems = {}, []
     for split in SPLITS:
         splits[split], found = _read(source / f"{split}.jsonl", vocabulary)
         problems += found
     if problems:
-        more = f" (and {len(problems) - 1} more; plannerft validate --complete {source}/*.jsonl lists them)" if len(problems) > 1 else ""
-        other = f"; a set for the vocabulary {named} is needed: give its folder with --source, or --level task alone" if named != DEFAULT else ""
+        more = (
+            f" (and {len(problems) - 1} more; plannerft validate --complete {source}/*.jsonl lists"
+            " them)"
+            if len(problems) > 1
+            else ""
+        )
+        other = (
+            f"; a set for the vocabulary {named} is needed: give its folder with --source, or"
+            " --level task alone"
+            if named != DEFAULT
+            else ""
+        )
         raise PlannerError(f"{problems[0]}{more}{other}")
     if named == DEFAULT:
         lacking = coverage_problems(splits, vocabulary)
         if lacking:
-            raise PlannerError(f"{source}: {lacking[0]}" + (f" (and {len(lacking) - 1} more)" if len(lacking) > 1 else ""))
+            raise PlannerError(
+                f"{source}: {lacking[0]}"
+                + (f" (and {len(lacking) - 1} more)" if len(lacking) > 1 else "")
+            )
     for split, count in counts.items():
         if count is not None and count > len(splits[split]):
-            raise PlannerError(f"--{split} {count}: the curated mission set has {len(splits[split])} records there; ask for fewer, or --level task alone")
+            raise PlannerError(
+                f"--{split} {count}: the curated mission set has {len(splits[split])} records"
+                " there; ask for fewer, or --level task alone"
+            )
     return {split: records[: counts[split]] for split, records in splits.items()}
 
 

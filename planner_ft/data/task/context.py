@@ -17,7 +17,9 @@ UNRESOLVED = 0.05  # share of samples whose position is not known yet
 
 
 class Context:
-    """Draws calls for one task; a task parameter that fills a slot is used once, then the slot has values of its own."""
+    """Draws calls for one task; a task parameter that fills a slot is used once, then the slot has
+    values of its own.
+    """
 
     def __init__(self, book: Phrasebook, task: Task, rng: random.Random) -> None:
         self.book, self.task, self.rng = book, task, rng
@@ -31,12 +33,16 @@ class Context:
             name = task.require_any[int(rng.random() * len(task.require_any))]
             self.values[name] = self.entry.draws[name](rng)
         place = task.position_parameter
-        if place in self.values and rng.random() < (UNRESOLVED if task.arrival == "self" else UNRESOLVED / 2):
+        if place in self.values and rng.random() < (
+            UNRESOLVED if task.arrival == "self" else UNRESOLVED / 2
+        ):
             self.values[place] = Value(list(book.vocabulary.unresolved), "", "", "")
 
     def slots(self) -> Slots:
         """Empty slots that know the vehicle's words and the task's values."""
-        return Slots(self.book, self.rng, {name: value for name, value in self.values.items() if value.text})
+        return Slots(
+            self.book, self.rng, {name: value for name, value in self.values.items() if value.text}
+        )
 
     def require(self, name: str) -> Value:
         """The task parameter's value, drawn now if the task has none yet."""
@@ -58,7 +64,9 @@ class Context:
         name = self.entry.links[place]
         self.used.add(name)
         value = self.values[name]
-        referred = name not in self.entry.stated and (self.rng.random() < REFER if refer is None else refer)
+        referred = name not in self.entry.stated and (
+            self.rng.random() < REFER if refer is None else refer
+        )
         if self.unresolved(value) or referred:
             slots.put_words(slot, self.refer(name))
         else:
@@ -92,20 +100,31 @@ class Context:
         given = frozenset(slots.given)
         templates = entry.fitting(given)
         if entry.skill.motion == "goto" and self.entry.goto_phrases and rng.random() < 0.6:
-            templates = [template for template in self.entry.goto_phrases if template.fits(given)] or templates
+            templates = [
+                template for template in self.entry.goto_phrases if template.fits(given)
+            ] or templates
         elif name == self.entry.phrases_for and rng.random() < 0.6:
-            templates = [template for template in self.entry.phrases if template.fits(given)] or templates
+            templates = [
+                template for template in self.entry.phrases if template.fits(given)
+            ] or templates
         if entry.repeats and rng.random() < REPEATED and self.book.sentences.get("repeat"):
             return Call(name, parameters, Saying(templates, slots, suffix=" " + self._repeat()))
-        after_with, nouns, passive = (Saying(found, slots) if found else None for found in (entry.after_with(given), entry.nouns(given), entry.passive(given)))
+        after_with, nouns, passive = (
+            Saying(found, slots) if found else None
+            for found in (entry.after_with(given), entry.nouns(given), entry.passive(given))
+        )
         return Call(name, parameters, Saying(templates, slots), after_with, nouns, passive)
 
     def _repeat(self) -> str:
         phrases = self.book.sentences["repeat"]
-        return compile_template(phrases[int(self.rng.random() * len(phrases))]).render(self.slots(), self.rng)
+        return compile_template(phrases[int(self.rng.random() * len(phrases))]).render(
+            self.slots(), self.rng
+        )
 
     def _linked_value(self, slots: Slots, key: str, place: str) -> Any:
-        """The task parameter's value, said in the way of the skill's parameter ("an arc of 90" as "90 degrees to the right")."""
+        """The task parameter's value, said in the way of the skill's parameter ("an arc of 90" as
+        "90 degrees to the right").
+        """
         skill_name = place.split(".")[0]
         parameter = self.book.skills[skill_name].skill.by_name[key]
         value = self.fill(slots, key, place)
@@ -126,4 +145,8 @@ class Context:
 
     def parameters(self) -> dict[str, Any]:
         """The task's parameters as they stand in the record, in the order of the definition."""
-        return {parameter.name: self.values[parameter.name].value for parameter in self.task.parameters if parameter.name in self.values}
+        return {
+            parameter.name: self.values[parameter.name].value
+            for parameter in self.task.parameters
+            if parameter.name in self.values
+        }

@@ -1,7 +1,7 @@
 """Waypoints of the movements that task plans are made of.
 
-Frame: metres, x east, y north; headings in degrees clockwise from north. All functions are pure and round to two
-decimals, whole numbers as ints.
+Frame: metres, x east, y north; headings in degrees clockwise from north. All functions are pure and
+round to two decimals, whole numbers as ints.
 """
 
 from __future__ import annotations
@@ -17,9 +17,15 @@ CORNERS: tuple[Corner, ...] = ("south-west", "south-east", "north-east", "north-
 
 # Counter-clockwise round the square from the middle of its east side, in units of half a side.
 SQUARE: tuple[tuple[str, int, int], ...] = (
-    ("east", 1, 0), ("north-east", 1, 1), ("north", 0, 1), ("north-west", -1, 1),
-    ("west", -1, 0), ("south-west", -1, -1), ("south", 0, -1), ("south-east", 1, -1),
-)  # fmt: skip
+    ("east", 1, 0),
+    ("north-east", 1, 1),
+    ("north", 0, 1),
+    ("north-west", -1, 1),
+    ("west", -1, 0),
+    ("south-west", -1, -1),
+    ("south", 0, -1),
+    ("south-east", 1, -1),
+)
 SQUARE_STARTS = tuple(name for name, _x, _y in SQUARE)
 
 
@@ -45,8 +51,12 @@ def straight_line(start: Point, heading: float, length: float) -> list[Point]:
     return [point(*start), offset(start, heading, length)]
 
 
-def survey_square(center: Point, half_side: float, start: str = "east", *, clockwise: bool = False) -> list[Point]:
-    """Mid-sides and corners of the square, eight points from the named one on ("east" is the middle of the east side)."""
+def survey_square(
+    center: Point, half_side: float, start: str = "east", *, clockwise: bool = False
+) -> list[Point]:
+    """Mid-sides and corners of the square, eight points from the named one on ("east" is the middle
+    of the east side).
+    """
     first = SQUARE_STARTS.index(start)
     step = -1 if clockwise else 1
     ring = (SQUARE[(first + step * index) % len(SQUARE)] for index in range(len(SQUARE)))
@@ -54,16 +64,26 @@ def survey_square(center: Point, half_side: float, start: str = "east", *, clock
 
 
 def lane_count(extent: float, spacing: float) -> int | None:
-    """Lanes over `extent` when `spacing` divides it, else None: only then do two people count the same lanes."""
+    """Lanes over `extent` when `spacing` divides it, else None: only then do two people count the
+    same lanes.
+    """
     lanes = extent / spacing
     return round(lanes) + 1 if abs(lanes - round(lanes)) < 1e-9 else None
 
 
-def lawnmower(center: Point, width: float, length: float, spacing: float, corner: Corner = "south-west", lanes_along: Axis = "y") -> list[Point]:
-    """Ends of the lanes in the order in which they are run, two per lane, each lane against the one before.
+def lawnmower(
+    center: Point,
+    width: float,
+    length: float,
+    spacing: float,
+    corner: Corner = "south-west",
+    lanes_along: Axis = "y",
+) -> list[Point]:
+    """Ends of the lanes in the order in which they are run, two per lane, each lane against the one
+    before.
 
-    `width` lies along x and `length` along y. The first lane starts at `corner`; lanes step away from it. Raises
-    ValueError when `spacing` does not divide the extent across the lanes.
+    `width` lies along x and `length` along y. The first lane starts at `corner`; lanes step away
+    from it. Raises ValueError when `spacing` does not divide the extent across the lanes.
     """
     south, west = corner.split("-")
     sign_x, sign_y = (1 if west == "west" else -1), (1 if south == "south" else -1)
@@ -82,8 +102,12 @@ def lawnmower(center: Point, width: float, length: float, spacing: float, corner
     return points
 
 
-def circle(center: Point, radius: float, count: int, start_bearing: float, *, clockwise: bool) -> list[Point]:
-    """`count` points evenly round the circle, the first one at `start_bearing` as seen from the centre."""
+def circle(
+    center: Point, radius: float, count: int, start_bearing: float, *, clockwise: bool
+) -> list[Point]:
+    """`count` points evenly round the circle, the first one at `start_bearing` as seen from the
+    centre.
+    """
     step = 360 / count if clockwise else -360 / count
     return [offset(center, start_bearing + step * index, radius) for index in range(count)]
 

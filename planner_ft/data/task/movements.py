@@ -1,6 +1,8 @@
-"""Movements: what a prompt asks the vehicle to do, as steps and as words; the parts that their builders share.
+"""Movements: what a prompt asks the vehicle to do, as steps and as words; the parts that their
+builders share.
 
-A builder draws one movement for a task; `None` means that it cannot be drawn for this task or vehicle.
+A builder draws one movement for a task; `None` means that it cannot be drawn for this task or
+vehicle.
 """
 
 from __future__ import annotations
@@ -20,7 +22,9 @@ Step = tuple[str, dict[str, Any]]
 
 @dataclass
 class Movement:
-    """Steps that are said together. `saying` is None where the prompt asks for no movement, so that the vehicle holds."""
+    """Steps that are said together. `saying` is None where the prompt asks for no movement, so that
+    the vehicle holds.
+    """
 
     kind: str
     steps: list[Step]
@@ -35,7 +39,9 @@ Builder = Callable[[Context], Movement | None]
 def simple(context: Context, name: str) -> Movement:
     """One navigation skill in one step."""
     call = context.call(name)
-    return Movement(context.book.skills[name].skill.motion or name, [(name, call.parameters)], call.saying)
+    return Movement(
+        context.book.skills[name].skill.motion or name, [(name, call.parameters)], call.saying
+    )
 
 
 def implied_hold(context: Context) -> Movement | None:
@@ -49,14 +55,26 @@ def go_to(context: Context, points: list[g.Point]) -> list[Step] | None:
     return [(name, {"x": x, "y": y}) for x, y in points] if name else None
 
 
-def in_pattern(context: Context, pattern: str, points: list[g.Point], slots: Slots, kind: str | None = None) -> Movement | None:
+def in_pattern(
+    context: Context, pattern: str, points: list[g.Point], slots: Slots, kind: str | None = None
+) -> Movement | None:
     steps = go_to(context, points)
-    templates = [template for template in context.book.pattern(pattern, context.task.title) if template.fits(frozenset(slots.given))]
-    return Movement(kind or pattern, steps, Saying(templates, slots)) if steps and templates else None
+    templates = [
+        template
+        for template in context.book.pattern(pattern, context.task.title)
+        if template.fits(frozenset(slots.given))
+    ]
+    return (
+        Movement(kind or pattern, steps, Saying(templates, slots)) if steps and templates else None
+    )
 
 
-def take(context: Context, slots: Slots, pattern: str, name: str, otherwise: Callable[[], Value]) -> Any:
-    """The pattern's value from the task, if it is linked, else a value of its own that only the prompt states."""
+def take(
+    context: Context, slots: Slots, pattern: str, name: str, otherwise: Callable[[], Value]
+) -> Any:
+    """The pattern's value from the task, if it is linked, else a value of its own that only the
+    prompt states.
+    """
     place = f"{pattern}.{name}"
     if context.linked(place):
         return context.fill(slots, name, place)
@@ -74,10 +92,24 @@ def any_length(context: Context, low: float, high: float) -> Callable[[], Value]
 
 
 def one_phrase(context: Context, pattern: str, key: str, slots: Slots) -> str:
-    fitting = [template for template in context.book.pattern(pattern, context.task.title, key) if template.fits(frozenset(slots.given))]
-    return fitting[int(context.rng.random() * len(fitting))].render(slots, context.rng) if fitting else ""
+    fitting = [
+        template
+        for template in context.book.pattern(pattern, context.task.title, key)
+        if template.fits(frozenset(slots.given))
+    ]
+    return (
+        fitting[int(context.rng.random() * len(fitting))].render(slots, context.rng)
+        if fitting
+        else ""
+    )
 
 
-def in_turns(context: Context, steps: list[Step], pattern: str, slots: Slots, kind: str) -> Movement | None:
-    templates = [template for template in context.book.pattern(pattern, context.task.title) if template.fits(frozenset(slots.given))]
+def in_turns(
+    context: Context, steps: list[Step], pattern: str, slots: Slots, kind: str
+) -> Movement | None:
+    templates = [
+        template
+        for template in context.book.pattern(pattern, context.task.title)
+        if template.fits(frozenset(slots.given))
+    ]
     return Movement(kind, steps, Saying(templates, slots)) if templates else None

@@ -1,4 +1,6 @@
-"""What happens to a share of the task prompts on their way: slips of the fingers, hurry, telegrams, dictation; values are never touched."""
+"""What happens to a share of the task prompts on their way: slips of the fingers, hurry, telegrams,
+dictation; values are never touched.
+"""
 
 from __future__ import annotations
 
@@ -10,15 +12,35 @@ from planner_ft.data.mission.synthetic import commands_noise as sent
 from planner_ft.data.task.template import VALUE_CLOSE, VALUE_OPEN
 
 # A slip in one of these, or a figure in its place, could change what is asked for.
-_KEPT = "north south clockwise anticlockwise counter right starboard corner first second third fourth fifth before after for to".split()  # noqa: SIM905
+_KEPT = [
+    "north",
+    "south",
+    "clockwise",
+    "anticlockwise",
+    "counter",
+    "right",
+    "starboard",
+    "corner",
+    "first",
+    "second",
+    "third",
+    "fourth",
+    "fifth",
+    "before",
+    "after",
+    "for",
+    "to",
+]
 _UNTOUCHED = re.compile(rf"{VALUE_OPEN}[^{VALUE_CLOSE}]*{VALUE_CLOSE}|\b(?:{'|'.join(_KEPT)})\b")
 _HIDDEN = re.compile(f"{VALUE_OPEN}(\\d+){VALUE_CLOSE}")
 
 
 def noisy(text: str, rng: random.Random, *, capitals: bool = True) -> str:
-    """The prompt, its values still marked, as it arrives: mostly unchanged; `capitals` tells whether a telegram may be all in capitals.
+    """The prompt, its values still marked, as it arrives: mostly unchanged; `capitals` tells
+    whether a telegram may be all in capitals.
 
-    The changes are those of commands written by hand (`planner_ft.data.mission.synthetic.commands_noise`).
+    The changes are those of commands written by hand
+    (`planner_ft.data.mission.synthetic.commands_noise`).
     """
     roll = rng.random()
     for share, change in CHANGES:
@@ -28,7 +50,9 @@ def noisy(text: str, rng: random.Random, *, capitals: bool = True) -> str:
     return text
 
 
-def _with_values_hidden(text: str, rng: random.Random, change: Callable[[str, random.Random], str], capitals: bool) -> str:
+def _with_values_hidden(
+    text: str, rng: random.Random, change: Callable[[str, random.Random], str], capitals: bool
+) -> str:
     """The text changed around its values and the words that are kept."""
     untouched: list[str] = []
 

@@ -4,7 +4,17 @@ from __future__ import annotations
 
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.movements import Builder, Movement, simple
-from planner_ft.data.task.shapes import beside, circle, home, lawnmower, line, square, stated_pass, waypoints, with_stops
+from planner_ft.data.task.shapes import (
+    beside,
+    circle,
+    home,
+    lawnmower,
+    line,
+    square,
+    stated_pass,
+    waypoints,
+    with_stops,
+)
 from planner_ft.data.task.turns import full_turn, headings, once_round, sectors, swing, turn_steps
 
 STOPS = 0.07  # share of waypoint movements with a hold at each point
@@ -13,7 +23,13 @@ PATTERNS: dict[str, tuple[tuple[float, Builder], ...]] = {
     "goto": ((0.12, waypoints), (0.08, beside), (0.03, home)),
     "square": ((0.85, square), (0.08, waypoints)),
     "lawnmower": ((0.85, lawnmower), (0.08, waypoints)),
-    "orbit": ((0.22, circle), (0.17, once_round), (0.05, waypoints), (0.03, square), (0.03, beside)),
+    "orbit": (
+        (0.22, circle),
+        (0.17, once_round),
+        (0.05, waypoints),
+        (0.03, square),
+        (0.03, beside),
+    ),
     "pass": ((0.5, stated_pass), (0.35, line), (0.08, waypoints)),
     "line": ((0.75, line), (0.1, stated_pass)),
     "sectors": ((0.3, sectors), (0.22, headings), (0.08, turn_steps), (0.1, full_turn)),
@@ -22,7 +38,20 @@ PATTERNS: dict[str, tuple[tuple[float, Builder], ...]] = {
     "arc": ((0.05, once_round), (0.05, beside)),
     "approach": ((0.07, beside),),
 }
-EXTRA: tuple[Builder, ...] = (waypoints, square, line, stated_pass, headings, turn_steps, swing, circle, lawnmower, full_turn, once_round, beside)
+EXTRA: tuple[Builder, ...] = (
+    waypoints,
+    square,
+    line,
+    stated_pass,
+    headings,
+    turn_steps,
+    swing,
+    circle,
+    lawnmower,
+    full_turn,
+    once_round,
+    beside,
+)
 
 
 def main_movement(context: Context) -> Movement:
@@ -33,7 +62,11 @@ def main_movement(context: Context) -> Movement:
         if roll < share:
             movement = builder(context)
             if movement:
-                return with_stops(context, movement) if builder in (waypoints, square, circle) and rng.random() < STOPS else movement
+                return (
+                    with_stops(context, movement)
+                    if builder in (waypoints, square, circle) and rng.random() < STOPS
+                    else movement
+                )
             break
         roll -= share
     names = context.task.skills["navigation"]

@@ -1,6 +1,7 @@
 """The phrases of a vocabulary, compiled, and skill calls drawn from them.
 
-A definition without phrases still works: each skill falls back on a phrase made from its name and parameter names.
+A definition without phrases still works: each skill falls back on a phrase made from its name and
+parameter names.
 """
 
 from __future__ import annotations
@@ -27,10 +28,14 @@ def spaced(name: str) -> str:
 
 
 class Slots(dict[str, str]):
-    """What is said for each slot. A slot that begins with an underscore is said for the context's sake and is no value of
-    the plan: the task parameter of that name, if the task has it, else a number of [decor] or an entry of a word list."""
+    """What is said for each slot. A slot that begins with an underscore is said for the context's
+    sake and is no value of the plan: the task parameter of that name, if the task has it, else a
+    number of [decor] or an entry of a word list.
+    """
 
-    def __init__(self, book: Phrasebook, rng: random.Random, task_values: Mapping[str, Value] | None = None) -> None:
+    def __init__(
+        self, book: Phrasebook, rng: random.Random, task_values: Mapping[str, Value] | None = None
+    ) -> None:
         super().__init__()
         self._book, self._rng, self._task_values = book, rng, task_values or {}
         self.given: set[str] = set()
@@ -47,7 +52,12 @@ class Slots(dict[str, str]):
         """Say the value's wordings in the slot, set apart as values."""
         self.given.add(name)
         self[name] = mark(value.text)
-        for sign, wording in (("#", value.text), ("!", value.short), ("^", value.noun), ("+", value.way)):
+        for sign, wording in (
+            ("#", value.text),
+            ("!", value.short),
+            ("^", value.noun),
+            ("+", value.way),
+        ):
             if wording is not None:
                 self.given.add(name + sign)
                 self[name + sign] = mark(wording)
@@ -69,12 +79,18 @@ class Saying:
 
     def render(self, rng: random.Random, form: Form = "base") -> str:
         """One wording."""
-        return self.prefix + self.templates[int(rng.random() * len(self.templates))].render(self.slots, rng, form) + self.suffix
+        return (
+            self.prefix
+            + self.templates[int(rng.random() * len(self.templates))].render(self.slots, rng, form)
+            + self.suffix
+        )
 
 
 @dataclass
 class Call:
-    """A skill with its parameters and how it is said; `skill` is None for words that ask for no skill of their own."""
+    """A skill with its parameters and how it is said; `skill` is None for words that ask for no
+    skill of their own.
+    """
 
     skill: str | None
     parameters: dict[str, Any]
@@ -88,19 +104,31 @@ class Call:
 class SkillEntry:
     """The phrases and parameter spaces of one skill."""
 
-    def __init__(self, skill: Skill, config: dict[str, Any], lexicon: Lexicon, *, unseen: bool) -> None:
+    def __init__(
+        self, skill: Skill, config: dict[str, Any], lexicon: Lexicon, *, unseen: bool
+    ) -> None:
         self.skill = skill
         spaces = config.get("values", {})
-        self.draws: dict[str, Draw] = {parameter.name: value_space(parameter, spaces.get(parameter.name, {}), lexicon) for parameter in skill.parameters}
+        self.draws: dict[str, Draw] = {
+            parameter.name: value_space(parameter, spaces.get(parameter.name, {}), lexicon)
+            for parameter in skill.parameters
+        }
         often = config.get("often", {})
-        self.often = {parameter.name: 1.0 if parameter.required else float(often.get(parameter.name, 0.5)) for parameter in skill.parameters}
+        self.often = {
+            parameter.name: 1.0 if parameter.required else float(often.get(parameter.name, 0.5))
+            for parameter in skill.parameters
+        }
         fallback = [_generic_phrase(skill)]
         seen = [compile_template(text) for text in config.get("phrases", fallback)]
         new = [compile_template(text) for text in config.get("unseen", [])] if unseen else []
-        self._layers = [layer for layer in (new, seen, [compile_template(text) for text in fallback]) if layer]
+        self._layers = [
+            layer for layer in (new, seen, [compile_template(text) for text in fallback]) if layer
+        ]
         self._with = [compile_template(text) for text in config.get("with", [])]
         self._nouns = [] if unseen else [compile_template(text) for text in config.get("nouns", [])]
-        self._passive = [] if unseen else [compile_template(text) for text in config.get("passive", [])]
+        self._passive = (
+            [] if unseen else [compile_template(text) for text in config.get("passive", [])]
+        )
         self.during = [compile_template(text) for text in config.get("during", [])]
         self.none: list[str] = config.get("none", [])
         self.several = bool(config.get("several", True))
@@ -131,7 +159,9 @@ class SkillEntry:
     def _fitting(self, given: Given, kind: str, layers: list[list[Template]]) -> list[Template]:
         key = (given, kind)
         if key not in self._cache:
-            found: list[Template] = next((fits for layer in layers if (fits := [t for t in layer if t.fits(given)])), [])
+            found: list[Template] = next(
+                (fits for layer in layers if (fits := [t for t in layer if t.fits(given)])), []
+            )
             self._cache[key] = found
         return self._cache[key]
 
@@ -140,7 +170,9 @@ def _generic_phrase(skill: Skill) -> str:
     names = [parameter.name for parameter in skill.parameters]
     if "x" in names and "y" in names:
         names = ["xy", *(name for name in names if name not in ("x", "y"))]
-    return f"~run {spaced(skill.name)}" + "".join(f"[ with {'position' if name == 'xy' else spaced(name)} {{{name}}}]" for name in names)
+    return f"~run {spaced(skill.name)}" + "".join(
+        f"[ with {'position' if name == 'xy' else spaced(name)} {{{name}}}]" for name in names
+    )
 
 
 class Phrasebook:
@@ -152,16 +184,24 @@ class Phrasebook:
         _check_phrases(vocabulary)
         self.lexicon = Lexicon(self.raw.get("words", {}))
         configs = self.raw.get("skill", {})
-        self.skills = {skill.name: SkillEntry(skill, configs.get(skill.name, {}), self.lexicon, unseen=unseen) for skill in vocabulary.skills}
+        self.skills = {
+            skill.name: SkillEntry(skill, configs.get(skill.name, {}), self.lexicon, unseen=unseen)
+            for skill in vocabulary.skills
+        }
         self.tasks = {task.title: TaskEntry(task, self) for task in vocabulary.tasks}
-        self.decor = {name: number_space(Parameter(name, "number", config.get("unit")), config) for name, config in self.raw.get("decor", {}).items()}
+        self.decor = {
+            name: number_space(Parameter(name, "number", config.get("unit")), config)
+            for name, config in self.raw.get("decor", {}).items()
+        }
         self.sentences: dict[str, list[str]] = self.raw.get("sentence", {})
         self.motions: dict[str, str] = {}
         for skill in vocabulary.skills:
             if skill.motion:
                 self.motions.setdefault(skill.motion, skill.name)
         self.verbs = _verbs(self.raw)
-        self.by_role: dict[Role, list[str]] = {role: [skill.name for skill in vocabulary.skills_in_role(role)] for role in ROLES}
+        self.by_role: dict[Role, list[str]] = {
+            role: [skill.name for skill in vocabulary.skills_in_role(role)] for role in ROLES
+        }
 
     def slots(self, rng: random.Random) -> Slots:
         """Empty slots that know this vocabulary's words."""
@@ -176,7 +216,11 @@ class Phrasebook:
         general = self.raw.get("pattern", {}).get(name, {})
         if self.unseen and key == "phrases" and general.get("unseen"):
             return [compile_template(text) for text in general["unseen"]]
-        own = self.raw.get("task", {}).get(title, {}).get("pattern_phrases", {}).get(name, []) if key == "phrases" else []
+        own = (
+            self.raw.get("task", {}).get(title, {}).get("pattern_phrases", {}).get(name, [])
+            if key == "phrases"
+            else []
+        )
         return [compile_template(text) for text in (*own, *own, *general.get(key, []))]
 
 
@@ -187,43 +231,73 @@ class TaskEntry:
         self.task = task
         config = book.raw.get("task", {}).get(task.title, {})
         spaces = config.get("values", {})
-        self.draws: dict[str, Draw] = {parameter.name: value_space(parameter, spaces.get(parameter.name, {}), book.lexicon) for parameter in task.parameters}
+        self.draws: dict[str, Draw] = {
+            parameter.name: value_space(parameter, spaces.get(parameter.name, {}), book.lexicon)
+            for parameter in task.parameters
+        }
         self.refer = {
-            parameter.name: [compile_template(text) for text in config.get("refer", {}).get(parameter.name, [f"the given {spaced(parameter.name)}"])]
+            parameter.name: [
+                compile_template(text)
+                for text in config.get("refer", {}).get(
+                    parameter.name, [f"the given {spaced(parameter.name)}"]
+                )
+            ]
             for parameter in task.parameters
         }
         self.links: dict[str, str] = {}
         for parameter in task.parameters:
-            for place in config.get("links", {}).get(parameter.name) or _default_links(task, parameter.name, book.vocabulary):
+            for place in config.get("links", {}).get(parameter.name) or _default_links(
+                task, parameter.name, book.vocabulary
+            ):
                 self.links.setdefault(place, parameter.name)
         lead_key = "lead_unseen" if book.unseen and config.get("lead_unseen") else "lead"
         self.lead = [compile_template(text) for text in config.get(lead_key, [])]
         self.stated = frozenset(config.get("stated", ()))
         self.lead_skill: dict[str, str] = config.get("lead_skill", {})
-        self.phrases = [] if book.unseen else [compile_template(text) for text in config.get("phrases", [])]
+        self.phrases = (
+            [] if book.unseen else [compile_template(text) for text in config.get("phrases", [])]
+        )
         self.phrases_for: str | None = config.get("phrases_for")
         self.openers: list[str] = config.get("openers", [])
         self.unresolved = [compile_template(text) for text in config.get("unresolved", [])]
-        self.goto_phrases = [compile_template(text) for text in config.get("pattern_phrases", {}).get("goto", [])]
+        self.goto_phrases = [
+            compile_template(text) for text in config.get("pattern_phrases", {}).get("goto", [])
+        ]
 
 
 def _check_phrases(vocabulary: Vocabulary) -> None:
-    """Raise PlannerError for a phrase that does not parse or names a word list that is not there."""
+    """Raise PlannerError for a phrase that does not parse or names a word list that is not
+    there.
+    """
     raw = vocabulary.phrases
-    known = {*raw.get("words", {}), *raw.get("decor", {}), *FALLBACK, *MADE_UP, *(name for task in vocabulary.tasks for name in task.by_name), "step"}
+    known = {
+        *raw.get("words", {}),
+        *raw.get("decor", {}),
+        *FALLBACK,
+        *MADE_UP,
+        *(name for task in vocabulary.tasks for name in task.by_name),
+        "step",
+    }
     for section in ("skill", "task", "pattern", "sentence"):
         for phrase in _phrases(raw.get(section, {})):
             try:
                 compile_template(phrase.replace("{}", ""))
             except ValueError as error:
-                raise PlannerError(f"vocabulary {vocabulary.source}: phrase file, [{section}]: {error}") from None
+                raise PlannerError(
+                    f"vocabulary {vocabulary.source}: phrase file, [{section}]: {error}"
+                ) from None
             for name in re.findall(r"\{_([a-z_]+)\}", phrase):
                 if name not in known:
-                    raise PlannerError(f"vocabulary {vocabulary.source}: phrase {phrase!r} names the word list {name!r}; add it to [words] or [decor]")
+                    raise PlannerError(
+                        f"vocabulary {vocabulary.source}: phrase {phrase!r} names the word list"
+                        f" {name!r}; add it to [words] or [decor]"
+                    )
 
 
 def _phrases(value: Any) -> Iterator[str]:
-    """All phrases in a section of the phrase file; settings of values, links and the like are passed over."""
+    """All phrases in a section of the phrase file; settings of values, links and the like are
+    passed over.
+    """
     if isinstance(value, str):
         yield value
     elif isinstance(value, list):
@@ -231,15 +305,31 @@ def _phrases(value: Any) -> Iterator[str]:
             yield from _phrases(item)
     elif isinstance(value, dict):
         for key, item in value.items():
-            if key not in ("values", "links", "often", "stated", "phrases_for", "lead_skill", "openers"):
+            if key not in (
+                "values",
+                "links",
+                "often",
+                "stated",
+                "phrases_for",
+                "lead_skill",
+                "openers",
+            ):
                 yield from _phrases(item)
 
 
 def _verbs(phrases: Any) -> set[str]:
-    """The base forms of all verbs of the phrase file, by which a command is told from other openings of a sentence."""
+    """The base forms of all verbs of the phrase file, by which a command is told from other
+    openings of a sentence.
+    """
     if isinstance(phrases, str):
         return set(re.findall(r"~([A-Za-z-]+)", phrases))
-    values = phrases.values() if isinstance(phrases, dict) else phrases if isinstance(phrases, list) else ()
+    values = (
+        phrases.values()
+        if isinstance(phrases, dict)
+        else phrases
+        if isinstance(phrases, list)
+        else ()
+    )
     return set().union(*(_verbs(value) for value in values)) if values else set()
 
 

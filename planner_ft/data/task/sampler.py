@@ -2,10 +2,11 @@
 
     for record in sample_tasks(load_vocabulary(), seed=0, count=500, split="test"): ...
 
-About half of the samples are drawn as a script (movements, filters, perception skills), said in a prompt, and the label
-is derived from the script: exactly what the prompt says. The others come from whole-prompt templates (prompts/). A
-prompt's skeleton, the prompt without its values, decides which of train, validation and test may hold it, so that the
-splits share no sample even when numbers and names are masked; a template belongs to one of them as a whole besides.
+About half of the samples are drawn as a script (movements, filters, perception skills), said in a
+prompt, and the label is derived from the script: exactly what the prompt says. The others come from
+whole-prompt templates (prompts/). A prompt's skeleton, the prompt without its values, decides which
+of train, validation and test may hold it, so that the splits share no sample even when numbers and
+names are masked; a template belongs to one of them as a whole besides.
 """
 
 from __future__ import annotations
@@ -45,11 +46,15 @@ TEMPLATES = 0.5  # share of the samples that come from a whole-prompt template
 HELD_OUT = 6  # percent of the skeletons that belong to validation, and as many to test
 
 
-def sample_tasks(vocabulary: Vocabulary, seed: int, count: int | None, split: Split) -> Iterator[dict[str, Any]]:
-    """Yield `count` different records, or an endless stream when `count` is None; same seed, same records.
+def sample_tasks(
+    vocabulary: Vocabulary, seed: int, count: int | None, split: Split
+) -> Iterator[dict[str, Any]]:
+    """Yield `count` different records, or an endless stream when `count` is None; same seed, same
+    records.
 
-    Record: {"id", "family", "task", "parameters", "prompt", "expected"}, canonical and strictly valid. Raises
-    PlannerError for an unknown split, or when the vocabulary has not enough different samples.
+    Record: {"id", "family", "task", "parameters", "prompt", "expected"}, canonical and strictly
+    valid. Raises PlannerError for an unknown split, or when the vocabulary has not enough different
+    samples.
     """
     if split not in SPLITS:
         raise PlannerError(f"split {split}: must be {', '.join(SPLITS)}")
@@ -63,13 +68,18 @@ def sample_tasks(vocabulary: Vocabulary, seed: int, count: int | None, split: Sp
         from_template = bool(draws.templates) and rng.random() < TEMPLATES
         tries = 0
         while True:
-            drawn = draws.from_template() if from_template and tries < TRIES else draws.from_script()
+            drawn = (
+                draws.from_template() if from_template and tries < TRIES else draws.from_script()
+            )
             key = hash_of(drawn["task"], drawn["parameters"], drawn["prompt"]) if drawn else 0
             if drawn and key not in seen:
                 break
             tries, misses = tries + 1, misses + 1
             if misses > 2000 + 200 * (number + 1):
-                raise PlannerError(f"vocabulary {vocabulary.name}: split {split} has fewer than {count} different samples; ask for fewer or add phrases")
+                raise PlannerError(
+                    f"vocabulary {vocabulary.name}: split {split} has fewer than {count} different"
+                    " samples; ask for fewer or add phrases"
+                )
         seen.add(key)
         yield {"id": f"task-{split}-{number:06d}", **drawn}
 
@@ -88,18 +98,28 @@ def split_of(text: str) -> Split:
 
 @functools.cache
 def held_out_wordings() -> dict[str, Split]:
-    """The masked wordings of the whole-prompt templates of validation and test, and whose they are."""
+    """The masked wordings of the whole-prompt templates of validation and test, and whose they
+    are.
+    """
     splits = ((line, split_of(normal(line.source))) for line in parsed())
     return {key: split for line, split in splits if split != "train" for key in wordings(line)}
 
 
 class Draws:
-    """Single draws for one split, from scripts and from whole-prompt templates; None when one came to nothing or belongs to another split."""
+    """Single draws for one split, from scripts and from whole-prompt templates; None when one came
+    to nothing or belongs to another split.
+    """
 
     def __init__(self, book: Phrasebook, rng: random.Random, split: Split) -> None:
         self.book, self.rng, self.split = book, rng, split
         self.unseen = split == "test_unseen"
-        self.templates = [] if self.unseen else [bounds for source, bounds in bound_lines(book) if split_of(normal(source)) == split]
+        self.templates = (
+            []
+            if self.unseen
+            else [
+                bounds for source, bounds in bound_lines(book) if split_of(normal(source)) == split
+            ]
+        )
 
     def from_template(self) -> dict[str, Any] | None:
         """One record without id from a whole-prompt template."""
@@ -110,7 +130,8 @@ class Draws:
             return None
         text, expected, skills = drawn
         said = close_gaps(aside(Speaker(self.rng, self.book), text, skills, context))
-        # A template of a held-out split is that split's in all its wordings; its masked wordings are kept out of the others.
+        # A template of a held-out split is that split's in all its wordings; its masked wordings
+        # are kept out of the others.
         whose = split_of(f"{bound.task.title} {skeleton(said)}")
         if whose not in ("train", self.split) or not self._may_hold(text):
             return None
@@ -128,7 +149,10 @@ class Draws:
         say = Speaker(rng, book)
         frame, text = say_it(say, script, context)
         said = close_gaps(aside(say, text, said_skills(script), context))
-        if not self.unseen and (split_of(f"{context.task.title} {skeleton(said)}") != self.split or not self._may_hold(text)):
+        if not self.unseen and (
+            split_of(f"{context.task.title} {skeleton(said)}") != self.split
+            or not self._may_hold(text)
+        ):
             return None
         expected = expected_plan(script, book.vocabulary)
         prompt = plain(said if self.unseen else noisy(said, rng, capitals=not has_texts(expected)))
@@ -143,14 +167,25 @@ class Draws:
 def has_texts(expected: dict[str, Any]) -> bool:
     """Whether a plan has text values: words of the prompt that it holds with their capitals."""
     steps = expected["skill_sequence"]
-    calls = [call for step in steps for call in (step["navigation_skill"], *step["filter_skills"], *step["perception_skills"])]
-    return any(isinstance(item, str) for call in calls for value in call["parameters"].values() for item in (value if isinstance(value, list) else [value]))
+    calls = [
+        call
+        for step in steps
+        for call in (step["navigation_skill"], *step["filter_skills"], *step["perception_skills"])
+    ]
+    return any(
+        isinstance(item, str)
+        for call in calls
+        for value in call["parameters"].values()
+        for item in (value if isinstance(value, list) else [value])
+    )
 
 
 def said_skills(script: Script) -> set[str]:
     """The filters and perception skills of the script."""
     groups = [script.filters, script.perceptions, [scoped.call for scoped in script.scoped]]
-    groups += [calls for movement in script.movements for calls in (movement.filters, movement.perceptions)]
+    groups += [
+        calls for movement in script.movements for calls in (movement.filters, movement.perceptions)
+    ]
     return {call.skill for calls in groups for call in calls if call.skill}
 
 
@@ -159,9 +194,18 @@ def record(family: str, context: Context, prompt: str, expected: dict[str, Any])
     vocabulary = context.book.vocabulary
     problems = plan_problems("task", expected, vocabulary, strict=True)
     if problems:
-        raise PlannerError(f"vocabulary {vocabulary.name}: a sample of {context.task.title} is not valid ({problems[0]}); correct the phrase file's ranges")
+        raise PlannerError(
+            f"vocabulary {vocabulary.name}: a sample of {context.task.title} is not valid"
+            f" ({problems[0]}); correct the phrase file's ranges"
+        )
     parameters = canonical_parameters(context.parameters(), context.task)
-    return {"family": family, "task": context.task.title, "parameters": parameters, "prompt": prompt, "expected": expected}
+    return {
+        "family": family,
+        "task": context.task.title,
+        "parameters": parameters,
+        "prompt": prompt,
+        "expected": expected,
+    }
 
 
 def say_it(say: Speaker, script: Script, context: Context) -> tuple[str, str]:
@@ -171,7 +215,11 @@ def say_it(say: Speaker, script: Script, context: Context) -> tuple[str, str]:
         terse = not unseen and all(call.skill for call in script.perceptions) and say.chance(0.5)
         text = (unmoved if terse else phrasing.no_movement)(say, script.filters, script.perceptions)
         if unseen:
-            text = f"Here is what is wanted: {text[0].lower()}{text[1:]}" if text[0].isalpha() else text
+            text = (
+                f"Here is what is wanted: {text[0].lower()}{text[1:]}"
+                if text[0].isalpha()
+                else text
+            )
         return "no_movement", opened(say, text, context)
     if len(script.movements) == 1:
         single = pick_weighted(phrasing.UNSEEN_SINGLE if unseen else SINGLE, say.rng)
@@ -184,11 +232,21 @@ def say_it(say: Speaker, script: Script, context: Context) -> tuple[str, str]:
 
 
 def opened(say: Speaker, text: str, context: Context) -> str:
-    """The prompt, now and then with polite or official words before it, or with the task's own opener."""
+    """The prompt, now and then with polite or official words before it, or with the task's own
+    opener.
+    """
     first_word = text.split(" ", 1)[0].lower()
     if context.book.unseen or first_word not in context.book.verbs or say.chance(0.85):
         return text
-    openers = ["please ", "you are to ", "now ", "your task: ", "task: ", "I want you to ", "could you please "]
+    openers = [
+        "please ",
+        "you are to ",
+        "now ",
+        "your task: ",
+        "task: ",
+        "I want you to ",
+        "could you please ",
+    ]
     if context.entry.openers and say.chance(0.7):
         openers = [f"{opener} " for opener in context.entry.openers]
     opener = say.pick(*openers)
@@ -196,7 +254,9 @@ def opened(say: Speaker, text: str, context: Context) -> str:
 
 
 def aside(say: Speaker, text: str, said: set[str], context: Context) -> str:
-    """The prompt, now and then with a sentence that changes nothing: background, a reason, what is not wanted."""
+    """The prompt, now and then with a sentence that changes nothing: background, a reason, what is
+    not wanted.
+    """
     roll = say.rng.random()
     sentences = context.book.sentences
     if roll < 0.03 and sentences.get("background"):
@@ -209,17 +269,30 @@ def aside(say: Speaker, text: str, said: set[str], context: Context) -> str:
     if roll < 0.115 and not context.book.unseen:
         return _refusal(say, text, said, context)
     if roll < 0.14 and sentences.get("negation"):
-        others = [name for name in context.task.skills.get("perception", ()) if name not in said and context.book.skills[name].bare]
+        others = [
+            name
+            for name in context.task.skills.get("perception", ())
+            if name not in said and context.book.skills[name].bare
+        ]
         if others:
             templates = context.book.skills[say.pick(*others)].fitting(frozenset())
-            refused = templates[int(say.rng.random() * len(templates))].render(context.slots(), say.rng)
+            refused = templates[int(say.rng.random() * len(templates))].render(
+                context.slots(), say.rng
+            )
             return f"{text} {say.pick(*sentences['negation']).format(refused)}"
     return text
 
 
 def _refusal(say: Speaker, text: str, said: set[str], context: Context) -> str:
-    """The prompt with a remark that a skill which it does not ask for is not wanted: "No recording."."""
-    refused = [phrase for name, entry in context.book.skills.items() if name not in said for phrase in entry.none]
+    """The prompt with a remark that a skill which it does not ask for is not wanted: "No
+    recording.".
+    """
+    refused = [
+        phrase
+        for name, entry in context.book.skills.items()
+        if name not in said
+        for phrase in entry.none
+    ]
     if not refused:
         return text
     phrase = say.pick(*refused)

@@ -13,7 +13,13 @@ from planner_ft.data.task.phrasebook import Call, Saying
 from planner_ft.data.task.phrasing import Scoped, Script
 from planner_ft.data.task.shapes import go_back, home
 
-EXTRA_MOVEMENTS = (0.56, 0.2, 0.13, 0.07, 0.04)  # how often a prompt has that many movements beside the main one
+EXTRA_MOVEMENTS = (
+    0.56,
+    0.2,
+    0.13,
+    0.07,
+    0.04,
+)  # how often a prompt has that many movements beside the main one
 PERCEPTIONS = (0.14, 0.36, 0.28, 0.15, 0.07)
 FILTERS = (0.56, 0.34, 0.1)
 AGAIN = 0.15  # share of skills that stand a second time with other parameters
@@ -52,7 +58,9 @@ def draw_script(context: Context) -> Script | None:
 
 
 def _scoped(context: Context, call: Call, role: str, count: int) -> list[Scoped]:
-    """The skill in some of the steps and, now and then, once more with other parameters in the others: "5 m on the first leg, 10 m on the second"."""
+    """The skill in some of the steps and, now and then, once more with other parameters in the
+    others: "5 m on the first leg, 10 m on the second".
+    """
     steps = _steps(count, context.rng)
     others = frozenset(range(count)) - steps
     other = _another(context, call) if others and context.rng.random() < AGAIN else None
@@ -79,14 +87,26 @@ def _steps(count: int, rng: random.Random) -> frozenset[int]:
 
 
 def _at_each(context: Context, script: Script) -> None:
-    """Now and then say that a skill runs "at each waypoint", where there is but one movement and it has several."""
+    """Now and then say that a skill runs "at each waypoint", where there is but one movement and it
+    has several.
+    """
     movement = script.movements[0]
-    if len(script.movements) > 1 or len(movement.steps) < 3 or movement.kind.endswith("_stops") or movement.saying is None:
+    if (
+        len(script.movements) > 1
+        or len(movement.steps) < 3
+        or movement.kind.endswith("_stops")
+        or movement.saying is None
+    ):
         return
     goto = context.book.skills[movement.steps[0][0]].skill.motion == "goto"
     phrases = context.book.sentences.get("each" if goto else "each_turn", [])
     for call in script.perceptions:
-        if phrases and call.skill and context.book.skills[call.skill].repeats and context.rng.random() < 0.4:
+        if (
+            phrases
+            and call.skill
+            and context.book.skills[call.skill].repeats
+            and context.rng.random() < 0.4
+        ):
             call.with_saying = None
             call.saying.suffix = f" {phrases[int(context.rng.random() * len(phrases))]}"
 
@@ -102,12 +122,20 @@ def _count(rng: random.Random, shares: Sequence[float]) -> int:
 
 def _movements(context: Context, lead: list[Call]) -> list[Movement] | None:
     rng = context.rng
-    if (lead and rng.random() < 0.55) or (not lead and rng.random() < (0.35 if context.task.arrival == "none" and context.task.pattern == "hold" else 0.02)):
+    if (lead and rng.random() < 0.55) or (
+        not lead
+        and rng.random()
+        < (0.35 if context.task.arrival == "none" and context.task.pattern == "hold" else 0.02)
+    ):
         held = implied_hold(context)
         return [held] if held else None
     if not lead and rng.random() < LEGS and (route := _route(context)):
         return route
-    main = simple(context, context.book.motions["hold"]) if lead and rng.random() < 0.7 and "hold" in context.book.motions else main_movement(context)
+    main = (
+        simple(context, context.book.motions["hold"])
+        if lead and rng.random() < 0.7 and "hold" in context.book.motions
+        else main_movement(context)
+    )
     movements = [main]
     for _ in range(_count(rng, EXTRA_MOVEMENTS)):
         extra = _extra(context)
@@ -142,7 +170,9 @@ def _extra(context: Context) -> Movement | None:
 
 
 def _lead(context: Context) -> list[Call]:
-    """The hold in the task's own words ("search for the barge"), with the skill that it asks for."""
+    """The hold in the task's own words ("search for the barge"), with the skill that it asks
+    for.
+    """
     entry, rng = context.entry, context.rng
     if not entry.lead or rng.random() < 0.2:
         return []
@@ -155,23 +185,36 @@ def _lead(context: Context) -> list[Call]:
             if name == entry.lead_skill.get("from"):
                 parameters[entry.lead_skill["parameter"]] = [value]
     templates = [template for template in entry.lead if template.fits(frozenset(slots.given))]
-    return [Call(entry.lead_skill.get("skill"), parameters, Saying(templates, slots))] if templates else []
+    return (
+        [Call(entry.lead_skill.get("skill"), parameters, Saying(templates, slots))]
+        if templates
+        else []
+    )
 
 
-def _draw_calls(context: Context, role: Literal["filter", "perception"], count: int, script: Script) -> list[Call]:
+def _draw_calls(
+    context: Context, role: Literal["filter", "perception"], count: int, script: Script
+) -> list[Call]:
     rng = context.rng
     fitting = context.task.skills.get(role, ())
     every = context.book.by_role[role]
     calls: list[Call] = []
     for _ in range(count):
-        names = fitting if fitting and rng.random() < (0.8 if role == "perception" else 0.9) else every
+        names = (
+            fitting if fitting and rng.random() < (0.8 if role == "perception" else 0.9) else every
+        )
         if not names:
             break
         name = names[int(rng.random() * len(names))]
         again = [call for call in calls if call.skill == name]
-        if again and (role == "filter" or not context.book.skills[name].several or rng.random() < 0.7):
+        if again and (
+            role == "filter" or not context.book.skills[name].several or rng.random() < 0.7
+        ):
             continue
         call = context.call(name)
-        if not any(call.parameters == other.parameters or not call.parameters or not other.parameters for other in again):
+        if not any(
+            call.parameters == other.parameters or not call.parameters or not other.parameters
+            for other in again
+        ):
             calls.append(call)
     return calls

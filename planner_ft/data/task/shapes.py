@@ -1,4 +1,6 @@
-"""Movements over waypoints: stated places, survey square, lawnmower, circle, line, pass, with their exact geometry."""
+"""Movements over waypoints: stated places, survey square, lawnmower, circle, line, pass, with their
+exact geometry.
+"""
 
 from __future__ import annotations
 
@@ -7,8 +9,24 @@ from typing import Any
 
 from planner_ft.data.task import geometry as g
 from planner_ft.data.task.context import Context
-from planner_ft.data.task.movements import Movement, any_length, any_position, go_to, in_pattern, one_phrase, take
-from planner_ft.data.task.numbers import COMPASS, Value, bearing, count_text, duration, length, position
+from planner_ft.data.task.movements import (
+    Movement,
+    any_length,
+    any_position,
+    go_to,
+    in_pattern,
+    one_phrase,
+    take,
+)
+from planner_ft.data.task.numbers import (
+    COMPASS,
+    Value,
+    bearing,
+    count_text,
+    duration,
+    length,
+    position,
+)
 from planner_ft.data.task.phrasebook import Saying
 from planner_ft.data.task.template import Template
 from planner_ft.data.task.values import draw_bearing, draw_duration, draw_number, draw_point
@@ -19,7 +37,9 @@ def waypoints(context: Context) -> Movement | None:
     rng, slots = context.rng, context.slots()
     points = [draw_point(rng) for _ in range(2 + int(rng.random() ** 1.6 * 5))]
     if rng.random() < 0.1 and len(points) < 4:
-        slots.put("points", Value(None, ", then ".join(position(point, rng).text for point in points)))
+        slots.put(
+            "points", Value(None, ", then ".join(position(point, rng).text for point in points))
+        )
         return in_pattern(context, "waypoints", points, slots)
     said = [position(point, rng).short or "" for point in points]
     joint = rng.choice((" and ", ", ", " and then ", ", and then "))
@@ -44,7 +64,9 @@ def square(context: Context) -> Movement | None:
     center = take(context, slots, "square", "center", any_position(context))
     half = take(context, slots, "square", "radius", any_length(context, 3, 40))
     slots.put_words("how", how)
-    return in_pattern(context, "square", g.survey_square(center, half, start, clockwise=clockwise), slots)
+    return in_pattern(
+        context, "square", g.survey_square(center, half, start, clockwise=clockwise), slots
+    )
 
 
 def _planned(context: Context) -> list[Template]:
@@ -69,7 +91,11 @@ def _square_how(context: Context) -> tuple[str, bool, str]:
     if rng.random() < 0.25:
         clockwise = rng.random() < 0.7
         way = "clockwise" if clockwise else rng.choice(("counter-clockwise", "anticlockwise"))
-        how = f"{how}{rng.choice((' and going ', ', ', ' and then '))}{way}" if how else rng.choice((f", {way}", f" {way}", f", going {way}"))
+        how = (
+            f"{how}{rng.choice((' and going ', ', ', ' and then '))}{way}"
+            if how
+            else rng.choice((f", {way}", f" {way}", f", going {way}"))
+        )
     return start, clockwise, how
 
 
@@ -91,7 +117,9 @@ def lawnmower(context: Context) -> Movement | None:
     corner, axis, how = _grid_how(context, along, spacing)
     sizes = {"width": width, "length": along, "spacing": spacing}
     for name, size in sizes.items():
-        if (parameter := context.entry.links.get(f"lawnmower.{name}")) and (rng.random() < 0.85 or parameter in context.values):
+        if (parameter := context.entry.links.get(f"lawnmower.{name}")) and (
+            rng.random() < 0.85 or parameter in context.values
+        ):
             context.values[parameter] = length(size, rng)
     whole = all(context.linked(f"lawnmower.{name}") for name in ("center", *sizes))
     if whole and rng.random() < 0.25 and (templates := _planned(context)):
@@ -102,14 +130,20 @@ def lawnmower(context: Context) -> Movement | None:
         steps = go_to(context, g.lawnmower(center, width, along, spacing, corner, axis))
         return Movement("lawnmower", steps, Saying(templates, slots)) if steps else None
     center = take(context, slots, "lawnmower", "center", any_position(context))
-    if not context.linked("lawnmower.spacing") and rng.random() < 0.5 and context.book.pattern("lawnmower", context.task.title):
+    if (
+        not context.linked("lawnmower.spacing")
+        and rng.random() < 0.5
+        and context.book.pattern("lawnmower", context.task.title)
+    ):
         lanes = g.lane_count(width, spacing) if axis == "y" else g.lane_count(along, spacing)
         slots.put("lanes", Value(lanes, count_text(lanes or 0, rng)))
         sizes.pop("spacing")
     for name, size in sizes.items():
         take(context, slots, "lawnmower", name, lambda size=size: length(size, rng))  # type: ignore[misc]
     slots.put_words("how", how)
-    return in_pattern(context, "lawnmower", g.lawnmower(center, width, along, spacing, corner, axis), slots)
+    return in_pattern(
+        context, "lawnmower", g.lawnmower(center, width, along, spacing, corner, axis), slots
+    )
 
 
 def _grid_how(context: Context, along: float, spacing: float) -> tuple[g.Corner, g.Axis, str]:
@@ -126,9 +160,11 @@ def _grid_how(context: Context, along: float, spacing: float) -> tuple[g.Corner,
         slots.put_words("compass", "east-west" if axis == "x" else "north-south")
     wanted = {name for name in ("corner", "axis") if name in slots}
     templates = [
-        template for template in context.book.pattern("lawnmower", context.task.title, "how")
-        if template.needed <= slots.given and {"axis" if name == "compass" else name for name in template.needed} == wanted
-    ]  # fmt: skip
+        template
+        for template in context.book.pattern("lawnmower", context.task.title, "how")
+        if template.needed <= slots.given
+        and {"axis" if name == "compass" else name for name in template.needed} == wanted
+    ]
     if not wanted or not templates:
         return "south-west", "y", ""
     return corner, axis, templates[int(rng.random() * len(templates))].render(slots, rng)
@@ -144,8 +180,12 @@ def circle(context: Context) -> Movement | None:
     radius = take(context, slots, "orbit", "radius", any_length(context, 4, 60))
     slots.put("count", Value(count, count_text(count, rng)))
     slots.put_words("start", COMPASS[start])
-    slots.put_words("turn", "clockwise" if clockwise else rng.choice(("counter-clockwise", "anticlockwise")))
-    return in_pattern(context, "orbit", g.circle(center, radius, count, start, clockwise=clockwise), slots)
+    slots.put_words(
+        "turn", "clockwise" if clockwise else rng.choice(("counter-clockwise", "anticlockwise"))
+    )
+    return in_pattern(
+        context, "orbit", g.circle(center, radius, count, start, clockwise=clockwise), slots
+    )
 
 
 def line(context: Context) -> Movement | None:
@@ -153,7 +193,9 @@ def line(context: Context) -> Movement | None:
     rng, slots = context.rng, context.slots()
     planned = all(context.linked(f"line.{name}") for name in ("start", "heading", "length"))
     if planned and rng.random() < 0.3 and (templates := _planned(context)):
-        start, heading, distance = (_use(context, f"line.{name}") for name in ("start", "heading", "length"))
+        start, heading, distance = (
+            _use(context, f"line.{name}") for name in ("start", "heading", "length")
+        )
         steps = go_to(context, g.straight_line(start, heading, distance))
         return Movement("line", steps, Saying(templates, slots)) if steps else None
     start = take(context, slots, "line", "start", any_position(context))
@@ -167,7 +209,11 @@ def stated_pass(context: Context) -> Movement | None:
     rng, slots = context.rng, context.slots()
     first = draw_point(rng)
     run = draw_number(rng, 10, 150)
-    last = g.offset(first, rng.choice((0, 90, 180, 270)), run) if rng.random() < 0.7 else draw_point(rng)
+    last = (
+        g.offset(first, rng.choice((0, 90, 180, 270)), run)
+        if rng.random() < 0.7
+        else draw_point(rng)
+    )
     slots.put("first", position(first, rng))
     slots.put("last", position(last, rng))
     return in_pattern(context, "pass", [first, last], slots)
@@ -206,11 +252,18 @@ def with_stops(context: Context, movement: Movement) -> Movement:
     """The movement with a hold of stated time at each of its points."""
     name = context.book.motions.get("hold")
     templates = context.book.pattern("stops", context.task.title)
-    if not name or "time" not in context.book.skills[name].skill.by_name or not movement.saying or not templates:
+    if (
+        not name
+        or "time" not in context.book.skills[name].skill.by_name
+        or not movement.saying
+        or not templates
+    ):
         return movement
     slots = context.slots()
     value = duration(draw_duration(context.rng, 3, 120), context.rng)
     slots.put("pause", value)
-    movement.saying.suffix = templates[int(context.rng.random() * len(templates))].render(slots, context.rng)
+    movement.saying.suffix = templates[int(context.rng.random() * len(templates))].render(
+        slots, context.rng
+    )
     steps = [step for point in movement.steps for step in (point, (name, {"time": value.value}))]
     return replace(movement, steps=steps, kind=f"{movement.kind}_stops")

@@ -12,29 +12,67 @@ from planner_ft.vocabulary.plans import canonical_parameters
 
 
 def expected_plan(script: Script, vocabulary: Vocabulary) -> dict[str, Any]:
-    """The skill plan in canonical form. Within a step, filters and perception skills stand in the order of mention."""
+    """The skill plan in canonical form. Within a step, filters and perception skills stand in the
+    order of mention.
+    """
     steps = []
     for index, movement in enumerate(script.movements):
         here = [scoped for scoped in script.scoped if index in scoped.steps]
-        filters = _entries([*script.filters, *movement.filters, *(scoped.call for scoped in here if scoped.role == "filters")], vocabulary)
-        perceptions = _entries([*script.perceptions, *movement.perceptions, *(scoped.call for scoped in here if scoped.role == "perceptions")], vocabulary)
-        steps += [plan_step(name, parameters, filters, perceptions, vocabulary) for name, parameters in movement.steps]
+        filters = _entries(
+            [
+                *script.filters,
+                *movement.filters,
+                *(scoped.call for scoped in here if scoped.role == "filters"),
+            ],
+            vocabulary,
+        )
+        perceptions = _entries(
+            [
+                *script.perceptions,
+                *movement.perceptions,
+                *(scoped.call for scoped in here if scoped.role == "perceptions"),
+            ],
+            vocabulary,
+        )
+        steps += [
+            plan_step(name, parameters, filters, perceptions, vocabulary)
+            for name, parameters in movement.steps
+        ]
     return {"skill_sequence": steps}
 
 
 def _entries(calls: list[Call], vocabulary: Vocabulary) -> list[dict[str, Any]]:
     said = sorted((call for call in calls if call.skill is not None), key=lambda call: call.order)
-    return [{"name": call.skill, "parameters": canonical_parameters(call.parameters, vocabulary.skill[str(call.skill)])} for call in said]
+    return [
+        {
+            "name": call.skill,
+            "parameters": canonical_parameters(call.parameters, vocabulary.skill[str(call.skill)]),
+        }
+        for call in said
+    ]
 
 
 def plan_step(
-    name: str, parameters: dict[str, Any], filters: list[dict[str, Any]], perceptions: list[dict[str, Any]], vocabulary: Vocabulary
+    name: str,
+    parameters: dict[str, Any],
+    filters: list[dict[str, Any]],
+    perceptions: list[dict[str, Any]],
+    vocabulary: Vocabulary,
 ) -> dict[str, Any]:
-    """A step of the plan, with the strings that its skills report. Parameters are brought into canonical form."""
+    """A step of the plan, with the strings that its skills report. Parameters are brought into
+    canonical form.
+    """
     skill = vocabulary.skill
-    running = [name, *(entry["name"] for entry in filters), *(entry["name"] for entry in perceptions)]
+    running = [
+        name,
+        *(entry["name"] for entry in filters),
+        *(entry["name"] for entry in perceptions),
+    ]
     return {
-        "navigation_skill": {"name": name, "parameters": canonical_parameters(parameters, skill[name])},
+        "navigation_skill": {
+            "name": name,
+            "parameters": canonical_parameters(parameters, skill[name]),
+        },
         "filter_skills": filters,
         "perception_skills": perceptions,
         "stop_conditions": _distinct([skill[name].stop]),

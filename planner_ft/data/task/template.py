@@ -9,8 +9,8 @@
     {_list}  an entry of a word list, or a value of the task, that is no value of the plan
     ~verb    inflected: base form in commands, -ing form after "while"
 
-Values are set between VALUE_OPEN and VALUE_CLOSE, so that what surrounds them can be told apart: the skeleton of a
-prompt is the prompt without its values.
+Values are set between VALUE_OPEN and VALUE_CLOSE, so that what surrounds them can be told apart:
+the skeleton of a prompt is the prompt without its values.
 """
 
 from __future__ import annotations
@@ -27,13 +27,47 @@ VALUE_OPEN, VALUE_CLOSE = "\x02", "\x03"
 
 _TOKEN = re.compile(r"~[A-Za-z-]+|\{[a-z_]+[!^+#]?\}|[()\[\]|]|[^~{}()\[\]|]+")
 _DOUBLING = frozenset(
-    "begin clip cut dip drop fit flag get grab hug jot let log map pan pin plan put run scan set shut sit skim snap spin spot step stop tag trim".split()  # noqa: SIM905
+    [
+        "begin",
+        "clip",
+        "cut",
+        "dip",
+        "drop",
+        "fit",
+        "flag",
+        "get",
+        "grab",
+        "hug",
+        "jot",
+        "let",
+        "log",
+        "map",
+        "pan",
+        "pin",
+        "plan",
+        "put",
+        "run",
+        "scan",
+        "set",
+        "shut",
+        "sit",
+        "skim",
+        "snap",
+        "spin",
+        "spot",
+        "step",
+        "stop",
+        "tag",
+        "trim",
+    ]
 )
 _GERUND = {"be": "being", "lie": "lying", "tie": "tying", "see": "seeing", "flee": "fleeing"}
 
 
 def gerund(verb: str) -> str:
-    """The -ing form of an English verb: "hold" -> "holding", "take" -> "taking", "run" -> "running"."""
+    """The -ing form of an English verb: "hold" -> "holding", "take" -> "taking", "run" ->
+    "running".
+    """
     if verb in _GERUND:
         return _GERUND[verb]
     if verb in _DOUBLING:
@@ -47,7 +81,9 @@ Node = tuple[str, object]
 
 @dataclass(frozen=True)
 class Template:
-    """A compiled phrase: the slots that must be given, and the sets of slots that bring an optional part each."""
+    """A compiled phrase: the slots that must be given, and the sets of slots that bring an optional
+    part each.
+    """
 
     source: str
     nodes: tuple[Node, ...]
@@ -55,7 +91,9 @@ class Template:
     optional: tuple[frozenset[str], ...]
 
     def fits(self, given: frozenset[str]) -> bool:
-        """Whether the phrase says exactly the given slots: all that it needs can be said, and none is left unsaid."""
+        """Whether the phrase says exactly the given slots: all that it needs can be said, and none
+        is left unsaid.
+        """
         if not self.needed <= given:
             return False
         said = self.needed.union(*(part for part in self.optional if part <= given))
@@ -95,10 +133,20 @@ def _branches(tokens: list[str], position: int) -> tuple[int, list[tuple[Node, .
             if position >= len(tokens) or tokens[position] != {"(": ")", "[": "]"}[token]:
                 raise ValueError(f"phrase {''.join(tokens)!r}: unbalanced brackets")
             if len({frozenset(_slots(branch, [])) for branch in inner}) > 1:
-                raise ValueError(f"phrase {''.join(tokens)!r}: all alternatives must say the same slots; write an optional part instead")
+                raise ValueError(
+                    f"phrase {''.join(tokens)!r}: all alternatives must say the same slots; write"
+                    " an optional part instead"
+                )
             if token == "[" and len(inner) > 1:
-                raise ValueError(f"phrase {''.join(tokens)!r}: alternatives in an optional part need brackets of their own")
-            nodes.append(("choice", tuple(inner)) if token == "(" else ("optional", (frozenset(_slots(inner[0], [])), inner[0])))
+                raise ValueError(
+                    f"phrase {''.join(tokens)!r}: alternatives in an optional part need brackets of"
+                    " their own"
+                )
+            nodes.append(
+                ("choice", tuple(inner))
+                if token == "("
+                else ("optional", (frozenset(_slots(inner[0], [])), inner[0]))
+            )
         elif token[0] == "~":
             nodes.append(("verb", (token[1:], gerund(token[1:]))))
         elif token[0] == "{":
@@ -111,7 +159,9 @@ def _branches(tokens: list[str], position: int) -> tuple[int, list[tuple[Node, .
 
 
 def _slots(nodes: tuple[Node, ...], optional: list[frozenset[str]]) -> set[str]:
-    """Slots outside optional parts, those of all alternatives included; the slots of each optional part go to `optional`."""
+    """Slots outside optional parts, those of all alternatives included; the slots of each optional
+    part go to `optional`.
+    """
     needed: set[str] = set()
     for kind, content in nodes:
         if kind == "slot" and str(content)[0] != "_":
@@ -124,7 +174,13 @@ def _slots(nodes: tuple[Node, ...], optional: list[frozenset[str]]) -> set[str]:
     return needed
 
 
-def _render(nodes: tuple[Node, ...], values: Mapping[str, str], rng: random.Random, ing: bool, parts: list[str]) -> None:
+def _render(
+    nodes: tuple[Node, ...],
+    values: Mapping[str, str],
+    rng: random.Random,
+    ing: bool,
+    parts: list[str],
+) -> None:
     for kind, content in nodes:
         if kind == "text":
             parts.append(content)  # type: ignore[arg-type]
@@ -147,12 +203,19 @@ _GAPS = re.compile(r" +(?=[ .,;])")
 
 
 # "a image", "an 8-second", "every a minute"
-_BEFORE_VOWEL = re.compile(r"\b([Aa])(?= \x02?(?:8\d?|11|18|8\d\d|eight\w*|eleven|hour|[aei]|o(?!ne\b)|u(?!s|ni))(?![A-Z]))")
-_DOUBLE_ARTICLE = re.compile(r"\b(every|each|last|past|recent|latest|preceding) (\x02?)an? (?=[a-z])")
+_BEFORE_VOWEL = re.compile(
+    r"\b([Aa])(?="
+    r" \x02?(?:8\d?|11|18|8\d\d|eight\w*|eleven|hour|[aei]|o(?!ne\b)|u(?!s|ni))(?![A-Z]))"
+)
+_DOUBLE_ARTICLE = re.compile(
+    r"\b(every|each|last|past|recent|latest|preceding) (\x02?)an? (?=[a-z])"
+)
 
 
 def close_gaps(text: str) -> str:
-    """The text without the double blanks that empty alternatives leave, and with articles that fit what stands behind them."""
+    """The text without the double blanks that empty alternatives leave, and with articles that fit
+    what stands behind them.
+    """
     return _DOUBLE_ARTICLE.sub(r"\1 \2", _BEFORE_VOWEL.sub(r"\1n", _GAPS.sub("", text)))
 
 

@@ -1,10 +1,21 @@
-"""More sentence frames for one movement: terse notes, clauses in the passive, skills named before the movement."""
+"""More sentence frames for one movement: terse notes, clauses in the passive, skills named before
+the movement.
+"""
 
 from __future__ import annotations
 
 from planner_ft.data.task.movements import Movement
 from planner_ft.data.task.phrasebook import Call
-from planner_ft.data.task.phrasing import Single, Speaker, can_with, join, move_and, move_while, sentence, sentences
+from planner_ft.data.task.phrasing import (
+    Single,
+    Speaker,
+    can_with,
+    join,
+    move_and,
+    move_while,
+    sentence,
+    sentences,
+)
 
 
 def can_passive(calls: list[Call]) -> bool:
@@ -29,25 +40,41 @@ def notes(say: Speaker, movement: Movement, filters: list[Call], perceptions: li
     listed = join([noun(say, call) for call in calls], say.pick(", ", " and ", "; "))
     joint = say.pick(". ", ": ", " - ", "; ", " / ")
     text = f"{say.move(movement)}{joint}"
-    return f"{sentence(text.strip(' .'))} {sentence(listed)}" if joint == ". " else sentence(text + listed)
+    return (
+        f"{sentence(text.strip(' .'))} {sentence(listed)}"
+        if joint == ". "
+        else sentence(text + listed)
+    )
 
 
-def in_brackets(say: Speaker, movement: Movement, filters: list[Call], perceptions: list[Call]) -> str:
+def in_brackets(
+    say: Speaker, movement: Movement, filters: list[Call], perceptions: list[Call]
+) -> str:
     """Hold for 60 s (depth logging, margin of 5 m)."""
     calls = perceptions + filters
     if not calls:
         return move_and(say, movement, filters, perceptions)
-    return sentence(f"{say.move(movement)} ({join([noun(say, call) for call in calls], say.pick(', ', ' and ', '; '))})")
+    return sentence(
+        f"{say.move(movement)}"
+        f" ({join([noun(say, call) for call in calls], say.pick(', ', ' and ', '; '))})"
+    )
 
 
-def data_first(say: Speaker, movement: Movement, filters: list[Call], perceptions: list[Call]) -> str:
+def data_first(
+    say: Speaker, movement: Movement, filters: list[Call], perceptions: list[Call]
+) -> str:
     """Depth logging and a GPS fix while holding for 60 s, with the heading locked."""
     if not can_with(perceptions):
         return move_while(say, movement, filters, perceptions)
-    text = f"{say.with_words(perceptions)} {say.pick('while', 'while', 'when')} {say.move(movement, 'ing')}"
+    text = (
+        f"{say.with_words(perceptions)} {say.pick('while', 'while', 'when')}"
+        f" {say.move(movement, 'ing')}"
+    )
     if not filters:
         return sentence(text)
-    return sentence(f"{text}, {say.with_words(filters) if can_with(filters) else say.calls(filters, 'ing')}")
+    return sentence(
+        f"{text}, {say.with_words(filters) if can_with(filters) else say.calls(filters, 'ing')}"
+    )
 
 
 def do_this(say: Speaker, movement: Movement, filters: list[Call], perceptions: list[Call]) -> str:
@@ -57,9 +84,18 @@ def do_this(say: Speaker, movement: Movement, filters: list[Call], perceptions: 
         return sentences(say, movement, filters, perceptions)
     head = sentence(say.calls(calls))
     if say.chance(0.6):
-        opener = say.pick("do this while", "all this while", "this is to be done while", "you do so while", "do it while")
+        opener = say.pick(
+            "do this while",
+            "all this while",
+            "this is to be done while",
+            "you do so while",
+            "do it while",
+        )
         return f"{head} {sentence(opener + ' ' + say.move(movement, 'ing'))}"
-    return f"{head} {sentence(say.pick('meanwhile, ', 'while you do, ', 'for the movement: ', 'to do so, ') + say.move(movement))}"
+    return (
+        f"{head}"
+        f" {sentence(say.pick('meanwhile, ', 'while you do, ', 'for the movement: ', 'to do so, ') + say.move(movement))}"
+    )
 
 
 def passive(say: Speaker, movement: Movement, filters: list[Call], perceptions: list[Call]) -> str:
@@ -69,9 +105,15 @@ def passive(say: Speaker, movement: Movement, filters: list[Call], perceptions: 
         return move_while(say, movement, filters, perceptions)
     roll = say.rng.random()
     if roll < 0.35:
-        return sentence(f"while {say.move(movement, 'ing')}, {join([say.passive(call) for call in calls], ' and ')}")
+        return sentence(
+            f"while {say.move(movement, 'ing')},"
+            f" {join([say.passive(call) for call in calls], ' and ')}"
+        )
     if roll < 0.5:
-        return sentence(f"{join([say.passive(call) for call in calls], ' and ')} while {say.move(movement, 'ing')}")
+        return sentence(
+            f"{join([say.passive(call) for call in calls], ' and ')} while"
+            f" {say.move(movement, 'ing')}"
+        )
     head = sentence(say.move(movement))
     if roll < 0.7:
         return " ".join([head, *(sentence(say.passive(call)) for call in calls)])
@@ -97,11 +139,20 @@ def colon(say: Speaker, movement: Movement, filters: list[Call], perceptions: li
     calls = perceptions + filters
     if not calls:
         return sentence(f"{say.pick('just', 'simply', 'only')} {say.move(movement)}")
-    joint = say.pick(", and while you do: ", "; meanwhile ", "; in that time ", ", and at the same time ", ", and in the meantime ", "; as you do so, ")
+    joint = say.pick(
+        ", and while you do: ",
+        "; meanwhile ",
+        "; in that time ",
+        ", and at the same time ",
+        ", and in the meantime ",
+        "; as you do so, ",
+    )
     return sentence(say.move(movement) + joint + say.calls(calls))
 
 
-def split_filters(say: Speaker, movement: Movement, filters: list[Call], perceptions: list[Call]) -> str:
+def split_filters(
+    say: Speaker, movement: Movement, filters: list[Call], perceptions: list[Call]
+) -> str:
     """With a margin of 5 m, hold for 60 s. Log the depth. Lock the heading."""
     calls = filters + perceptions
     if not calls:
@@ -112,22 +163,47 @@ def split_filters(say: Speaker, movement: Movement, filters: list[Call], percept
         if first.with_saying
         else f"{sentence(say.call(first))} {sentence(say.move(movement))}"
     )
-    return " ".join([text, *(sentence(say.passive(call) if call.passive_saying and say.chance(0.3) else say.call(call)) for call in rest)])
+    return " ".join(
+        [
+            text,
+            *(
+                sentence(
+                    say.passive(call) if call.passive_saying and say.chance(0.3) else say.call(call)
+                )
+                for call in rest
+            ),
+        ]
+    )
 
 
 TERSE: tuple[tuple[Single, float], ...] = (
-    (notes, 3.5), (in_brackets, 0.8), (data_first, 1.6), (do_this, 1), (passive, 2.2), (wanted, 1.2), (colon, 1), (split_filters, 1),
-)  # fmt: skip
+    (notes, 3.5),
+    (in_brackets, 0.8),
+    (data_first, 1.6),
+    (do_this, 1),
+    (passive, 2.2),
+    (wanted, 1.2),
+    (colon, 1),
+    (split_filters, 1),
+)
 
 
 def unmoved(say: Speaker, filters: list[Call], perceptions: list[Call]) -> str:
-    """A prompt that asks for no movement: "GPS fix, lens check and depth from sounder_a.", "The depth is logged."."""
+    """A prompt that asks for no movement: "GPS fix, lens check and depth from sounder_a.", "The
+    depth is logged.".
+    """
     calls = perceptions + filters
     roll = say.rng.random()
     if roll < 0.4 and can_passive(calls):
-        return " ".join(sentence(say.passive(call)) for call in calls) if say.chance(0.6) else sentence(join([say.passive(call) for call in calls], " and "))
+        return (
+            " ".join(sentence(say.passive(call)) for call in calls)
+            if say.chance(0.6)
+            else sentence(join([say.passive(call) for call in calls], " and "))
+        )
     if roll < 0.65:
-        return sentence(join([noun(say, call) for call in calls], say.pick(", ", " and ", "; ", " + ")))
+        return sentence(
+            join([noun(say, call) for call in calls], say.pick(", ", " and ", "; ", " + "))
+        )
     if roll < 0.8:
         return " ".join(sentence(noun(say, call)) for call in calls)
     where = say.pick(

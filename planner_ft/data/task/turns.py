@@ -1,4 +1,6 @@
-"""Movements that turn: headings in turn, sectors, repeated and opposite rotations, a circle once round."""
+"""Movements that turn: headings in turn, sectors, repeated and opposite rotations, a circle once
+round.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,15 @@ from typing import Any
 from planner_ft.data.task import geometry as g
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.movements import Movement, Step, in_turns, one_phrase, take
-from planner_ft.data.task.numbers import COMPASS, Value, bearing, count_text, digits, duration, rotation
+from planner_ft.data.task.numbers import (
+    COMPASS,
+    Value,
+    bearing,
+    count_text,
+    digits,
+    duration,
+    rotation,
+)
 from planner_ft.data.task.phrasebook import Saying
 from planner_ft.data.task.template import Template
 from planner_ft.data.task.values import draw_bearing, draw_duration, draw_rotation
@@ -26,10 +36,25 @@ def headings(context: Context) -> Movement | None:
     if rng.random() < 0.5:
         degrees = g.sector_headings(count, rng.choice((0, 0, 45, 90)), clockwise=rng.random() < 0.8)
     words = all(value % 45 == 0 for value in degrees) and rng.random() < 0.6
-    said = [COMPASS[int(value)] if words else f"{int(value):03d}" if count % 2 and isinstance(value, int) else digits(value) for value in degrees]
-    listed = ", then ".join(said) if rng.random() < 0.25 else ", ".join(said[:-1]) + rng.choice((" and ", " and then ")) + said[-1]
+    said = [
+        (
+            COMPASS[int(value)]
+            if words
+            else f"{int(value):03d}"
+            if count % 2 and isinstance(value, int)
+            else digits(value)
+        )
+        for value in degrees
+    ]
+    listed = (
+        ", then ".join(said)
+        if rng.random() < 0.25
+        else ", ".join(said[:-1]) + rng.choice((" and ", " and then ")) + said[-1]
+    )
     slots.put("headings", Value(None, listed))
-    return in_turns(context, [(name, {key: value}) for value in degrees], "headings", slots, "headings")
+    return in_turns(
+        context, [(name, {key: value}) for value in degrees], "headings", slots, "headings"
+    )
 
 
 def sectors(context: Context) -> Movement | None:
@@ -55,7 +80,10 @@ def sectors(context: Context) -> Movement | None:
             steps.append((hold, {"time": pause}))
     movement = in_turns(context, steps, "sectors", slots, "sectors")
     if movement and movement.saying and words:
-        movement.saying = Saying([_followed(template, words) for template in movement.saying.templates], movement.saying.slots)
+        movement.saying = Saying(
+            [_followed(template, words) for template in movement.saying.templates],
+            movement.saying.slots,
+        )
     return movement
 
 
@@ -66,7 +94,13 @@ def _pause(context: Context) -> tuple[float | None, str]:
     slots = context.slots()
     if not context.book.pattern("sectors", context.task.title, "pause"):
         return None, ""
-    pause = take(context, slots, "sectors", "wait", lambda: duration(draw_duration(context.rng, 2, 60), context.rng))
+    pause = take(
+        context,
+        slots,
+        "sectors",
+        "wait",
+        lambda: duration(draw_duration(context.rng, 2, 60), context.rng),
+    )
     return pause, one_phrase(context, "sectors", "pause", slots)
 
 
@@ -96,7 +130,13 @@ def swing(context: Context) -> Movement | None:
         return None
     key = context.book.skills[name].skill.parameters[0].name
     first = draw_rotation(rng, 90)
-    second = -first if rng.random() < 0.4 else -2 * first if rng.random() < 0.5 else draw_rotation(rng, 90)
+    second = (
+        -first
+        if rng.random() < 0.4
+        else -2 * first
+        if rng.random() < 0.5
+        else draw_rotation(rng, 90)
+    )
     slots.put("first", rotation(first, rng))
     slots.put("second", rotation(second, rng))
     return in_turns(context, [(name, {key: first}), (name, {key: second})], "swing", slots, "swing")
@@ -114,8 +154,12 @@ def full_turn(context: Context) -> Movement | None:
     slots.put("count", Value(count, count_text(count, rng)))
     if rng.random() < 0.4:
         sign = rng.choice((1, -1))
-        slots.put_words("turn", "clockwise" if sign > 0 else rng.choice(("counter-clockwise", "anticlockwise")))
-    return in_turns(context, [(name, {key: sign * 360 // count})] * count, "full_turn", slots, "full_turn")
+        slots.put_words(
+            "turn", "clockwise" if sign > 0 else rng.choice(("counter-clockwise", "anticlockwise"))
+        )
+    return in_turns(
+        context, [(name, {key: sign * 360 // count})] * count, "full_turn", slots, "full_turn"
+    )
 
 
 def once_round(context: Context) -> Movement | None:
@@ -124,12 +168,16 @@ def once_round(context: Context) -> Movement | None:
     name = context.book.motions.get("arc")
     if not name or not {"radius", "delta_yaw"} <= set(context.book.skills[name].skill.by_name):
         return None
-    if (parameter := context.linked(f"{name}.delta_yaw")) and context.values[parameter].value != 360:
+    if (parameter := context.linked(f"{name}.delta_yaw")) and context.values[
+        parameter
+    ].value != 360:
         return None
     sign = 1
     if rng.random() < 0.5:
         sign = rng.choice((1, -1))
-        slots.put_words("turn", "clockwise" if sign > 0 else rng.choice(("counter-clockwise", "anticlockwise")))
+        slots.put_words(
+            "turn", "clockwise" if sign > 0 else rng.choice(("counter-clockwise", "anticlockwise"))
+        )
     parameters: dict[str, Any] = {"delta_yaw": sign * 360}
     if context.linked(f"{name}.radius") or rng.random() < 0.7:
         place = f"{name}.radius"

@@ -1,8 +1,9 @@
 """The space of each parameter: what values it is drawn from and how they are said.
 
-Derived from the parameter's type, unit and range; the phrase file narrows it under [skill.NAME.values.PARAMETER] or
-[task.TITLE.values.PARAMETER]: `typical` ([low, high]), `sense` (bearing, rotation, angle, length, duration,
-temperature, percent), `choices`, `words` (a word list), `quote` (said in quotation marks).
+Derived from the parameter's type, unit and range; the phrase file narrows it under
+[skill.NAME.values.PARAMETER] or [task.TITLE.values.PARAMETER]: `typical` ([low, high]), `sense`
+(bearing, rotation, angle, length, duration, temperature, percent), `choices`, `words` (a word
+list), `quote` (said in quotation marks).
 """
 
 from __future__ import annotations
@@ -19,7 +20,14 @@ from planner_ft.vocabulary.definition import Parameter
 Draw = Callable[[random.Random], Value]
 
 UNIT_SENSE = {"m": "length", "s": "duration", "deg": "angle", "degC": "temperature", "%": "percent"}
-UNIT_TYPICAL = {"m": (1, 60), "s": (5, 900), "deg": (5, 180), "degC": (20, 120), "%": (10, 60), "m/s": (0.5, 5)}
+UNIT_TYPICAL = {
+    "m": (1, 60),
+    "s": (5, 900),
+    "deg": (5, 180),
+    "degC": (20, 120),
+    "%": (10, 60),
+    "m/s": (0.5, 5),
+}
 SPAN = 220  # metres from home within which most positions lie
 
 
@@ -33,7 +41,12 @@ def value_space(parameter: Parameter, config: dict[str, Any], lexicon: Lexicon) 
         return lambda rng: polygon(draw_polygon(rng), rng)
     words = config.get("words", "things" if parameter.type == "texts" else "thing")
     if parameter.type == "texts":
-        return lambda rng: lexicon.several(words, rng, 1 + int(rng.random() ** 1.5 * config.get("most", 4)), article=config.get("article", False))
+        return lambda rng: lexicon.several(
+            words,
+            rng,
+            1 + int(rng.random() ** 1.5 * config.get("most", 4)),
+            article=config.get("article", False),
+        )
     if config.get("quote"):
         return lambda rng: lexicon.quoted(words, rng)
     return lambda rng: lexicon.noun(words, rng)
@@ -110,7 +123,9 @@ def draw_duration(rng: random.Random, low: float, high: float) -> int:
     for _ in range(8):
         roll = rng.random()
         if roll < 0.45:
-            number = rng.choice((5, 8, 10, 12, 15, 20, 25, 30, 40, 45, 50, 60, 75, 80, 90, 100, 110))
+            number = rng.choice(
+                (5, 8, 10, 12, 15, 20, 25, 30, 40, 45, 50, 60, 75, 80, 90, 100, 110)
+            )
         elif roll < 0.85:
             number = 60 * rng.choice((1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 20, 25, 30, 40, 45))
         elif roll < 0.93:
@@ -153,7 +168,9 @@ def draw_point(rng: random.Random) -> Point:
         roll = rng.random()
         if roll < 0.45:
             number = 5 * round(number / 5)
-        coordinates.append(number if roll < 0.93 else round(number + rng.choice((0.5, 0.25, 0.1, 0.75, -0.4)), 2))
+        coordinates.append(
+            number if roll < 0.93 else round(number + rng.choice((0.5, 0.25, 0.1, 0.75, -0.4)), 2)
+        )
     return point(coordinates[0], coordinates[1])
 
 
@@ -168,7 +185,9 @@ def draw_polygon(rng: random.Random) -> list[Point]:
     if roll < 0.2:
         return [point(*corner) for corner in (ring[0], ring[1], rng.choice((ring[2], ring[3])))]
     if roll < 0.3:
-        return [point(*corner) for corner in (*ring[:3], (x + width // 2, y + height + 20), ring[3])]
+        return [
+            point(*corner) for corner in (*ring[:3], (x + width // 2, y + height + 20), ring[3])
+        ]
     if roll < 0.5:
         ring = [ring[0], *reversed(ring[1:])]
     return [point(*corner) for corner in ring]

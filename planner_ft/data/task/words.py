@@ -1,9 +1,10 @@
 """Text values: words of the trade from the phrase file, and made-up names that can only be copied.
 
-A word list holds entries such as "the {colour} ladder", "camera {n}" or "weld {code}". An entry that begins with "the "
-is said with its article and stored without it, and what stands before a bar is said and not stored ("sensor |{code}"), nor are
-quotation marks behind it. Made-up slots: {n} a number, {code} "KX-07", {low} a small letter, {name} a pseudo-word, {tag} a file
-tag; any other slot is an entry of the list of that name.
+A word list holds entries such as "the {colour} ladder", "camera {n}" or "weld {code}". An entry
+that begins with "the " is said with its article and stored without it, and what stands before a bar
+is said and not stored ("sensor |{code}"), nor are quotation marks behind it. Made-up slots: {n} a
+number, {code} "KX-07", {low} a small letter, {name} a pseudo-word, {tag} a file tag; any other slot
+is an entry of the list of that name.
 """
 
 from __future__ import annotations
@@ -24,7 +25,14 @@ _QUOTED = re.compile(r"(['\"])(.+?)\1")
 LETTERS = "ABCDEFGHJKLMNPRSTVWXZ"
 
 FALLBACK: Mapping[str, Sequence[str]] = {
-    "thing": ("the {name}", "the {name} tower", "unit {code}", "the {name} panel", "{name} {n}", "the {name} gate"),
+    "thing": (
+        "the {name}",
+        "the {name} tower",
+        "unit {code}",
+        "the {name} panel",
+        "{name} {n}",
+        "the {name} gate",
+    ),
     "things": ("boats", "people", "birds", "vehicles", "{name}s", "poles", "signs"),
 }
 
@@ -35,7 +43,10 @@ def _pick(items: Sequence[str], rng: random.Random) -> str:
 
 def made_up_name(rng: random.Random) -> str:
     """A pronounceable name that means nothing: "Skarberg", "Tolvik"."""
-    word = "".join(_pick(_ONSETS, rng) + _pick(_VOWELS, rng) + _pick(_CODAS, rng) for _ in range(1 if rng.random() < 0.5 else 2))
+    word = "".join(
+        _pick(_ONSETS, rng) + _pick(_VOWELS, rng) + _pick(_CODAS, rng)
+        for _ in range(1 if rng.random() < 0.5 else 2)
+    )
     return (word + _pick(_ENDINGS, rng)).capitalize()
 
 
@@ -51,7 +62,27 @@ def made_up_code(rng: random.Random) -> str:
 
 def made_up_tag(rng: random.Random) -> str:
     """A file tag: "run_4", "skarberg-07", "dive12"."""
-    stem = _pick(("run", "pass", "leg", "survey", "dive", "hull", "pier", "test", "log", "video", "scan", "site", "day", "mission", "base", "night"), rng)
+    stem = _pick(
+        (
+            "run",
+            "pass",
+            "leg",
+            "survey",
+            "dive",
+            "hull",
+            "pier",
+            "test",
+            "log",
+            "video",
+            "scan",
+            "site",
+            "day",
+            "mission",
+            "base",
+            "night",
+        ),
+        rng,
+    )
     if rng.random() < 0.45:
         stem = made_up_name(rng).lower()
     joint = _pick(("_", "-", "", "_"), rng)
@@ -104,7 +135,9 @@ class Lexicon:
         return Value(bare, entry, bare)
 
     def quoted(self, name: str, rng: random.Random) -> Value:
-        """A text to be written down word for word: mostly in quotation marks, a single word also without."""
+        """A text to be written down word for word: mostly in quotation marks, a single word also
+        without.
+        """
         bare = self.as_value(self.entry(name, rng)).value
         mark = _pick(("'", '"', "'", '"', ""), rng)
         mark = mark or ("" if " " not in bare else '"')

@@ -1,11 +1,14 @@
 """The sums behind the waypoints of a skill sequence, written out before it.
 
-A grid's lanes and a square's corners are not in the task's input, they are worked out from it: a model that must write `"x":45` at once has to find
-33 and 12 in the input, and add them, within one token. So what is trained has the sums in front, `x33+12=45;y-18+12=-6`, in the order in
-which the waypoints need them, and the sequence copies their results. Whoever reads an answer drops them (`planner_ft.benchmark.outputs`).
+A grid's lanes and a square's corners are not in the task's input, they are worked out from it: a
+model that must write `"x":45` at once has to find 33 and 12 in the input, and add them, within one
+token. So what is trained has the sums in front, `x33+12=45;y-18+12=-6`, in the order in which the
+waypoints need them, and the sequence copies their results. Whoever reads an answer drops them
+(`planner_ft.benchmark.outputs`).
 
-The sums are found from the input and the waypoints alone, so every task set has them, whoever wrote it: a coordinate that the input does not state is the
-one before it, or one that is stated, and a length of the input, or half or a part of one, away. Those that no such sum gives (a waypoint on a
+The sums are found from the input and the waypoints alone, so every task set has them, whoever wrote
+it: a coordinate that the input does not state is the one before it, or one that is stated, and a
+length of the input, or half or a part of one, away. Those that no such sum gives (a waypoint on a
 slanted line) have none.
 """
 
@@ -35,8 +38,10 @@ _Length = tuple[float, float | None]
 
 @dataclass
 class _Sums:
-    """The sums of a route as it is walked: `last` is the coordinate reached on each axis, `known` are those that need no sum any more, `lanes` tells
-    that the next waypoint is on one, `pace` is the length that was last gone along an axis, and `parts` those that were worked out."""
+    """The sums of a route as it is walked: `last` is the coordinate reached on each axis, `known`
+    are those that need no sum any more, `lanes` tells that the next waypoint is on one, `pace` is
+    the length that was last gone along an axis, and `parts` those that were worked out.
+    """
 
     stated: tuple[Sequence[float], Sequence[float]]
     lengths: Sequence[float]
@@ -64,35 +69,59 @@ class _Sums:
         on = self.lanes and last is not None and pace is not None and _near(abs(value - last), pace)
         if any(_near(value, other) for other in self.stated[axis]) and not on:
             return
-        found = next(((base, away, of) for base, away, of in self._sums(axis) if away and _near(abs(value - base), away)), None)
+        found = next(
+            (
+                (base, away, of)
+                for base, away, of in self._sums(axis)
+                if away and _near(abs(value - base), away)
+            ),
+            None,
+        )
         if found is None:
             return
         base, away, of = found
         if of is not None and away not in self.parts:
             self.written.append(f"{_text(of)}/{_text(round(of / away))}={_text(away)}")
             self.parts.add(away)
-        self.written.append(f"{'xy'[axis]}{_text(base)}{'+' if value > base else '-'}{_text(away)}={_text(value)}")
+        self.written.append(
+            f"{'xy'[axis]}{_text(base)}{'+' if value > base else '-'}{_text(away)}={_text(value)}"
+        )
         self.pace[axis] = away
 
     def _sums(self, axis: int) -> Iterator[tuple[float, *_Length]]:
-        """What a coordinate can be reached from, how far away, and the length that this is a part of; the likeliest first."""
+        """What a coordinate can be reached from, how far away, and the length that this is a part
+        of; the likeliest first.
+        """
         last, pace = self.last[axis], self.pace[axis]
         whole: list[_Length] = [(length, None) for length in self.lengths]
         halves: list[_Length] = [(_tidy(length / 2), length) for length in self.lengths]
-        # The first lane begins half an area away from its middle; where their number is said, they lie a part of it apart.
+        # The first lane begins half an area away from its middle; where their number is said, they
+        # lie a part of it apart.
         away = [*halves, *whole] if self.lanes and pace is None else [*whole, *halves]
-        apart: list[_Length] = [(_tidy(length / count), length) for count in PARTS for length in self.lengths if self.lanes]
+        apart: list[_Length] = [
+            (_tidy(length / count), length)
+            for count in PARTS
+            for length in self.lengths
+            if self.lanes
+        ]
         first, *others = self.stated[axis]
         begun = [] if last is None else [last]
         again: list[_Length] = [(pace, None), *whole] if pace else whole
-        for bases, offered in ((begun, again), ([first], away), (begun, [*apart, *halves]), *(([other], away) for other in others)):
+        for bases, offered in (
+            (begun, again),
+            ([first], away),
+            (begun, [*apart, *halves]),
+            *(([other], away) for other in others),
+        ):
             for base in bases:
                 for length, of in offered:
                     yield base, length, of
 
 
 def working_of(record: Mapping[str, Any], vocabulary: Vocabulary) -> str:
-    """The sums behind the waypoints of a task record ({"task", "parameters", "prompt", "expected"}); empty where none is needed or found."""
+    """The sums behind the waypoints of a task record ({"task", "parameters", "prompt",
+    "expected"}); empty where none is needed or found.
+    """
     route = list(_route(record["expected"], vocabulary))
     if not route:
         return ""
@@ -123,9 +152,19 @@ def _route(plan: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[tuple[fl
 
 def _places(own: Sequence[tuple[Parameter | None, Any]]) -> Iterator[tuple[float, float]]:
     for parameter, value in own:
-        if parameter is not None and parameter.type in ("position", "polygon") and isinstance(value, list | tuple):
+        if (
+            parameter is not None
+            and parameter.type in ("position", "polygon")
+            and isinstance(value, list | tuple)
+        ):
             listed = [value] if parameter.type == "position" else value
-            yield from ((place[0], place[1]) for place in listed if isinstance(place, list | tuple) and len(place) == 2 and all(map(_is_number, place)))
+            yield from (
+                (place[0], place[1])
+                for place in listed
+                if isinstance(place, list | tuple)
+                and len(place) == 2
+                and all(map(_is_number, place))
+            )
 
 
 def _is_length(parameter: Parameter | None, value: Any) -> bool:
@@ -140,7 +179,12 @@ def _said(prompt: str) -> Iterator[float]:
     """The lengths that the prompt may mean, those that are coordinates at the end."""
     lengths = [quantity for quantity in quantities(prompt) if quantity.unit in (None, "m")]
     spans = [(start, end) for _x, _y, start, end in positions(prompt)]
-    yield from (length.value for length in sorted(lengths, key=lambda length: any(start <= length.start < end for start, end in spans)))
+    yield from (
+        length.value
+        for length in sorted(
+            lengths, key=lambda length: any(start <= length.start < end for start, end in spans)
+        )
+    )
 
 
 def _on_lanes(route: Sequence[tuple[float, float]]) -> list[bool]:

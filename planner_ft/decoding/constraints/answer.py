@@ -1,4 +1,6 @@
-"""The state of one constrained answer: a row of grammars, each of which can depend on the text before it."""
+"""The state of one constrained answer: a row of grammars, each of which can depend on the text
+before it.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,8 @@ if TYPE_CHECKING:
 
 
 class Script(Protocol):
-    """The grammars of an answer. Each one ends where nothing can follow it, at a place where no token spans both sides.
+    """The grammars of an answer. Each one ends where nothing can follow it, at a place where no
+    token spans both sides.
 
     A script does not change: a copy of an answer goes on with the same one.
     """
@@ -27,22 +30,34 @@ class Script(Protocol):
         """The first grammar."""
 
     def following(self, text: str) -> tuple[str, Script] | None:
-        """The next grammar, and the script from there, after `text` was matched by the last one; None when the answer is complete."""
+        """The next grammar, and the script from there, after `text` was matched by the last one;
+        None when the answer is complete.
+        """
 
     def closing(self) -> Script:
-        """The script for an answer that must come to its end: nothing that was begun has to be gone on with."""
+        """The script for an answer that must come to its end: nothing that was begun has to be gone
+        on with.
+        """
 
     def taken_back(self, text: str) -> tuple[str, str] | None:
-        """Where `text`, which begins here, may not follow, but the answer could have ended: what it drops of its end, and what it writes for that."""
+        """Where `text`, which begins here, may not follow, but the answer could have ended: what it
+        drops of its end, and what it writes for that.
+        """
 
     def pressed(self, text: str) -> Script | None:
-        """Where `text`, which begins here, would end the answer too early: the script that goes on with what is still asked for."""
+        """Where `text`, which begins here, would end the answer too early: the script that goes on
+        with what is still asked for.
+        """
 
     def declines(self, text: str) -> bool:
-        """Whether `text`, which begins here and may not follow, would be an item of a list that need not have gone on."""
+        """Whether `text`, which begins here and may not follow, would be an item of a list that
+        need not have gone on.
+        """
 
     def asks(self, text: str) -> int | None:
-        """The place in a text that must follow before which the model is asked for what it means all the same."""
+        """The place in a text that must follow before which the model is asked for what it means
+        all the same.
+        """
 
 
 class Plain:
@@ -78,9 +93,13 @@ class Whole(Plain):
 
 
 class Answer:
-    """A Constraint (see the package) that follows a script and ends within `limit` tokens, the last `reserve` of them for closing."""
+    """A Constraint (see the package) that follows a script and ends within `limit` tokens, the last
+    `reserve` of them for closing.
+    """
 
-    def __init__(self, tokens: Tokens, script: Script, limit: int, reserve: int, notes: Sequence[str] = ()) -> None:
+    def __init__(
+        self, tokens: Tokens, script: Script, limit: int, reserve: int, notes: Sequence[str] = ()
+    ) -> None:
         self.notes = list(notes)
         self.cut = False
         self._whole = script, limit
@@ -114,16 +133,24 @@ class Answer:
         place = self._script.asks(text)
         if place is None or place < len(self._text.decode(errors="ignore")):
             return forced
-        ends = itertools.accumulate((len(self._tokens.bytes_of(token)) for token in forced), initial=len(self._text))
-        return forced[: sum(end <= len(text[:place].encode()) for end in itertools.islice(ends, 1, None))]
+        ends = itertools.accumulate(
+            (len(self._tokens.bytes_of(token)) for token in forced), initial=len(self._text)
+        )
+        return forced[
+            : sum(end <= len(text[:place].encode()) for end in itertools.islice(ends, 1, None))
+        ]
 
     def accept(self, token: int) -> None:
         if self._matcher is None:
             if token not in self._tokens.end_ids:
                 raise ValueError(f"token {token} follows a complete answer")
             return
-        if (self._hurried and not allows(self.mask(), token)) or not (self._matcher.validate_tokens([token]) and self._matcher.consume_token(token)):
-            raise ValueError(f"token {token} ({self._tokens.bytes_of(token)!r}) is not allowed here")
+        if (self._hurried and not allows(self.mask(), token)) or not (
+            self._matcher.validate_tokens([token]) and self._matcher.consume_token(token)
+        ):
+            raise ValueError(
+                f"token {token} ({self._tokens.bytes_of(token)!r}) is not allowed here"
+            )
         added = self._tokens.bytes_of(token)
         self._ids.append(token)
         self._text += added
@@ -135,7 +162,9 @@ class Answer:
     def admits(self, tokens: Sequence[int]) -> int:
         if self._matcher is None:
             return int(bool(tokens) and tokens[0] in self._tokens.end_ids)
-        within = self._matcher.validate_tokens(list(tokens[: max(self._left - self._reserve - 1, 0)]))
+        within = self._matcher.validate_tokens(
+            list(tokens[: max(self._left - self._reserve - 1, 0)])
+        )
         if within == len(tokens):
             return within
         # Behind the end of this grammar, or near the limit: step by step, on a copy.
@@ -150,7 +179,9 @@ class Answer:
         return len(tokens)
 
     def akin(self, token: int) -> list[int]:
-        return [] if self._matcher is None or self._hurried else self._tokens.akin(token, self.mask())
+        return (
+            [] if self._matcher is None or self._hurried else self._tokens.akin(token, self.mask())
+        )
 
     def instead(self, token: int) -> list[int] | None:
         if self._matcher is None or self._hurried:
@@ -168,16 +199,26 @@ class Answer:
         return [*self._ids[:kept], *self._tokens.shortest(rest), self._tokens.end_ids[0]]
 
     def declined(self, token: int) -> list[int] | None:
-        if self._matcher is None or self._hurried or not self._script.declines((self._text + self._tokens.bytes_of(token)).decode(errors="replace")):
+        if (
+            self._matcher is None
+            or self._hurried
+            or not self._script.declines(
+                (self._text + self._tokens.bytes_of(token)).decode(errors="replace")
+            )
+        ):
             return None
         pieces = [self._tokens.bytes_of(one) for one in self._ids]
-        text = b"".join(pieces)[: sum(map(len, pieces)) - len(self._text)].removesuffix(SKILL_OPENS.encode())
+        text = b"".join(pieces)[: sum(map(len, pieces)) - len(self._text)].removesuffix(
+            SKILL_OPENS.encode()
+        )
         closed = text.removesuffix(b",") + b"]"
         kept = sum(end < len(closed) for end in itertools.accumulate(map(len, pieces)))
         earlier = Answer(self._tokens, *self._whole, self._reserve, self.notes)
         for one in self._ids[:kept]:
             earlier.accept(one)
-        behind = earlier._matcher and self._tokens.begun_with(self._ids[:kept], closed[sum(map(len, pieces[:kept])) :], earlier._matcher)
+        behind = earlier._matcher and self._tokens.begun_with(
+            self._ids[:kept], closed[sum(map(len, pieces[:kept])) :], earlier._matcher
+        )
         return [*self._ids[:kept], *behind] if behind else None
 
     @property

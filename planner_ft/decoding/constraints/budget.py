@@ -1,8 +1,9 @@
 """How an answer is led to its end when its limit comes near.
 
-A grammar bounds every list and text, but the sum of the bounds is far above any limit. So the last `reserve` tokens of
-the limit are kept for closing what is open: texts end, lists and objects close as soon as the grammar lets them, and
-what must follow is written with as few tokens as there can be.
+A grammar bounds every list and text, but the sum of the bounds is far above any limit. So the last
+`reserve` tokens of the limit are kept for closing what is open: texts end, lists and objects close
+as soon as the grammar lets them, and what must follow is written with as few tokens as there can
+be.
 """
 
 from __future__ import annotations
@@ -24,8 +25,8 @@ _POSITION = 2 * _NUMBER + 3
 class Budget:
     """Tokens that close an answer of one level, counted with the tokenizer that spells it.
 
-    A text that must follow takes at most `most_spelt` tokens wherever it was begun; where there is a choice, no token is
-    shorter than a byte.
+    A text that must follow takes at most `most_spelt` tokens wherever it was begun; where there is
+    a choice, no token is shorter than a byte.
     """
 
     def __init__(self, level: Level, vocabulary: Vocabulary, tokens: Tokens) -> None:
@@ -34,33 +35,55 @@ class Budget:
     def reserve(self, *, steps: int = 1) -> int:
         """Tokens that close a plan from wherever it stands.
 
-        `steps` are those that a skill sequence may have to write: the one that was begun, and one more where a grammar
-        asks for another one before it lets the answer end.
+        `steps` are those that a skill sequence may have to write: the one that was begun, and one
+        more where a grammar asks for another one before it lets the answer end.
         """
         if self._level == "mission":
             task = max(self._owner(task.title, task, begun=True) for task in self._vocabulary.tasks)
             lists = sum(self._spelt(f",{key(name)}[") + 1 for name in MISSION_KEYS[1:])
-            return task + self._spelt("," + TASK_OPENS) + self._spelt("}," + key("task_prompt") + '"') + lists + 6 + LONGEST_WORD
+            return (
+                task
+                + self._spelt("," + TASK_OPENS)
+                + self._spelt("}," + key("task_prompt") + '"')
+                + lists
+                + 6
+                + LONGEST_WORD
+            )
         begun = max(self._owner(skill.name, skill, begun=True) for skill in self._vocabulary.skills)
-        fresh = max(self._owner(skill.name, skill, begun=False) for skill in self._vocabulary.skills_in_role("navigation"))
+        fresh = max(
+            self._owner(skill.name, skill, begun=False)
+            for skill in self._vocabulary.skills_in_role("navigation")
+        )
         return begun + (steps - 1) * fresh + steps * self._step + LONGEST_WORD
 
     def least_limit(self, *, steps: int = 1) -> int:
-        """The smallest limit within which every answer ends: what closes it, its beginning, and the end token."""
+        """The smallest limit within which every answer ends: what closes it, its beginning, and the
+        end token.
+        """
         opens = mission_opens() if self._level == "mission" else "{" + key("skill_sequence") + "["
         return self.reserve(steps=steps) + self._spelt(opens) + 1
 
     @property
     def _step(self) -> int:
         """Tokens of a step apart from its skill."""
-        return sum(self._spelt("}," + key(name) + "[") + 2 for name in STEP_KEYS[1:]) + self._spelt(",{" + key(STEP_KEYS[0]) + SKILL_OPENS) + 4
+        return (
+            sum(self._spelt("}," + key(name) + "[") + 2 for name in STEP_KEYS[1:])
+            + self._spelt(",{" + key(STEP_KEYS[0]) + SKILL_OPENS)
+            + 4
+        )
 
     def _owner(self, name: str, owner: Task | Skill, *, begun: bool) -> int:
-        """Tokens of a task's or skill's name and parameters: those that must be written and may stand before them, or the one that was begun."""
+        """Tokens of a task's or skill's name and parameters: those that must be written and may
+        stand before them, or the one that was begun.
+        """
         sizes = [self._spelt("," + key(item.name)) + _shortest(item) for item in owner.parameters]
         needed = bool(owner.require_any) or any(item.required for item in owner.parameters)
         largest = max(sizes, default=0) if begun else 0
-        return len(compact_json(name).encode()) + self._spelt(f'",{key("parameters")}{{') + (sum(sizes) if needed else largest)
+        return (
+            len(compact_json(name).encode())
+            + self._spelt(f'",{key("parameters")}{{')
+            + (sum(sizes) if needed else largest)
+        )
 
     def _spelt(self, text: str) -> int:
         return self._tokens.most_spelt(text)
@@ -68,7 +91,12 @@ class Budget:
 
 def _shortest(parameter: Parameter) -> int:
     """Bytes that a value takes at most when everything that can be left out is."""
-    sizes = {"number": _NUMBER, "integer": _NUMBER, "position": _POSITION, "polygon": 3 * (_POSITION + 1) + 1}
+    sizes = {
+        "number": _NUMBER,
+        "integer": _NUMBER,
+        "position": _POSITION,
+        "polygon": 3 * (_POSITION + 1) + 1,
+    }
     return sizes.get(parameter.type, LONGEST_WORD + 2)
 
 
@@ -96,7 +124,9 @@ class Closing:
                 self._inside = not self._inside
 
     def narrow(self, mask: Mask, must_follow: bytes) -> Mask:
-        """The part of a mask that leads to the end: the longest way through what must follow, else a sign that closes, where one is allowed."""
+        """The part of a mask that leads to the end: the longest way through what must follow, else
+        a sign that closes, where one is allowed.
+        """
         if must_follow:
             return self._tokens.mask_of((self._tokens.shortest(must_follow)[0],))
         for sign in '"' if self._inside else "]},":

@@ -26,9 +26,11 @@ Path = Sequence[tuple[float, float]]
 class Companions:
     """What an input says of the skills beside its movements.
 
-    `spoken` are those that it speaks of, `movements` the navigation skills likewise (None: that cannot be told); `asked` are those that it asks for
-    beyond doubt, movements among them, `scopes` the steps in which some run. Those `insisted` on run in every step that does not rule them out.
-    `told` are the steps as the row of the text's movements tells them, `on_path` those that places on a known path tell.
+    `spoken` are those that it speaks of, `movements` the navigation skills likewise (None: that
+    cannot be told); `asked` are those that it asks for beyond doubt, movements among them, `scopes`
+    the steps in which some run. Those `insisted` on run in every step that does not rule them out.
+    `told` are the steps as the row of the text's movements tells them, `on_path` those that places
+    on a known path tell.
     """
 
     spoken: frozenset[str] | None = None
@@ -45,12 +47,21 @@ class Companions:
         return (self.spoken or frozenset()) | (self.movements or frozenset())
 
     def along(self, text: str, paths: Sequence[Path], pattern: str) -> Companions:
-        """These with what a text says of places on the path of its task, that is one of some of one shape."""
-        found = read_path_scopes(text, self.spoken, paths, pattern) if self.spoken and len(text) <= LONGEST else {}
+        """These with what a text says of places on the path of its task, that is one of some of one
+        shape.
+        """
+        found = (
+            read_path_scopes(text, self.spoken, paths, pattern)
+            if self.spoken and len(text) <= LONGEST
+            else {}
+        )
         return replace(self, on_path=found) if found else self
 
-    def runs(self, skill: str, movement: str, earlier: Sequence[str], path: Path = ()) -> bool | None:
-        """Whether a skill must run (True) or must not (False) beside a movement, behind those `earlier`; None where the model decides.
+    def runs(
+        self, skill: str, movement: str, earlier: Sequence[str], path: Path = ()
+    ) -> bool | None:
+        """Whether a skill must run (True) or must not (False) beside a movement, behind those
+        `earlier`; None where the model decides.
 
         `path` are the waypoints up to that of the movement, if it goes to one.
         """
@@ -68,7 +79,9 @@ class Companions:
         return None if verdict and skill not in self.asked else verdict
 
     def value(self, skill: str, movement: str, earlier: Sequence[str]) -> float | None:
-        """The value of a skill's first parameter beside a movement, where it differs between steps and is told for this one."""
+        """The value of a skill's first parameter beside a movement, where it differs between steps
+        and is told for this one.
+        """
         return self.told[skill].value([*earlier, movement]) if skill in self.told else None
 
 
@@ -81,18 +94,30 @@ def read_companions(record: dict[str, Any], vocabulary: Vocabulary) -> Companion
     asked = required(text, vocabulary)
     spoken |= asked
     own = read_own_sentences(text, asked, vocabulary)
-    scopes = {name: scope for name, scope in (read_scopes(text, vocabulary) | own).items() if name in spoken}
+    scopes = {
+        name: scope
+        for name, scope in (read_scopes(text, vocabulary) | own).items()
+        if name in spoken
+    }
     steps = read_step_scopes(text, spoken, vocabulary)
     asked_for = asked | (steps.asked & spoken) | asked_movements(text, vocabulary)
-    return Companions(spoken, asked_for, spoken_movements(text, vocabulary), scopes, told=steps.scopes)
+    return Companions(
+        spoken, asked_for, spoken_movements(text, vocabulary), scopes, told=steps.scopes
+    )
 
 
 def to_insist_on(record: dict[str, Any], answer: str, vocabulary: Vocabulary) -> frozenset[str]:
-    """Filter and perception skills that the prompt of a task input asks for beyond doubt, if an answer in JSON has one of them in no step."""
+    """Filter and perception skills that the prompt of a task input asks for beyond doubt, if an
+    answer in JSON has one of them in no step.
+    """
     try:
         steps = json.loads(answer)["skill_sequence"]
     except ValueError:
         return frozenset()
     written = {skill["name"] for step in steps for key in STEP_KEYS[1:3] for skill in step[key]}
-    asked = frozenset(name for name in read_companions(record, vocabulary).asked if vocabulary.skill[name].role != "navigation")
+    asked = frozenset(
+        name
+        for name in read_companions(record, vocabulary).asked
+        if vocabulary.skill[name].role != "navigation"
+    )
     return asked if steps and asked - written else frozenset()

@@ -1,6 +1,8 @@
-"""The paths of grids, squares and rings that the facts of a task can mean: from a centre, a size and a spacing follow the lanes of a grid.
+"""The paths of grids, squares and rings that the facts of a task can mean: from a centre, a size
+and a spacing follow the lanes of a grid.
 
-Geometry as in agents' answers (planner_ft.data.task.geometry): metres, x east, y north, bearings clockwise from north.
+Geometry as in agents' answers (planner_ft.data.task.geometry): metres, x east, y north, bearings
+clockwise from north.
 """
 
 from __future__ import annotations
@@ -19,17 +21,35 @@ Path = tuple[Point, ...]
 MOST_PATHS = 4000
 MOST_WAYPOINTS = 64
 GRID = re.compile(
-    r"\b(?:grid|lawn-?mow\w*|lanes?|lines?|tracks?|legs|runs|swaths?|transects?|strips?|passes|rows?|depths?|box|rectangle|cover|sweep|sound)\b", re.I
+    r"\b(?:grid|lawn-?mow\w*|lanes?|lines?|tracks?|legs|runs|swaths?|transects?|strips?|passes|rows?|depths?|box|rectangle|cover|sweep|sound)\b",
+    re.I,
 )
-ROUND = re.compile(r"\b(?:square|round|around|about|circle|ring|circuit|perimeter|survey\w*|inspect\w*|points?|waypoints?|stops?|stand-?off|corners?)\b", re.I)
-FOUR = re.compile(r"\b(?:(?:four|4)\W(?:corner|point|waypoint|mid|side)\w*|corners? (?:only|alone)|only (?:the )?(?:four )?corners)\b", re.I)
-HALF = re.compile(r"\bhalf (?:of )?(?:the |its |this )?(?:\w+ )?(?:square|round|ring|way round|side|circuit)\b|\bhalf only\b", re.I)
-CLOSED = re.compile(r"\b(?:clos(?:e|es|ed|ing)|(?:back|return\w*) (?:at|to|on) (?:the |its |your )?(?:start|first|same))\b", re.I)
+ROUND = re.compile(
+    r"\b(?:square|round|around|about|circle|ring|circuit|perimeter|survey\w*|inspect\w*|points?|waypoints?|stops?|stand-?off|corners?)\b",
+    re.I,
+)
+FOUR = re.compile(
+    r"\b(?:(?:four|4)\W(?:corner|point|waypoint|mid|side)\w*|corners? (?:only|alone)|only (?:the"
+    r" )?(?:four )?corners)\b",
+    re.I,
+)
+HALF = re.compile(
+    r"\bhalf (?:of )?(?:the |its |this )?(?:\w+ )?(?:square|round|ring|way"
+    r" round|side|circuit)\b|\bhalf only\b",
+    re.I,
+)
+CLOSED = re.compile(
+    r"\b(?:clos(?:e|es|ed|ing)|(?:back|return\w*) (?:at|to|on) (?:the |its |your"
+    r" )?(?:start|first|same))\b",
+    re.I,
+)
 
 
 @dataclass(frozen=True)
 class PathFacts:
-    """What paths are made of; `said` are the lengths of the prompt, `lengths` those and the task's own."""
+    """What paths are made of; `said` are the lengths of the prompt, `lengths` those and the task's
+    own.
+    """
 
     text: str
     parameters: dict[str, Any]
@@ -51,14 +71,18 @@ def derived_paths(facts: PathFacts, pattern: str) -> tuple[Path, ...]:
 
 
 def _grids(facts: PathFacts) -> Iterator[Path]:
-    for centre, (width, length, spacing) in itertools.product(facts.centres, dict.fromkeys(_sizes(facts))):
+    for centre, (width, length, spacing) in itertools.product(
+        facts.centres, dict.fromkeys(_sizes(facts))
+    ):
         for middle in (centre, *_middles(centre, width, length, facts.text)):
             yield from _lanes(middle, width, length, spacing)
     yield from _between_corners(facts)
 
 
 def _sizes(facts: PathFacts) -> Iterator[tuple[float, float, float]]:
-    """Width, length and lane spacing: the task's own; else any three stated lengths, or two and a number of lanes."""
+    """Width, length and lane spacing: the task's own; else any three stated lengths, or two and a
+    number of lanes.
+    """
     given = tuple(facts.parameters.get(name) for name in ("width", "length", "spacing"))
     if all(isinstance(value, int | float) for value in given):
         yield given  # type: ignore[misc]
@@ -77,7 +101,10 @@ def _middles(corner: Point, width: float, length: float, prompt: str) -> list[Po
     """The centres of areas that have a corner at a stated place."""
     if "corner" not in prompt.lower():
         return []
-    return [g.point(corner[0] + x * width / 2, corner[1] + y * length / 2) for x, y in itertools.product((1, -1), repeat=2)]
+    return [
+        g.point(corner[0] + x * width / 2, corner[1] + y * length / 2)
+        for x, y in itertools.product((1, -1), repeat=2)
+    ]
 
 
 def _between_corners(facts: PathFacts) -> Iterator[Path]:
@@ -112,10 +139,16 @@ def _lanes(centre: Point, width: float, length: float, spacing: float) -> Iterat
 def _rings(facts: PathFacts) -> Iterator[Path]:
     for centre, radius in itertools.product(facts.centres, facts.lengths):
         for start, clockwise in itertools.product(g.SQUARE_STARTS, (False, True)):
-            yield from _square(tuple(g.survey_square(centre, radius, start, clockwise=clockwise)), facts.text)
-        for count, bearing, clockwise in itertools.product(facts.counts, dict.fromkeys((*facts.bearings, 0, 90)), (False, True)):
+            yield from _square(
+                tuple(g.survey_square(centre, radius, start, clockwise=clockwise)), facts.text
+            )
+        for count, bearing, clockwise in itertools.product(
+            facts.counts, dict.fromkeys((*facts.bearings, 0, 90)), (False, True)
+        ):
             if count >= 3:
-                yield from _closed(tuple(g.circle(centre, radius, count, bearing, clockwise=clockwise)), facts.text)
+                yield from _closed(
+                    tuple(g.circle(centre, radius, count, bearing, clockwise=clockwise)), facts.text
+                )
 
 
 def _square(square: Path, text: str) -> Iterator[Path]:

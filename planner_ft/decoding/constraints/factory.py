@@ -36,17 +36,26 @@ from planner_ft.vocabulary.plans import Level
 
 
 def constraint_factory(
-    tokenizer: Any, level: Level, vocabulary: Vocabulary, strength: Strength, *, end_ids: tuple[int, ...], limit: int, n_vocab: int | None = None
+    tokenizer: Any,
+    level: Level,
+    vocabulary: Vocabulary,
+    strength: Strength,
+    *,
+    end_ids: tuple[int, ...],
+    limit: int,
+    n_vocab: int | None = None,
 ) -> Factory | None:
     """What answers are constrained with; None at strength free.
 
-    `end_ids` are the tokens that may end an answer, `limit` the tokens that it may have, `n_vocab` the width of the
-    model's logits (None takes the tokenizer's size). Raises PlannerError for a limit within which an answer cannot be
-    guaranteed to end.
+    `end_ids` are the tokens that may end an answer, `limit` the tokens that it may have, `n_vocab`
+    the width of the model's logits (None takes the tokenizer's size). Raises PlannerError for a
+    limit within which an answer cannot be guaranteed to end.
     """
     if strength == "free":
         return None
-    factory = Factory(tokens_of(tokenizer, tuple(end_ids), n_vocab), level, vocabulary, strength, limit)
+    factory = Factory(
+        tokens_of(tokenizer, tuple(end_ids), n_vocab), level, vocabulary, strength, limit
+    )
     factory.check(limit)
     return factory
 
@@ -55,7 +64,8 @@ def constraint_factory(
 class Factory:
     """Starts constraints of one strength, over one tokenizer, for one level and vocabulary.
 
-    At strength grounded and the task level, the filter and perception skills `insisted` on run in every step that does not rule them out.
+    At strength grounded and the task level, the filter and perception skills `insisted` on run in
+    every step that does not rule them out.
     """
 
     tokens: Tokens
@@ -82,7 +92,13 @@ class Factory:
             return self._grounded_task(record, limit)
         if self.strength == "grounded":
             values = MissionValues(str(record.get("prompt", "")), self.vocabulary)
-            return Answer(self.tokens, MissionScript(self.vocabulary, values, told=values.told), limit, self._reserve, values.notes)
+            return Answer(
+                self.tokens,
+                MissionScript(self.vocabulary, values, told=values.told),
+                limit,
+                self._reserve,
+                values.notes,
+            )
         return Answer(self.tokens, self._script(record), limit, self._reserve)
 
     def _grounded_task(self, record: dict[str, Any], limit: int) -> Constraint:
@@ -91,7 +107,10 @@ class Factory:
         record = _plainly_written(record)
         prompt = record["prompt"]
         companions = replace(read_companions(record, self.vocabulary), insisted=self.insisted)
-        values, ground = GroundedTaskValues(record, self.vocabulary, companions.mentioned), read_ground(record, self.vocabulary)
+        values, ground = (
+            GroundedTaskValues(record, self.vocabulary, companions.mentioned),
+            read_ground(record, self.vocabulary),
+        )
         companions = companions.along(prompt, ground.one_path, _pattern(record, self.vocabulary))
         turns = read_turns(record, self.vocabulary) if len(prompt) <= LONGEST else None
         # Where the readings contradict each other, neither is certain.
@@ -99,7 +118,15 @@ class Factory:
         # Where waypoints cannot be told, any may be meant.
         held = ResolvedValues(FreeWaypoints(values), self.vocabulary) if ground.free else values
         sequence = self._sequence(record, ground) if len(prompt) <= LONGEST else None
-        script = TaskScript(self.vocabulary, held, ground, prompt, turns, companions, None if ground.shaped else sequence)
+        script = TaskScript(
+            self.vocabulary,
+            held,
+            ground,
+            prompt,
+            turns,
+            companions,
+            None if ground.shaped else sequence,
+        )
         return Answer(self.tokens, script, limit, self._reserve, values.notes)
 
     def _sequence(self, record: dict[str, Any], ground: Ground) -> Sequence | None:
@@ -112,8 +139,15 @@ class Factory:
         return agreed(found, itinerary, self.vocabulary)
 
     def mending(self, record: dict[str, Any], answer: str) -> Factory | None:
-        """What an answer is to be written again with, because it leaves out what its input asks for beyond doubt; None where it need not be."""
-        if self.strength != "grounded" or self.level != "task" or self.insisted or names_unresolved(record, self.vocabulary):
+        """What an answer is to be written again with, because it leaves out what its input asks for
+        beyond doubt; None where it need not be.
+        """
+        if (
+            self.strength != "grounded"
+            or self.level != "task"
+            or self.insisted
+            or names_unresolved(record, self.vocabulary)
+        ):
             return None
         insisted = to_insist_on(_plainly_written(record), answer, self.vocabulary)
         return replace(self, insisted=insisted) if insisted else None
@@ -122,8 +156,9 @@ class Factory:
         """Raise PlannerError for a limit within which an answer cannot be guaranteed to end."""
         if limit < self.least_tokens:
             raise PlannerError(
-                f"--max-new-tokens {limit}: at strength {self.strength} a {self.level} plan of this vocabulary needs room for {self.least_tokens} tokens; "
-                "give at least that, or a shorter prompt"
+                f"--max-new-tokens {limit}: at strength {self.strength} a {self.level} plan of this"
+                f" vocabulary needs room for {self.least_tokens} tokens; give at least that, or a"
+                " shorter prompt"
             )
 
     @functools.cached_property
@@ -140,7 +175,9 @@ class Factory:
         return 2 if self.strength == "grounded" else 1
 
     def _script(self, record: dict[str, Any]) -> Script:
-        if self.strength == "schema" or (self.level == "task" and names_unresolved(record, self.vocabulary)):
+        if self.strength == "schema" or (
+            self.level == "task" and names_unresolved(record, self.vocabulary)
+        ):
             return self._schema
         return self._logic
 
@@ -152,7 +189,11 @@ class Factory:
     def _logic(self) -> Script:
         if self.level == "mission":
             return MissionScript(self.vocabulary, SchemaValues())
-        return Whole(plan_grammar(self.level, self.vocabulary, ResolvedValues(SchemaValues(), self.vocabulary)))
+        return Whole(
+            plan_grammar(
+                self.level, self.vocabulary, ResolvedValues(SchemaValues(), self.vocabulary)
+            )
+        )
 
 
 def _pattern(record: dict[str, Any], vocabulary: Vocabulary) -> str:
@@ -161,7 +202,8 @@ def _pattern(record: dict[str, Any], vocabulary: Vocabulary) -> str:
 
 
 def _plainly_written(record: dict[str, Any]) -> dict[str, Any]:
-    """A task input whose prompt is not in capitals, says nothing that it takes back, no times of day for durations and nothing by way of something else.
+    """A task input whose prompt is not in capitals, says nothing that it takes back, no times of
+    day for durations and nothing by way of something else.
 
     Everything that reads it gets it so.
     """
@@ -170,4 +212,9 @@ def _plainly_written(record: dict[str, Any]) -> dict[str, Any]:
         return {**record, "prompt": prompt}
     given = record.get("parameters")
     parameters = given if isinstance(given, dict) else {}
-    return {**record, "prompt": told_plainly(in_figures(with_durations(as_corrected(prompt)), parameters), parameters)}
+    return {
+        **record,
+        "prompt": told_plainly(
+            in_figures(with_durations(as_corrected(prompt)), parameters), parameters
+        ),
+    }

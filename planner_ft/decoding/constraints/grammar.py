@@ -1,7 +1,8 @@
-"""Lark grammars of the two plan forms, put together from a vocabulary and from what its values may be.
+"""Lark grammars of the two plan forms, put together from a vocabulary and from what its values may
+be.
 
-`Values` decides what a value may be; the strengths differ in nothing else. Key order, separators and the order of
-parameters are those of `answer_text`.
+`Values` decides what a value may be; the strengths differ in nothing else. Key order, separators
+and the order of parameters are those of `answer_text`.
 """
 
 from __future__ import annotations
@@ -15,7 +16,14 @@ from planner_ft.decoding.constraints.patterns import literal, regex
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.definition import Role
-from planner_ft.vocabulary.plans import MISSION_KEYS, STEP_KEYS, WORKING, Level, canonical_value, value_problem
+from planner_ft.vocabulary.plans import (
+    MISSION_KEYS,
+    STEP_KEYS,
+    WORKING,
+    Level,
+    canonical_value,
+    value_problem,
+)
 
 MOST_TASKS, MOST_STEPS = 32, 128
 MOST_SKILLS = 16
@@ -27,7 +35,9 @@ LONGEST_WORKING = 600
 """Characters of a working. The longest of 3,000 sampled tasks has 250."""
 LONGEST_TEXT = 200
 LONGEST_PROSE = 400
-"""Characters of a parameter, and of a task prompt, an assumption or a constraint. The longest labels have 55 and 181."""
+"""Characters of a parameter, and of a task prompt, an assumption or a constraint. The longest
+labels have 55 and 181.
+"""
 
 Positions = Sequence[Sequence[float]]
 
@@ -48,7 +58,9 @@ class Grammar:
         return self._named(body, "r")
 
     def terminal(self, body: str) -> str:
-        """The name of a terminal with this body: one lexeme, a regular expression without recursion."""
+        """The name of a terminal with this body: one lexeme, a regular expression without
+        recursion.
+        """
         return self._named(body, "T")
 
     def text(self, start: str) -> str:
@@ -71,7 +83,9 @@ IDENTIFIED: Context = frozenset({"id"})
 class Values(Protocol):
     """What may be written as a value. A symbol is None where there is nothing to write."""
 
-    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
+    def parameter(
+        self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
+    ) -> list[tuple[str, Context]]:
         """The symbols of a parameter's value, each with the context behind it."""
 
     def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
@@ -80,7 +94,9 @@ class Values(Protocol):
     def position(self, grammar: Grammar, without: Positions) -> str | None:
         """The symbol of a position, none of `without`."""
 
-    def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str | None:
+    def number(
+        self, grammar: Grammar, parameter: Parameter, without: Sequence[float]
+    ) -> str | None:
         """The symbol of a parameter's number, none of `without`."""
 
     def has_number(self, parameter: Parameter, value: float) -> bool:
@@ -102,7 +118,9 @@ class Values(Protocol):
 class SchemaValues:
     """Every value that the strict schema allows, up to the bounds above."""
 
-    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
+    def parameter(
+        self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
+    ) -> list[tuple[str, Context]]:
         kind = parameter.type
         if kind in ("number", "integer"):
             return [(self.number(grammar, parameter, ()), context)]
@@ -111,27 +129,42 @@ class SchemaValues:
             return [(corners(grammar, position) if kind == "polygon" else position, context)]
         text = self.text(grammar, ())
         if kind == "id":
-            return [(grammar.rule(f"{text} | {grammar.terminal(regex(patterns.ANY_INTEGER))}"), context | IDENTIFIED)]
+            return [
+                (
+                    grammar.rule(f"{text} | {grammar.terminal(regex(patterns.ANY_INTEGER))}"),
+                    context | IDENTIFIED,
+                )
+            ]
         return [(items(grammar, text, MOST_TEXTS) if kind == "texts" else text, context)]
 
     def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
         return parameter.required
 
     def position(self, grammar: Grammar, without: Positions) -> str:
-        return grammar.terminal(f"{regex(patterns.ANY_POSITION)}{_none_of(literal(written(place)) for place in without)}")
+        return grammar.terminal(
+            f"{regex(patterns.ANY_POSITION)}{_none_of(literal(written(place)) for place in without)}"
+        )
 
     def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str:
-        pattern = patterns.number_range(parameter.minimum, parameter.maximum, whole=parameter.type == "integer")
-        return grammar.terminal(f"{regex(pattern)}{_none_of(literal(written_number(number)) for number in without)}")
+        pattern = patterns.number_range(
+            parameter.minimum, parameter.maximum, whole=parameter.type == "integer"
+        )
+        return grammar.terminal(
+            f"{regex(pattern)}{_none_of(literal(written_number(number)) for number in without)}"
+        )
 
     def has_number(self, parameter: Parameter, value: float) -> bool:
         return value_problem(value, parameter) is None
 
     def text(self, grammar: Grammar, without: Sequence[str]) -> str:
-        return grammar.terminal(f"{patterns.string(LONGEST_TEXT, blank=False)}{none_of_texts(without)}")
+        return grammar.terminal(
+            f"{patterns.string(LONGEST_TEXT, blank=False)}{none_of_texts(without)}"
+        )
 
     def item(self, grammar: Grammar, without: Sequence[str]) -> str | None:
-        return grammar.terminal(f"{patterns.string(LONGEST_TEXT, blank=False, opened=True)}{none_of_texts(without, opened=True)}")
+        return grammar.terminal(
+            f"{patterns.string(LONGEST_TEXT, blank=False, opened=True)}{none_of_texts(without, opened=True)}"
+        )
 
     def prose(self, grammar: Grammar) -> str:
         return grammar.terminal(patterns.string(LONGEST_PROSE, blank=True))
@@ -146,7 +179,9 @@ class Narrowed:
     def __init__(self, values: Values) -> None:
         self._values = values
 
-    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
+    def parameter(
+        self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
+    ) -> list[tuple[str, Context]]:
         return self._values.parameter(grammar, parameter, owner, context)
 
     def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
@@ -155,7 +190,9 @@ class Narrowed:
     def position(self, grammar: Grammar, without: Positions) -> str | None:
         return self._values.position(grammar, without)
 
-    def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str | None:
+    def number(
+        self, grammar: Grammar, parameter: Parameter, without: Sequence[float]
+    ) -> str | None:
         return self._values.number(grammar, parameter, without)
 
     def has_number(self, parameter: Parameter, value: float) -> bool:
@@ -185,8 +222,13 @@ def written(position: Sequence[float]) -> str:
 
 
 def none_of_texts(texts: Sequence[str], *, opened: bool = False) -> str:
-    """What takes these texts, in capitals or not, out of a terminal of JSON strings, or of what stands behind their first quotation marks."""
-    return _none_of(regex(f'(?i:{"" if opened else patterns.QUOTE}{patterns.escaped(patterns.quoted(text))}")') for text in texts)
+    """What takes these texts, in capitals or not, out of a terminal of JSON strings, or of what
+    stands behind their first quotation marks.
+    """
+    return _none_of(
+        regex(f'(?i:{"" if opened else patterns.QUOTE}{patterns.escaped(patterns.quoted(text))}")')
+        for text in texts
+    )
 
 
 def _none_of(terminals: Iterable[str]) -> str:
@@ -197,15 +239,24 @@ def plan_grammar(level: Level, vocabulary: Vocabulary, values: Values) -> str:
     """The grammar of a whole plan."""
     grammar = Grammar()
     if level == "mission":
-        tasks = [whole for whole in (titled_task(grammar, task, values) for task in vocabulary.tasks) if whole]
+        tasks = [
+            whole
+            for whole in (titled_task(grammar, task, values) for task in vocabulary.tasks)
+            if whole
+        ]
         task = grammar.rule(f"{literal(TASK_OPENS)} ({' | '.join(tasks)})")
-        return grammar.text(f"{literal(mission_opens())} {_some(task, MOST_TASKS)} {mission_closes(grammar, values)}")
+        return grammar.text(
+            f"{literal(mission_opens())} {_some(task, MOST_TASKS)}"
+            f" {mission_closes(grammar, values)}"
+        )
     step = _step(grammar, vocabulary, values)
     return grammar.text(f"{sequence_opens(grammar)} {_some(step, MOST_STEPS)} {literal(']}')}")
 
 
 def sequence_opens(grammar: Grammar, *, working: bool = True) -> str:
-    """The expression before the first step of a skill sequence, with a working before it or without one."""
+    """The expression before the first step of a skill sequence, with a working before it or without
+    one.
+    """
     opens = literal(key("skill_sequence") + "[")
     if not working:
         return f'"{{" {opens}'
@@ -222,11 +273,15 @@ def mission_closes(grammar: Grammar, values: Values) -> str:
     """The expression behind the last task of a mission plan."""
     texts = items(grammar, values.prose(grammar), MOST_TEXTS)
     assumptions, constraints = (key(name) for name in MISSION_KEYS[1:])
-    return f"{literal('],' + assumptions)} {texts} {literal(',' + constraints)} {texts} {literal('}')}"
+    return (
+        f"{literal('],' + assumptions)} {texts} {literal(',' + constraints)} {texts} {literal('}')}"
+    )
 
 
 def titled_task(grammar: Grammar, task: Task, values: Values) -> str | None:
-    """A task behind `{"title":"`, up to its closing brace; None where a required parameter has no value."""
+    """A task behind `{"title":"`, up to its closing brace; None where a required parameter has no
+    value.
+    """
     body = task_body(grammar, task, values)
     return None if body is None else f"{title(task)} {body}"
 
@@ -237,12 +292,17 @@ def title(task: Task) -> str:
 
 
 def task_body(grammar: Grammar, task: Task, values: Values) -> str | None:
-    """The rule of a task behind its title, up to its closing brace; None where a required parameter has no value."""
+    """The rule of a task behind its title, up to its closing brace; None where a required parameter
+    has no value.
+    """
     parameters = _parameters(grammar, task, values)
     if parameters is None:
         return None
     opens = literal(f'",{key("parameters")}{{')
-    return grammar.rule(f"{opens} {parameters} {literal(',' + key('task_prompt'))} {values.prose(grammar)} {literal('}')}")
+    return grammar.rule(
+        f"{opens} {parameters} {literal(',' + key('task_prompt'))} {values.prose(grammar)}"
+        f" {literal('}')}"
+    )
 
 
 @functools.cache
@@ -267,13 +327,18 @@ def _some(item: str, most: int) -> str:
 
 def _step(grammar: Grammar, vocabulary: Vocabulary, values: Values) -> str:
     navigation = _skills(grammar, vocabulary, "navigation", values)
-    return grammar.rule(f"{literal('{' + key(STEP_KEYS[0]))} {navigation} {step_rest(grammar, vocabulary, values)}")
+    return grammar.rule(
+        f"{literal('{' + key(STEP_KEYS[0]))} {navigation} {step_rest(grammar, vocabulary, values)}"
+    )
 
 
 def step_rest(grammar: Grammar, vocabulary: Vocabulary, values: Values) -> str:
     """The rule of a step behind its navigation skill, up to its closing brace."""
     others = [_skills(grammar, vocabulary, role, values) for role in ("filter", "perception")]
-    lists = [f"{literal(',' + key(name))} {items(grammar, skill, MOST_SKILLS)}" for name, skill in zip(STEP_KEYS[1:3], others, strict=True)]
+    lists = [
+        f"{literal(',' + key(name))} {items(grammar, skill, MOST_SKILLS)}"
+        for name, skill in zip(STEP_KEYS[1:3], others, strict=True)
+    ]
     return grammar.rule(f"{' '.join(lists)} {step_tail(grammar, values)}")
 
 
@@ -284,7 +349,9 @@ def step_tail(grammar: Grammar, values: Values) -> str:
 
 
 def skill_body(grammar: Grammar, skill: Skill, values: Values) -> str | None:
-    """The rule of a skill behind its name, up to its closing brace; None where a required parameter has no value."""
+    """The rule of a skill behind its name, up to its closing brace; None where a required parameter
+    has no value.
+    """
     parameters = _parameters(grammar, skill, values)
     opens = literal(f'",{key("parameters")}{{')
     return None if parameters is None else grammar.rule(f"{opens} {parameters} {literal('}')}")
@@ -292,13 +359,21 @@ def skill_body(grammar: Grammar, skill: Skill, values: Values) -> str | None:
 
 def _skills(grammar: Grammar, vocabulary: Vocabulary, role: Role, values: Values) -> str | None:
     """The rule of a skill of this role; None where the vocabulary has none that can be written."""
-    bodies = ((skill, skill_body(grammar, skill, values)) for skill in vocabulary.skills_in_role(role))
+    bodies = (
+        (skill, skill_body(grammar, skill, values)) for skill in vocabulary.skills_in_role(role)
+    )
     options = [f"{literal(patterns.quoted(skill.name))} {body}" for skill, body in bodies if body]
-    return grammar.rule(f"{literal(SKILL_OPENS)} {grammar.rule(' | '.join(options))}") if options else None
+    return (
+        grammar.rule(f"{literal(SKILL_OPENS)} {grammar.rule(' | '.join(options))}")
+        if options
+        else None
+    )
 
 
 def _parameters(grammar: Grammar, owner: Task | Skill, values: Values) -> str | None:
-    """The rule of an owner's parameters behind their opening brace, up to the closing one; None when none can be written."""
+    """The rule of an owner's parameters behind their opening brace, up to the closing one; None
+    when none can be written.
+    """
 
     @functools.cache
     def rest(index: int, comma: bool, satisfied: bool, context: Context) -> str | None:

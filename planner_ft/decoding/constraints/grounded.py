@@ -34,7 +34,9 @@ TOO_LONG = "The command is too long to hold texts to its words."
 
 
 class GroundedValues(Narrowed):
-    """The values of a mission plan that its command states. `texts` are what text values may be spans of beside the command."""
+    """The values of a mission plan that its command states. `texts` are what text values may be
+    spans of beside the command.
+    """
 
     def __init__(self, prompt: str, vocabulary: Vocabulary, texts: Sequence[str] = ()) -> None:
         super().__init__(SchemaValues())
@@ -46,7 +48,9 @@ class GroundedValues(Narrowed):
         self._numbers: dict[Parameter, list[str] | None] = {}
         self.notes = [*self._reading.notes, *([TOO_LONG] if self._spans.too_long else [])]
 
-    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
+    def parameter(
+        self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
+    ) -> list[tuple[str, Context]]:
         symbol: str | None
         if parameter.type in ("number", "integer"):
             symbol = self.number(grammar, parameter, ())
@@ -59,9 +63,15 @@ class GroundedValues(Narrowed):
             symbol = items(grammar, text, MOST_TEXTS) if text else None
         else:
             return super().parameter(grammar, parameter, owner, context)
-        return [(symbol, context | IDENTIFIED if parameter.type == "id" else context)] if symbol else []
+        return (
+            [(symbol, context | IDENTIFIED if parameter.type == "id" else context)]
+            if symbol
+            else []
+        )
 
-    def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str | None:
+    def number(
+        self, grammar: Grammar, parameter: Parameter, without: Sequence[float]
+    ) -> str | None:
         numbers = self._written_numbers(parameter)
         if numbers is None:
             return super().number(grammar, parameter, without)
@@ -70,16 +80,30 @@ class GroundedValues(Narrowed):
 
     def has_number(self, parameter: Parameter, value: float) -> bool:
         numbers = self._written_numbers(parameter)
-        return super().has_number(parameter, value) if numbers is None else written_number(value) in numbers
+        return (
+            super().has_number(parameter, value)
+            if numbers is None
+            else written_number(value) in numbers
+        )
 
     def position(self, grammar: Grammar, without: Positions) -> str | None:
         reading = self._reading
         if reading.numbers_free:
             return super().position(grammar, without)
-        places = [place for place in reading.places if tuple(place) not in {tuple(other) for other in without}]
+        places = [
+            place
+            for place in reading.places
+            if tuple(place) not in {tuple(other) for other in without}
+        ]
         if not reading.loose:
             return one_of(grammar, map(written, places))
-        number = "|".join(dict.fromkeys(patterns.escaped(written_number(sign * value)) for value in reading.loose for sign in (1, -1)))
+        number = "|".join(
+            dict.fromkeys(
+                patterns.escaped(written_number(sign * value))
+                for value in reading.loose
+                for sign in (1, -1)
+            )
+        )
         barred = "".join(f" & ~{literal(written(place))}" for place in without)
         pair = grammar.terminal(regex(rf"\[({number}),({number})\]") + barred)
         listed = one_of(grammar, map(written, places))
@@ -104,7 +128,9 @@ class GroundedValues(Narrowed):
         """What can be written as a parameter's number; None where anything can."""
         if parameter not in self._numbers:
             numbers = self._values_of(parameter)
-            self._numbers[parameter] = None if numbers is None else [written_number(number) for number in numbers]
+            self._numbers[parameter] = (
+                None if numbers is None else [written_number(number) for number in numbers]
+            )
         return self._numbers[parameter]
 
     def _values_of(self, parameter: Parameter) -> list[float] | None:
@@ -113,11 +139,17 @@ class GroundedValues(Narrowed):
     @functools.cached_property
     def _prose(self) -> str:
         """Sentences, with the numbers of the command and those of every value."""
-        said = {digits for reading in rewritings(self._reading.text) for digits in re.findall(r"\d+(?:\.\d+)?", reading)}
+        said = {
+            digits
+            for reading in rewritings(self._reading.text)
+            for digits in re.findall(r"\d+(?:\.\d+)?", reading)
+        }
         for task in self._vocabulary.tasks:
             for parameter in task.parameters:
                 if parameter.type in ("number", "integer"):
-                    said.update(number.lstrip("-") for number in self._written_numbers(parameter) or ())
+                    said.update(
+                        number.lstrip("-") for number in self._written_numbers(parameter) or ()
+                    )
         said.update(written_number(abs(value)) for place in self._reading.places for value in place)
         return prose(number for number in said if len(number) <= LONGEST_NUMBER)
 
@@ -132,4 +164,8 @@ def prose(numbers: Iterable[str]) -> str:
     """A JSON string as sentences have it, with no other numbers than these."""
     other = r'([^"\\0-9\x00-\x1f\x7f]|\\["\\bfnrt])'
     known = "|".join(sorted(patterns.escaped(number) for number in numbers))
-    return regex(f'"(({known})?{other}){{0,{LONGEST_PROSE}}}({known})?"' if known else f'"{other}{{0,{LONGEST_PROSE}}}"')
+    return regex(
+        f'"(({known})?{other}){{0,{LONGEST_PROSE}}}({known})?"'
+        if known
+        else f'"{other}{{0,{LONGEST_PROSE}}}"'
+    )

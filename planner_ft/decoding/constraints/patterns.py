@@ -1,7 +1,8 @@
 """JSON values as Lark terminals and regular expressions, in the form in which plans are trained.
 
-`compact_json` writes no blanks, no escape that JSON does not demand, whole numbers without a point and fractions
-without closing zeros. What a grammar allows is written in the same way: one value, one text.
+`compact_json` writes no blanks, no escape that JSON does not demand, whole numbers without a point
+and fractions without closing zeros. What a grammar allows is written in the same way: one value,
+one text.
 """
 
 from __future__ import annotations
@@ -11,9 +12,13 @@ import json
 from fractions import Fraction
 
 WHOLE_DIGITS = 7
-"""Digits before the point where a definition sets no range: lengths of ten thousand kilometres in metres."""
+"""Digits before the point where a definition sets no range: lengths of ten thousand kilometres in
+metres.
+"""
 DECIMALS = 4
-"""Digits behind the point. Labels have two; with more than four, Python would write small numbers with an exponent."""
+"""Digits behind the point. Labels have two; with more than four, Python would write small numbers
+with an exponent.
+"""
 
 QUOTE = '"'
 CHARACTER = r'[^"\\\x00-\x1f\x7f]'
@@ -41,13 +46,20 @@ def quoted(text: str) -> str:
 
 def escaped(text: str) -> str:
     """A regular expression that matches exactly `text`."""
-    return "".join(letter if letter.isalnum() or letter in " _" else rf"\x{{{ord(letter):x}}}" for letter in text)
+    return "".join(
+        letter if letter.isalnum() or letter in " _" else rf"\x{{{ord(letter):x}}}"
+        for letter in text
+    )
 
 
 def string(longest: int, *, blank: bool, opened: bool = False) -> str:
-    """A JSON string of at most `longest` characters; without `blank` it begins with one that is no blank. `opened`: behind its first quotation mark."""
+    """A JSON string of at most `longest` characters; without `blank` it begins with one that is no
+    blank. `opened`: behind its first quotation mark.
+    """
     rest = longest if blank else longest - 1
-    return regex(rf'{"" if opened else QUOTE}{"" if blank else FIRST}({CHARACTER}|{ESCAPE}){{0,{rest}}}"')
+    return regex(
+        rf'{"" if opened else QUOTE}{"" if blank else FIRST}({CHARACTER}|{ESCAPE}){{0,{rest}}}"'
+    )
 
 
 # ---------------------------------------------------------------- numbers
@@ -57,12 +69,16 @@ ANY_INTEGER = rf"(0|-?[1-9][0-9]{{0,{WHOLE_DIGITS - 1}}})"
 ANY_NUMBER = rf"({ANY_INTEGER}|-?(0|[1-9][0-9]{{0,{WHOLE_DIGITS - 1}}}){_FRACTION})"
 ANY_POSITION = rf"\[{ANY_NUMBER},{ANY_NUMBER}\]"
 SUMS = r"[xy0-9.+/=;\-]"
-"""Signs of a working (see planner_ft.data.task.working). Its form is not enforced: where sums are read, wrong ones derive nothing."""
+"""Signs of a working (see planner_ft.data.task.working). Its form is not enforced: where sums are
+read, wrong ones derive nothing.
+"""
 
 
 @functools.lru_cache(maxsize=1024)
 def number_range(minimum: float | None, maximum: float | None, *, whole: bool) -> str:
-    """A regular expression for the numbers from `minimum` to `maximum`, both given or neither, with at most DECIMALS decimals."""
+    """A regular expression for the numbers from `minimum` to `maximum`, both given or neither, with
+    at most DECIMALS decimals.
+    """
     if minimum is None or maximum is None:
         return ANY_INTEGER if whole else ANY_NUMBER
     low, high = Fraction(str(minimum)), Fraction(str(maximum))
@@ -70,12 +86,17 @@ def number_range(minimum: float | None, maximum: float | None, *, whole: bool) -
     if high >= 0:
         options += _from_to(max(low, Fraction(0)), high, whole=whole)
     if low < 0:
-        options += [f"-{option}" for option in _from_to(max(-high, Fraction(0)), -low, whole=whole, zero=False)]
+        options += [
+            f"-{option}"
+            for option in _from_to(max(-high, Fraction(0)), -low, whole=whole, zero=False)
+        ]
     return f"({'|'.join(options)})"
 
 
 def _from_to(low: Fraction, high: Fraction, *, whole: bool, zero: bool = True) -> list[str]:
-    """Patterns of the numbers from `low` to `high`, neither below nought; `zero` says whether nought is one of them."""
+    """Patterns of the numbers from `low` to `high`, neither below nought; `zero` says whether
+    nought is one of them.
+    """
     first = max(-(-low // 1), 0 if zero else 1)
     options = _integers(first, high // 1)
     if whole:
@@ -98,7 +119,9 @@ def _fractions(whole: int, low: Fraction, high: Fraction) -> list[str]:
         scale = 10**digits
         first, last = max(-(-low * scale // 1), 1), min(high * scale // 1, scale - 1)
         if first <= last:
-            options.append(rf"{whole}\.{_same_length(str(first).zfill(digits), str(last).zfill(digits))}")
+            options.append(
+                rf"{whole}\.{_same_length(str(first).zfill(digits), str(last).zfill(digits))}"
+            )
     return options
 
 

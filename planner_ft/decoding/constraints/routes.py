@@ -1,7 +1,9 @@
-"""Grammars of a skill sequence, made as it grows: which waypoint may come next depends on those before it.
+"""Grammars of a skill sequence, made as it grows: which waypoint may come next depends on those
+before it.
 
-A step goes somewhere else than the step before it, to a place that the facts of the task give (`waypoints`), and a path that was begun
-(the lanes of a grid, a survey square) is run to its end before the answer may close.
+A step goes somewhere else than the step before it, to a place that the facts of the task give
+(`waypoints`), and a path that was begun (the lanes of a grid, a survey square) is run to its end
+before the answer may close.
 """
 
 from __future__ import annotations
@@ -36,7 +38,15 @@ from planner_ft.decoding.constraints.patterns import literal
 from planner_ft.decoding.constraints.reading.rows.sequence import Sequence
 from planner_ft.decoding.constraints.reading.rows.sequence_clauses import Movement
 from planner_ft.decoding.constraints.reading.rows.turn_parts import Turn
-from planner_ft.decoding.constraints.repeats import ROTATING, MovementValues, Step, TurnValues, UnlikeValues, repeatable, spent
+from planner_ft.decoding.constraints.repeats import (
+    ROTATING,
+    MovementValues,
+    Step,
+    TurnValues,
+    UnlikeValues,
+    repeatable,
+    spent,
+)
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.definition import Role
 from planner_ft.vocabulary.plans import STEP_KEYS, without_working
@@ -57,7 +67,9 @@ class RouteValues(Narrowed):
         for x, y in points:
             self._columns.setdefault(written_number(x), []).append(written_number(y))
 
-    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
+    def parameter(
+        self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
+    ) -> list[tuple[str, Context]]:
         pair = owner.coordinates if isinstance(owner, Skill) else ()
         if parameter not in pair:
             return super().parameter(grammar, parameter, owner, context)
@@ -73,14 +85,17 @@ NOWHERE: Point = (0.0, 0.0)
 
 @dataclass(frozen=True)
 class TaskScript:
-    """The parts of an answer: the names that may follow, then what stands behind the chosen name, up to the next one.
+    """The parts of an answer: the names that may follow, then what stands behind the chosen name,
+    up to the next one.
 
-    A part ends where a name begins: tokenizers keep signs and letters apart. Parts that come again in another step are compiled once.
-    `before` are the waypoints so far, `steps` the movements of the steps that are written; `turns` are the rotations of the whole plan where
-    they are certain, `sequence` are all movements where these are. `chosen` is the skill whose name was written last, None where a name is to follow;
-    `written` is the text of the step that is being written, as far as its parts are matched, `beside` are the skills of the list that is
-    being written, and `listed` the texts of a skill's own list.
-    `could_end` says whether the answer could have ended behind the steps that are written; with `owes`, the model would have ended it there, although
+    A part ends where a name begins: tokenizers keep signs and letters apart. Parts that come again
+    in another step are compiled once. `before` are the waypoints so far, `steps` the movements of
+    the steps that are written; `turns` are the rotations of the whole plan where they are certain,
+    `sequence` are all movements where these are. `chosen` is the skill whose name was written last,
+    None where a name is to follow; `written` is the text of the step that is being written, as far
+    as its parts are matched, `beside` are the skills of the list that is being written, and
+    `listed` the texts of a skill's own list. `could_end` says whether the answer could have ended
+    behind the steps that are written; with `owes`, the model would have ended it there, although
     movements that are asked for are missing.
     """
 
@@ -103,21 +118,35 @@ class TaskScript:
 
     def opening(self) -> str:
         grammar = Grammar()
-        return grammar.text(f"{sequence_opens(grammar, working=not self.ground.told and self.sequence is None)} ({literal(STEP_OPENS)} | {literal(CLOSES)})")
+        return grammar.text(
+            f"{sequence_opens(grammar, working=not self.ground.told and self.sequence is None)}"
+            f" ({literal(STEP_OPENS)} | {literal(CLOSES)})"
+        )
 
     def following(self, text: str) -> tuple[str, Script] | None:
         if self.chosen is None and text in self.vocabulary.skill:
-            chosen = replace(self, chosen=self.vocabulary.skill[text], written=self.written + text, owes=False)
+            chosen = replace(
+                self, chosen=self.vocabulary.skill[text], written=self.written + text, owes=False
+            )
             return chosen._behind_name(), chosen
         if not text.endswith(SKILL_OPENS):
             if not text.endswith((LIST_OPENS, NEXT_TEXT)):
                 return None
-            said = (*self.listed, *([json.loads('"' + text[: 1 - len(NEXT_TEXT)])] if text.endswith(NEXT_TEXT) else []))
+            said = (
+                *self.listed,
+                *(
+                    [json.loads('"' + text[: 1 - len(NEXT_TEXT)])]
+                    if text.endswith(NEXT_TEXT)
+                    else []
+                ),
+            )
             ahead = replace(self, written=self.written + text, listed=said)
             return ahead._behind_text(), ahead
         if text.endswith(STEP_OPENS):
             ahead = self._opened(text) if self.chosen is None else self._behind_step(text)
-            ahead = replace(ahead, chosen=None, role="navigation", written=STEP_OPENS, beside=(), listed=())
+            ahead = replace(
+                ahead, chosen=None, role="navigation", written=STEP_OPENS, beside=(), listed=()
+            )
         else:
             ahead = self._behind_skill(text)
         return ahead._names(), ahead
@@ -129,27 +158,49 @@ class TaskScript:
 
     def closing(self) -> Script:
         return replace(
-            self, ground=replace(self.ground, paths=(), itinerary=None, alone=False, shaped=False), turns=None, companions=Companions(), sequence=None
+            self,
+            ground=replace(self.ground, paths=(), itinerary=None, alone=False, shaped=False),
+            turns=None,
+            companions=Companions(),
+            sequence=None,
         )
 
     def taken_back(self, text: str) -> tuple[str, str] | None:
-        """A step that the model would begin with a movement which may not follow is not begun: the answer ends where it could."""
+        """A step that the model would begin with a movement which may not follow is not begun: the
+        answer ends where it could.
+        """
         if self.chosen is not None or self.role != "navigation" or not self.could_end:
             return None
-        meant = any(patterns.quoted(skill.name).startswith(text) for skill in self.vocabulary.skills_in_role("navigation"))
+        meant = any(
+            patterns.quoted(skill.name).startswith(text)
+            for skill in self.vocabulary.skills_in_role("navigation")
+        )
         return ("," + STEP_OPENS, CLOSES) if meant else None
 
     def pressed(self, text: str) -> Script | None:
-        """Where the model would end behind a step while a movement is owed, that one is to follow."""
+        """Where the model would end behind a step while a movement is owed, that one is to
+        follow.
+        """
         end = self._step_end(text)
-        return replace(self, owes=True) if end is not None and text[end:].startswith(CLOSES[0]) else None
+        return (
+            replace(self, owes=True)
+            if end is not None and text[end:].startswith(CLOSES[0])
+            else None
+        )
 
     def declines(self, text: str) -> bool:
-        """A skill that the model would name in a list, and which may not stand there, is no reason to name another one where the list could have ended."""
+        """A skill that the model would name in a list, and which may not stand there, is no reason
+        to name another one where the list could have ended.
+        """
         if self.chosen is not None or self.role == "navigation":
             return False
-        _more, ends = self._listed(self.role, *self._movement, [skill for skill, _parameters in self.beside])
-        return ends and any(patterns.quoted(skill.name).startswith(text) for skill in self.vocabulary.skills_in_role(self.role))
+        _more, ends = self._listed(
+            self.role, *self._movement, [skill for skill, _parameters in self.beside]
+        )
+        return ends and any(
+            patterns.quoted(skill.name).startswith(text)
+            for skill in self.vocabulary.skills_in_role(self.role)
+        )
 
     def asks(self, text: str) -> int | None:
         """Before a name that may be a substitute, and behind a step where a movement is owed."""
@@ -167,19 +218,36 @@ class TaskScript:
         except (ValueError, KeyError):
             # No whole step: what the model means need not be allowed.
             return None
-        return max(0, end - len(self.written)) if self._owed(movement[0]) and self._read_ending(movement[0], path) == "may" else None
+        return (
+            max(0, end - len(self.written))
+            if self._owed(movement[0]) and self._read_ending(movement[0], path) == "may"
+            else None
+        )
 
     def _owed(self, movement: Skill) -> list[Skill]:
         """The movements that are asked for and not written, this one counted as written."""
         written = [movement, *(skill for skill, _parameters in self.steps)]
-        asked = [skill for skill in self.vocabulary.skills_in_role("navigation") if skill.name in self.companions.asked and skill not in written]
-        return [] if self.ground.waypoints_alone or self.sequence is not None else [skill for skill in asked if self._spoken(skill)]
+        asked = [
+            skill
+            for skill in self.vocabulary.skills_in_role("navigation")
+            if skill.name in self.companions.asked and skill not in written
+        ]
+        return (
+            []
+            if self.ground.waypoints_alone or self.sequence is not None
+            else [skill for skill in asked if self._spoken(skill)]
+        )
 
     def _behind_step(self, text: str) -> TaskScript:
         """The script behind a step, with its movement and its waypoint."""
         movement = self._first_of((self.written + text)[len(STEP_OPENS) - len(SKILL_OPENS) :])
         before = self._path(movement)
-        return replace(self, steps=(*self.steps, movement), before=before, could_end=self._ending(movement[0], before) == "may")
+        return replace(
+            self,
+            steps=(*self.steps, movement),
+            before=before,
+            could_end=self._ending(movement[0], before) == "may",
+        )
 
     def _path(self, movement: Step) -> Path:
         """The waypoints with that of a movement."""
@@ -188,9 +256,19 @@ class TaskScript:
 
     def _behind_skill(self, text: str) -> TaskScript:
         """The script at the name of a filter or perception skill."""
-        role: Role = "filter" if text.endswith(FILTERS + SKILL_OPENS) else "perception" if text.endswith(PERCEPTIONS + SKILL_OPENS) else self.role
+        role: Role = (
+            "filter"
+            if text.endswith(FILTERS + SKILL_OPENS)
+            else "perception"
+            if text.endswith(PERCEPTIONS + SKILL_OPENS)
+            else self.role
+        )
         whole = self.written + text
-        beside = (*self.beside, self._first_of(whole[whole.rindex(SKILL_OPENS, 0, -len(SKILL_OPENS)) :])) if role == self.role else ()
+        beside = (
+            (*self.beside, self._first_of(whole[whole.rindex(SKILL_OPENS, 0, -len(SKILL_OPENS)) :]))
+            if role == self.role
+            else ()
+        )
         return replace(self, chosen=None, role=role, written=whole, beside=beside, listed=())
 
     def _first_of(self, text: str) -> Step:
@@ -200,22 +278,44 @@ class TaskScript:
 
     def _names(self) -> str:
         """The names that may follow."""
-        skills = self._owed(self.steps[-1][0]) if self.owes and self.role == "navigation" else self.vocabulary.skills_in_role(self.role)
+        skills = (
+            self._owed(self.steps[-1][0])
+            if self.owes and self.role == "navigation"
+            else self.vocabulary.skills_in_role(self.role)
+        )
         offered = [skill for skill in skills if self._offers(skill)]
         said = {skill for skill, _parameters in self.beside}
-        due = [skill for skill in offered if self.role != "navigation" and skill not in said and self._runs(skill, *self._movement)]
+        due = [
+            skill
+            for skill in offered
+            if self.role != "navigation"
+            and skill not in said
+            and self._runs(skill, *self._movement)
+        ]
         # Nothing takes the room of what must run.
         offered = due if due and len(self.beside) + len(due) >= MOST_SKILLS else offered
         # What is insisted on comes first: a model that left it out would put it off.
-        offered = [skill for skill in offered if skill.name in self.companions.insisted and skill not in said] or offered
-        # An answer never stands without a way on: a skill comes twice rather than one that nobody asked for.
-        return Grammar().text(" | ".join(literal(patterns.quoted(skill.name)) for skill in offered or sorted(said, key=skills.index) or skills))
+        offered = [
+            skill
+            for skill in offered
+            if skill.name in self.companions.insisted and skill not in said
+        ] or offered
+        # An answer never stands without a way on: a skill comes twice rather than one that nobody
+        # asked for.
+        return Grammar().text(
+            " | ".join(
+                literal(patterns.quoted(skill.name))
+                for skill in offered or sorted(said, key=skills.index) or skills
+            )
+        )
 
     def _offers(self, skill: Skill) -> bool:
         if self.role == "navigation" and self.sequence is not None:
             return self._told is not None and self._told.name == skill.name
         if skill.coordinates:
-            return (self.ground.free or bool(self.ground.following(self.before))) and not self._halt_due(self.steps[-1][0] if self.steps else None, self.before)
+            return (
+                self.ground.free or bool(self.ground.following(self.before))
+            ) and not self._halt_due(self.steps[-1][0] if self.steps else None, self.before)
         if self.role == "navigation" and self.ground.halts_here(self.before) is False:
             return False
         if self.role == "navigation" and self.ground.waypoints_alone:
@@ -231,7 +331,10 @@ class TaskScript:
             return False
         if self.role == "navigation" and {} in spent(skill, self.steps, self.text):
             return False
-        return repeatable(skill, uses) and skill_body(Grammar(), skill, self._values_of(skill)) is not None
+        return (
+            repeatable(skill, uses)
+            and skill_body(Grammar(), skill, self._values_of(skill)) is not None
+        )
 
     def _spoken(self, movement: Skill) -> bool:
         """Whether the input may speak of a movement."""
@@ -240,7 +343,11 @@ class TaskScript:
     def _values_of(self, skill: Skill) -> Values:
         """What the parameters of a skill may be here: not again what it said before."""
         if skill.role == "navigation" and self._told and self._told.name == skill.name:
-            return self.values if self._told.free else MovementValues(self.values, skill, self._told.values)
+            return (
+                self.values
+                if self._told.free
+                else MovementValues(self.values, skill, self._told.values)
+            )
         if skill.motion in ROTATING and self._turn and self._turn[0] == skill.name:
             return TurnValues(self.values, skill, self._turn[1])
         if skill.role == "navigation":
@@ -248,18 +355,30 @@ class TaskScript:
         told = self._told_value(skill)
         if told is not None:
             return TurnValues(self.values, skill, told)
-        return UnlikeValues(self.values, skill, [parameters for used, parameters in self.beside if used == skill])
+        return UnlikeValues(
+            self.values, skill, [parameters for used, parameters in self.beside if used == skill]
+        )
 
     def _told_value(self, skill: Skill) -> float | None:
-        """The value of a filter or perception skill in the step that is being written, where the input tells one for it."""
+        """The value of a filter or perception skill in the step that is being written, where the
+        input tells one for it.
+        """
         if skill.role == "navigation" or not skill.parameters:
             return None
-        return self.companions.value(skill.name, self._movement[0].name, [earlier.name for earlier, _parameters in self.steps])
+        return self.companions.value(
+            skill.name,
+            self._movement[0].name,
+            [earlier.name for earlier, _parameters in self.steps],
+        )
 
     @property
     def _told(self) -> Movement | None:
         """The movement of this step, where all are known."""
-        return self.sequence[len(self.steps)] if self.sequence is not None and len(self.steps) < len(self.sequence) else None
+        return (
+            self.sequence[len(self.steps)]
+            if self.sequence is not None and len(self.steps) < len(self.sequence)
+            else None
+        )
 
     @property
     def _turned(self) -> int:
@@ -269,26 +388,52 @@ class TaskScript:
     @property
     def _turn(self) -> Turn | None:
         """The rotation that comes next; None where there is none, or where it is not known."""
-        return self.turns[self._turned] if self.turns is not None and self._turned < len(self.turns) else None
+        return (
+            self.turns[self._turned]
+            if self.turns is not None and self._turned < len(self.turns)
+            else None
+        )
 
     def _runs(self, skill: Skill, movement: Skill, path: Path) -> bool | None:
-        """Whether a skill must or must not run beside a movement in the step that is being written, with the waypoints up to it."""
+        """Whether a skill must or must not run beside a movement in the step that is being written,
+        with the waypoints up to it.
+        """
         earlier = [name.name for name, _parameters in self.steps]
-        verdict = self.companions.runs(skill.name, movement.name, earlier, path if movement.coordinates else ())
-        return verdict if verdict is not True or skill_body(Grammar(), skill, self.values) is not None else None
+        verdict = self.companions.runs(
+            skill.name, movement.name, earlier, path if movement.coordinates else ()
+        )
+        return (
+            verdict
+            if verdict is not True or skill_body(Grammar(), skill, self.values) is not None
+            else None
+        )
 
-    def _listed(self, role: Role, movement: Skill, path: Path, said: Row[Skill] = ()) -> tuple[bool, bool]:
-        """Whether a list of skills beside a movement may go on, and whether it may end, behind those that were `said`."""
-        skills = [(skill, self._runs(skill, movement, path)) for skill in self.vocabulary.skills_in_role(role)]
+    def _listed(
+        self, role: Role, movement: Skill, path: Path, said: Row[Skill] = ()
+    ) -> tuple[bool, bool]:
+        """Whether a list of skills beside a movement may go on, and whether it may end, behind
+        those that were `said`.
+        """
+        skills = [
+            (skill, self._runs(skill, movement, path))
+            for skill in self.vocabulary.skills_in_role(role)
+        ]
         missing = any(runs and skill not in said for skill, runs in skills)
         more = len(said) < MOST_SKILLS and any(
-            runs is not False and (skill not in said or (skill.parameters and not self._single(skill, movement))) for skill, runs in skills
+            runs is not False
+            and (skill not in said or (skill.parameters and not self._single(skill, movement)))
+            for skill, runs in skills
         )
         return more or missing, not missing
 
     def _single(self, skill: Skill, movement: Skill) -> bool:
         """Whether a skill stands beside a movement once, since its value there is told."""
-        return self.companions.value(skill.name, movement.name, [earlier.name for earlier, _parameters in self.steps]) is not None
+        return (
+            self.companions.value(
+                skill.name, movement.name, [earlier.name for earlier, _parameters in self.steps]
+            )
+            is not None
+        )
 
     def _behind_name(self) -> str:
         """What may stand behind the chosen name, up to the next one."""
@@ -296,63 +441,117 @@ class TaskScript:
         grammar = Grammar()
         if self.role == "navigation":
             options = [
-                f"{self._body(grammar, values)} {literal(',' + FILTERS)} {self._list(grammar, 'filter', self.chosen, path, ending)}"
+                f"{self._body(grammar, values)} {literal(',' + FILTERS)}"
+                f" {self._list(grammar, 'filter', self.chosen, path, ending)}"
                 for values, path, ending in self._movements()
             ]
             return grammar.text(" | ".join(options))
         movement, before = self._movement
-        ending, said = self._ending(movement, before), [*(skill for skill, _parameters in self.beside), self.chosen]
-        values, behind = self._values_of(self.chosen), self._list(grammar, self.role, movement, before, ending, said)
+        ending, said = (
+            self._ending(movement, before),
+            [*(skill for skill, _parameters in self.beside), self.chosen],
+        )
+        values, behind = (
+            self._values_of(self.chosen),
+            self._list(grammar, self.role, movement, before, ending, said),
+        )
         if self._lists_texts and values.item(Grammar(), ()):
             only, opens = self.chosen.parameters[0], f'",{key("parameters")}{{'
-            without = "" if values.needs(only, self.chosen) else f" | {literal(opens + '}}')} {behind}"
+            without = (
+                "" if values.needs(only, self.chosen) else f" | {literal(opens + '}}')} {behind}"
+            )
             return grammar.text(f"{literal(opens + key(only.name) + LIST_OPENS)}{without}")
         return grammar.text(f"{self._body(grammar, values)} {behind}")
 
     @property
     def _lists_texts(self) -> bool:
-        """Whether the chosen skill has a list of texts and nothing else: it is written text by text, since none stands in it twice."""
-        return self.chosen is not None and [item.type for item in self.chosen.parameters] == ["texts"]
+        """Whether the chosen skill has a list of texts and nothing else: it is written text by
+        text, since none stands in it twice.
+        """
+        return self.chosen is not None and [item.type for item in self.chosen.parameters] == [
+            "texts"
+        ]
 
     def _behind_text(self) -> str:
         """A text of a list that none before it is, and what may stand behind that."""
         assert self.chosen is not None
         grammar, (movement, before) = Grammar(), self._movement
-        ending, said = self._ending(movement, before), [*(skill for skill, _parameters in self.beside), self.chosen]
-        behind = f"{literal(']}}')} {self._list(grammar, self.role, movement, before, ending, said)}"
+        ending, said = (
+            self._ending(movement, before),
+            [*(skill for skill, _parameters in self.beside), self.chosen],
+        )
+        behind = (
+            f"{literal(']}}')} {self._list(grammar, self.role, movement, before, ending, said)}"
+        )
         text = self.values.item(grammar, self.listed) or self.values.item(grammar, ())
-        more = len(self.listed) + 1 < MOST_TEXTS and self.values.item(Grammar(), (*self.listed, "")) is not None
-        return grammar.text(f"{text} ({literal(NEXT_TEXT[1:])} | {behind})" if more else f"{text} {behind}")
+        more = (
+            len(self.listed) + 1 < MOST_TEXTS
+            and self.values.item(Grammar(), (*self.listed, "")) is not None
+        )
+        return grammar.text(
+            f"{text} ({literal(NEXT_TEXT[1:])} | {behind})" if more else f"{text} {behind}"
+        )
 
-    def _list(self, grammar: Grammar, role: Role, movement: Skill, path: Path, ending: Ending, said: Row[Skill] = ()) -> str:
-        """What may stand in the list of a role's skills behind those that were said: the next one, or what follows the list."""
+    def _list(
+        self,
+        grammar: Grammar,
+        role: Role,
+        movement: Skill,
+        path: Path,
+        ending: Ending,
+        said: Row[Skill] = (),
+    ) -> str:
+        """What may stand in the list of a role's skills behind those that were said: the next one,
+        or what follows the list.
+        """
         more, ends = self._listed(role, movement, path, said)
         options = [literal("," * bool(said) + SKILL_OPENS)] if more else []
         if ends or not more:
             behind = (
-                self._list(grammar, "perception", movement, path, ending) if role == "filter" else f"{step_tail(grammar, self.values)} {self._ends(ending)}"
+                self._list(grammar, "perception", movement, path, ending)
+                if role == "filter"
+                else f"{step_tail(grammar, self.values)} {self._ends(ending)}"
             )
             options.append(f"{literal('],' + PERCEPTIONS if role == 'filter' else ']')} {behind}")
         return f"({' | '.join(options)})"
 
     def _body(self, grammar: Grammar, values: Values) -> str:
         assert self.chosen is not None
-        body = skill_body(grammar, self.chosen, values) or skill_body(grammar, self.chosen, self.values)
+        body = skill_body(grammar, self.chosen, values) or skill_body(
+            grammar, self.chosen, self.values
+        )
         return body or str(skill_body(grammar, self.chosen, SchemaValues()))
 
     def _movements(self) -> list[tuple[Values, Path, Ending]]:
-        """What the parameters of the chosen movement may be, the waypoints with it where they tell what runs beside it, and whether the answer ends there."""
+        """What the parameters of the chosen movement may be, the waypoints with it where they tell
+        what runs beside it, and whether the answer ends there.
+        """
         assert self.chosen is not None
-        following = self.ground.following(self.before) if self.chosen.coordinates and not self.ground.free else []
+        following = (
+            self.ground.following(self.before)
+            if self.chosen.coordinates and not self.ground.free
+            else []
+        )
         if not self.chosen.coordinates or self.ground.free or self._told:
             # Where waypoints are free, what runs beside one is told by its number alone.
-            path = (*self.before, following[0]) if len(following) == 1 else (*self.before, NOWHERE) if self.ground.free else ()
+            path = (
+                (*self.before, following[0])
+                if len(following) == 1
+                else (*self.before, NOWHERE)
+                if self.ground.free
+                else ()
+            )
             return [(self._values_of(self.chosen), path, self._ending(self.chosen, self.before))]
         found: dict[tuple[Ending, Path], list[Point]] = {}
         for point in following:
             path = (*self.before, point)
-            found.setdefault((self._ending(self.chosen, path), path if self.companions.on_path else ()), []).append(point)
-        return [(RouteValues(self.values, points), path, ending) for (ending, path), points in found.items()] or [(self.values, (), "may")]
+            found.setdefault(
+                (self._ending(self.chosen, path), path if self.companions.on_path else ()), []
+            ).append(point)
+        return [
+            (RouteValues(self.values, points), path, ending)
+            for (ending, path), points in found.items()
+        ] or [(self.values, (), "may")]
 
     @functools.cached_property
     def _movement(self) -> tuple[Skill, Path]:
@@ -361,7 +560,9 @@ class TaskScript:
         return movement[0], self._path(movement)
 
     def _ending(self, movement: Skill, before: Path) -> Ending:
-        """Whether the answer may, must or may not yet end behind a step with this movement: no movement is left out that is asked for."""
+        """Whether the answer may, must or may not yet end behind a step with this movement: no
+        movement is left out that is asked for.
+        """
         ending = self._read_ending(movement, before)
         return "not yet" if ending == "may" and self._owed(movement) else ending
 
@@ -372,21 +573,42 @@ class TaskScript:
         if self._halt_due(movement, before):
             return "not yet"
         turned = self._turned + (movement.motion in ROTATING)
-        return "not yet" if self.turns is not None and turned < len(self.turns) else self.ground.ending(before)
+        return (
+            "not yet"
+            if self.turns is not None and turned < len(self.turns)
+            else self.ground.ending(before)
+        )
 
     def _halt_due(self, movement: Skill | None, before: Path) -> bool:
-        """Whether a hold or the like must follow a step with this movement, which goes to a waypoint where the input asks for one."""
-        return movement is not None and bool(movement.coordinates) and self.ground.halts_here(before) is True and self._any_halt
+        """Whether a hold or the like must follow a step with this movement, which goes to a
+        waypoint where the input asks for one.
+        """
+        return (
+            movement is not None
+            and bool(movement.coordinates)
+            and self.ground.halts_here(before) is True
+            and self._any_halt
+        )
 
     @functools.cached_property
     def _any_halt(self) -> bool:
         """Whether the input speaks of a movement that goes nowhere."""
-        return any(self._spoken(skill) for skill in self.vocabulary.skills_in_role("navigation") if not skill.coordinates)
+        return any(
+            self._spoken(skill)
+            for skill in self.vocabulary.skills_in_role("navigation")
+            if not skill.coordinates
+        )
 
     def _ends(self, ending: Ending) -> str:
         """What follows a step: another one, or the end."""
-        more = [literal("," + STEP_OPENS)] if len(self.steps) + 1 < MOST_STEPS and ending != "must" else []
-        return f"({' | '.join(more + ([literal(CLOSES)] if ending != 'not yet' or not more else []))})"
+        more = (
+            [literal("," + STEP_OPENS)]
+            if len(self.steps) + 1 < MOST_STEPS and ending != "must"
+            else []
+        )
+        return (
+            f"({' | '.join(more + ([literal(CLOSES)] if ending != 'not yet' or not more else []))})"
+        )
 
 
 def waypoint(movement: Step) -> Point | None:

@@ -1,10 +1,11 @@
 """The logic of a mission plan: which tasks and which places may follow the tasks before them.
 
-The rules read the vocabulary's fields (locate, transit, unresolved, a task's arrival, leaves and pattern) and hold for
-any vehicle. A place that is not known yet needs a search before it; a target is searched once; a task that is performed
-at a place follows what brings the vehicle there; nothing goes to where the vehicle is. They are those of the labelling
-rules that need no reading of the command: whether a vehicle that a survey took elsewhere goes on where it is then, only
-the command says.
+The rules read the vocabulary's fields (locate, transit, unresolved, a task's arrival, leaves and
+pattern) and hold for any vehicle. A place that is not known yet needs a search before it; a target
+is searched once; a task that is performed at a place follows what brings the vehicle there; nothing
+goes to where the vehicle is. They are those of the labelling rules that need no reading of the
+command: whether a vehicle that a survey took elsewhere goes on where it is then, only the command
+says.
 """
 
 from __future__ import annotations
@@ -51,7 +52,9 @@ class LogicalValues(Narrowed):
         super().__init__(values)
         self._vocabulary, self._progress = vocabulary, progress
 
-    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
+    def parameter(
+        self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
+    ) -> list[tuple[str, Context]]:
         symbol: str | None = None
         if isinstance(owner, Task) and parameter.name == owner.position_parameter:
             symbol = self._place(grammar, owner, identified=context >= IDENTIFIED)
@@ -63,33 +66,50 @@ class LogicalValues(Narrowed):
 
     def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
         # Two searches that name no target are the same search.
-        return super().needs(parameter, owner) or (self._is_target(parameter, owner) and "" in self._progress.searched)
+        return super().needs(parameter, owner) or (
+            self._is_target(parameter, owner) and "" in self._progress.searched
+        )
 
     def _is_target(self, parameter: Parameter, owner: Task | Skill) -> bool:
-        return isinstance(owner, Task) and owner.title == self._vocabulary.locate and parameter == target_parameter(owner)
+        return (
+            isinstance(owner, Task)
+            and owner.title == self._vocabulary.locate
+            and parameter == target_parameter(owner)
+        )
 
     def _place(self, grammar: Grammar, task: Task, *, identified: bool) -> str | None:
         progress, unresolved = self._progress, self._vocabulary.unresolved
         unknown = not identified and (bool(progress.searched) or task.pattern == DOCKING)
         if task.arrival == "transit":
             at = progress.here
-            return None if at is None or (at == unresolved and not unknown) else literal(written(at))
+            return (
+                None if at is None or (at == unresolved and not unknown) else literal(written(at))
+            )
         without = [] if unknown else [unresolved]
-        # Two places that are not known yet look the same: behind a second search, unresolved can be another place.
+        # Two places that are not known yet look the same: behind a second search, unresolved can be
+        # another place.
         same = progress.here == unresolved and len(progress.searched) > 1
-        if task.title == self._vocabulary.transit and progress.here is not None and not (same or progress.moved):
+        if (
+            task.title == self._vocabulary.transit
+            and progress.here is not None
+            and not (same or progress.moved)
+        ):
             without.append(progress.here)
         return self.position(grammar, tuple(without))
 
 
 class ResolvedValues(Narrowed):
-    """The values of another strength for the skill sequence of a task that has no unresolved place: there is none in it."""
+    """The values of another strength for the skill sequence of a task that has no unresolved place:
+    there is none in it.
+    """
 
     def __init__(self, values: Values, vocabulary: Vocabulary) -> None:
         super().__init__(values)
         self._unresolved = vocabulary.unresolved
 
-    def parameter(self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context) -> list[tuple[str, Context]]:
+    def parameter(
+        self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
+    ) -> list[tuple[str, Context]]:
         if isinstance(owner, Skill) and parameter in owner.coordinates:
             return self._coordinate(grammar, parameter, owner.coordinates.index(parameter), context)
         if parameter.type == "polygon":
@@ -97,15 +117,21 @@ class ResolvedValues(Narrowed):
             return [(corners(grammar, position), context)] if position else []
         return super().parameter(grammar, parameter, owner, context)
 
-    def _coordinate(self, grammar: Grammar, parameter: Parameter, axis: int, context: Context) -> list[tuple[str, Context]]:
-        """A coordinate of a destination: the second is not that of the unresolved place when the first one is."""
+    def _coordinate(
+        self, grammar: Grammar, parameter: Parameter, axis: int, context: Context
+    ) -> list[tuple[str, Context]]:
+        """A coordinate of a destination: the second is not that of the unresolved place when the
+        first one is.
+        """
         value, suspect = self._unresolved[axis], frozenset({"unresolved"})
         other = self.number(grammar, parameter, (value,))
         options = [(other, context)] if other else []
         if axis == 0 and self.has_number(parameter, value):
             options.append((literal(written_number(value)), context | suspect))
         elif axis == 1 and not context >= suspect:
-            options = [(symbol, context) for symbol in [self.number(grammar, parameter, ())] if symbol]
+            options = [
+                (symbol, context) for symbol in [self.number(grammar, parameter, ())] if symbol
+            ]
         return options
 
 
@@ -117,10 +143,12 @@ def names_unresolved(record: dict[str, Any], vocabulary: Vocabulary) -> bool:
 
 @dataclass(frozen=True)
 class MissionScript(Plain):
-    """Grammars of a mission plan, made as it grows: the titles that may follow, then what stands behind the chosen title.
+    """Grammars of a mission plan, made as it grows: the titles that may follow, then what stands
+    behind the chosen title.
 
-    They meet on both sides of a title, where letters follow signs and signs letters: tokenizers keep the two apart.
-    `chosen` is the task whose title was written last, `told` what the command leaves no choice about.
+    They meet on both sides of a title, where letters follow signs and signs letters: tokenizers
+    keep the two apart. `chosen` is the task whose title was written last, `told` what the command
+    leaves no choice about.
     """
 
     vocabulary: Vocabulary
@@ -131,7 +159,10 @@ class MissionScript(Plain):
 
     def opening(self) -> str:
         grammar = Grammar()
-        return grammar.text(f"{literal(mission_opens())} ({literal(TASK_OPENS)} | {mission_closes(grammar, self.values)})")
+        return grammar.text(
+            f"{literal(mission_opens())} ({literal(TASK_OPENS)} |"
+            f" {mission_closes(grammar, self.values)})"
+        )
 
     def following(self, text: str) -> tuple[str, Script] | None:
         if self.chosen is None and text in self.vocabulary.task:
@@ -142,8 +173,12 @@ class MissionScript(Plain):
         if text == mission_opens() + TASK_OPENS:
             return self._titles(), self
         written_title = self.chosen.title if self.chosen else ""
-        entry, _end = json.JSONDecoder().raw_decode(TASK_OPENS + patterns.quoted(written_title) + text)
-        progress = self.progress.after(self.vocabulary.task[entry["title"]], entry["parameters"], self.vocabulary)
+        entry, _end = json.JSONDecoder().raw_decode(
+            TASK_OPENS + patterns.quoted(written_title) + text
+        )
+        progress = self.progress.after(
+            self.vocabulary.task[entry["title"]], entry["parameters"], self.vocabulary
+        )
         ahead = replace(self, progress=progress, chosen=None)
         return ahead._titles(), ahead
 
@@ -151,8 +186,14 @@ class MissionScript(Plain):
         return self
 
     def _titles(self) -> str:
-        """The titles that may follow; with their tasks where a title can be the beginning of another."""
-        offered = [task for task in self.vocabulary.tasks if self.progress.offers(task) and self._possible(task)]
+        """The titles that may follow; with their tasks where a title can be the beginning of
+        another.
+        """
+        offered = [
+            task
+            for task in self.vocabulary.tasks
+            if self.progress.offers(task) and self._possible(task)
+        ]
         # A vocabulary can be such that nothing fits; the schema alone holds then.
         offered = offered or list(self.vocabulary.tasks)
         if _prefix_free(self.vocabulary):
@@ -170,9 +211,15 @@ class MissionScript(Plain):
     def _tasks(self, tasks: list[Task], *, titles: bool) -> str:
         grammar = Grammar()
         make = titled_task if titles else task_body
-        bodies = [make(grammar, task, self._logical) or make(grammar, task, SchemaValues()) for task in tasks]
+        bodies = [
+            make(grammar, task, self._logical) or make(grammar, task, SchemaValues())
+            for task in tasks
+        ]
         more = f"{literal(',' + TASK_OPENS)} | " if self.progress.tasks + 1 < MOST_TASKS else ""
-        return grammar.text(f"({' | '.join(body for body in bodies if body)}) ({more}{mission_closes(grammar, self.values)})")
+        return grammar.text(
+            f"({' | '.join(body for body in bodies if body)})"
+            f" ({more}{mission_closes(grammar, self.values)})"
+        )
 
     @property
     def _logical(self) -> LogicalValues:
@@ -184,4 +231,6 @@ class MissionScript(Plain):
 def _prefix_free(vocabulary: Vocabulary) -> bool:
     """Whether no title begins another and none needs an escape."""
     titles = sorted(patterns.quoted(task.title) for task in vocabulary.tasks)
-    return set(titles) == set(vocabulary.task) and not any(longer.startswith(shorter) for shorter, longer in itertools.pairwise(titles))
+    return set(titles) == set(vocabulary.task) and not any(
+        longer.startswith(shorter) for shorter, longer in itertools.pairwise(titles)
+    )

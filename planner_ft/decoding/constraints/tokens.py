@@ -1,4 +1,6 @@
-"""A tokenizer as the grammar engine sees it: tokens as bytes, ends of an answer, and masks of tokens as bits."""
+"""A tokenizer as the grammar engine sees it: tokens as bytes, ends of an answer, and masks of
+tokens as bits.
+"""
 
 from __future__ import annotations
 
@@ -18,22 +20,31 @@ if TYPE_CHECKING:
     from llguidance import LLMatcher, LLTokenizer
 
 GRAMMARS = 256
-"""Compiled grammars that are kept per tokenizer: the states of a plan come again with every command."""
+"""Compiled grammars that are kept per tokenizer: the states of a plan come again with every
+command.
+"""
 
 TEXT_SLICES = [rf'[^0-9"\\\x00-\x1F\x7F]{{1,{longest}}}' for longest in (10, 30)]
-"""Tokens without digits, which the engine allows or refuses together: sentences whose numbers are known allow them all.
+"""Tokens without digits, which the engine allows or refuses together: sentences whose numbers are
+known allow them all.
 
 With a vocabulary of 128k, a mask takes 0.2 ms instead of 1.5.
 """
 LEAST_GROWN = 4
-"""Bytes at the end of a forced text from which on it is looked for longer tokens; of the last few the engine itself sees whether they may grow."""
+"""Bytes at the end of a forced text from which on it is looked for longer tokens; of the last few
+the engine itself sees whether they may grow.
+"""
 CONTEXT = 8
-"""Tokens before a forced text that it is spelt with at first; the whole answer where they do not suffice."""
+"""Tokens before a forced text that it is spelt with at first; the whole answer where they do not
+suffice.
+"""
 
 
 @dataclass(frozen=True, eq=False)
 class Tokens:
-    """Tokens of a tokenizer. `n_vocab` is the width of the model's logits, which can be padded; `end_ids` end an answer."""
+    """Tokens of a tokenizer. `n_vocab` is the width of the model's logits, which can be padded;
+    `end_ids` end an answer.
+    """
 
     engine: LLTokenizer
     n_vocab: int
@@ -46,7 +57,9 @@ class Tokens:
 
     @functools.cached_property
     def byte(self) -> dict[str, int | None]:
-        """The tokens that are a single closing sign, or a comma; None where the tokenizer has none."""
+        """The tokens that are a single closing sign, or a comma; None where the tokenizer has
+        none.
+        """
         single = {}
         for sign in '"]},':
             ids = self.engine.greedy_tokenize(sign)
@@ -56,7 +69,11 @@ class Tokens:
     @functools.cached_property
     def _by_bytes(self) -> tuple[dict[bytes, int], int]:
         """Ordinary tokens by their bytes, and the length of the longest."""
-        ordinary = (token for token in range(self.engine.vocab_size) if not self.engine.is_special_token(token))
+        ordinary = (
+            token
+            for token in range(self.engine.vocab_size)
+            if not self.engine.is_special_token(token)
+        )
         found = {self.bytes_of(token): token for token in ordinary}
         found.pop(b"", None)
         return found, max(map(len, found))
@@ -66,7 +83,11 @@ class Tokens:
         known, longest = self._by_bytes
         best: list[tuple[int, int]] = [(0, 0)] * (len(text) + 1)
         for start in range(len(text) - 1, -1, -1):
-            ends = (end for end in range(start + 1, min(start + longest, len(text)) + 1) if text[start:end] in known)
+            ends = (
+                end
+                for end in range(start + 1, min(start + longest, len(text)) + 1)
+                if text[start:end] in known
+            )
             best[start] = min((best[end][0] + 1, end) for end in ends)
         ids, place = [], 0
         while place < len(text):
@@ -77,7 +98,9 @@ class Tokens:
 
     @functools.lru_cache(maxsize=4096)  # noqa: B019 - tokens are kept as long as their tokenizer
     def most_spelt(self, text: str) -> int:
-        """The most tokens that `shortest` needs for what is left of a text, wherever it was begun."""
+        """The most tokens that `shortest` needs for what is left of a text, wherever it was
+        begun.
+        """
         whole = text.encode()
         return max(len(self.shortest(whole[start:])) for start in range(len(whole)))
 
@@ -97,10 +120,12 @@ class Tokens:
         return bytes(self.engine.decode_bytes([token]))
 
     def spelt(self, before: list[int], matcher: LLMatcher) -> list[int]:
-        """The tokens that the text which must follow is spelt with behind the tokens `before`; what may still grow is left out.
+        """The tokens that the text which must follow is spelt with behind the tokens `before`; what
+        may still grow is left out.
 
-        The engine spells it as if it stood alone. A tokenizer that joins `,"sp` and `eed":` would be given tokens there
-        that no training text has. Empty where `before` itself is not spelt as the tokenizer would.
+        The engine spells it as if it stood alone. A tokenizer that joins `,"sp` and `eed":` would
+        be given tokens there that no training text has. Empty where `before` itself is not spelt as
+        the tokenizer would.
         """
         certain = len(self.engine.decode_bytes(matcher.compute_ff_tokens()))
         if not certain:
@@ -109,16 +134,20 @@ class Tokens:
         return self._settled(self._within(self._spelling(before, text), certain), text, matcher)
 
     def growing(self, before: list[int], matcher: LLMatcher) -> list[int]:
-        """The tokens that can follow `before` where a text must follow and longer tokens take it in whole: these, and the first that it is spelt with alone.
+        """The tokens that can follow `before` where a text must follow and longer tokens take it in
+        whole: these, and the first that it is spelt with alone.
 
-        The engine allows a single token there, the first of its own spelling. Empty where there are no longer ones.
+        The engine allows a single token there, the first of its own spelling. Empty where there are
+        no longer ones.
         """
         text = bytes(matcher.compute_ff_bytes())
         longer = self._joined(text, matcher)
         return [*longer, *self._spelling(before, text)[:1]] if longer else []
 
     def begun_with(self, before: list[int], text: bytes, matcher: LLMatcher) -> list[int]:
-        """The tokens behind `before` that a text is spelt with when it is gone on with: the last one may reach beyond it. Empty where it may not follow."""
+        """The tokens behind `before` that a text is spelt with when it is gone on with: the last
+        one may reach beyond it. Empty where it may not follow.
+        """
         pieces, ahead = self.shortest(text), matcher.deep_copy()
         if ahead.validate_tokens(pieces) < len(pieces):
             return []
@@ -135,7 +164,9 @@ class Tokens:
         return [token for token in self._longer(text) if matcher.validate_tokens([token]) == 1]
 
     def _spelling(self, before: list[int], text: bytes) -> list[int]:
-        """The tokens of a text behind the tokens `before`; none where those are not spelt as the tokenizer would."""
+        """The tokens of a text behind the tokens `before`; none where those are not spelt as the
+        tokenizer would.
+        """
         for context in (before[-CONTEXT:], before):
             ids = self.engine.tokenize_bytes(self.engine.decode_bytes(context) + text)
             if ids[: len(context)] == context:
@@ -143,14 +174,19 @@ class Tokens:
         return []
 
     def _settled(self, ids: list[int], text: bytes, matcher: LLMatcher) -> list[int]:
-        """The leading tokens in the place of none of which a longer one may come, that takes in all that is left of the text and goes on behind it.
+        """The leading tokens in the place of none of which a longer one may come, that takes in all
+        that is left of the text and goes on behind it.
 
-        A tokenizer may join several members of an object, `}},"filter_skills":[],"perception_skills":[],`: where the text ends within them, what it
+        A tokenizer may join several members of an object,
+        `}},"filter_skills":[],"perception_skills":[],`: where the text ends within them, what it
         begins with is no token of any training text.
         """
         place = 0
         for count, token in enumerate(ids):
-            if any(matcher.validate_tokens([*ids[:count], longer]) == count + 1 for longer in self._longer(text[place:])):
+            if any(
+                matcher.validate_tokens([*ids[:count], longer]) == count + 1
+                for longer in self._longer(text[place:])
+            ):
                 return ids[:count]
             place += len(self.bytes_of(token))
         return ids
@@ -159,13 +195,18 @@ class Tokens:
         """The tokens that begin with a text and go on."""
         known, longest = self._by_bytes
         if LEAST_GROWN <= len(text) < longest:
-            for other in itertools.takewhile(lambda other: other.startswith(text), itertools.islice(self._sorted, bisect_right(self._sorted, text), None)):
+            for other in itertools.takewhile(
+                lambda other: other.startswith(text),
+                itertools.islice(self._sorted, bisect_right(self._sorted, text), None),
+            ):
                 yield known[other]
 
     def akin(self, token: int, mask: Mask) -> list[int]:
-        """The allowed tokens that begin as `token` does for as long as any of them does; of two that begin with each other, the longer one.
+        """The allowed tokens that begin as `token` does for as long as any of them does; of two
+        that begin with each other, the longer one.
 
-        Empty where they share fewer bytes than `LEAST_GROWN`, or no quotation mark among them: numbers and texts are not spelt for one another.
+        Empty where they share fewer bytes than `LEAST_GROWN`, or no quotation mark among them:
+        numbers and texts are not spelt for one another.
         """
         known = self._by_bytes[0]
         text = self.bytes_of(token)
@@ -176,7 +217,11 @@ class Tokens:
             first, last = (bisect_left(self._sorted, edge) for edge in (begun, begun + b"\xff"))
             found = [other for other in self._sorted[first:last] if allows(mask, known[other])]
             # Sorted, what goes on from a token stands right behind it.
-            if ends := [other for other, longer in itertools.zip_longest(found, found[1:], fillvalue=b"") if not longer.startswith(other)]:
+            if ends := [
+                other
+                for other, longer in itertools.zip_longest(found, found[1:], fillvalue=b"")
+                if not longer.startswith(other)
+            ]:
                 return [known[other] for other in ends]
         return []
 
@@ -209,16 +254,25 @@ def allows(mask: Mask, token: int | None) -> bool:
 
 @functools.lru_cache(maxsize=4)
 def tokens_of(tokenizer: Any, end_ids: tuple[int, ...], n_vocab: int | None = None) -> Tokens:
-    """The tokens of a Hugging Face tokenizer; seconds for a large vocabulary, so the result is kept. Raises PlannerError for a slow one."""
+    """The tokens of a Hugging Face tokenizer; seconds for a large vocabulary, so the result is
+    kept. Raises PlannerError for a slow one.
+    """
     from llguidance import LLTokenizer
     from llguidance.hf import from_tokenizer
 
     width = max(n_vocab or 0, len(tokenizer))
     slices = [*TEXT_SLICES, *LLTokenizer.general_slices()]
     try:
-        return Tokens(from_tokenizer(tokenizer, n_vocab=width, eos_token=list(end_ids), slices=slices), width, end_ids)
+        return Tokens(
+            from_tokenizer(tokenizer, n_vocab=width, eos_token=list(end_ids), slices=slices),
+            width,
+            end_ids,
+        )
     except ValueError as error:
-        raise PlannerError(f"the tokenizer cannot be constrained ({error}); decode at strength free, or give a candidate with tokenizer.json") from error
+        raise PlannerError(
+            f"the tokenizer cannot be constrained ({error}); decode at strength free, or give a"
+            " candidate with tokenizer.json"
+        ) from error
 
 
 def _compile(engine: LLTokenizer, grammar: str) -> LLMatcher:

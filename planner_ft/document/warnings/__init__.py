@@ -1,4 +1,6 @@
-"""What a reviewer must know about a plan before it is approved: one plain sentence each, the most serious first."""
+"""What a reviewer must know about a plan before it is approved: one plain sentence each, the most
+serious first.
+"""
 
 from __future__ import annotations
 
@@ -19,8 +21,15 @@ __all__ = ["KINDS", "NOTES", "SERIOUS", "warnings"]
 
 
 def warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Warning]:
-    """The warnings of a document, by kind as in KINDS and in the order of the plan. It needs the tasks' sources and the estimate."""
-    document = {**document, "tasks": [{**task, "number": number} for number, task in enumerate(document["tasks"], start=1)]}
+    """The warnings of a document, by kind as in KINDS and in the order of the plan. It needs the
+    tasks' sources and the estimate.
+    """
+    document = {
+        **document,
+        "tasks": [
+            {**task, "number": number} for number, task in enumerate(document["tasks"], start=1)
+        ],
+    }
     path = track(document, vocabulary)
     found = [
         *answer_warnings(document),

@@ -17,19 +17,30 @@ MUCH = 0.5
 """The part of the endurance from which parts of unknown length matter."""
 
 
-def endurance_warnings(document: Mapping[str, Any], path: Track, vocabulary: Vocabulary) -> Iterator[Warning]:
+def endurance_warnings(
+    document: Mapping[str, Any], path: Track, vocabulary: Vocabulary
+) -> Iterator[Warning]:
     """Time against endurance, the way home included, and a return that is missing."""
     away = _ends_away(document["tasks"], vocabulary)
     yield from _over(document, path, vocabulary, away is not None)
     if away is None:
         return
     if said_apart(document["command"], language(vocabulary).words["home"], vocabulary):
-        yield warning("missing-return", f"The command speaks of coming home or back, and the plan ends with {named(away)} and no return.")
+        yield warning(
+            "missing-return",
+            f"The command speaks of coming home or back, and the plan ends with {named(away)} and"
+            " no return.",
+        )
     elif not language(vocabulary).words["stay"].search(document["command"]):
-        yield warning("ends-away", f"The plan ends with {named(away)}: it brings the vehicle neither home nor to a dock.")
+        yield warning(
+            "ends-away",
+            f"The plan ends with {named(away)}: it brings the vehicle neither home nor to a dock.",
+        )
 
 
-def _over(document: Mapping[str, Any], path: Track, vocabulary: Vocabulary, away: bool) -> Iterator[Warning]:
+def _over(
+    document: Mapping[str, Any], path: Track, vocabulary: Vocabulary, away: bool
+) -> Iterator[Warning]:
     vehicle, estimate = document.get("vehicle") or {}, document.get("estimate") or {}
     endurance = vehicle.get("endurance")
     if not endurance or not estimate:
@@ -37,14 +48,28 @@ def _over(document: Mapping[str, Any], path: Track, vocabulary: Vocabulary, away
     home = _way_home(path, vocabulary) / vehicle["cruise_speed"] if away else 0.0
     seconds = estimate["seconds"] + home
     told = f"{_minutes(estimate['seconds'])}{f' and {_minutes(home)} for the way home' if home >= 60 else ''}"
-    unknown = f" Not counted is what is not known of {_listed(estimate['open'])}." if estimate["open"] else ""
+    unknown = (
+        f" Not counted is what is not known of {_listed(estimate['open'])}."
+        if estimate["open"]
+        else ""
+    )
     if seconds > endurance:
-        yield warning("over-endurance", f"The plan takes at least {told}, and the vehicle lasts {_minutes(endurance)}.{unknown}")
+        yield warning(
+            "over-endurance",
+            f"The plan takes at least {told}, and the vehicle lasts"
+            f" {_minutes(endurance)}.{unknown}",
+        )
     elif unknown and seconds > MUCH * endurance:
-        yield warning("endurance-open", f"The known part of the plan takes {told} of the vehicle's {_minutes(endurance)}.{unknown}")
+        yield warning(
+            "endurance-open",
+            f"The known part of the plan takes {told} of the vehicle's"
+            f" {_minutes(endurance)}.{unknown}",
+        )
 
 
-def _ends_away(tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> Mapping[str, Any] | None:
+def _ends_away(
+    tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary
+) -> Mapping[str, Any] | None:
     """The last task that takes place somewhere, unless that is home or a dock."""
     for task in reversed(tasks):
         known = vocabulary.task[task["title"]]
@@ -67,4 +92,8 @@ def _minutes(seconds: float) -> str:
 
 
 def _listed(names: list[str]) -> str:
-    return ", ".join(names) if len(names) <= 6 else f"{', '.join(names[:6])} and {len(names) - 6} more tasks"
+    return (
+        ", ".join(names)
+        if len(names) <= 6
+        else f"{', '.join(names[:6])} and {len(names) - 6} more tasks"
+    )

@@ -26,23 +26,43 @@ def order_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Itera
     for place in document.get("open_places", ()):
         first = tasks[place["tasks"][0] - 1]
         parameter = vocabulary.task[first["title"]].position_parameter
-        needed = f"task{'s' if len(place['tasks']) > 1 else ''} {', '.join(map(str, place['tasks']))}"
-        text = f"Where {place['name']} is, is not known; {needed} cannot be carried out before it is located."
-        yield {**warning("unresolved-location", text, about=place["name"]), "task": first["id"], "parameter": parameter}
+        needed = (
+            f"task{'s' if len(place['tasks']) > 1 else ''} {', '.join(map(str, place['tasks']))}"
+        )
+        text = (
+            f"Where {place['name']} is, is not known; {needed} cannot be carried out before it is"
+            " located."
+        )
+        yield {
+            **warning("unresolved-location", text, about=place["name"]),
+            "task": first["id"],
+            "parameter": parameter,
+        }
     yield from _elsewhere(tasks, vocabulary)
     for stop, _missing in stops({"tasks": tasks}, vocabulary, Holds()):
         kind = KIND_OF.get(stop.condition)
         if kind is not None:
-            yield warning(kind, f"{named(tasks[stop.index])} cannot be carried out there: {stop.reason}.", tasks[stop.index])
+            yield warning(
+                kind,
+                f"{named(tasks[stop.index])} cannot be carried out there: {stop.reason}.",
+                tasks[stop.index],
+            )
 
 
 def _elsewhere(tasks: list[dict[str, Any]], vocabulary: Vocabulary) -> Iterator[Warning]:
-    """Tasks that the vehicle must be brought to, at a place that their prompt names and no task before goes to."""
+    """Tasks that the vehicle must be brought to, at a place that their prompt names and no task
+    before goes to.
+    """
     progress = START
     for task in tasks:
         known, text = vocabulary.task[task["title"]], task["task_prompt"]
         places = [(x, y) for x, y, start, end in positions(text) if is_place(text, start, end)]
         if known.arrival == "transit" and places and progress.here not in places:
-            reason = f"its prompt names [{places[0][0]:g}, {places[0][1]:g}], and no {vocabulary.transit} goes there before it"
-            yield warning("not-at-place", f"{named(task)} cannot be carried out there: {reason}.", task)
+            reason = (
+                f"its prompt names [{places[0][0]:g}, {places[0][1]:g}], and no"
+                f" {vocabulary.transit} goes there before it"
+            )
+            yield warning(
+                "not-at-place", f"{named(task)} cannot be carried out there: {reason}.", task
+            )
         progress = progress.after(known, task["parameters"], vocabulary)

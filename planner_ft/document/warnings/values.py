@@ -18,15 +18,26 @@ def value_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Itera
     """Values of tasks and skills that are the model's own, and stated ones that reached no task."""
     said = read_command(document["command"], vocabulary)
     if said.unread:
-        text = "The command has words or numbers that could not be read with certainty; values of the plan are not all checked against it."
+        text = (
+            "The command has words or numbers that could not be read with certainty; values of the"
+            " plan are not all checked against it."
+        )
         yield warning("unread-command", text)
     for task in document["tasks"]:
         yield from _unsaid(task, said, vocabulary)
         yield from _unsaid_skills(task, _proposed(document, task), said, vocabulary)
     if document["tasks"] and not said.unread:
-        texts = [*(task["task_prompt"] for task in document["tasks"]), *document.get("assumptions", ()), *document.get("constraints", ())]
+        texts = [
+            *(task["task_prompt"] for task in document["tasks"]),
+            *document.get("assumptions", ()),
+            *document.get("constraints", ()),
+        ]
         for words in lost_values(said, document["tasks"], texts, vocabulary):
-            yield warning("value-lost", f'The command says "{words}", and no task has it.', about=words.casefold())
+            yield warning(
+                "value-lost",
+                f'The command says "{words}", and no task has it.',
+                about=words.casefold(),
+            )
 
 
 def _unsaid(task: Mapping[str, Any], said: Said, vocabulary: Vocabulary) -> Iterator[Warning]:
@@ -34,7 +45,13 @@ def _unsaid(task: Mapping[str, Any], said: Said, vocabulary: Vocabulary) -> Iter
     for name, source in task.get("sources", {}).items():
         value = task["parameters"][name]
         if source["kind"] == "model" and name in known and said.states(value, known[name]) is False:
-            yield warning("value-not-said", f"{named(task)}: {name} is {_shown(value, known[name])}, which the command does not say.", task, name)
+            yield warning(
+                "value-not-said",
+                f"{named(task)}: {name} is {_shown(value, known[name])}, which the command does not"
+                " say.",
+                task,
+                name,
+            )
 
 
 # ---------------------------------------------------------------- skills
@@ -46,32 +63,64 @@ def _proposed(document: Mapping[str, Any], task: Mapping[str, Any]) -> list[dict
     return next((other["skill_sequence"] or [] for other in tasks if other["id"] == task["id"]), [])
 
 
-def _unsaid_skills(task: Mapping[str, Any], proposed: list[dict[str, Any]], said: Said, vocabulary: Vocabulary) -> Iterator[Warning]:
-    """One warning per skill and parameter of a task. What an operator has changed is not the model's own."""
+def _unsaid_skills(
+    task: Mapping[str, Any], proposed: list[dict[str, Any]], said: Said, vocabulary: Vocabulary
+) -> Iterator[Warning]:
+    """One warning per skill and parameter of a task. What an operator has changed is not the
+    model's own.
+    """
     steps = task.get("skill_sequence") or []
     if not steps or task.get("stale"):
         return
-    source = source_of("task", {"prompt": task["task_prompt"], "task": task["title"], "parameters": task["parameters"]}, vocabulary)
+    source = source_of(
+        "task",
+        {"prompt": task["task_prompt"], "task": task["title"], "parameters": task["parameters"]},
+        vocabulary,
+    )
     own = [value for value in task["parameters"].values() if isinstance(value, list)]
     told: set[str] = set()
     for number, step in enumerate(steps):
         edited = number < len(proposed) and step != proposed[number]
         for skill_name, parameter, value in _values(step, vocabulary):
             key = f"{skill_name}.{parameter.name}"
-            if key in told or (edited and not _stands(skill_name, parameter, value, proposed[number], vocabulary)) or value in own:
+            if (
+                key in told
+                or (
+                    edited
+                    and not _stands(skill_name, parameter, value, proposed[number], vocabulary)
+                )
+                or value in own
+            ):
                 continue
-            if source.gives(value, parameter) is False and said.states(value, _plain(parameter)) is not True:
+            if (
+                source.gives(value, parameter) is False
+                and said.states(value, _plain(parameter)) is not True
+            ):
                 told.add(key)
-                text = f"{named(task)}: {skill_name} has {parameter.name} {_shown(value, parameter)}, which neither command nor task says or leads to."
-                yield {**warning("skill-value-not-said", text, task, about=key), "parameter": parameter.name}
+                text = (
+                    f"{named(task)}: {skill_name} has {parameter.name} {_shown(value, parameter)},"
+                    " which neither command nor task says or leads to."
+                )
+                yield {
+                    **warning("skill-value-not-said", text, task, about=key),
+                    "parameter": parameter.name,
+                }
 
 
-def _values(step: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[tuple[str, Parameter, Any]]:
-    """Every value of a step's skills with its parameter; the two coordinates of a destination as one."""
+def _values(
+    step: Mapping[str, Any], vocabulary: Vocabulary
+) -> Iterator[tuple[str, Parameter, Any]]:
+    """Every value of a step's skills with its parameter; the two coordinates of a destination as
+    one.
+    """
     for _role, skill in step_skills(step):
         known = vocabulary.skill[skill["name"]].by_name
         motion = vocabulary.motion.of(skill["name"])
-        pair = [motion.parameters["x"], motion.parameters["y"]] if motion and motion.kind == "go" else []
+        pair = (
+            [motion.parameters["x"], motion.parameters["y"]]
+            if motion and motion.kind == "go"
+            else []
+        )
         if pair and all(is_number(skill["parameters"].get(name)) for name in pair):
             yield skill["name"], WAYPOINT, [skill["parameters"][name] for name in pair]
         for name, value in skill["parameters"].items():
@@ -79,8 +128,17 @@ def _values(step: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[tuple[s
                 yield skill["name"], known[name], value
 
 
-def _stands(skill_name: str, parameter: Parameter, value: Any, step: Mapping[str, Any], vocabulary: Vocabulary) -> bool:
-    return any((skill_name, parameter.name, value) == (name, other.name, proposed) for name, other, proposed in _values(step, vocabulary))
+def _stands(
+    skill_name: str,
+    parameter: Parameter,
+    value: Any,
+    step: Mapping[str, Any],
+    vocabulary: Vocabulary,
+) -> bool:
+    return any(
+        (skill_name, parameter.name, value) == (name, other.name, proposed)
+        for name, other, proposed in _values(step, vocabulary)
+    )
 
 
 def _plain(parameter: Parameter) -> Parameter:

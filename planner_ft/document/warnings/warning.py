@@ -6,23 +6,53 @@ from collections.abc import Mapping
 from typing import Any
 
 Warning = dict[str, Any]
-"""{"id", "kind", "task", "parameter", "text"}. The id is made of kind, task and what it is about: edits elsewhere leave it as it is."""
+"""{"id", "kind", "task", "parameter", "text"}. The id is made of kind, task and what it is about:
+edits elsewhere leave it as it is.
+"""
 
 SERIOUS = (
-    "invalid-answer", "unresolved-location", "used-before-found", "not-at-place", "position-missing", "outside-boundary", "outside-area", "out-of-reach",
-    "over-endurance", "missing-return", "not-planned", "value-not-said", "skill-value-not-said", "value-lost", "stale-skills", "no-skills",
-)  # fmt: skip
+    "invalid-answer",
+    "unresolved-location",
+    "used-before-found",
+    "not-at-place",
+    "position-missing",
+    "outside-boundary",
+    "outside-area",
+    "out-of-reach",
+    "over-endurance",
+    "missing-return",
+    "not-planned",
+    "value-not-said",
+    "skill-value-not-said",
+    "value-lost",
+    "stale-skills",
+    "no-skills",
+)
 """Kinds that a plan should not be approved with unread, the most serious first."""
 NOTES = ("empty-plan", "unread-command", "data-not-collected", "endurance-open", "ends-away")
 """Kinds that also right plans have: what is unusual, or not known."""
 KINDS = (*SERIOUS, *NOTES)
 
 
-def warning(kind: str, text: str, task: Mapping[str, Any] | None = None, parameter: str | None = None, about: str = "") -> Warning:
-    """A warning about a task, one of its parameters, or the plan; `about` tells several of one kind apart."""
+def warning(
+    kind: str,
+    text: str,
+    task: Mapping[str, Any] | None = None,
+    parameter: str | None = None,
+    about: str = "",
+) -> Warning:
+    """A warning about a task, one of its parameters, or the plan; `about` tells several of one kind
+    apart.
+    """
     name = task["id"] if task else None
     parts = [part for part in (kind, name, parameter, about) if part]
-    return {"id": ":".join(parts), "kind": kind, "task": name, "parameter": parameter, "text": text[:1].upper() + text[1:]}
+    return {
+        "id": ":".join(parts),
+        "kind": kind,
+        "task": name,
+        "parameter": parameter,
+        "text": text[:1].upper() + text[1:],
+    }
 
 
 def named(task: Mapping[str, Any]) -> str:

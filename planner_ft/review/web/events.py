@@ -18,7 +18,9 @@ MOST_WAITING = 1000
 
 
 class Events:
-    """Told from any thread, heard in the server's loop. Whoever comes while a command is planned hears first what was told of it."""
+    """Told from any thread, heard in the server's loop. Whoever comes while a command is planned
+    hears first what was told of it.
+    """
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -38,7 +40,9 @@ class Events:
                 listener.offer(text)
 
     def forget(self) -> None:
-        """What was told of the planning that is over is no news to anybody who comes from now on."""
+        """What was told of the planning that is over is no news to anybody who comes from now
+        on.
+        """
         with self._lock:
             self._story.clear()
 
@@ -74,7 +78,9 @@ class _Listener:
         self.queue: asyncio.Queue[str | None] = asyncio.Queue()
 
     def offer(self, text: str | None) -> None:
-        self.loop.call_soon_threadsafe(self.queue.put_nowait, text if self.queue.qsize() < MOST_WAITING else None)
+        self.loop.call_soon_threadsafe(
+            self.queue.put_nowait, text if self.queue.qsize() < MOST_WAITING else None
+        )
 
     async def next(self) -> str | None:
         try:

@@ -1,7 +1,8 @@
 """Who may talk to the server: this machine's own browser, with the key that the terminal showed.
 
-A page of another site can send requests to a server on loopback, and a name that it controls can be made to point there (DNS rebinding).
-Host, Origin and Sec-Fetch-Site tell such requests apart; the key keeps out the other users of the machine.
+A page of another site can send requests to a server on loopback, and a name that it controls can be
+made to point there (DNS rebinding). Host, Origin and Sec-Fetch-Site tell such requests apart; the
+key keeps out the other users of the machine.
 """
 
 from __future__ import annotations
@@ -19,8 +20,10 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 LARGEST_BODY = 256 * 1024
 """Bytes of a request's body at most."""
 HEADERS = {
-    "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data:; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    "Content-Security-Policy": (
+        "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src"
+        " 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    ),
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",
@@ -28,12 +31,16 @@ HEADERS = {
     "Cache-Control": "no-store",
 }
 """What every answer says to the browser."""
-ASK_THE_TERMINAL = "This page needs the address that the terminal shows, with its key: open that one."
+ASK_THE_TERMINAL = (
+    "This page needs the address that the terminal shows, with its key: open that one."
+)
 
 
 @dataclass
 class Keys:
-    """The key of a session, and one that opens it once: the command line of a browser, which others on the machine can read, holds the latter."""
+    """The key of a session, and one that opens it once: the command line of a browser, which others
+    on the machine can read, holds the latter.
+    """
 
     session: str = field(default_factory=lambda: secrets.token_urlsafe(32))
     once: str | None = field(default_factory=lambda: secrets.token_urlsafe(32))
@@ -43,8 +50,12 @@ class Keys:
         return secrets.compare_digest(key.encode(errors="replace"), self.session.encode())
 
     def opens(self, key: str) -> bool:
-        """Whether this key opens the session: its own, or the one that does so once and is then used up."""
-        if self.once is not None and secrets.compare_digest(key.encode(errors="replace"), self.once.encode()):
+        """Whether this key opens the session: its own, or the one that does so once and is then
+        used up.
+        """
+        if self.once is not None and secrets.compare_digest(
+            key.encode(errors="replace"), self.once.encode()
+        ):
             self.once = None
             return True
         return self.is_session(key)
@@ -66,7 +77,8 @@ class Door:
     def knows(self, host: str) -> bool:
         """Whether a Host header names this server.
 
-        On a wildcard address any IP address does: a name could be anybody's, an address cannot be made to point elsewhere.
+        On a wildcard address any IP address does: a name could be anybody's, an address cannot be
+        made to point elsewhere.
         """
         named = {"127.0.0.1", "localhost", "[::1]", bracketed(self.host)}
         name, _colon, port = host.rpartition(":")
@@ -76,11 +88,15 @@ class Door:
 
     def admits(self, request: Request) -> bool:
         """Whether a request has the session's key, in its cookie or as a bearer."""
-        return self.keys.is_session(request.cookies.get(self.cookie, "")) or is_bearer(request, self)
+        return self.keys.is_session(request.cookies.get(self.cookie, "")) or is_bearer(
+            request, self
+        )
 
 
 def is_bearer(request: Request, door: Door) -> bool:
-    """Whether a request has the session's key in its Authorization header: a program that was given it, no page of another site."""
+    """Whether a request has the session's key in its Authorization header: a program that was given
+    it, no page of another site.
+    """
     scheme, _space, key = request.headers.get("authorization", "").partition(" ")
     return scheme.lower() == "bearer" and door.keys.is_session(key)
 
@@ -128,7 +144,11 @@ def refusal(request: Request, door: Door) -> Response | None:
         found = check(request, door)
         if found is not None:
             status, sentence = found
-            return JSONResponse({"error": sentence}, status) if request.url.path.startswith("/api/") else PlainTextResponse(sentence + "\n", status)
+            return (
+                JSONResponse({"error": sentence}, status)
+                if request.url.path.startswith("/api/")
+                else PlainTextResponse(sentence + "\n", status)
+            )
     return None
 
 
@@ -136,16 +156,32 @@ Check = Callable[[Request, Door], tuple[int, str] | None]
 
 
 def _method(request: Request, _door: Door) -> tuple[int, str] | None:
-    return None if request.method in ("GET", "POST") else (405, f"{request.method} is not used here; only GET and POST are.")
+    return (
+        None
+        if request.method in ("GET", "POST")
+        else (405, f"{request.method} is not used here; only GET and POST are.")
+    )
 
 
 def _host(request: Request, door: Door) -> tuple[int, str] | None:
     hosts = request.headers.getlist("host")
-    return None if len(hosts) == 1 and door.knows(hosts[0]) else (403, "This server does not answer under that name; open the address that the terminal shows.")
+    return (
+        None
+        if len(hosts) == 1 and door.knows(hosts[0])
+        else (
+            403,
+            (
+                "This server does not answer under that name; open the address that the terminal"
+                " shows."
+            ),
+        )
+    )
 
 
 def _site(request: Request, _door: Door) -> tuple[int, str] | None:
-    """What browsers say of the page that a request comes from; a person who follows a link to the page itself is fine."""
+    """What browsers say of the page that a request comes from; a person who follows a link to the
+    page itself is fine.
+    """
     said = request.headers.get("sec-fetch-site")
     allowed = ("same-origin",) if request.method == "POST" else ("same-origin", "none")
     fine = said is None or said in allowed or not request.url.path.startswith("/api/")
@@ -153,21 +189,36 @@ def _site(request: Request, _door: Door) -> tuple[int, str] | None:
 
 
 def _session(request: Request, door: Door) -> tuple[int, str] | None:
-    return None if not request.url.path.startswith("/api/") or door.admits(request) else (403, ASK_THE_TERMINAL)
+    return (
+        None
+        if not request.url.path.startswith("/api/") or door.admits(request)
+        else (403, ASK_THE_TERMINAL)
+    )
 
 
 def _origin(request: Request, door: Door) -> tuple[int, str] | None:
     if request.method != "POST":
         return None
     origin = request.headers.get("origin")
-    same = is_bearer(request, door) if origin is None else origin == f"http://{request.headers['host']}"
-    return None if same else (403, "This request comes from a page of another site, or does not say from which.")
+    same = (
+        is_bearer(request, door)
+        if origin is None
+        else origin == f"http://{request.headers['host']}"
+    )
+    return (
+        None
+        if same
+        else (403, "This request comes from a page of another site, or does not say from which.")
+    )
 
 
 def _body(request: Request, _door: Door) -> tuple[int, str] | None:
     if request.method != "POST":
         return None
-    if request.headers.get("content-type", "").partition(";")[0].strip().lower() != "application/json":
+    if (
+        request.headers.get("content-type", "").partition(";")[0].strip().lower()
+        != "application/json"
+    ):
         return 415, "Only JSON is read here; send Content-Type: application/json."
     length = request.headers.get("content-length", "0")
     if not length.isascii() or not length.isdecimal() or int(length) > LARGEST_BODY:

@@ -1,7 +1,8 @@
-"""The plan under review, on the disk: read anew whenever the file changed, written whole before a change is answered.
+"""The plan under review, on the disk: read anew whenever the file changed, written whole before a
+change is answered.
 
-A change names the revision (the digest) that it was made for, which is compared with the file as the review in the terminal does: of two people
-who change one plan at a time the second is told.
+A change names the revision (the digest) that it was made for, which is compared with the file as
+the review in the terminal does: of two people who change one plan at a time the second is told.
 """
 
 from __future__ import annotations
@@ -13,7 +14,13 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import NamedTuple
 
-from planner_ft.document import PlanDocument, altered, document_digest, read_document, write_document
+from planner_ft.document import (
+    PlanDocument,
+    altered,
+    document_digest,
+    read_document,
+    write_document,
+)
 from planner_ft.review.lock import exclusive
 from planner_ft.review.store import ChangedError, unchanged
 from planner_ft.support.errors import PlannerError
@@ -27,7 +34,9 @@ Signature = tuple[int, int, int]
 
 
 class Current(NamedTuple):
-    """A plan as it is on the disk; `revision` is the digest of what it holds, whatever it says itself."""
+    """A plan as it is on the disk; `revision` is the digest of what it holds, whatever it says
+    itself.
+    """
 
     path: Path
     document: PlanDocument
@@ -54,7 +63,9 @@ class PlanFile:
         return path, signature(path)
 
     def current(self) -> Current | None:
-        """The plan as it is on the disk now; None before the first. Raises PlannerError when the file cannot be read."""
+        """The plan as it is on the disk now; None before the first. Raises PlannerError when the
+        file cannot be read.
+        """
         with self._lock:
             path = self._path
             if path is None:
@@ -68,11 +79,17 @@ class PlanFile:
 
     def plans(self) -> list[str]:
         """The names of the plans in the folder, newest first."""
-        found = [(file.stat().st_mtime, file.name) for file in self.folder.glob("*.json") if file.is_file() and _looks_like_a_plan(file)]
+        found = [
+            (file.stat().st_mtime, file.name)
+            for file in self.folder.glob("*.json")
+            if file.is_file() and _looks_like_a_plan(file)
+        ]
         return [name for _time, name in sorted(found, reverse=True)[:MOST_PLANS]]
 
     def open(self, name: str) -> None:
-        """Show another plan of the folder. Raises PlannerError when there is none of that name, or it cannot be read."""
+        """Show another plan of the folder. Raises PlannerError when there is none of that name, or
+        it cannot be read.
+        """
         if name not in self.plans():
             raise PlannerError(f"{name}: is no plan in {self.folder}; choose one that is listed")
         read_document(self.folder / name, self.vocabulary)
@@ -80,7 +97,9 @@ class PlanFile:
             self._path = self.folder / name
 
     def add(self, document: PlanDocument) -> Path:
-        """Write a new plan into a file of its own, named by the time (UTC), and show it. Raises PlannerError when it cannot be written."""
+        """Write a new plan into a file of its own, named by the time (UTC), and show it. Raises
+        PlannerError when it cannot be written.
+        """
         stem = f"plan-{datetime.now(UTC):%Y%m%d-%H%M%S}"
         number = 1
         while True:
@@ -95,19 +114,23 @@ class PlanFile:
     def change(self, revision: str, made: Callable[[PlanDocument], PlanDocument]) -> None:
         """Replace the plan by what `made` makes of it; on the disk when this returns.
 
-        Raises ChangedError when the plan is not of that revision, PlannerError when the change cannot be made or written.
+        Raises ChangedError when the plan is not of that revision, PlannerError when the change
+        cannot be made or written.
         """
         with self.held(revision) as now:
             if altered(now.document):
                 raise PlannerError(
-                    f"{now.path.name} was changed by hand; take the changes over with `plannerft review {now.path.name} --adopt` before you edit it"
+                    f"{now.path.name} was changed by hand; take the changes over with `plannerft"
+                    f" review {now.path.name} --adopt` before you edit it"
                 )
             written = write_document(now.path, made(now.document))
             self._read = signature(now.path), Current(now.path, written, written["digest"])
 
     @contextmanager
     def held(self, revision: str) -> Iterator[Current]:
-        """The plan of that revision, which nobody else changes meanwhile. Raises ChangedError when it is another."""
+        """The plan of that revision, which nobody else changes meanwhile. Raises ChangedError when
+        it is another.
+        """
         with self._lock:
             if self._path is None:
                 raise ChangedError("there is no plan yet; plan a command first")

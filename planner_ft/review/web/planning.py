@@ -1,4 +1,6 @@
-"""The agents behind the page: one thread that loads them at the start and then plans one command, or one task's skills, at a time."""
+"""The agents behind the page: one thread that loads them at the start and then plans one command,
+or one task's skills, at a time.
+"""
 
 from __future__ import annotations
 
@@ -27,10 +29,14 @@ class StoppedError(Exception):
 
 
 class Planning:
-    """`busy` is what the agents do now (None: nothing), `why` the sentence that says why they cannot be asked."""
+    """`busy` is what the agents do now (None: nothing), `why` the sentence that says why they
+    cannot be asked.
+    """
 
     def __init__(self, settings: PlanSettings, events: Events, changed: Callable[[], None]) -> None:
-        """`changed` is called when the agents are loaded, or not, and when they have done what they were asked."""
+        """`changed` is called when the agents are loaded, or not, and when they have done what they
+        were asked.
+        """
         self.settings, self.events, self.changed = settings, events, changed
         self.busy: dict[str, Any] | None = None
         self.why: str | None = None
@@ -65,19 +71,28 @@ class Planning:
         """What the page shows of the agents."""
         agents = list(self._agents.values())
         candidates = [agent.candidate.name for agent in agents] or [self.settings.candidate]
-        configurations = [agent.configuration.name for agent in agents] or [self.settings.configuration or ""]
+        configurations = [agent.configuration.name for agent in agents] or [
+            self.settings.configuration or ""
+        ]
         return {
-            "available": self.why is None, "why": self.why,
-            "candidate": " + ".join(dict.fromkeys(candidates)), "configuration": " + ".join(dict.fromkeys(configurations)),
-        }  # fmt: skip
+            "available": self.why is None,
+            "why": self.why,
+            "candidate": " + ".join(dict.fromkeys(candidates)),
+            "configuration": " + ".join(dict.fromkeys(configurations)),
+        }
 
     def ask(self, busy: dict[str, Any], work: Work) -> None:
-        """Have the agents do `work`, which tells of what comes out itself. Raises BusyError while they are at work, PlannerError when there are none."""
+        """Have the agents do `work`, which tells of what comes out itself. Raises BusyError while
+        they are at work, PlannerError when there are none.
+        """
         with self._lock:
             if self.why is not None:
                 raise PlannerError(self.why)
             if self.busy is not None:
-                raise BusyError(f"the agents are at work already ({self.busy['label']}); wait until they are done")
+                raise BusyError(
+                    f"the agents are at work already ({self.busy['label']}); wait until they are"
+                    " done"
+                )
             self.busy = {"done": 0, "total": 0, **busy}
         self.events.tell("progress", self.busy)
         self._work.put(work)

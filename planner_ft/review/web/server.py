@@ -32,10 +32,11 @@ GRACE = 1
 
 
 def serve(plan: Path | None, settings: WebSettings) -> None:
-    """Serve the review of a plan, or of the plans to come, until Ctrl-C. Plans to come are for the vehicle of the plan that is given.
+    """Serve the review of a plan, or of the plans to come, until Ctrl-C. Plans to come are for the
+    vehicle of the plan that is given.
 
-    Prints the address with its key, and opens it in the browser where there is a screen. Ends the process itself when the agents are still at
-    work. Raises PlannerError for a plan that cannot be
+    Prints the address with its key, and opens it in the browser where there is a screen. Ends the
+    process itself when the agents are still at work. Raises PlannerError for a plan that cannot be
     read and an address that cannot be listened on.
     """
     vocabulary = load_vocabulary(settings.planning.vocabulary)
@@ -49,7 +50,8 @@ def serve(plan: Path | None, settings: WebSettings) -> None:
         except KeyboardInterrupt:
             print(_farewell(session), flush=True)
         if not session.planning.ended(GRACE / 2):
-            # What the agents compute cannot be stopped at once, and tearing their thread down would crash. All that counts is on the disk.
+            # What the agents compute cannot be stopped at once, and tearing their thread down would
+            # crash. All that counts is on the disk.
             sys.stderr.flush()
             os._exit(0)
 
@@ -60,9 +62,17 @@ class _Server(uvicorn.Server):
     def __init__(self, session: Session, door: Door) -> None:
         self.session = session
         config = uvicorn.Config(
-            web_app(session, door), http=_PromptProtocol, ws="none", lifespan="on", log_level="error", access_log=False,
-            server_header=False, proxy_headers=False, limit_concurrency=MOST_CONNECTIONS, timeout_graceful_shutdown=GRACE,
-        )  # fmt: skip
+            web_app(session, door),
+            http=_PromptProtocol,
+            ws="none",
+            lifespan="on",
+            log_level="error",
+            access_log=False,
+            server_header=False,
+            proxy_headers=False,
+            limit_concurrency=MOST_CONNECTIONS,
+            timeout_graceful_shutdown=GRACE,
+        )
         super().__init__(config)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
@@ -72,7 +82,9 @@ class _Server(uvicorn.Server):
 
 
 class _PromptProtocol(H11Protocol):
-    """Closes connections whose request does not come in within SLOWEST_REQUEST; uvicorn itself waits for ever."""
+    """Closes connections whose request does not come in within SLOWEST_REQUEST; uvicorn itself
+    waits for ever.
+    """
 
     _limit: asyncio.TimerHandle | None = None
 
@@ -105,13 +117,19 @@ def _listening(settings: WebSettings) -> socket.socket:
     """A socket on the address of the settings. Raises PlannerError."""
     host = settings.host
     try:
-        family, kind, protocol, _name, address = socket.getaddrinfo(host or None, settings.port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
+        family, kind, protocol, _name, address = socket.getaddrinfo(
+            host or None, settings.port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+        )[0]
         listener = socket.socket(family, kind, protocol)
     except OSError as error:
-        raise PlannerError(f"--host {host}: is no address of this machine ({error.strerror}); leave the flag out for {LOOPBACK}") from None
+        raise PlannerError(
+            f"--host {host}: is no address of this machine ({error.strerror}); leave the flag out"
+            f" for {LOOPBACK}"
+        ) from None
     try:
         if os.name == "posix":
-            # The port is free again as soon as the last server ended. On Windows this would share it with another program.
+            # The port is free again as soon as the last server ended. On Windows this would share
+            # it with another program.
             listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listener.bind(address)
         listener.listen()
@@ -123,31 +141,55 @@ def _listening(settings: WebSettings) -> socket.socket:
 
 def _not_listening(settings: WebSettings, error: OSError) -> PlannerError:
     if isinstance(error, PermissionError):
-        return PlannerError(f"--port {settings.port}: this user may not listen there; give a port above 1023, or leave the flag out for a free one")
+        return PlannerError(
+            f"--port {settings.port}: this user may not listen there; give a port above 1023, or"
+            " leave the flag out for a free one"
+        )
     if settings.port and "in use" in str(error.strerror).lower():
-        return PlannerError(f"--port {settings.port}: another program listens there; give another port, or leave the flag out for a free one")
-    return PlannerError(f"--host {settings.host}: cannot be listened on ({error.strerror}); leave the flag out for {LOOPBACK}")
+        return PlannerError(
+            f"--port {settings.port}: another program listens there; give another port, or leave"
+            " the flag out for a free one"
+        )
+    return PlannerError(
+        f"--host {settings.host}: cannot be listened on ({error.strerror}); leave the flag out for"
+        f" {LOOPBACK}"
+    )
 
 
 def _say_where(settings: WebSettings, door: Door) -> None:
-    """Print the address, warn where others can reach it, and open it. The browser gets a key that opens the page once."""
+    """Print the address, warn where others can reach it, and open it. The browser gets a key that
+    opens the page once.
+    """
     if not settings.is_loopback:
-        warning = "others on the network can reach this page, and what it sends is not encrypted; who has the address below can approve plans"
+        warning = (
+            "others on the network can reach this page, and what it sends is not encrypted; who has"
+            " the address below can approve plans"
+        )
         print(f"--host {settings.host}: {warning}", file=sys.stderr)
     base = f"http://{bracketed(LOOPBACK if is_wildcard(settings.host) else settings.host)}:{door.port}/?token="
     print(f"Review at {base}{door.keys.session}\nCtrl-C ends it.", flush=True)
     if settings.open_browser and _has_screen():
-        threading.Thread(target=webbrowser.open, args=(f"{base}{door.keys.once}",), daemon=True).start()
+        threading.Thread(
+            target=webbrowser.open, args=(f"{base}{door.keys.once}",), daemon=True
+        ).start()
 
 
 def _has_screen() -> bool:
-    """Whether a browser has somewhere to show a page: without one a text browser would take the terminal."""
-    return sys.platform in ("darwin", "win32") or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+    """Whether a browser has somewhere to show a page: without one a text browser would take the
+    terminal.
+    """
+    return sys.platform in ("darwin", "win32") or bool(
+        os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
+    )
 
 
 def _farewell(session: Session) -> str:
     """Where everything is, when it is over."""
     path = session.file.path
-    saved = f"the plan is saved in {path}, decisions in {session.log}" if path else "there was no plan to save"
+    saved = (
+        f"the plan is saved in {path}, decisions in {session.log}"
+        if path
+        else "there was no plan to save"
+    )
     lost = f"; {session.planning.busy['what']} was not finished" if session.planning.busy else ""
     return f"\nended: {saved}{lost}"

@@ -17,8 +17,9 @@ LAST_PORT = 65535
 class WebSettings:
     """Where the page is served, and what stands behind it.
 
-    `port` 0 takes a free one. `log` is the approval log: beside the plan by default. `folder` is where new plans are written: that of the
-    plan by default, else the current one. `planning` says which agents plan and which vehicle this is about.
+    `port` 0 takes a free one. `log` is the approval log: beside the plan by default. `folder` is
+    where new plans are written: that of the plan by default, else the current one. `planning` says
+    which agents plan and which vehicle this is about.
     """
 
     host: str = LOOPBACK
@@ -31,7 +32,9 @@ class WebSettings:
     def __post_init__(self) -> None:
         """Raise PlannerError for a value that no setting has."""
         if not 0 <= self.port <= LAST_PORT:
-            raise PlannerError(f"--port {self.port}: must lie between 0 (any free port) and {LAST_PORT}")
+            raise PlannerError(
+                f"--port {self.port}: must lie between 0 (any free port) and {LAST_PORT}"
+            )
 
     @property
     def is_loopback(self) -> bool:

@@ -9,18 +9,32 @@ from planner_ft.vocabulary import Parameter, Vocabulary
 
 
 def vocabulary_json(vocabulary: Vocabulary) -> dict[str, Any]:
-    """Names, categories, descriptions, parameters with types, units and limits; home and the place that stands for an unknown one."""
+    """Names, categories, descriptions, parameters with types, units and limits; home and the place
+    that stands for an unknown one.
+    """
     return {
-        "name": vocabulary.name, "home": list(vocabulary.home), "unresolved": list(vocabulary.unresolved),
+        "name": vocabulary.name,
+        "home": list(vocabulary.home),
+        "unresolved": list(vocabulary.unresolved),
         "tasks": [
-            {"title": task.title, "category": task.category, "description": task.description, "parameters": _parameters(task.parameters)}
+            {
+                "title": task.title,
+                "category": task.category,
+                "description": task.description,
+                "parameters": _parameters(task.parameters),
+            }
             for task in vocabulary.tasks
         ],
         "skills": {
-            skill.name: {"category": skill.category, "role": skill.role, "description": skill.description, "parameters": _parameters(skill.parameters)}
+            skill.name: {
+                "category": skill.category,
+                "role": skill.role,
+                "description": skill.description,
+                "parameters": _parameters(skill.parameters),
+            }
             for skill in vocabulary.skills
         },
-    }  # fmt: skip
+    }
 
 
 def _parameters(parameters: tuple[Parameter, ...]) -> list[dict[str, Any]]:

@@ -48,7 +48,11 @@ def test_task_has_enough_phrases(title: str) -> None:
     assert len(phrases.imperatives) >= 25
     assert len(phrases.noun_phrases) >= 10
     assert len(phrases.gerunds) >= 8
-    assert all(len(texts) >= (8 if SLOT.search("".join(texts)) else 6) for name, texts in phrases.adjuncts.items() if not name.startswith("arc_noun"))
+    assert all(
+        len(texts) >= (8 if SLOT.search("".join(texts)) else 6)
+        for name, texts in phrases.adjuncts.items()
+        if not name.startswith("arc_noun")
+    )
 
 
 @pytest.mark.parametrize("title", sorted(BANK))
@@ -65,18 +69,36 @@ def test_every_value_can_be_said(title: str) -> None:
 def test_slots_are_the_task_s(title: str) -> None:
     phrases = BANK[title]
     parameters = set(VOCABULARY.task[title].by_name)
-    legal = parameters | {f"{name}_compound" for name in parameters} | {"target"} | ({"arc_noun"} if "arc" in parameters else set())
+    legal = (
+        parameters
+        | {f"{name}_compound" for name in parameters}
+        | {"target"}
+        | ({"arc_noun"} if "arc" in parameters else set())
+    )
     legal |= {"cable"} if title == "SubseaCableTrack" else set()
-    texts = [*cores(phrases), *(text for adjuncts in phrases.adjuncts.values() for text in adjuncts)]
+    texts = [
+        *cores(phrases),
+        *(text for adjuncts in phrases.adjuncts.values() for text in adjuncts),
+    ]
     for text in texts:
         assert set(SLOT.findall(text)) <= legal, text
         assert text.count("{") == len(SLOT.findall(text)), text
-    for text in (*phrases.bare_imperatives, *phrases.bare_noun_phrases, *phrases.bare_gerunds, *phrases.here_imperatives):
+    for text in (
+        *phrases.bare_imperatives,
+        *phrases.bare_noun_phrases,
+        *phrases.bare_gerunds,
+        *phrases.here_imperatives,
+    ):
         assert "{target}" not in text, text
     for name, adjuncts in phrases.adjuncts.items():
         base = name.split(":")[0].replace("arc_noun", "arc")
         for text in adjuncts:
-            wanted = set() if name in ("arc:360", "arc:180", "arc:90", "arc_noun:360", "arc_noun:180", "arc_noun:90") else set(base.split("+"))
+            wanted = (
+                set()
+                if name
+                in ("arc:360", "arc:180", "arc:90", "arc_noun:360", "arc_noun:180", "arc_noun:90")
+                else set(base.split("+"))
+            )
             assert {slot.removesuffix("_compound") for slot in SLOT.findall(text)} == wanted, text
 
 
@@ -109,7 +131,10 @@ def test_an_orbit_speaks_of_its_arc_only_where_the_arc_is_said() -> None:
 
 
 def test_station_keeping_names_no_sensor() -> None:
-    sensor = re.compile(r"film|video|camera|thermal|photo|lidar|panorama|record|measure|watch|observe|scan", re.IGNORECASE)
+    sensor = re.compile(
+        r"film|video|camera|thermal|photo|lidar|panorama|record|measure|watch|observe|scan",
+        re.IGNORECASE,
+    )
     assert [text for text in cores(BANK["KeepStation"]) if sensor.search(text)] == []
 
 
@@ -121,10 +146,26 @@ def test_thermal_series_and_glare_are_named_in_every_phrase() -> None:
 
 
 COUNTS = {
-    "TARGET_NOUNS": 200, "TARGET_ADJECTIVES": 100, "WITH_PHRASES": 80, "FEATURES": 120, "FEATURE_PHRASES": 50, "SIDES": 16, "DOCK_SPOTS": 80, "DOCK_MARKS": 60,
-    "MOVING_TARGETS": 60, "CALLSIGN_PATTERNS": 30, "PROPER_NAMES": 150, "DATA_ITEMS": 120, "OPERATOR_LIMITS": 60, "SMALL_TALK": 80, "FILLERS": 20,
-    "WHEREABOUTS": 80, "IMPOSSIBLE_REQUESTS": 150, "OPENERS": 40, "CLOSERS": 40,
-}  # fmt: skip
+    "TARGET_NOUNS": 200,
+    "TARGET_ADJECTIVES": 100,
+    "WITH_PHRASES": 80,
+    "FEATURES": 120,
+    "FEATURE_PHRASES": 50,
+    "SIDES": 16,
+    "DOCK_SPOTS": 80,
+    "DOCK_MARKS": 60,
+    "MOVING_TARGETS": 60,
+    "CALLSIGN_PATTERNS": 30,
+    "PROPER_NAMES": 150,
+    "DATA_ITEMS": 120,
+    "OPERATOR_LIMITS": 60,
+    "SMALL_TALK": 80,
+    "FILLERS": 20,
+    "WHEREABOUTS": 80,
+    "IMPOSSIBLE_REQUESTS": 150,
+    "OPENERS": 40,
+    "CLOSERS": 40,
+}
 
 
 @pytest.mark.parametrize("name", sorted(COUNTS))
@@ -135,7 +176,15 @@ def test_lexicon_is_broad_and_without_doubles(name: str) -> None:
 
 
 def test_words_stand_without_articles() -> None:
-    for name in ("TARGET_NOUNS", "MOVING_TARGETS", "FEATURES", "DOCK_SPOTS", "DOCK_MARKS", "DATA_ITEMS", "SIDES"):
+    for name in (
+        "TARGET_NOUNS",
+        "MOVING_TARGETS",
+        "FEATURES",
+        "DOCK_SPOTS",
+        "DOCK_MARKS",
+        "DATA_ITEMS",
+        "SIDES",
+    ):
         assert [text for text in getattr(lexicon, name) if re.match(r"(?:the|an|a) ", text)] == []
     assert all(text.startswith("with ") for text in lexicon.WITH_PHRASES)
     assert all(text.startswith(("with ", "on ")) for text in lexicon.FEATURE_PHRASES)
@@ -150,13 +199,21 @@ def test_whereabouts_are_no_part_of_a_description() -> None:
 
 
 def test_constraints_are_sentences() -> None:
-    for said, constraint in (*lexicon.OPERATOR_LIMITS, *lexicon.OPERATOR_LIMITS_VALUED, *lexicon.IMPOSSIBLE_REQUESTS):
+    for said, constraint in (
+        *lexicon.OPERATOR_LIMITS,
+        *lexicon.OPERATOR_LIMITS_VALUED,
+        *lexicon.IMPOSSIBLE_REQUESTS,
+    ):
         assert said and not said.endswith("."), said
         assert constraint[0].isupper() and constraint.endswith("."), constraint
 
 
 def test_small_talk_has_no_numbers() -> None:
-    assert [text for text in lexicon.SMALL_TALK if re.search(r"\d|\b(?:one|two|three|four|five|six|seven|eight|nine|ten|twenty)\b", text)] == []
+    assert [
+        text
+        for text in lexicon.SMALL_TALK
+        if re.search(r"\d|\b(?:one|two|three|four|five|six|seven|eight|nine|ten|twenty)\b", text)
+    ] == []
     assert all(text[0].isupper() and text.endswith(".") for text in lexicon.SMALL_TALK)
 
 

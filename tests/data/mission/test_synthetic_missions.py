@@ -1,4 +1,6 @@
-"""Synthetic commands: the same for the same seed, valid plans, and every stated value is found in the command."""
+"""Synthetic commands: the same for the same seed, valid plans, and every stated value is found in
+the command.
+"""
 
 import itertools
 import json
@@ -41,7 +43,11 @@ def test_same_seed_same_samples():
 
 
 def test_plans_are_strictly_valid(samples):
-    problems = [(record["prompt"], found) for record in samples if (found := plan_problems("mission", record["expected"], VOCABULARY, strict=True))]
+    problems = [
+        (record["prompt"], found)
+        for record in samples
+        if (found := plan_problems("mission", record["expected"], VOCABULARY, strict=True))
+    ]
     assert problems == []
 
 
@@ -58,7 +64,12 @@ def test_prompts_are_distinct_and_have_no_gaps_left(samples):
     prompts = [record["prompt"] for record in samples]
     assert len(set(prompts)) > 0.985 * len(prompts)
     assert not [prompt for prompt in prompts if re.search(r"[{}\x00]|  ", prompt)]
-    texts = [text for record in samples for task in record["expected"]["tasks"] for text in (task["task_prompt"],)]
+    texts = [
+        text
+        for record in samples
+        for task in record["expected"]["tasks"]
+        for text in (task["task_prompt"],)
+    ]
     assert not [text for text in texts if re.search(r"[{}]|  |None", text)]
 
 
@@ -88,7 +99,11 @@ def test_task_prompts_state_every_value(samples):
             for name, value in task["parameters"].items():
                 if isinstance(value, int | float) and name != "arc":
                     assert str(value) in task["task_prompt"], task
-                if isinstance(value, list) and value not in ([-99, -99], [0, 0]) and not isinstance(value[0], str):
+                if (
+                    isinstance(value, list)
+                    and value not in ([-99, -99], [0, 0])
+                    and not isinstance(value[0], str)
+                ):
                     assert json.dumps(value) in task["task_prompt"], task
 
 
@@ -124,21 +139,39 @@ def test_durations_and_lengths_are_converted():
     durations = {said.text: said.value for said in spoken(say_duration)}
     assert durations["half an hour"] == 1800
     assert durations["a minute and a half"] == 90
-    assert {text: value for text, value in durations.items() if text in ("4 min", "4 minutes", "four minutes", "2 hours", "2 h")} .items() <= {
-        "4 min": 240, "4 minutes": 240, "four minutes": 240, "2 hours": 7200, "2 h": 7200,
-    }.items()  # fmt: skip
-    lengths = {said.text: said.value for said in spoken(lambda rng, style: say_length(rng, style, 100, 900, far=True))}
+    assert {
+        text: value
+        for text, value in durations.items()
+        if text in ("4 min", "4 minutes", "four minutes", "2 hours", "2 h")
+    }.items() <= {
+        "4 min": 240,
+        "4 minutes": 240,
+        "four minutes": 240,
+        "2 hours": 7200,
+        "2 h": 7200,
+    }.items()
+    lengths = {
+        said.text: said.value
+        for said in spoken(lambda rng, style: say_length(rng, style, 100, 900, far=True))
+    }
     assert lengths["half a kilometre"] == 500
     for text, value in lengths.items():
         if match := re.fullmatch(r"([\d.]+) ?(km|m|kilometres?|metres?)", text):
-            assert value == pytest.approx(float(match[1]) * (1000 if match[2].startswith("k") else 1))
+            assert value == pytest.approx(
+                float(match[1]) * (1000 if match[2].startswith("k") else 1)
+            )
     speeds = {said.text: said.value for said in spoken(say_speed)}
     assert speeds["2 knots"] == 1.03
 
 
 def test_compass_words_become_degrees():
     headings = {said.text: said.value for said in spoken(say_heading)}
-    assert (headings["north"], headings["north-west"], headings["southeast"], headings["due west"]) == (0, 315, 135, 270)
+    assert (
+        headings["north"],
+        headings["north-west"],
+        headings["southeast"],
+        headings["due west"],
+    ) == (0, 315, 135, 270)
 
 
 def test_positions_keep_both_numbers():
@@ -154,7 +187,9 @@ def test_positions_keep_both_numbers():
 def test_lists_name_the_most_urgent_first():
     for seed in range(200):
         text = say_list(["drift log", "stills"], Random(seed))
-        assert text.index("drift log") < text.index("stills") or re.search(r"but (before that )?(the )?drift log|stills after|no, (the )?drift log", text), text
+        assert text.index("drift log") < text.index("stills") or re.search(
+            r"but (before that )?(the )?drift log|stills after|no, (the )?drift log", text
+        ), text
 
 
 def test_noise_spares_what_only_copying_can_tell():

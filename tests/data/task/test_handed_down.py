@@ -15,15 +15,31 @@ from planner_ft.vocabulary.plans import plan_problems
 VOCABULARY = load_vocabulary()
 
 
-def steps(title: str, parameters: dict, prompt: str = "Do it.", subject: str | None = None, place: tuple[int, int] = (10, 20)) -> list[tuple[str, dict]] | None:
-    record = handed_down({"title": title, "parameters": parameters, "task_prompt": prompt}, subject, list(place), VOCABULARY)
-    return record and [(step["navigation_skill"]["name"], step["navigation_skill"]["parameters"]) for step in record["expected"]["skill_sequence"]]
+def steps(
+    title: str,
+    parameters: dict,
+    prompt: str = "Do it.",
+    subject: str | None = None,
+    place: tuple[int, int] = (10, 20),
+) -> list[tuple[str, dict]] | None:
+    record = handed_down(
+        {"title": title, "parameters": parameters, "task_prompt": prompt},
+        subject,
+        list(place),
+        VOCABULARY,
+    )
+    return record and [
+        (step["navigation_skill"]["name"], step["navigation_skill"]["parameters"])
+        for step in record["expected"]["skill_sequence"]
+    ]
 
 
 def test_records_are_valid_and_the_same_for_the_same_seed() -> None:
     first, again = (list(itertools.islice(handed_down_tasks(VOCABULARY, 4), 200)) for _ in range(2))
     assert first == again and len({record["task"] for record in first}) > 12
-    assert all(plan_problems("task", record["expected"], VOCABULARY, strict=True) == [] for record in first)
+    assert all(
+        plan_problems("task", record["expected"], VOCABULARY, strict=True) == [] for record in first
+    )
     assert all([-99, -99] not in record["parameters"].values() for record in first)
 
 

@@ -14,19 +14,34 @@ from planner_ft.vocabulary.definition import load_vocabulary
 
 USV = load_vocabulary("usv")
 BOOK = Phrasebook(USV, unseen=False)
-SKILLS = {"goto": "GoToXY", "hold": "StationKeep", "wait": "WaitForStability", "turn_to": "RotateToHeading", "waypoints": "GoToXY"}
+SKILLS = {
+    "goto": "GoToXY",
+    "hold": "StationKeep",
+    "wait": "WaitForStability",
+    "turn_to": "RotateToHeading",
+    "waypoints": "GoToXY",
+}
 
 
 @pytest.fixture(scope="module")
 def records():
-    return [record for record in sample_tasks(USV, 11, 8000, "train") if not record["family"].startswith("template")]
+    return [
+        record
+        for record in sample_tasks(USV, 11, 8000, "train")
+        if not record["family"].startswith("template")
+    ]
 
 
 def scope_words(kinds, chosen, *, numbered=False):
-    """Every wording found for the steps `chosen` of movements of these kinds; "waypoints" has two steps."""
+    """Every wording found for the steps `chosen` of movements of these kinds; "waypoints" has two
+    steps.
+    """
     rng = random.Random(5)
     saying = Saying([compile_template("~move on")], BOOK.slots(rng))
-    movements = [Movement(kind, [(SKILLS[kind], {})] * (2 if kind == "waypoints" else 1), saying) for kind in kinds]
+    movements = [
+        Movement(kind, [(SKILLS[kind], {})] * (2 if kind == "waypoints" else 1), saying)
+        for kind in kinds
+    ]
     scopes = Scopes(movements, BOOK, rng, numbered=numbered)
     return {scopes.alone(frozenset(chosen)) for _ in range(600)}
 
@@ -56,15 +71,26 @@ def test_nothing_is_said_that_could_mean_another_step():
 
 
 def test_all_but_one_and_numbers():
-    assert {"in all steps but the second", "in the first and third steps"} <= scope_words(["goto", "hold", "turn_to"], [0, 2])
-    assert {"in steps 1 and 3", "in the first and third steps"} <= scope_words(["goto", "hold", "turn_to"], [0, 2], numbered=True)
+    assert {"in all steps but the second", "in the first and third steps"} <= scope_words(
+        ["goto", "hold", "turn_to"], [0, 2]
+    )
+    assert {"in steps 1 and 3", "in the first and third steps"} <= scope_words(
+        ["goto", "hold", "turn_to"], [0, 2], numbered=True
+    )
 
 
 def test_refusals_add_nothing(records):
-    refused = [record for record in records if re.search(r"\b[Nn]o (recording|video|filming)\.", record["prompt"])]
+    refused = [
+        record
+        for record in records
+        if re.search(r"\b[Nn]o (recording|video|filming)\.", record["prompt"])
+    ]
     assert refused
     assert not any(
-        call["name"] == "SetStreamRecording" for record in refused for step in record["expected"]["skill_sequence"] for call in step["perception_skills"]
+        call["name"] == "SetStreamRecording"
+        for record in refused
+        for step in record["expected"]["skill_sequence"]
+        for call in step["perception_skills"]
     )
 
 
@@ -80,7 +106,10 @@ def test_one_skill_can_stand_twice_with_other_parameters(records):
 
 
 def test_articles_fit_what_stands_behind_them():
-    assert close_gaps("Take a image every a minute in a \x028-second hold .") == "Take an image every minute in an \x028-second hold."
+    assert (
+        close_gaps("Take a image every a minute in a \x028-second hold .")
+        == "Take an image every minute in an \x028-second hold."
+    )
     assert close_gaps("a USV, a unit, a one-off, a hold") == "a USV, a unit, a one-off, a hold"
 
 

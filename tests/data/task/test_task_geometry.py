@@ -6,16 +6,41 @@ from planner_ft.data.task import geometry as g
 
 
 def test_survey_square_starts_mid_east_and_runs_counter_clockwise():
-    assert g.survey_square((10, 20), 5) == [(15, 20), (15, 25), (10, 25), (5, 25), (5, 20), (5, 15), (10, 15), (15, 15)]
+    assert g.survey_square((10, 20), 5) == [
+        (15, 20),
+        (15, 25),
+        (10, 25),
+        (5, 25),
+        (5, 20),
+        (5, 15),
+        (10, 15),
+        (15, 15),
+    ]
 
 
 def test_survey_square_clockwise_from_the_north_west_corner():
-    assert g.survey_square((0, 0), 8, "north-west", clockwise=True)[:4] == [(-8, 8), (0, 8), (8, 8), (8, 0)]
+    assert g.survey_square((0, 0), 8, "north-west", clockwise=True)[:4] == [
+        (-8, 8),
+        (0, 8),
+        (8, 8),
+        (8, 0),
+    ]
 
 
 def test_lawnmower_twenty_by_twenty_at_five_metres_has_ten_waypoints_from_the_south_west():
     points = g.lawnmower((0, 0), 20, 20, 5)
-    assert points == [(-10, -10), (-10, 10), (-5, 10), (-5, -10), (0, -10), (0, 10), (5, 10), (5, -10), (10, -10), (10, 10)]
+    assert points == [
+        (-10, -10),
+        (-10, 10),
+        (-5, 10),
+        (-5, -10),
+        (0, -10),
+        (0, 10),
+        (5, 10),
+        (5, -10),
+        (10, -10),
+        (10, 10),
+    ]
 
 
 @pytest.mark.parametrize(

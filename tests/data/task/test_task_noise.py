@@ -10,12 +10,19 @@ import pytest
 from planner_ft.data.task.noise import CHANGES, noisy
 from planner_ft.data.task.template import VALUE_CLOSE, VALUE_OPEN, plain
 
-SAID = "Turn to \x02the north-west\x03, then hold before the \x02Orca quay\x03 for \x02twenty-five seconds\x03. Please measure the distance to starboard."
+SAID = (
+    "Turn to \x02the north-west\x03, then hold before the \x02Orca quay\x03 for \x02twenty-five"
+    " seconds\x03. Please measure the distance to starboard."
+)
 KEPT = ["the north-west", "Orca quay", "twenty-five seconds", "before", "starboard"]
 
 
 def changed(count: int, **options: bool) -> list[str]:
-    return [text for text in (noisy(SAID, Random(seed), **options) for seed in range(count)) if text != SAID]
+    return [
+        text
+        for text in (noisy(SAID, Random(seed), **options) for seed in range(count))
+        if text != SAID
+    ]
 
 
 def test_most_prompts_stay_as_they_are() -> None:

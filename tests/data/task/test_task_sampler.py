@@ -27,9 +27,20 @@ def test_records_are_canonical_and_strictly_valid():
     for record in sampled("train", 800):
         assert list(record) == ["id", "family", "task", "parameters", "prompt", "expected"]
         assert plan_problems("task", record["expected"], USV, strict=True) == []
-        assert compact_json(canonical_plan("task", record["expected"], USV)) == compact_json(record["expected"])
-        task = {"title": record["task"], "parameters": record["parameters"], "task_prompt": record["prompt"]}
-        assert plan_problems("mission", {"tasks": [task], "assumptions": [], "constraints": []}, USV, strict=True) == []
+        assert compact_json(canonical_plan("task", record["expected"], USV)) == compact_json(
+            record["expected"]
+        )
+        task = {
+            "title": record["task"],
+            "parameters": record["parameters"],
+            "task_prompt": record["prompt"],
+        }
+        assert (
+            plan_problems(
+                "mission", {"tasks": [task], "assumptions": [], "constraints": []}, USV, strict=True
+            )
+            == []
+        )
 
 
 def test_prompts_are_tidy():
@@ -46,7 +57,11 @@ def test_same_seed_same_bytes():
 def test_all_tasks_and_skills_occur():
     records = sampled("train", 2000)
     assert {record["task"] for record in records} == set(USV.task)
-    assert {name for record in records for name, _parameters in named_entries("task", record["expected"])} == set(USV.skill)
+    assert {
+        name
+        for record in records
+        for name, _parameters in named_entries("task", record["expected"])
+    } == set(USV.skill)
 
 
 def test_splits_share_no_prompt_even_with_numbers_masked():
@@ -59,7 +74,11 @@ def test_splits_share_no_prompt_even_with_numbers_masked():
 
 def test_unseen_families_occur_nowhere_else():
     unseen = {record["family"] for record in sampled("test_unseen", 300)}
-    assert not unseen & {record["family"] for split in ("train", "validation", "test") for record in sampled(split, 300)}
+    assert not unseen & {
+        record["family"]
+        for split in ("train", "validation", "test")
+        for record in sampled(split, 300)
+    }
 
 
 def test_endless_stream_continues_the_counted_one():
@@ -68,9 +87,23 @@ def test_endless_stream_continues_the_counted_one():
 
 
 def test_samples_do_not_depend_on_the_order_of_sets():
-    code = "import itertools, json, zlib; from planner_ft.data.task.sampler import sample_tasks; from planner_ft.vocabulary import load_vocabulary; "
-    code += "print(zlib.crc32(json.dumps(list(itertools.islice(sample_tasks(load_vocabulary(), 7, None, 'train'), 380))).encode()))"
-    runs = [subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True, check=True) for seed in ("0", "1")]
+    code = (
+        "import itertools, json, zlib; from planner_ft.data.task.sampler import sample_tasks; from"
+        " planner_ft.vocabulary import load_vocabulary; "
+    )
+    code += (
+        "print(zlib.crc32(json.dumps(list(itertools.islice(sample_tasks(load_vocabulary(), 7, None,"
+        " 'train'), 380))).encode()))"
+    )
+    runs = [
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            check=True,
+        )
+        for seed in ("0", "1")
+    ]
     assert runs[0].stdout == runs[1].stdout
 
 
@@ -89,10 +122,16 @@ def test_unknown_split_is_refused():
 def test_another_vehicle_needs_no_other_code(split):
     drone = load_vocabulary("inspection_drone")
     records = list(sample_tasks(drone, 0, 400, split))
-    names = {name for record in records for name, _parameters in named_entries("task", record["expected"])}
+    names = {
+        name
+        for record in records
+        for name, _parameters in named_entries("task", record["expected"])
+    }
     assert {record["task"] for record in records} == set(drone.task) and len(drone.task) == 8
     assert names == set(drone.skill) and len(drone.skill) == 12
-    assert not any(plan_problems("task", record["expected"], drone, strict=True) for record in records)
+    assert not any(
+        plan_problems("task", record["expected"], drone, strict=True) for record in records
+    )
 
 
 def test_a_definition_without_phrases_falls_back_on_names(tmp_path):
@@ -103,8 +142,14 @@ def test_a_definition_without_phrases_falls_back_on_names(tmp_path):
 
 
 def label(prompt_part, seed=5, count=20_000):
-    """The first composed record whose prompt has the text, so that the label can be checked against the words; templates may mean something else by them."""
-    composed = (record for record in sample_tasks(USV, seed, count, "train") if not record["family"].startswith("template/"))
+    """The first composed record whose prompt has the text, so that the label can be checked against
+    the words; templates may mean something else by them.
+    """
+    composed = (
+        record
+        for record in sample_tasks(USV, seed, count, "train")
+        if not record["family"].startswith("template/")
+    )
     return next(record for record in composed if re.search(prompt_part, record["prompt"]))
 
 
@@ -113,13 +158,18 @@ def navigation(record):
 
 
 def test_left_is_negative():
-    record = label(r"^(?:Nudge|Pan|Turn|Yaw) (?:(?!arc\b)[a-z]+ )*\d+ degrees (?:left|to port)\b[^.]*\.$")
+    record = label(
+        r"^(?:Nudge|Pan|Turn|Yaw) (?:(?!arc\b)[a-z]+ )*\d+ degrees (?:left|to port)\b[^.]*\.$"
+    )
     degrees = int(re.search(r"(\d+) degrees (?:left|to port)", record["prompt"]).group(1))
     assert navigation(record)[0] == {"name": "NudgeYaw", "parameters": {"delta_yaw": -degrees}}
 
 
 def test_a_referred_value_comes_from_the_task_parameters():
-    record = label(r"^(?:Hold|Drift)\b(?![^.]*\b(?:not|no|then)\b)[^.]* for the (?:planned|given|ordered|set) (?:time|duration)[^.]*\.$")
+    record = label(
+        r"^(?:Hold|Drift)\b(?![^.]*\b(?:not|no|then)\b)[^.]* for the (?:planned|given|ordered|set)"
+        r" (?:time|duration)[^.]*\.$"
+    )
     assert navigation(record)[0]["parameters"]["time"] == record["parameters"]["duration"]
 
 
@@ -130,23 +180,37 @@ def test_a_prompt_without_a_movement_holds_position():
 
 
 def test_refused_skills_are_not_planned():
-    record = label(r"(?i)\b(?:do not|don't|need not|no need to) verify (?:the )?geotag quality\b[^.]*\.$")
+    record = label(
+        r"(?i)\b(?:do not|don't|need not|no need to) verify (?:the )?geotag quality\b[^.]*\.$"
+    )
     steps = record["expected"]["skill_sequence"]
-    assert "VerifyGeotagQuality" not in {skill["name"] for step in steps for skill in step["perception_skills"]}
+    assert "VerifyGeotagQuality" not in {
+        skill["name"] for step in steps for skill in step["perception_skills"]
+    }
 
 
 def test_a_referred_grid_is_computed_from_the_task_parameters():
     unaltered = r"^(?!.*(corner|axis|along|running|lanes|then|before|after|not|from))"
-    record = label(unaltered + r"(Survey|Mow|Cover|Run)\b[^.,;\d]* the (planned |given )(survey )?(area|grid)\b[^.,;\d]*\.$")
+    record = label(
+        unaltered + r"(Survey|Mow|Cover|Run)\b[^.,;\d]* the (planned |given )(survey"
+        r" )?(area|grid)\b[^.,;\d]*\.$"
+    )
     given = record["parameters"]
     first = navigation(record)[0]["parameters"]
-    assert first == {"x": pytest.approx(given["center"][0] - given["width"] / 2), "y": pytest.approx(given["center"][1] - given["length"] / 2)}
+    assert first == {
+        "x": pytest.approx(given["center"][0] - given["width"] / 2),
+        "y": pytest.approx(given["center"][1] - given["length"] / 2),
+    }
     assert len(navigation(record)) == 2 * round(given["width"] / given["spacing"] + 1)
 
 
 @pytest.mark.parametrize(
     ("phrase", "message"),
-    [("~go (to {xy}", "unbalanced"), ("~go (to {xy}|there)", "same slots"), ("~go to the {_castle}", "castle")],
+    [
+        ("~go (to {xy}", "unbalanced"),
+        ("~go (to {xy}|there)", "same slots"),
+        ("~go to the {_castle}", "castle"),
+    ],
 )
 def test_a_bad_phrase_is_named(tmp_path, phrase, message):
     (tmp_path / "rover.toml").write_text((BUNDLED / "inspection_drone.toml").read_text())

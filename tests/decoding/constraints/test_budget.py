@@ -17,7 +17,10 @@ from .conftest import allowed, answer_ids, decoded, make_factory, token_texts
 GRID = {
     "task": "BathymetryGridSurvey",
     "parameters": {"center": [10, 20], "width": 120, "length": 200, "spacing": 4},
-    "prompt": "Run a depth grid of 120 by 200 metres with lanes 4 m apart round the red buoy and the green one with the antenna.",
+    "prompt": (
+        "Run a depth grid of 120 by 200 metres with lanes 4 m apart round the red buoy and the"
+        " green one with the antenna."
+    ),
 }
 
 
@@ -28,7 +31,11 @@ def stubborn_answer(constraint: Constraint, limit: int, seed: int, texts: list[s
         assert len(ids) < limit - 1, "the answer does not end"
         choice = allowed(constraint.mask())
         least = min(len(texts[token]) for token in choice)
-        open_ended = [token for token in choice if len(texts[token]) == least and texts[token][:1] not in '"]}']
+        open_ended = [
+            token
+            for token in choice
+            if len(texts[token]) == least and texts[token][:1] not in '"]}'
+        ]
         ids.append(int(rng.choice(open_ended if open_ended and rng.random() < 0.9 else choice)))
         constraint.accept(ids[-1])
     return ids
@@ -36,7 +43,9 @@ def stubborn_answer(constraint: Constraint, limit: int, seed: int, texts: list[s
 
 @pytest.mark.parametrize("strength", ["schema", "state", "grounded"])
 @pytest.mark.parametrize("level", LEVELS)
-def test_a_model_that_does_not_want_to_end_is_led_to_the_end(tokenizer: Any, level: Level, strength: Strength) -> None:
+def test_a_model_that_does_not_want_to_end_is_led_to_the_end(
+    tokenizer: Any, level: Level, strength: Strength
+) -> None:
     vocabulary = load_vocabulary()
     factory = make_factory(tokenizer, level, vocabulary, strength)
     texts, cut = token_texts(tokenizer), 0
@@ -55,7 +64,9 @@ def test_a_path_that_was_begun_is_left_when_the_limit_comes_near(embedded: Any) 
     waypoint = '{"navigation_skill":{"name":"GoToXY","parameters":{"x":-50,"y":%d}},"filter_skills":[],"perception_skills":[]'
     tail = ',"stop_conditions":[],"failure_modes":[],"expected_outputs":[]}'
     constraint = factory.start(GRID, limit)
-    ids = answer_ids(embedded, '{"skill_sequence":[' + ",".join(waypoint % y + tail for y in (-80, 120)) + ",")
+    ids = answer_ids(
+        embedded, '{"skill_sequence":[' + ",".join(waypoint % y + tail for y in (-80, 120)) + ","
+    )
     for token in ids:
         constraint.accept(token)
     while not constraint.ended:

@@ -20,14 +20,26 @@ from planner_ft.vocabulary.plans import LEVELS, Level, named_entries, plan_probl
 from .conftest import ADVERSARIAL, LIMITS, answer_ids, decoded, make_factory, random_answer
 from .test_schema import CURATED
 
-COMMAND = "Orbit the met mast at [120, -35] 25 metres off for half a circle, drift there for half an hour, then inspect the red buoy and come home."
+COMMAND = (
+    "Orbit the met mast at [120, -35] 25 metres off for half a circle, drift there for half an"
+    " hour, then inspect the red buoy and come home."
+)
 UNKNOWN = [-99, -99]
 
 
-def admitted(tokenizer: Any, *entries: tuple[str, dict[str, Any]], prompt: str = COMMAND, sentence: str = "") -> bool:
-    tasks = [{"title": title, "parameters": parameters, "task_prompt": sentence} for title, parameters in entries]
-    ids = answer_ids(tokenizer, compact_json({"tasks": tasks, "assumptions": [], "constraints": []}))
-    return make_factory(tokenizer, "mission", load_vocabulary(), "grounded").start({"prompt": prompt}).admits(ids) == len(ids)
+def admitted(
+    tokenizer: Any, *entries: tuple[str, dict[str, Any]], prompt: str = COMMAND, sentence: str = ""
+) -> bool:
+    tasks = [
+        {"title": title, "parameters": parameters, "task_prompt": sentence}
+        for title, parameters in entries
+    ]
+    ids = answer_ids(
+        tokenizer, compact_json({"tasks": tasks, "assumptions": [], "constraints": []})
+    )
+    return make_factory(tokenizer, "mission", load_vocabulary(), "grounded").start(
+        {"prompt": prompt}
+    ).admits(ids) == len(ids)
 
 
 @pytest.mark.parametrize(
@@ -71,7 +83,11 @@ def test_what_nobody_said_cannot(embedded: Any, entry: tuple[str, dict[str, Any]
     [
         ("panorama here, sixteen sectors, waiting 5", {"sectors": 16, "wait": 5}, True),
         ("panorama here, sixteen sectors, waiting 5", {"wait": 16}, False),
-        ("panorama of the two buoys from here, 8 headings, hour at each", {"sectors": 8, "wait": 3600}, True),
+        (
+            "panorama of the two buoys from here, 8 headings, hour at each",
+            {"sectors": 8, "wait": 3600},
+            True,
+        ),
         ("panorama of the two buoys from here, 8 headings, hour at each", {"wait": 2}, False),
         ("panorama of this one and that one, a quarter overlap", {"overlap": 25}, True),
         ("panorama of this one and that one, a quarter overlap", {"wait": 1}, False),
@@ -79,7 +95,9 @@ def test_what_nobody_said_cannot(embedded: Any, entry: tuple[str, dict[str, Any]
         ("panorama, waiting minute and a half each", {"wait": 90}, True),
     ],
 )
-def test_a_number_that_counts_things_is_no_measure(embedded: Any, prompt: str, parameters: dict[str, Any], possible: bool) -> None:
+def test_a_number_that_counts_things_is_no_measure(
+    embedded: Any, prompt: str, parameters: dict[str, Any], possible: bool
+) -> None:
     assert admitted(embedded, ("HorizontalPanorama", parameters), prompt=prompt) is possible
 
 
@@ -94,12 +112,17 @@ def test_a_number_that_counts_things_is_no_measure(embedded: Any, prompt: str, p
         ("hold one-five minutes", 900, True),
     ],
 )
-def test_durations_as_they_are_said(embedded: Any, prompt: str, seconds: float, possible: bool) -> None:
+def test_durations_as_they_are_said(
+    embedded: Any, prompt: str, seconds: float, possible: bool
+) -> None:
     assert admitted(embedded, ("KeepStation", {"duration": seconds}), prompt=prompt) is possible
 
 
 def test_places_are_told_from_home(embedded: Any) -> None:
-    prompt = "A panorama from a spot forty metres due south of home, then go to the point 90 m east and 20 m north of home."
+    prompt = (
+        "A panorama from a spot forty metres due south of home, then go to the point 90 m east and"
+        " 20 m north of home."
+    )
     for place in ([0, -40], [90, 20]):
         assert admitted(embedded, ("Transit", {"target_position": place}), prompt=prompt)
     assert not admitted(embedded, ("Transit", {"target_position": [0, 40]}), prompt=prompt)
@@ -107,7 +130,12 @@ def test_places_are_told_from_home(embedded: Any) -> None:
 
 def test_the_logic_of_the_plan_holds_as_well(embedded: Any) -> None:
     go: tuple[str, dict[str, Any]] = ("Transit", {"target_position": [120, -35]})
-    assert admitted(embedded, go, ("PerformOrbit", {"center": [120, -35], "radius": 25, "arc": 180}), ("DriftAudit", {"duration": 1800}))
+    assert admitted(
+        embedded,
+        go,
+        ("PerformOrbit", {"center": [120, -35], "radius": 25, "arc": 180}),
+        ("DriftAudit", {"duration": 1800}),
+    )
     assert not admitted(embedded, go, ("PerformOrbit", {"center": [0, 0]}))
     assert not admitted(embedded, ("Transit", {"target_position": UNKNOWN}))
     assert not admitted(embedded, ("PerformOrbit", {"center": [120, -35]}))
@@ -130,12 +158,20 @@ def test_where_facts_cannot_be_read_there_is_room_and_a_note(embedded: Any) -> N
     assert notes(COMMAND) == ""
     assert notes("Be done by 14:00 and report, next week we repair the landing.") == ""
     assert "another script" in notes("请检查位于[12, -40]的红色浮标")
-    assert "not known" in notes("Fahren Sie bitte sofort zum roten Seezeichen und umkreisen Sie es dreimal")
+    assert "not known" in notes(
+        "Fahren Sie bitte sofort zum roten Seezeichen und umkreisen Sie es dreimal"
+    )
     assert "1.000.000" in notes("hold at the buoy for 1.000.000 seconds")
     assert "boat lengths" in notes("circle the buoy at two boat lengths")
     assert "coordinates" in notes("go to the place with easting 40, the other number you know")
-    assert admitted(embedded, ("KeepStation", {"duration": 777}), prompt="hold at the buoy for 1.000.000 seconds")
-    assert not admitted(embedded, ("KeepStation", {"duration": 777}), prompt="hold at the buoy for 1000 seconds")
+    assert admitted(
+        embedded,
+        ("KeepStation", {"duration": 777}),
+        prompt="hold at the buoy for 1.000.000 seconds",
+    )
+    assert not admitted(
+        embedded, ("KeepStation", {"duration": 777}), prompt="hold at the buoy for 1000 seconds"
+    )
 
 
 @pytest.mark.parametrize("name", ADVERSARIAL)
@@ -143,15 +179,32 @@ def test_where_facts_cannot_be_read_there_is_room_and_a_note(embedded: Any) -> N
 def test_any_command_gives_valid_answers_that_end(tokenizer: Any, level: Level, name: str) -> None:
     vocabulary = load_vocabulary()
     factory = make_factory(tokenizer, level, vocabulary, "grounded")
-    record = {"prompt": ADVERSARIAL[name], "task": "FollowTarget", "parameters": {"target_id": 'say "x"', "target_position": [5, 7]}}
+    record = {
+        "prompt": ADVERSARIAL[name],
+        "task": "FollowTarget",
+        "parameters": {"target_id": 'say "x"', "target_position": [5, 7]},
+    }
     for seed in range(2):
         constraint = factory.start(record)
-        plan = decoded(tokenizer, random_answer(constraint, LIMITS[level], seed, busy=tokenizer if seed else None))
+        plan = decoded(
+            tokenizer,
+            random_answer(constraint, LIMITS[level], seed, busy=tokenizer if seed else None),
+        )
         assert plan_problems(level, plan, vocabulary, strict=True) == []
     if level == "mission" and not constraint.notes:
-        assert rule_problems(plan, vocabulary) == [] or all("return" in problem or "its place" in problem for problem in rule_problems(plan, vocabulary))
-        texts = [text for _name, values in named_entries(level, plan) for value in values.values() for text in (value if isinstance(value, list) else [value])]
-        assert not any(says(ADVERSARIAL[name], text, misspelt=True) for text in texts if isinstance(text, str))
+        assert rule_problems(plan, vocabulary) == [] or all(
+            "return" in problem or "its place" in problem
+            for problem in rule_problems(plan, vocabulary)
+        )
+        texts = [
+            text
+            for _name, values in named_entries(level, plan)
+            for value in values.values()
+            for text in (value if isinstance(value, list) else [value])
+        ]
+        assert not any(
+            says(ADVERSARIAL[name], text, misspelt=True) for text in texts if isinstance(text, str)
+        )
 
 
 @pytest.mark.parametrize("level", LEVELS)
@@ -159,9 +212,17 @@ def test_right_plans_can_be_written(embedded: Any, level: Level) -> None:
     vocabulary = load_vocabulary()
     factory = make_factory(embedded, level, vocabulary, "grounded")
     curated = [*read_jsonl(CURATED / "train.jsonl"), *read_jsonl(CURATED / "validation.jsonl")]
-    drawn = list(itertools.islice(sample_missions(9), 300) if level == "mission" else sample_tasks(vocabulary, 9, 200, "train"))
-    # Of the sampled task inputs every twelfth says something in a way that is misread: the templates are hard on purpose, each set of them harder.
-    for records, share in ((curated if level == "mission" else [], 1.0), (drawn, 0.98 if level == "mission" else 0.91)):
+    drawn = list(
+        itertools.islice(sample_missions(9), 300)
+        if level == "mission"
+        else sample_tasks(vocabulary, 9, 200, "train")
+    )
+    # Of the sampled task inputs every twelfth says something in a way that is misread: the
+    # templates are hard on purpose, each set of them harder.
+    for records, share in (
+        (curated if level == "mission" else [], 1.0),
+        (drawn, 0.98 if level == "mission" else 0.91),
+    ):
         refused = []
         for record in records:
             ids = answer_ids(embedded, completion_text(level, record["expected"], vocabulary))
@@ -172,14 +233,31 @@ def test_right_plans_can_be_written(embedded: Any, level: Level) -> None:
 
 def turned(prompt: str, *movements: tuple[str, dict[str, float]]) -> dict[str, Any]:
     """A task input that says which way to turn, and the movements that it asks for."""
-    steps = [plan_step(name, parameters, [], [], load_vocabulary()) for name, parameters in (("GoToXY", {"x": 5, "y": -12}), *movements)]
-    return {"task": "Transit", "parameters": {"target_position": [5, -12]}, "prompt": prompt, "expected": {"skill_sequence": steps}}
+    steps = [
+        plan_step(name, parameters, [], [], load_vocabulary())
+        for name, parameters in (("GoToXY", {"x": 5, "y": -12}), *movements)
+    ]
+    return {
+        "task": "Transit",
+        "parameters": {"target_position": [5, -12]},
+        "prompt": prompt,
+        "expected": {"skill_sequence": steps},
+    }
 
 
-# All of a turn is known but what runs beside it: its text ends within a token of the embedded candidate's tokenizer.
+# All of a turn is known but what runs beside it: its text ends within a token of the embedded
+# candidate's tokenizer.
 TURNED = [
-    turned("Drive to [5, -12], turn to 270 degrees, then hold within one metre.", ("RotateToHeading", {"heading": 270}), ("StationKeep", {"radius": 1})),
-    turned("Go to [5, -12] and turn 5 degrees to port. Hold for 30 seconds.", ("NudgeYaw", {"delta_yaw": -5}), ("StationKeep", {"time": 30})),
+    turned(
+        "Drive to [5, -12], turn to 270 degrees, then hold within one metre.",
+        ("RotateToHeading", {"heading": 270}),
+        ("StationKeep", {"radius": 1}),
+    ),
+    turned(
+        "Go to [5, -12] and turn 5 degrees to port. Hold for 30 seconds.",
+        ("NudgeYaw", {"delta_yaw": -5}),
+        ("StationKeep", {"time": 30}),
+    ),
 ]
 
 
@@ -194,7 +272,10 @@ def test_forced_tokens_are_those_of_training(tokenizer: Any, level: Level) -> No
         constraint = factory.start(record, 4096)
         for place, token in enumerate(ids):
             forced = constraint.forced()
-            assert forced == ids[place : place + len(forced)], (record["prompt"], tokenizer.decode(ids[:place]))
+            assert forced == ids[place : place + len(forced)], (
+                record["prompt"],
+                tokenizer.decode(ids[:place]),
+            )
             count += len(forced)
             constraint.accept(token)
     assert count > 20
@@ -203,7 +284,14 @@ def test_forced_tokens_are_those_of_training(tokenizer: Any, level: Level) -> No
 def test_a_fence_has_corners_that_the_input_states(embedded: Any) -> None:
     vocabulary = load_vocabulary()
     factory = make_factory(embedded, "task", vocabulary, "grounded")
-    record = {"task": "DriftAudit", "parameters": {}, "prompt": "Float. Fence corners, in kilometres: [-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]."}
+    record = {
+        "task": "DriftAudit",
+        "parameters": {},
+        "prompt": (
+            "Float. Fence corners, in kilometres: [-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5,"
+            " 0.5]."
+        ),
+    }
     answer = '{"skill_sequence":[{"navigation_skill":{"name":"DriftWithCurrent","parameters":{}},"filter_skills":[{"name":"BoundaryEnforcement",'
     answer += '"parameters":{"poly_coords":%s'
     right = answer_ids(embedded, answer % "[[-500,-500],[500,-500],[500,500],[-500,500]]")
@@ -213,13 +301,29 @@ def test_a_fence_has_corners_that_the_input_states(embedded: Any) -> None:
         assert factory.start(record).admits(ids) < len(ids)
 
 
-@pytest.mark.parametrize(("words", "seconds", "possible"), [("twice as long", 120, True), ("half the time", 30, True), ("for as long", 120, False)])
-def test_a_time_may_be_told_by_another_one(embedded: Any, words: str, seconds: float, possible: bool) -> None:
+@pytest.mark.parametrize(
+    ("words", "seconds", "possible"),
+    [("twice as long", 120, True), ("half the time", 30, True), ("for as long", 120, False)],
+)
+def test_a_time_may_be_told_by_another_one(
+    embedded: Any, words: str, seconds: float, possible: bool
+) -> None:
     vocabulary = load_vocabulary()
     prompt = f"Hold 60 s at [5, -12], then move to [9, 4] and stay there {words}."
     places, times = ({"x": 5, "y": -12}, {"x": 9, "y": 4}), ({"time": 60}, {"time": seconds})
-    moves = [(name, given) for pair in zip(places, times, strict=True) for name, given in zip(("GoToXY", "StationKeep"), pair, strict=True)]
-    plan = {"skill_sequence": [plan_step(name, dict(given), [], [], vocabulary) for name, given in moves]}
+    moves = [
+        (name, given)
+        for pair in zip(places, times, strict=True)
+        for name, given in zip(("GoToXY", "StationKeep"), pair, strict=True)
+    ]
+    plan = {
+        "skill_sequence": [
+            plan_step(name, dict(given), [], [], vocabulary) for name, given in moves
+        ]
+    }
     ids = answer_ids(embedded, completion_text("task", plan, vocabulary))
     record = {"task": "Transit", "parameters": {"target_position": [5, -12]}, "prompt": prompt}
-    assert (make_factory(embedded, "task", vocabulary, "grounded").start(record, 4096).admits(ids) == len(ids)) is possible
+    assert (
+        make_factory(embedded, "task", vocabulary, "grounded").start(record, 4096).admits(ids)
+        == len(ids)
+    ) is possible

@@ -8,7 +8,9 @@ from planner_ft.decoding.constraints.repeats import UNBOUNDED, facing, most_ofte
 from planner_ft.vocabulary import load_vocabulary
 
 SKILLS = load_vocabulary().skill
-TURN, NUDGE, HOLD, GO = (SKILLS[name] for name in ("RotateToHeading", "NudgeYaw", "StationKeep", "GoToXY"))
+TURN, NUDGE, HOLD, GO = (
+    SKILLS[name] for name in ("RotateToHeading", "NudgeYaw", "StationKeep", "GoToXY")
+)
 
 
 @pytest.mark.parametrize(
@@ -36,17 +38,30 @@ def test_no_turn_goes_to_where_the_vehicle_points() -> None:
     assert facing([*steps, (GO, {"x": 1, "y": 2})]) is None
 
 
-def test_a_turn_is_spent_when_it_came_as_often_as_it_was_said_and_a_hold_behind_another_step_is_not() -> None:
-    steps = [(NUDGE, {"delta_yaw": 35}), (HOLD, {"time": 4}), (NUDGE, {"delta_yaw": 35}), (HOLD, {"time": 4})]
+def test_a_turn_is_spent_when_it_came_as_often_as_it_was_said_and_a_hold_behind_another_step_is_not() -> (
+    None
+):
+    steps = [
+        (NUDGE, {"delta_yaw": 35}),
+        (HOLD, {"time": 4}),
+        (NUDGE, {"delta_yaw": 35}),
+        (HOLD, {"time": 4}),
+    ]
     text = "Pan 35 degrees, hold 4 s; pan 35 degrees, hold 4 s."
     assert spent(NUDGE, steps, text) == [{"delta_yaw": 35}] and spent(NUDGE, steps[:2], text) == []
-    assert spent(HOLD, steps[:3], "Pan 35 degrees, hold 4 s.") == [] and spent(HOLD, steps, "Pan 35 degrees, hold 4 s.") == [{"time": 4}]
+    assert spent(HOLD, steps[:3], "Pan 35 degrees, hold 4 s.") == [] and spent(
+        HOLD, steps, "Pan 35 degrees, hold 4 s."
+    ) == [{"time": 4}]
     assert spent(GO, [(GO, {"x": 1, "y": 2})], "Go to (1, 2).") == []
 
 
 def test_a_skill_stands_twice_in_a_step_with_other_values_only() -> None:
     sector, lidar = SKILLS["GetSectorDistance"], SKILLS["GetGPSLocation"]
-    assert repeatable(sector, []) and repeatable(sector, [{"bearing": 0}]) and not repeatable(sector, [{}])
+    assert (
+        repeatable(sector, [])
+        and repeatable(sector, [{"bearing": 0}])
+        and not repeatable(sector, [{}])
+    )
     assert not repeatable(lidar, [{}])
 
 

@@ -30,7 +30,12 @@ def tokenizer() -> Any:
 
 def start(tokenizer: Any, record: dict[str, Any]) -> Answer:
     tokens = tokens_of(tokenizer, (tokenizer.eos_token_id,), None)
-    return Answer(tokens, TaskScript(VOCABULARY, SchemaValues(), read_ground(record, VOCABULARY), record["prompt"]), 2048, 300)
+    return Answer(
+        tokens,
+        TaskScript(VOCABULARY, SchemaValues(), read_ground(record, VOCABULARY), record["prompt"]),
+        2048,
+        300,
+    )
 
 
 def ids(tokenizer: Any, text: str) -> list[int]:
@@ -43,7 +48,10 @@ def test_the_answers_of_sampled_tasks_are_admitted(tokenizer: Any) -> None:
     for record in itertools.islice(sample_tasks(VOCABULARY, 91, None, "train"), 120):
         if read_ground(record, VOCABULARY).free:
             continue
-        answer, tokens = start(tokenizer, record), ids(tokenizer, completion_text("task", record["expected"], VOCABULARY))
+        answer, tokens = (
+            start(tokenizer, record),
+            ids(tokenizer, completion_text("task", record["expected"], VOCABULARY)),
+        )
         if answer.admits(tokens) < len(tokens):
             kept_out.append(record["prompt"])
             continue
@@ -54,7 +62,11 @@ def test_the_answers_of_sampled_tasks_are_admitted(tokenizer: Any) -> None:
 
 
 def test_no_step_repeats_the_place_before_it_and_no_grid_is_left_half_way(tokenizer: Any) -> None:
-    record = {"task": "BathymetryGridSurvey", "parameters": {"center": [0, 0], "width": 20, "length": 40, "spacing": 20}, "prompt": "Run the grid."}
+    record = {
+        "task": "BathymetryGridSurvey",
+        "parameters": {"center": [0, 0], "width": 20, "length": 40, "spacing": 20},
+        "prompt": "Run the grid.",
+    }
     step = '{"navigation_skill":{"name":"GoToXY","parameters":{"x":%d,"y":%d}},"filter_skills":[],"perception_skills":[],"stop_conditions":[],'
     step += '"failure_modes":[],"expected_outputs":[]}'
     answer = start(tokenizer, record)
@@ -69,7 +81,10 @@ def test_no_step_repeats_the_place_before_it_and_no_grid_is_left_half_way(tokeni
 
 
 def test_a_step_that_may_not_follow_gives_way_to_the_end(tokenizer: Any) -> None:
-    record = {"task": "BathymetryGridSurvey", "parameters": {"center": [0, 0], "width": 20, "length": 40, "spacing": 20}}
+    record = {
+        "task": "BathymetryGridSurvey",
+        "parameters": {"center": [0, 0], "width": 20, "length": 40, "spacing": 20},
+    }
     record["prompt"] = "Run the grid with a hold of 20 s somewhere."
     step = '{"navigation_skill":{"name":"GoToXY","parameters":{"x":%d,"y":%d}},"filter_skills":[],"perception_skills":[],"stop_conditions":[],'
     step += '"failure_modes":[],"expected_outputs":[]}'
@@ -77,7 +92,10 @@ def test_a_step_that_may_not_follow_gives_way_to_the_end(tokenizer: Any) -> None
     other = ids(tokenizer, "GoToXY")[0]
     for count in (3, 4):
         answer = start(tokenizer, record)
-        for token in ids(tokenizer, '{"skill_sequence":[' + ",".join(places[:count]) + ',{"navigation_skill":{"name":"'):
+        for token in ids(
+            tokenizer,
+            '{"skill_sequence":[' + ",".join(places[:count]) + ',{"navigation_skill":{"name":"',
+        ):
             answer.accept(token)
         assert (answer.instead(other) is None) == (count == 3)
     # The model is asked, even if a single name may follow.
@@ -90,11 +108,23 @@ def test_a_step_that_may_not_follow_gives_way_to_the_end(tokenizer: Any) -> None
 
 @pytest.mark.parametrize(
     ("classes", "whole"),
-    [(["seals"], True), (["seals", "pots", "rafts"], True), (["seals", "pots", "seals"], False), (["pots", "Pots"], False)],
+    [
+        (["seals"], True),
+        (["seals", "pots", "rafts"], True),
+        (["seals", "pots", "seals"], False),
+        (["pots", "Pots"], False),
+    ],
 )
 def test_no_text_stands_twice_in_a_list(tokenizer: Any, classes: list[str], whole: bool) -> None:
-    record = {"task": "Transit", "parameters": {"target_position": [30, 40]}, "prompt": "Go to [30, 40] and detect seals, pots and rafts."}
-    step: dict[str, Any] = {"navigation_skill": {"name": "GoToXY", "parameters": {"x": 30, "y": 40}}, "filter_skills": []}
+    record = {
+        "task": "Transit",
+        "parameters": {"target_position": [30, 40]},
+        "prompt": "Go to [30, 40] and detect seals, pots and rafts.",
+    }
+    step: dict[str, Any] = {
+        "navigation_skill": {"name": "GoToXY", "parameters": {"x": 30, "y": 40}},
+        "filter_skills": [],
+    }
     step["perception_skills"] = [{"name": "DetectObjects", "parameters": {"class_list": classes}}]
     step |= {"stop_conditions": [], "failure_modes": [], "expected_outputs": []}
     tokens = ids(tokenizer, completion_text("task", {"skill_sequence": [step]}, VOCABULARY))
@@ -106,9 +136,19 @@ STEP += '"failure_modes":[],"expected_outputs":[]}'
 
 
 def test_a_movement_that_is_asked_for_is_not_left_out(tokenizer: Any) -> None:
-    record = {"task": "Transit", "parameters": {"target_position": [30, 40]}, "prompt": "Go to [30, 40] and hold there for 20 s, then face 90."}
+    record = {
+        "task": "Transit",
+        "parameters": {"target_position": [30, 40]},
+        "prompt": "Go to [30, 40] and hold there for 20 s, then face 90.",
+    }
     companions = Companions(asked=frozenset(("StationKeep",)))
-    script = TaskScript(VOCABULARY, SchemaValues(), read_ground(record, VOCABULARY), str(record["prompt"]), companions=companions)
+    script = TaskScript(
+        VOCABULARY,
+        SchemaValues(),
+        read_ground(record, VOCABULARY),
+        str(record["prompt"]),
+        companions=companions,
+    )
     answer = Answer(tokens_of(tokenizer, (tokenizer.eos_token_id,), None), script, 2048, 300)
     whole = '{"skill_sequence":[' + STEP % ("GoToXY", '{"x":30,"y":40}')
     tokens = ids(tokenizer, whole + "]}")
@@ -127,18 +167,36 @@ def test_a_movement_that_is_asked_for_is_not_left_out(tokenizer: Any) -> None:
 
 
 def test_a_movement_that_is_asked_for_may_come_where_the_model_wants_it(tokenizer: Any) -> None:
-    record = {"task": "Transit", "parameters": {"target_position": [30, 40]}, "prompt": "Face 90, hold for 20 s, face 180."}
+    record = {
+        "task": "Transit",
+        "parameters": {"target_position": [30, 40]},
+        "prompt": "Face 90, hold for 20 s, face 180.",
+    }
     companions = Companions(asked=frozenset(("StationKeep",)))
-    steps = [STEP % ("RotateToHeading", '{"heading":90}'), STEP % ("StationKeep", '{"time":20}'), STEP % ("RotateToHeading", '{"heading":180}')]
+    steps = [
+        STEP % ("RotateToHeading", '{"heading":90}'),
+        STEP % ("StationKeep", '{"time":20}'),
+        STEP % ("RotateToHeading", '{"heading":180}'),
+    ]
     for kept, admitted in ((steps, True), (steps[::2], False), (steps[1:], True)):
-        script = TaskScript(VOCABULARY, SchemaValues(), read_ground(record, VOCABULARY), str(record["prompt"]), companions=companions)
+        script = TaskScript(
+            VOCABULARY,
+            SchemaValues(),
+            read_ground(record, VOCABULARY),
+            str(record["prompt"]),
+            companions=companions,
+        )
         answer = Answer(tokens_of(tokenizer, (tokenizer.eos_token_id,), None), script, 2048, 300)
         tokens = ids(tokenizer, '{"skill_sequence":[' + ",".join(kept) + "]}")
         assert (answer.admits(tokens) == len(tokens)) == admitted
 
 
 def test_a_row_of_movements_that_is_known_is_written_as_it_stands(tokenizer: Any) -> None:
-    record = {"task": "Transit", "parameters": {}, "prompt": "Hold for 20 s within 3 m, face 180, wait until steady, go to [30, 40]."}
+    record = {
+        "task": "Transit",
+        "parameters": {},
+        "prompt": "Hold for 20 s within 3 m, face 180, wait until steady, go to [30, 40].",
+    }
     sequence = read_sequence(record, VOCABULARY)
     steps = [
         STEP % ("StationKeep", '{"radius":3,"time":20}'),
@@ -147,17 +205,37 @@ def test_a_row_of_movements_that_is_known_is_written_as_it_stands(tokenizer: Any
         STEP % ("GoToXY", '{"x":30,"y":40}'),
     ]
     other = [STEP % ("StationKeep", '{"time":20}'), *steps[1:]]
-    for kept, admitted in ((steps, True), (steps[:3], False), (steps[::-1], False), (other, False), ([*steps, steps[0]], False)):
-        script = TaskScript(VOCABULARY, SchemaValues(), read_ground(record, VOCABULARY), record["prompt"], sequence=sequence)
+    for kept, admitted in (
+        (steps, True),
+        (steps[:3], False),
+        (steps[::-1], False),
+        (other, False),
+        ([*steps, steps[0]], False),
+    ):
+        script = TaskScript(
+            VOCABULARY,
+            SchemaValues(),
+            read_ground(record, VOCABULARY),
+            record["prompt"],
+            sequence=sequence,
+        )
         answer = Answer(tokens_of(tokenizer, (tokenizer.eos_token_id,), None), script, 2048, 300)
         tokens = ids(tokenizer, '{"skill_sequence":[' + ",".join(kept) + "]}")
         assert (answer.admits(tokens) == len(tokens)) == admitted
 
 
 def test_what_the_model_means_need_not_be_a_step(tokenizer: Any) -> None:
-    record = {"task": "Transit", "parameters": {"target_position": [30, 40]}, "prompt": "Go to [30, 40] and hold there for 20 s."}
+    record = {
+        "task": "Transit",
+        "parameters": {"target_position": [30, 40]},
+        "prompt": "Go to [30, 40] and hold there for 20 s.",
+    }
     script = TaskScript(
-        VOCABULARY, SchemaValues(), read_ground(record, VOCABULARY), str(record["prompt"]), companions=Companions(asked=frozenset(("StationKeep",)))
+        VOCABULARY,
+        SchemaValues(),
+        read_ground(record, VOCABULARY),
+        str(record["prompt"]),
+        companions=Companions(asked=frozenset(("StationKeep",))),
     )
     opened = script.following('{"skill_sequence":[{"navigation_skill":{"name":"')
     assert opened is not None

@@ -1,4 +1,6 @@
-"""Strength schema: whatever a model writes is strictly valid and ends, and every right plan can be written."""
+"""Strength schema: whatever a model writes is strictly valid and ends, and every right plan can be
+written.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,9 @@ def plans(level: Level, count: int) -> list[dict[str, Any]]:
 
 @pytest.mark.parametrize("vocabulary", ["usv", "inspection_drone"])
 @pytest.mark.parametrize("level", LEVELS)
-def test_a_random_model_gives_valid_plans_that_end(tokenizer: Any, level: Level, vocabulary: str) -> None:
+def test_a_random_model_gives_valid_plans_that_end(
+    tokenizer: Any, level: Level, vocabulary: str
+) -> None:
     known = load_vocabulary(vocabulary)
     factory = make_factory(tokenizer, level, known, "schema")
     names = set()
@@ -79,7 +83,9 @@ def allowed_end(tokenizer: Any) -> int:
 
 
 def test_every_end_token_may_end_an_answer_and_nothing_else(embedded: Any) -> None:
-    factory = make_factory(embedded, "mission", load_vocabulary(), "schema", end_ids=(2, 0), n_vocab=len(embedded) + 70)
+    factory = make_factory(
+        embedded, "mission", load_vocabulary(), "schema", end_ids=(2, 0), n_vocab=len(embedded) + 70
+    )
     constraint = factory.start(RECORD)
     assert len(constraint.mask()) == -(-(len(embedded) + 70) // 32)
     assert not constraint.ended
@@ -135,4 +141,7 @@ def test_a_cautious_reader_is_told_the_same_near_the_limit(embedded: Any) -> Non
 
 
 def test_strength_free_constrains_nothing(embedded: Any) -> None:
-    assert constraint_factory(embedded, "mission", load_vocabulary(), "free", end_ids=(2,), limit=10) is None
+    assert (
+        constraint_factory(embedded, "mission", load_vocabulary(), "free", end_ids=(2,), limit=10)
+        is None
+    )

@@ -11,7 +11,14 @@ from planner_ft.decoding.constraints.spans import BLOCK, MOST_WORDS, Spans
 from planner_ft.support.files import compact_json
 
 
-def admitted(tokenizer: Any, texts: list[str], value: str, without: tuple[str, ...] = (), *, named: bool = False) -> bool:
+def admitted(
+    tokenizer: Any,
+    texts: list[str],
+    value: str,
+    without: tuple[str, ...] = (),
+    *,
+    named: bool = False,
+) -> bool:
     from planner_ft.decoding.constraints.tokens import tokens_of
 
     grammar = Grammar()
@@ -142,5 +149,7 @@ def test_a_name_is_told_from_its_kind(embedded: Any, text: str, value: str, admi
         ("Send the data, both logs first.", "data logs", True),
     ],
 )
-def test_names_keep_their_capitals_and_sounds_are_no_words(tokenizer: Any, command: str, value: str, right: bool) -> None:
+def test_names_keep_their_capitals_and_sounds_are_no_words(
+    tokenizer: Any, command: str, value: str, right: bool
+) -> None:
     assert admitted(tokenizer, [command], value) == right

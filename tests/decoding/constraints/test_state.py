@@ -33,11 +33,19 @@ def orbit(*position: float) -> Entry:
 
 
 def text_of(entries: list[Entry]) -> str:
-    tasks = [{"title": title, "parameters": parameters, "task_prompt": ""} for title, parameters in entries]
+    tasks = [
+        {"title": title, "parameters": parameters, "task_prompt": ""}
+        for title, parameters in entries
+    ]
     return compact_json({"tasks": tasks, "assumptions": [], "constraints": []})
 
 
-def admitted(tokenizer: Any, entries: list[Entry], vocabulary: Vocabulary | None = None, prompt: str = "inspect the red buoy") -> bool:
+def admitted(
+    tokenizer: Any,
+    entries: list[Entry],
+    vocabulary: Vocabulary | None = None,
+    prompt: str = "inspect the red buoy",
+) -> bool:
     factory = make_factory(tokenizer, "mission", vocabulary or load_vocabulary(), "state")
     ids = answer_ids(tokenizer, text_of(entries))
     return factory.start({"prompt": prompt}).admits(ids) == len(ids)
@@ -55,7 +63,14 @@ def admitted(tokenizer: Any, entries: list[Entry], vocabulary: Vocabulary | None
         [("FollowTarget", {"target_id": "contact 4", "target_position": [1, 2]})],
         [("DockingApproach", {"goal_position": UNKNOWN})],
         [("KeepStation", {"duration": 60}), ("DriftAudit", {}), go(3, 4)],
-        [BUOY, go(*UNKNOWN), orbit(*UNKNOWN), ("SearchAndDetect", {"target_description": "green buoy"}), go(*UNKNOWN), orbit(*UNKNOWN)],
+        [
+            BUOY,
+            go(*UNKNOWN),
+            orbit(*UNKNOWN),
+            ("SearchAndDetect", {"target_description": "green buoy"}),
+            go(*UNKNOWN),
+            orbit(*UNKNOWN),
+        ],
         [go(12, -40), ("DriftAudit", {}), go(12, -40), go(0, 0)],
         [("BathymetryGridSurvey", {"center": [5, 6]}), go(5, 6), ("DriftAudit", {})],
         [("BathymetryGridSurvey", {"center": [5, 6]}), ("KeepStation", {})],
@@ -106,11 +121,19 @@ def test_a_random_model_gives_plans_that_keep_the_rules(tokenizer: Any, name: st
     factory = make_factory(tokenizer, "mission", vocabulary, "state")
     tasks = 0
     for seed in range(8):
-        plan = decoded(tokenizer, random_answer(factory.start({"prompt": "x"}), LIMITS["mission"], seed, busy=tokenizer))
+        plan = decoded(
+            tokenizer,
+            random_answer(factory.start({"prompt": "x"}), LIMITS["mission"], seed, busy=tokenizer),
+        )
         assert plan_problems("mission", plan, vocabulary, strict=True) == []
         problems = rule_problems(plan, vocabulary)
-        # Whether a vehicle goes on where a survey took it, and how a return ends, only the command says.
-        assert [problem for problem in problems if "does not end at its place" not in problem and "return" not in problem] == []
+        # Whether a vehicle goes on where a survey took it, and how a return ends, only the command
+        # says.
+        assert [
+            problem
+            for problem in problems
+            if "does not end at its place" not in problem and "return" not in problem
+        ] == []
         tasks += len(plan["tasks"])
     assert tasks > 20
 
@@ -119,8 +142,13 @@ def test_a_skill_sequence_goes_nowhere_unresolved_unless_its_task_does(embedded:
     factory = make_factory(embedded, "task", load_vocabulary(), "state")
 
     def goes(x: float, y: float, **parameters: Any) -> bool:
-        ids = answer_ids(embedded, f'{{"skill_sequence":[{{"navigation_skill":{{"name":"GoToXY","parameters":{{"x":{x},"y":{y}}}}}')
-        return factory.start({"task": "Transit", "prompt": "go", "parameters": parameters}).admits(ids) == len(ids)
+        ids = answer_ids(
+            embedded,
+            f'{{"skill_sequence":[{{"navigation_skill":{{"name":"GoToXY","parameters":{{"x":{x},"y":{y}}}}}',
+        )
+        return factory.start({"task": "Transit", "prompt": "go", "parameters": parameters}).admits(
+            ids
+        ) == len(ids)
 
     assert goes(-99, 5)
     assert goes(5, -99)
@@ -132,14 +160,45 @@ def test_a_skill_sequence_goes_nowhere_unresolved_unless_its_task_does(embedded:
 def test_titles_that_begin_other_titles(embedded: Any) -> None:
     def task(title: str, arrival: str) -> dict[str, Any]:
         parameter = {"name": "target_position", "type": "position", "required": True}
-        common = {"category": "c", "description": "d", "pattern": "goto", "skills": {"navigation": ["Go"]}}
-        return {"title": title, "arrival": arrival, "parameters": [parameter] if title != "Look" else [], **common}
+        common = {
+            "category": "c",
+            "description": "d",
+            "pattern": "goto",
+            "skills": {"navigation": ["Go"]},
+        }
+        return {
+            "title": title,
+            "arrival": arrival,
+            "parameters": [parameter] if title != "Look" else [],
+            **common,
+        }
 
-    vehicle = {"name": "v", "title": "v", "frame": "f", "home": [0, 0], "unresolved": [-99, -99], "transit": "Fly", "locate": "Look"}
+    vehicle = {
+        "name": "v",
+        "title": "v",
+        "frame": "f",
+        "home": [0, 0],
+        "unresolved": [-99, -99],
+        "transit": "Fly",
+        "locate": "Look",
+    }
     skill = {"name": "Go", "category": "c", "role": "navigation", "description": "d"}
-    tasks = [task("Fly", "self"), task("FlyHome", "self"), task("Look", "self"), task("Orbit", "transit")]
+    tasks = [
+        task("Fly", "self"),
+        task("FlyHome", "self"),
+        task("Look", "self"),
+        task("Orbit", "transit"),
+    ]
     vocabulary = build_vocabulary({"vehicle": vehicle, "task": tasks, "skill": [skill]}, {}, "test")
     there = {"target_position": [1, 2]}
-    assert admitted(embedded, [("Fly", there), ("Orbit", there), ("FlyHome", {"target_position": [0, 0]}), ("Look", {})], vocabulary)
+    assert admitted(
+        embedded,
+        [("Fly", there), ("Orbit", there), ("FlyHome", {"target_position": [0, 0]}), ("Look", {})],
+        vocabulary,
+    )
     assert not admitted(embedded, [("Orbit", there)], vocabulary)
-    assert not admitted(embedded, [("Fly", there), ("FlyHome", there), ("Orbit", {"target_position": [3, 4]})], vocabulary)
+    assert not admitted(
+        embedded,
+        [("Fly", there), ("FlyHome", there), ("Orbit", {"target_position": [3, 4]})],
+        vocabulary,
+    )

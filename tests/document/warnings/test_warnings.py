@@ -25,7 +25,9 @@ def kinds(plan: PlanDocument, *, notes: bool = False) -> list[str]:
     return [item["kind"] for item in plan["warnings"] if notes or item["kind"] not in NOTES]
 
 
-def planned(command: str, *tasks: dict[str, Any], vocabulary: Vocabulary = USV, **changes: Any) -> PlanDocument:
+def planned(
+    command: str, *tasks: dict[str, Any], vocabulary: Vocabulary = USV, **changes: Any
+) -> PlanDocument:
     return revise({**document(tasks, vocabulary, command=command), **changes}, vocabulary)
 
 
@@ -34,7 +36,9 @@ def text_of(plan: PlanDocument, kind: str) -> str:
 
 
 def fenced(x: float, y: float, corners: list[list[float]]) -> dict[str, Any]:
-    return step("GoToXY", {"x": x, "y": y}) | {"filter_skills": [{"name": "BoundaryEnforcement", "parameters": {"poly_coords": corners}}]}
+    return step("GoToXY", {"x": x, "y": y}) | {
+        "filter_skills": [{"name": "BoundaryEnforcement", "parameters": {"poly_coords": corners}}]
+    }
 
 
 def test_a_right_plan_has_no_warning() -> None:
@@ -47,27 +51,55 @@ def test_a_right_plan_has_no_warning() -> None:
 def test_a_value_that_the_command_never_said() -> None:
     plan = planned("Go to [30, 41] and come home.", THERE, HOME)
     assert "value-not-said" in kinds(plan)
-    assert text_of(plan, "value-not-said") == "Task 1, Transit: target_position is [30, 40], which the command does not say."
+    assert (
+        text_of(plan, "value-not-said")
+        == "Task 1, Transit: target_position is [30, 40], which the command does not say."
+    )
 
 
 def test_a_skill_s_value_that_neither_command_nor_task_leads_to() -> None:
     wrong = {**THERE, "skill_sequence": [GO, step("StationKeep", {"time": 45})]}
     plan = planned("Go to [30, 40] and come home.", wrong, HOME)
-    assert kinds(plan) == ["skill-value-not-said"] and "45 s" in text_of(plan, "skill-value-not-said")
+    assert kinds(plan) == ["skill-value-not-said"] and "45 s" in text_of(
+        plan, "skill-value-not-said"
+    )
 
 
 def test_a_skill_s_value_that_the_operator_set_is_not_questioned() -> None:
-    hold = {**THERE, "task_prompt": "Go to [30, 40] and hold for 60 s.", "skill_sequence": [GO, step("StationKeep", {"time": 60})]}
+    hold = {
+        **THERE,
+        "task_prompt": "Go to [30, 40] and hold for 60 s.",
+        "skill_sequence": [GO, step("StationKeep", {"time": 60})],
+    }
     plan = planned("Go to [30, 40], hold for 60 s and come home.", hold, HOME)
-    edited = apply(plan, {"kind": "skill", "task": "t1", "step": 1, "role": "navigation", "index": 0, "name": "time", "value": 45}, USV)
+    edited = apply(
+        plan,
+        {
+            "kind": "skill",
+            "task": "t1",
+            "step": 1,
+            "role": "navigation",
+            "index": 0,
+            "name": "time",
+            "value": 45,
+        },
+        USV,
+    )
     assert "skill-value-not-said" not in kinds(edited)
 
 
 def test_waypoints_that_follow_from_the_task_are_no_invention() -> None:
     square = [(50, 40), (50, 60), (30, 60), (10, 60), (10, 40), (10, 20), (30, 20), (50, 20)]
     steps = [step("GoToXY", {"x": x, "y": y}) for x, y in square]
-    survey = task("SurveyTarget", {"target_position": [30, 40], "radius": 20}, steps, "Survey the pier at [30, 40] on a square with a radius of 20 m.")
-    assert kinds(planned("Survey the pier at [30, 40] from 20 m and come home.", survey, HOME)) == []
+    survey = task(
+        "SurveyTarget",
+        {"target_position": [30, 40], "radius": 20},
+        steps,
+        "Survey the pier at [30, 40] on a square with a radius of 20 m.",
+    )
+    assert (
+        kinds(planned("Survey the pier at [30, 40] from 20 m and come home.", survey, HOME)) == []
+    )
 
 
 @pytest.mark.parametrize(
@@ -86,7 +118,10 @@ def test_a_value_that_reached_no_task(command: str, lost: str) -> None:
     "command",
     [
         "Go to [31, 41], no, make that [30, 40], and come home.",
-        "Go to [30, 40] and come home. We have 3 boats and contact 17 here since 14 o'clock, or 10 hours UTC.",
+        (
+            "Go to [30, 40] and come home. We have 3 boats and contact 17 here since 14 o'clock, or"
+            " 10 hours UTC."
+        ),
         "Go to [30, 40] and come home, and skip the five minutes of waiting.",
     ],
 )
@@ -98,26 +133,57 @@ def test_counts_ids_hours_and_what_is_taken_back_are_not_lost(command: str) -> N
 
 
 def test_an_open_place_is_told_once_and_keeps_its_id_when_something_else_is_edited() -> None:
-    search = task("SearchAndDetect", {"target_description": "green buoy"}, [step("StationKeep")], "Find the green buoy.")
-    tasks = [search, task("Transit", {"target_position": OPEN}, None, "Go to the green buoy."), HOME]
+    search = task(
+        "SearchAndDetect",
+        {"target_description": "green buoy"},
+        [step("StationKeep")],
+        "Find the green buoy.",
+    )
+    tasks = [
+        search,
+        task("Transit", {"target_position": OPEN}, None, "Go to the green buoy."),
+        HOME,
+    ]
     plan = planned("Find the green buoy, go there and come home.", *tasks)
     assert [item["id"] for item in plan["warnings"]] == ["unresolved-location:green buoy"]
-    assert plan["warnings"][0]["task"] == "t2" and plan["warnings"][0]["parameter"] == "target_position"
-    moved = apply(plan, {"kind": "insert", "at": 0, "title": "Diagnostics", "parameters": {}, "task_prompt": "Check."}, USV)
+    assert (
+        plan["warnings"][0]["task"] == "t2"
+        and plan["warnings"][0]["parameter"] == "target_position"
+    )
+    moved = apply(
+        plan,
+        {
+            "kind": "insert",
+            "at": 0,
+            "title": "Diagnostics",
+            "parameters": {},
+            "task_prompt": "Check.",
+        },
+        USV,
+    )
     assert plan["warnings"][0]["id"] in [item["id"] for item in moved["warnings"]]
-    assert "unresolved-location" not in kinds(apply(plan, {"kind": "locate", "name": "green buoy", "position": [1, 2]}, USV))
+    assert "unresolved-location" not in kinds(
+        apply(plan, {"kind": "locate", "name": "green buoy", "position": [1, 2]}, USV)
+    )
 
 
 def test_a_target_that_is_used_before_it_is_found() -> None:
-    plan = planned("Go to the green buoy.", task("Transit", {"target_position": OPEN}, None, "Go to the green buoy."))
+    plan = planned(
+        "Go to the green buoy.",
+        task("Transit", {"target_position": OPEN}, None, "Go to the green buoy."),
+    )
     assert "used-before-found" in kinds(plan)
 
 
 def test_a_task_at_a_place_where_the_vehicle_is_not() -> None:
     orbit = task("PerformOrbit", {"center": [70, 80]}, [], "Circle it.")
-    assert "not-at-place" in kinds(planned("Go to [30, 40], circle [70, 80] and come home.", THERE, orbit, HOME))
+    assert "not-at-place" in kinds(
+        planned("Go to [30, 40], circle [70, 80] and come home.", THERE, orbit, HOME)
+    )
     hold = task("KeepStation", {}, [], "Hold position at [70, 80].")
-    assert "not-at-place" in kinds(planned("Go to [30, 40], hold at [70, 80] and come home.", THERE, hold, HOME))
+    assert "not-at-place" in kinds(
+        planned("Go to [30, 40], hold at [70, 80] and come home.", THERE, hold, HOME)
+    )
 
 
 # ---------------------------------------------------------------- space, time, return
@@ -125,14 +191,28 @@ def test_a_task_at_a_place_where_the_vehicle_is_not() -> None:
 
 def test_a_waypoint_outside_of_its_boundary() -> None:
     corners = [[0, 0], [50, 0], [50, 50], [0, 50]]
-    inside, outside = ({**THERE, "task_prompt": f"Go to [30, 40] inside {corners}.", "skill_sequence": [fenced(30, y, corners)]} for y in (40, 90))
+    inside, outside = (
+        {
+            **THERE,
+            "task_prompt": f"Go to [30, 40] inside {corners}.",
+            "skill_sequence": [fenced(30, y, corners)],
+        }
+        for y in (40, 90)
+    )
     assert "outside-boundary" not in kinds(planned("Go to [30, 40].", inside))
     assert "[30, 90]" in text_of(planned("Go to [30, 40].", outside), "outside-boundary")
 
 
 def test_a_boundary_of_the_plan_holds_for_every_task() -> None:
-    plan = planned("Go to [30, 40] and come home.", THERE, HOME, constraints=["Stay inside [0, 0], [20, 0], [20, 20], [0, 20]."])
-    assert [item["task"] for item in plan["warnings"] if item["kind"] == "outside-boundary"] == ["t1"]
+    plan = planned(
+        "Go to [30, 40] and come home.",
+        THERE,
+        HOME,
+        constraints=["Stay inside [0, 0], [20, 0], [20, 20], [0, 20]."],
+    )
+    assert [item["task"] for item in plan["warnings"] if item["kind"] == "outside-boundary"] == [
+        "t1"
+    ]
 
 
 def test_corners_with_crossing_sides_are_no_error() -> None:
@@ -143,18 +223,32 @@ def test_corners_with_crossing_sides_are_no_error() -> None:
 def test_the_vehicle_s_area_and_its_reach() -> None:
     plan = document([THERE, HOME], command="Go to [30, 40] and come home.")
     area = [list(corner) for corner in check_area([[-5, -5], [20, -5], [20, 20], [-5, 20]])]
-    assert kinds(revise({**plan, "vehicle": {**plan["vehicle"], "area": area}}, USV)) == ["outside-area"]
-    assert kinds(revise({**plan, "vehicle": {**plan["vehicle"], "endurance": 60}}, USV)) == ["out-of-reach", "over-endurance"]
+    assert kinds(revise({**plan, "vehicle": {**plan["vehicle"], "area": area}}, USV)) == [
+        "outside-area"
+    ]
+    assert kinds(revise({**plan, "vehicle": {**plan["vehicle"], "endurance": 60}}, USV)) == [
+        "out-of-reach",
+        "over-endurance",
+    ]
 
 
 def test_an_edited_place_that_is_too_far() -> None:
     plan = planned("Go to [30, 40] and come home.", THERE, HOME)
-    edited = apply(plan, {"kind": "parameter", "task": "t1", "name": "target_position", "value": [90000, 0]}, USV)
+    edited = apply(
+        plan,
+        {"kind": "parameter", "task": "t1", "name": "target_position", "value": [90000, 0]},
+        USV,
+    )
     assert "out-of-reach" in kinds(edited) and "stale-skills" in kinds(edited)
 
 
 def test_unknown_parts_are_told_when_the_known_part_is_long() -> None:
-    hold = task("KeepStation", {"duration": 4000}, [step("StationKeep", {"time": 4000}), step("VisualStationKeep")], "Hold for 4000 s.")
+    hold = task(
+        "KeepStation",
+        {"duration": 4000},
+        [step("StationKeep", {"time": 4000}), step("VisualStationKeep")],
+        "Hold for 4000 s.",
+    )
     assert "endurance-open" in kinds(planned("Hold for 4000 s.", hold), notes=True)
 
 
@@ -171,7 +265,9 @@ def test_a_return_that_is_missing() -> None:
 def test_an_instruction_that_no_task_answers() -> None:
     plan = planned("Go to [30, 40], take a panorama, and come home.", THERE, HOME)
     assert kinds(plan) == ["not-planned"] and "panorama" in text_of(plan, "not-planned")
-    assert kinds(planned("Go to [30, 40], tow the dinghy, and come home.", THERE, HOME)) == ["not-planned"]
+    assert kinds(planned("Go to [30, 40], tow the dinghy, and come home.", THERE, HOME)) == [
+        "not-planned"
+    ]
 
 
 @pytest.mark.parametrize(
@@ -187,7 +283,12 @@ def test_what_is_ruled_out_or_taken_back_need_not_be_planned(command: str) -> No
 
 
 def test_what_a_plan_declines_need_not_be_planned() -> None:
-    plan = planned("Go to [30, 40], weld the rail and come home.", THERE, HOME, constraints=["The vehicle has no task to weld the rail."])
+    plan = planned(
+        "Go to [30, 40], weld the rail and come home.",
+        THERE,
+        HOME,
+        constraints=["The vehicle has no task to weld the rail."],
+    )
     assert kinds(plan) == []
 
 
@@ -196,9 +297,14 @@ def test_answers_that_cannot_be_used() -> None:
     broken = copy.deepcopy(plan)
     broken["tasks"][0] |= {"skill_sequence": None, "problems": ["not JSON"], "output": "{"}
     assert kinds(revise(broken, USV)) == ["invalid-answer"]
-    assert kinds(revise({**plan, "tasks": [], "problems": ["not JSON"], "output": "{"}, USV))[0] == "invalid-answer"
+    assert (
+        kinds(revise({**plan, "tasks": [], "problems": ["not JSON"], "output": "{"}, USV))[0]
+        == "invalid-answer"
+    )
     assert "empty-plan" in kinds(revise({**plan, "tasks": []}, USV), notes=True)
-    assert kinds(planned("Go to [30, 40] and come home.", {**THERE, "skill_sequence": None}, HOME)) == ["no-skills"]
+    assert kinds(
+        planned("Go to [30, 40] and come home.", {**THERE, "skill_sequence": None}, HOME)
+    ) == ["no-skills"]
 
 
 def test_a_command_that_cannot_be_read_is_said_once() -> None:
@@ -209,9 +315,16 @@ def test_a_command_that_cannot_be_read_is_said_once() -> None:
 
 
 def test_warnings_are_unique_and_the_most_serious_come_first() -> None:
-    plan = planned("Hold for 9 hours, orbit it, and come home.", THERE, task("PerformOrbit", {"center": OPEN, "radius": 9}, None, "Circle it."))
+    plan = planned(
+        "Hold for 9 hours, orbit it, and come home.",
+        THERE,
+        task("PerformOrbit", {"center": OPEN, "radius": 9}, None, "Circle it."),
+    )
     found = [item["kind"] for item in plan["warnings"]]
-    assert found == sorted(found, key=KINDS.index) and len({item["id"] for item in plan["warnings"]}) == len(found) > 3
+    assert (
+        found == sorted(found, key=KINDS.index)
+        and len({item["id"] for item in plan["warnings"]}) == len(found) > 3
+    )
 
 
 def test_notes_stand_behind_what_is_serious() -> None:
@@ -219,7 +332,11 @@ def test_notes_stand_behind_what_is_serious() -> None:
 
 
 def test_warnings_of_one_kind_stand_in_the_order_of_the_plan() -> None:
-    plan = planned("Go to [30, 40] and come home.", *({**THERE, "skill_sequence": None} for _number in range(3)), HOME)
+    plan = planned(
+        "Go to [30, 40] and come home.",
+        *({**THERE, "skill_sequence": None} for _number in range(3)),
+        HOME,
+    )
     assert [item["task"] for item in plan["warnings"]] == ["t1", "t2", "t3"]
 
 
@@ -227,11 +344,22 @@ def test_expected_plans_raise_no_false_alarm() -> None:
     for record in read_jsonl("data/mission/validation.jsonl"):
         expected = record["expected"]
         texts = {key: expected[key] for key in ("assumptions", "constraints")}
-        plan = planned(record["prompt"], *({**entry, "skill_sequence": []} for entry in expected["tasks"]), **texts)
-        assert [kind for kind in kinds(plan) if kind not in ("unresolved-location", "no-skills")] == [], record["id"]
+        plan = planned(
+            record["prompt"],
+            *({**entry, "skill_sequence": []} for entry in expected["tasks"]),
+            **texts,
+        )
+        assert [
+            kind for kind in kinds(plan) if kind not in ("unresolved-location", "no-skills")
+        ] == [], record["id"]
 
 
 def test_another_vehicle() -> None:
-    there = task("FlyToPoint", {"target_position": [30, 40]}, [step("FlyToXY", {"x": 30, "y": 44})], "Fly to [30, 40].")
+    there = task(
+        "FlyToPoint",
+        {"target_position": [30, 40]},
+        [step("FlyToXY", {"x": 30, "y": 44})],
+        "Fly to [30, 40].",
+    )
     plan = planned("Fly to [30, 40], orbit the tower and return.", there, vocabulary=DRONE)
     assert kinds(plan) == ["missing-return", "not-planned", "skill-value-not-said"]

@@ -1,4 +1,6 @@
-"""A review in the browser without a browser: a plan on the disk, the application, and a client that has the key."""
+"""A review in the browser without a browser: a plan on the disk, the application, and a client that
+has the key.
+"""
 
 from __future__ import annotations
 
@@ -35,12 +37,25 @@ def planned(command: str = COMMAND) -> Planned:
     """What the agents would give for a command: a search, and two tasks at a place that is open."""
     waits = {1: "green buoy", 2: "green buoy"}
     tasks = tuple(
-        PlannedTask(task["title"], dict(task["parameters"]), task["task_prompt"], None if index in waits else answer(SKILLS), waits.get(index))
+        PlannedTask(
+            task["title"],
+            dict(task["parameters"]),
+            task["task_prompt"],
+            None if index in waits else answer(SKILLS),
+            waits.get(index),
+        )
         for index, task in enumerate(FIND_AND_ORBIT["tasks"])
     )
     mission = answer(FIND_AND_ORBIT)
     usage = {"mission": AgentUse.of("embedded", "base", None, 0.5, [mission])}
-    return Planned(command, mission, tasks, (), usage=usage, manifest=build_manifest("plan", seed=None, configuration={}))
+    return Planned(
+        command,
+        mission,
+        tasks,
+        (),
+        usage=usage,
+        manifest=build_manifest("plan", seed=None, configuration={}),
+    )
 
 
 def make_document(command: str = COMMAND) -> PlanDocument:
@@ -59,13 +74,17 @@ Serve = Callable[..., TestClient]
 
 @pytest.fixture
 def serve_plan(tmp_path: Path) -> Serve:
-    """Call it with a plan, or None: a client that has the session's key as a browser of the same origin has it. The agents start in a `with` block."""
+    """Call it with a plan, or None: a client that has the session's key as a browser of the same
+    origin has it. The agents start in a `with` block.
+    """
 
     def make(path: Path | None, **settings: Any) -> TestClient:
         planning = PlanSettings(configuration="base", **settings)
         session = Session(path, WebSettings(folder=tmp_path, planning=planning), load_vocabulary())
         door = Door("127.0.0.1", PORT)
-        client = TestClient(web_app(session, door), base_url=BASE, follow_redirects=False, headers={"Origin": BASE})
+        client = TestClient(
+            web_app(session, door), base_url=BASE, follow_redirects=False, headers={"Origin": BASE}
+        )
         client.cookies.set(door.cookie, door.keys.session)
         client.app_state.update(session=session, door=door)
         return client

@@ -1,4 +1,6 @@
-"""The server as a process of its own: what it prints, how it ends, and what is left when it is killed."""
+"""The server as a process of its own: what it prints, how it ends, and what is left when it is
+killed.
+"""
 
 from __future__ import annotations
 
@@ -61,7 +63,9 @@ class Server:
         return int(self.base.rpartition(":")[2])
 
     def client(self) -> httpx2.Client:
-        return httpx2.Client(base_url=self.base, headers={"Authorization": f"Bearer {self.key}"}, timeout=PATIENCE)
+        return httpx2.Client(
+            base_url=self.base, headers={"Authorization": f"Bearer {self.key}"}, timeout=PATIENCE
+        )
 
     def end(self, number: int) -> tuple[str, str]:
         self.process.send_signal(number)
@@ -78,7 +82,9 @@ def running(plan: Path, before: str = NO_AGENTS) -> Iterator[Server]:
         ready, _write, _error = select.select([process.stdout], [], [], PATIENCE)
         line = process.stdout.readline() if ready else ""
         found = re.match(r"Review at (http://127\.0\.0\.1:\d+)/\?token=([\w-]{43})$", line)
-        assert found, line + (process.stderr.read() if process.stderr and process.poll() is not None else "")
+        assert found, line + (
+            process.stderr.read() if process.stderr and process.poll() is not None else ""
+        )
         yield Server(process, found[1], found[2])
     finally:
         process.kill()
@@ -100,12 +106,18 @@ def test_the_address_that_is_printed_opens_the_page(server: Server) -> None:
         page = browser.get(f"/?token={server.key}")
         assert page.status_code == 200 and "token" not in str(page.url) and "<script" in page.text
         assert browser.get("/api/state").json()["path"] == "plan.json"
-        assert browser.get("/api/state", headers={"Host": f"evil.example:{server.port}"}).status_code == 403
+        assert (
+            browser.get("/api/state", headers={"Host": f"evil.example:{server.port}"}).status_code
+            == 403
+        )
 
 
 def test_it_listens_on_loopback_alone(server: Server) -> None:
     """Another address of loopback stands for the other addresses of the machine."""
-    with pytest.raises(OSError), socket.create_connection(("127.0.0.2", server.port), timeout=PATIENCE):
+    with (
+        pytest.raises(OSError),
+        socket.create_connection(("127.0.0.2", server.port), timeout=PATIENCE),
+    ):
         pass
 
 
@@ -114,11 +126,16 @@ def test_it_listens_on_loopback_alone(server: Server) -> None:
     [
         b"",
         b"GET /api/state HTTP/1.1\r\nHost: 127.0.0.1\r\n",
-        b"POST /api/plan HTTP/1.1\r\nHost: HOST\r\nAuthorization: Bearer KEY\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{",
+        (
+            b"POST /api/plan HTTP/1.1\r\nHost: HOST\r\nAuthorization: Bearer KEY\r\nContent-Type:"
+            b" application/json\r\nContent-Length: 100\r\n\r\n{"
+        ),
     ],
 )
 def test_a_request_that_does_not_come_in_is_given_up(server: Server, begun: bytes) -> None:
-    begun = begun.replace(b"HOST", f"127.0.0.1:{server.port}".encode()).replace(b"KEY", server.key.encode())
+    begun = begun.replace(b"HOST", f"127.0.0.1:{server.port}".encode()).replace(
+        b"KEY", server.key.encode()
+    )
     with socket.create_connection(("127.0.0.1", server.port), timeout=PATIENCE) as slow:
         slow.sendall(begun)
         with contextlib.suppress(ConnectionResetError):
@@ -133,14 +150,19 @@ def test_an_open_event_stream_is_not_taken_for_a_slow_request(server: Server) ->
             assert client.get("/api/state").status_code == 200
             threading.Event().wait(0.2)
         assert events.headers["content-type"].startswith("text/event-stream")
-        client.post("/api/edit", json={"revision": client.get("/api/state").json()["revision"], "edit": PROMPT})
+        client.post(
+            "/api/edit",
+            json={"revision": client.get("/api/state").json()["revision"], "edit": PROMPT},
+        )
         assert "event: state" in (line for line in lines)
 
 
 def test_a_body_that_is_too_large_gets_its_sentence_over_the_wire(server: Server) -> None:
     with server.client() as client:
         for content in (b"x" * 300_000, iter([b"x" * 65_536] * 100)):
-            answered = client.post("/api/plan", content=content, headers={"Content-Type": "application/json"})
+            answered = client.post(
+                "/api/plan", content=content, headers={"Content-Type": "application/json"}
+            )
             assert answered.status_code == 413 and "256 kB" in answered.json()["error"]
         assert client.get("/api/state").status_code == 200
 
@@ -152,7 +174,10 @@ def test_garbage_does_not_end_it(server: Server) -> None:
         b"A" * 100_000,
         b"GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n",
     ):
-        with socket.create_connection(("127.0.0.1", server.port), timeout=PATIENCE) as wire, contextlib.suppress(ConnectionError):
+        with (
+            socket.create_connection(("127.0.0.1", server.port), timeout=PATIENCE) as wire,
+            contextlib.suppress(ConnectionError),
+        ):
             wire.sendall(garbage)
             while wire.recv(4096):
                 pass
@@ -163,7 +188,11 @@ def test_garbage_does_not_end_it(server: Server) -> None:
 def test_ctrl_c_ends_it_and_says_where_the_plan_is(tmp_path: Path) -> None:
     plan = tmp_path / "plan.json"
     write_document(plan, make_document())
-    with running(plan) as server, server.client() as client, client.stream("GET", "/api/events") as events:
+    with (
+        running(plan) as server,
+        server.client() as client,
+        client.stream("GET", "/api/events") as events,
+    ):
         assert next(events.iter_lines()) == ": connected"
         out, errors = server.end(signal.SIGINT)
         assert server.process.returncode == 0
@@ -174,12 +203,18 @@ def test_ctrl_c_ends_it_and_says_where_the_plan_is(tmp_path: Path) -> None:
 def test_ctrl_c_ends_it_while_the_agents_compute(tmp_path: Path) -> None:
     plan = tmp_path / "plan.json"
     write_document(plan, make_document())
-    with running(plan, BUSY_AGENTS) as server, server.client() as client, client.stream("GET", "/api/events") as events:
+    with (
+        running(plan, BUSY_AGENTS) as server,
+        server.client() as client,
+        client.stream("GET", "/api/events") as events,
+    ):
         lines = events.iter_lines()
         assert client.post("/api/plan", json={"command": "Go home."}).status_code == 202
         assert "event: progress" in (line for line in lines)
         out, errors = server.end(signal.SIGINT)
-        assert server.process.returncode == 0 and "planning was not finished" in out and errors == ""
+        assert (
+            server.process.returncode == 0 and "planning was not finished" in out and errors == ""
+        )
     assert not altered(read_document(plan))
 
 
@@ -192,7 +227,11 @@ def test_the_key_is_never_written_but_once_to_the_terminal(tmp_path: Path) -> No
             client.get(f"/api/nothing?token={server.key}")
             client.post("/api/edit", content=b"{")
             client.post(
-                "/api/edit", json={"revision": client.get("/api/state").json()["revision"], "edit": {"kind": "prompt", "task": "t1", "text": "Find it."}}
+                "/api/edit",
+                json={
+                    "revision": client.get("/api/state").json()["revision"],
+                    "edit": {"kind": "prompt", "task": "t1", "text": "Find it."},
+                },
             )
         out, errors = server.end(signal.SIGINT)
     assert server.key not in out + errors
@@ -214,17 +253,28 @@ def operate(server: Server, confirmed: Confirmed) -> None:
         now: dict[str, Any] = client.get("/api/state").json()
         while True:
             text = f"Find the green buoy, wish {len(now['document']['edits'])}."
-            edited = client.post("/api/edit", json={"revision": now["revision"], "edit": {"kind": "prompt", "task": "t1", "text": text}})
+            edited = client.post(
+                "/api/edit",
+                json={
+                    "revision": now["revision"],
+                    "edit": {"kind": "prompt", "task": "t1", "text": text},
+                },
+            )
             assert edited.status_code == 200, edited.text
             now, confirmed.edits = edited.json(), len(edited.json()["document"]["edits"])
             ids = [warning["id"] for warning in now["document"]["warnings"]]
-            decided = client.post("/api/approve", json={"revision": now["revision"], "name": "Ada", "acknowledged": ids})
+            decided = client.post(
+                "/api/approve",
+                json={"revision": now["revision"], "name": "Ada", "acknowledged": ids},
+            )
             assert decided.status_code == 200, decided.text
             now, confirmed.decisions = decided.json(), decided.json()["approval"]["sequence"]
             confirmed.news.set()
 
 
-def test_kill_at_any_moment_loses_no_edit_and_no_decision_that_was_confirmed(tmp_path: Path) -> None:
+def test_kill_at_any_moment_loses_no_edit_and_no_decision_that_was_confirmed(
+    tmp_path: Path,
+) -> None:
     plan = tmp_path / "plan.json"
     write_document(plan, make_document())
     confirmed, moments = Confirmed(), random.Random(7)
@@ -238,7 +288,11 @@ def test_kill_at_any_moment_loses_no_edit_and_no_decision_that_was_confirmed(tmp
             operator.join()
         document = read_document(plan)
         assert not altered(document) and len(document["edits"]) >= confirmed.edits
-        records = read_log(tmp_path / "approvals.jsonl") if (tmp_path / "approvals.jsonl").exists() else ()
+        records = (
+            read_log(tmp_path / "approvals.jsonl")
+            if (tmp_path / "approvals.jsonl").exists()
+            else ()
+        )
         assert len(records) >= confirmed.decisions
     assert confirmed.edits > 0 and confirmed.decisions > 0
 
@@ -248,7 +302,9 @@ def test_a_port_that_is_taken_is_one_sentence(tmp_path: Path) -> None:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         port = taken.getsockname()[1]
-        with pytest.raises(PlannerError, match=f"^--port {port}: another program listens there; give another port"):
+        with pytest.raises(
+            PlannerError, match=f"^--port {port}: another program listens there; give another port"
+        ):
             serve(None, WebSettings(port=port, open_browser=False, folder=tmp_path))
 
 

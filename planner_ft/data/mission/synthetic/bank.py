@@ -12,4 +12,11 @@ from planner_ft.data.mission.synthetic.phrases import TaskPhrases
 
 __all__ = ["BANK", "BANK_RETURN"]
 
-BANK: dict[str, TaskPhrases] = {**BANK_MANOEUVRE, **BANK_STRUCTURE, **BANK_SURVEY, **BANK_IMAGING, **BANK_THERMAL, **BANK_DATA}
+BANK: dict[str, TaskPhrases] = {
+    **BANK_MANOEUVRE,
+    **BANK_STRUCTURE,
+    **BANK_SURVEY,
+    **BANK_IMAGING,
+    **BANK_THERMAL,
+    **BANK_DATA,
+}

@@ -1,4 +1,6 @@
-"""How operators ask for pictures: panoramas, steady footage, glare-free imagery, thermal readings and hot spots."""
+"""How operators ask for pictures: panoramas, steady footage, glare-free imagery, thermal readings
+and hot spots.
+"""
 
 from __future__ import annotations
 

@@ -65,7 +65,7 @@ FOLLOW_TARGET = TaskPhrases(
             currently at {target_position}; last plotted at {target_position}; last fix {target_position}; presently at {target_position}
             at {target_position} a minute ago; showing at {target_position}; somewhere round {target_position}; picked up at {target_position}
             position {target_position}
-        """),
+        """)
     },
     valued_imperatives=listed("""
         get on {target_id} at {target_position} and follow; pick {target_id} up at {target_position} and tail it
@@ -105,7 +105,10 @@ KEEP_STATION = TaskPhrases(
         hold position; keep station; hold station; wait; stay there; hold there; loiter; stand by there; stay in position; hang on there
         hold; remain on station; lie to; wait there; keep her steady in position; stay on the spot; heave to; hover; sit there
     """),
-    bare_noun_phrases=listed("a station hold; a position hold; station keeping; a wait there; a hold; a stand-by; a stationary spell"),
+    bare_noun_phrases=listed(
+        "a station hold; a position hold; station keeping; a wait there; a hold; a stand-by; a"
+        " stationary spell"
+    ),
     bare_gerunds=listed("""
         holding position; keeping station; waiting; holding; standing by; lying to; loitering; sitting tight
     """),
@@ -174,4 +177,9 @@ DRIFT_AUDIT = TaskPhrases(
     """),
 )
 
-BANK_MANOEUVRE = {"Transit": TRANSIT, "FollowTarget": FOLLOW_TARGET, "KeepStation": KEEP_STATION, "DriftAudit": DRIFT_AUDIT}
+BANK_MANOEUVRE = {
+    "Transit": TRANSIT,
+    "FollowTarget": FOLLOW_TARGET,
+    "KeepStation": KEEP_STATION,
+    "DriftAudit": DRIFT_AUDIT,
+}

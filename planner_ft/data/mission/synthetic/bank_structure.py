@@ -52,9 +52,18 @@ PERFORM_ORBIT = TaskPhrases(
             a full circle; a complete circle; one full lap; a full orbit; a complete circuit; a full loop; one complete orbit; a full 360
             a complete lap; a full round; one complete turn
         """),
-        "arc_noun:180": listed("half a circle; a half circle; half an orbit; a half orbit; half a lap; a half loop; half a turn; a half turn"),
-        "arc_noun:90": listed("a quarter circle; a quarter orbit; a quarter of a circle; a quarter turn; a quarter lap; a quarter of an orbit"),
-        "arc_noun": listed("a {arc_compound} arc; an arc of {arc}; a {arc_compound} orbit; {arc} of a circle; a partial orbit of {arc}"),
+        "arc_noun:180": listed(
+            "half a circle; a half circle; half an orbit; a half orbit; half a lap; a half loop;"
+            " half a turn; a half turn"
+        ),
+        "arc_noun:90": listed(
+            "a quarter circle; a quarter orbit; a quarter of a circle; a quarter turn; a quarter"
+            " lap; a quarter of an orbit"
+        ),
+        "arc_noun": listed(
+            "a {arc_compound} arc; an arc of {arc}; a {arc_compound} orbit; {arc} of a circle; a"
+            " partial orbit of {arc}"
+        ),
     },
     valued_imperatives=listed("""
         do {arc_noun} round {target}; make {arc_noun} around {target}; give me {arc_noun} round {target}; run {arc_noun} about {target}
@@ -197,13 +206,16 @@ VISUAL_DOCKING_APPROACH = TaskPhrases(
             stopping {distance} off; stop {distance} short of it; {distance} off; halting at {distance}; up to {distance} from it
             leaving {distance}; to a distance of {distance}; and stop at {distance}; ending {distance} away; {distance} short; until you are {distance} off
             closing to {distance}; holding at {distance} from it; down to {distance}
-        """),
+        """)
     },
     bare_imperatives=listed("""
         dock by camera; do a visual docking; use the camera to dock; dock visually; make a camera-guided docking; come in to dock by camera
         perform a visual docking approach; berth by camera; let the camera guide the docking; do a camera docking
     """),
-    bare_noun_phrases=listed("a camera docking; a visual docking; a camera-guided approach to the dock; a visual docking approach"),
+    bare_noun_phrases=listed(
+        "a camera docking; a visual docking; a camera-guided approach to the dock; a visual docking"
+        " approach"
+    ),
     bare_gerunds=listed("""
         docking by camera; docking visually; doing a visual docking; coming in to dock by camera; using the camera to dock; berthing by camera
     """),

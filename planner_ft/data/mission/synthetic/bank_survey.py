@@ -171,7 +171,10 @@ SUBSEA_CABLE_TRACK = TaskPhrases(
         track {max_dist} of {cable}; follow {max_dist} of {cable} by sonar; from {start} track {cable}; starting at {start}, follow {cable} by sonar
         pick {cable} up at {start} and track it; run {max_dist} along {cable} on sonar
     """),
-    valued_noun_phrases=listed("a {max_dist_compound} track of {cable}; a sonar track over {max_dist} of {cable}; {max_dist} of cable track along {cable}"),
+    valued_noun_phrases=listed(
+        "a {max_dist_compound} track of {cable}; a sonar track over {max_dist} of {cable};"
+        " {max_dist} of cable track along {cable}"
+    ),
 )
 
 SURVEY_TARGET = TaskPhrases(

@@ -38,7 +38,7 @@ THERMAL_HOTSPOT_LOCALIZER = TaskPhrases(
             with a sweep of {scan_width_degrees}; covering {scan_width_degrees}; across a width of {scan_width_degrees}
             on a {scan_width_degrees_compound} sweep
             with the scan set to {scan_width_degrees}
-        """),
+        """)
     },
     here_imperatives=listed("""
         find the hottest spot from where you are; scan for hot spots from right here; pinpoint the hottest spot from your present position
@@ -137,4 +137,7 @@ THERMAL_TIME_LAPSE = TaskPhrases(
     """),
 )
 
-BANK_THERMAL = {"ThermalHotspotLocalizer": THERMAL_HOTSPOT_LOCALIZER, "ThermalTimeLapse": THERMAL_TIME_LAPSE}
+BANK_THERMAL = {
+    "ThermalHotspotLocalizer": THERMAL_HOTSPOT_LOCALIZER,
+    "ThermalTimeLapse": THERMAL_TIME_LAPSE,
+}

@@ -23,7 +23,9 @@ DRAWS = 40
 
 
 def file_problems(path: Path) -> tuple[list[Template], list[Problem]]:
-    """The templates of a file and what is wrong with it, its plans included. Raises PlannerError when it cannot be read."""
+    """The templates of a file and what is wrong with it, its plans included. Raises PlannerError
+    when it cannot be read.
+    """
     templates, problems = read_templates(path)
     vocabulary = load_vocabulary()
     for template in templates:
@@ -52,10 +54,16 @@ def shown(template: Template, count: int) -> str:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Check template files; exit status 1 where something is wrong, 2 where a file cannot be read."""
+    """Check template files; exit status 1 where something is wrong, 2 where a file cannot be
+    read.
+    """
     parser = argparse.ArgumentParser(description="Check files of command templates.")
-    parser.add_argument("files", nargs="*", type=Path, help="files to check; the shipped ones without any")
-    parser.add_argument("--show", type=int, default=0, metavar="N", help="print N samples of every template")
+    parser.add_argument(
+        "files", nargs="*", type=Path, help="files to check; the shipped ones without any"
+    )
+    parser.add_argument(
+        "--show", type=int, default=0, metavar="N", help="print N samples of every template"
+    )
     parser.add_argument("--only", type=int, metavar="LINE", help="show this line only")
     options = parser.parse_args(arguments)
     wrong = 0
@@ -64,7 +72,11 @@ def main(arguments: list[str] | None = None) -> int:
             templates, problems = file_problems(path)
             bad = {problem.number for problem in problems}
             for template in templates:
-                if options.show and template.number not in bad and options.only in (None, template.number):
+                if (
+                    options.show
+                    and template.number not in bad
+                    and options.only in (None, template.number)
+                ):
                     print(shown(template, options.show))
             for problem in problems:
                 print(problem)

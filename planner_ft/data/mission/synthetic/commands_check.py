@@ -1,4 +1,6 @@
-"""Templates read from files, with everything that is wrong about them: file, line and what to do."""
+"""Templates read from files, with everything that is wrong about them: file, line and what to
+do.
+"""
 
 from __future__ import annotations
 
@@ -37,11 +39,15 @@ class Problem:
 
 
 def read_templates(path: Path) -> tuple[list[Template], list[Problem]]:
-    """The templates of a file and its problems. Raises PlannerError when the file cannot be read."""
+    """The templates of a file and its problems. Raises PlannerError when the file cannot be
+    read.
+    """
     try:
         rows = path.read_text(encoding="utf-8").splitlines()
     except (OSError, UnicodeDecodeError) as error:
-        raise PlannerError(f"{path}: cannot be read as UTF-8 text ({error}); name a file of command templates") from None
+        raise PlannerError(
+            f"{path}: cannot be read as UTF-8 text ({error}); name a file of command templates"
+        ) from None
     templates, problems = [], []
     for number, row in enumerate(rows, 1):
         if not row.strip() or row.lstrip().startswith("#"):
@@ -55,8 +61,12 @@ def read_templates(path: Path) -> tuple[list[Template], list[Problem]]:
 
 @cache
 def shipped_templates() -> tuple[Template, ...]:
-    """The templates of the package, by file name and line; lines with a mistake, which the check names, are left out."""
-    return tuple(template for path in sorted(FOLDER.glob("*.txt")) for template in read_templates(path)[0])
+    """The templates of the package, by file name and line; lines with a mistake, which the check
+    names, are left out.
+    """
+    return tuple(
+        template for path in sorted(FOLDER.glob("*.txt")) for template in read_templates(path)[0]
+    )
 
 
 def parse_template(row: str, subject: str, number: int) -> Template:
@@ -75,7 +85,13 @@ def parse_template(row: str, subject: str, number: int) -> Template:
     return built_template(nodes, lines, subject, number, wrong)
 
 
-def built_template(nodes: tuple[Node, ...], lines: tuple[Line, ...], subject: str, number: int = 0, wrong: frozenset[str] = frozenset()) -> Template:
+def built_template(
+    nodes: tuple[Node, ...],
+    lines: tuple[Line, ...],
+    subject: str,
+    number: int = 0,
+    wrong: frozenset[str] = frozenset(),
+) -> Template:
     """The template of a text and its intents, which fit together."""
     slots = list(all_slots(nodes))
     return Template(nodes, lines, subject, number, _kinds(slots, lines), _bound(lines), wrong)
@@ -108,32 +124,57 @@ def _wrong(slots: list[Slot], lines: tuple[Line, ...]) -> frozenset[str]:
 
 
 def _right(line: Line) -> Line:
-    return Line(line.title, tuple(name for name in line.slots if not name.startswith("~")), line.fixed, line.here, line.near, line.tag, line.remark)
+    return Line(
+        line.title,
+        tuple(name for name in line.slots if not name.startswith("~")),
+        line.fixed,
+        line.here,
+        line.near,
+        line.tag,
+        line.remark,
+    )
 
 
-def _check_slots(nodes: tuple[Node, ...], slots: list[Slot], lines: tuple[Line, ...], wrong: frozenset[str]) -> None:
+def _check_slots(
+    nodes: tuple[Node, ...], slots: list[Slot], lines: tuple[Line, ...], wrong: frozenset[str]
+) -> None:
     said = {slot.name for slot in slots if not slot.wrong}
-    wanted = {name for line in lines if line.title != "Not" for name in line.slots} | {line.near for line in lines if line.near}
+    wanted = {name for line in lines if line.title != "Not" for name in line.slots} | {
+        line.near for line in lines if line.near
+    }
     tags = {line.tag for line in lines if line.tag}
     noted = {slot.name for line in lines for slot in all_slots(line.remark)}
     for name in sorted((wanted | tags | noted | wrong) - said):
         raise FormatError(f"{name} belongs to an intent, but TEXT has no {{{name}}}")
     for name in sorted(said - wanted - tags - noted - wrong):
-        raise FormatError(f"{{{name}}} is said, but belongs to no intent; a wrong value is {{~{name}}}")
+        raise FormatError(
+            f"{{{name}}} is said, but belongs to no intent; a wrong value is {{~{name}}}"
+        )
     for slot in slots:
         if slot.wrong and slot.name not in wanted | noted:
-            raise FormatError(f"{{~{slot.name}}} is taken back, but no intent has the right {slot.name}")
+            raise FormatError(
+                f"{{~{slot.name}}} is taken back, but no intent has the right {slot.name}"
+            )
     always = always_said(nodes)
     for line in lines:
         for name in line.of("T", "P") if line.title not in REMARKS and not line.tag else ():
             optional = base_of(name) == "P" and (line.of("T") or line.of("ID"))
             if name not in always and not optional:
-                raise FormatError(f"{line.title} needs {{{name}}}, which not every alternative says")
+                raise FormatError(
+                    f"{line.title} needs {{{name}}}, which not every alternative says"
+                )
 
 
 def _bound(lines: tuple[Line, ...]) -> dict[str, str]:
-    """The position that a target or id is said to have, where it stands in a slot of its own: `PerformOrbit T1 P1`."""
-    placed = [(of, line.of("P")[0]) for line in lines if line.title not in REMARKS and line.of("P") for of in (*line.of("T"), *line.of("ID"))]
+    """The position that a target or id is said to have, where it stands in a slot of its own:
+    `PerformOrbit T1 P1`.
+    """
+    placed = [
+        (of, line.of("P")[0])
+        for line in lines
+        if line.title not in REMARKS and line.of("P")
+        for of in (*line.of("T"), *line.of("ID"))
+    ]
     return dict(placed)
 
 
@@ -146,11 +187,26 @@ def _kinds(slots: list[Slot], lines: tuple[Line, ...]) -> dict[str, str]:
     for slot in slots:
         if slot.base == "T" and slot.name not in kinds:
             titles = {line.title for line in lines if slot.name in line.slots}
-            kinds[slot.name] = next((kind for title, kind in USUAL.items() if title in titles), "structure")
+            kinds[slot.name] = next(
+                (kind for title, kind in USUAL.items() if title in titles), "structure"
+            )
     for line in lines:
-        if line.title == "KeepStation" and any(kinds.get(name) == "boat" for name in line.of("T")) and not line.of("duration") and not line.fixed:
-            raise FormatError("staying with a boat for no stated time is FollowTarget; give KeepStation a duration")
+        if (
+            line.title == "KeepStation"
+            and any(kinds.get(name) == "boat" for name in line.of("T"))
+            and not line.of("duration")
+            and not line.fixed
+        ):
+            raise FormatError(
+                "staying with a boat for no stated time is FollowTarget; give KeepStation a"
+                " duration"
+            )
     return kinds
 
 
-USUAL = {"FollowTarget": "boat", "SubseaCableTrack": "cable", "DockingApproach": "dock", "BoatLandingClearanceSweep": "landing"}
+USUAL = {
+    "FollowTarget": "boat",
+    "SubseaCableTrack": "cable",
+    "DockingApproach": "dock",
+    "BoatLandingClearanceSweep": "landing",
+}

@@ -1,10 +1,12 @@
-r"""The form in which whole commands are written by hand: `TEXT => INTENT; INTENT; ...`, one template a line.
+r"""The form in which whole commands are written by hand: `TEXT => INTENT; INTENT; ...`, one
+template a line.
 
-`(a|b|c)` picks one alternative and `(x|)` leaves x out now and then; `{T1}`, `{duration}` and the like are slots; `\(`, `\|` and
-`\{` are plain characters. Intents stand in the order of execution. A slot `{+x}` says nothing: an intent that has `+x` among
-its arguments is there only where the chosen alternative holds that slot. Targets of the kind `pair` share their noun and differ in
-their look: `{look T1}` is "red", `{one T1}` "the red one", `{nouns T1}` "buoys". What TEXT says in fixed words stands after `=`: `arc=180`, `S=north`,
-`F=name_board`.
+`(a|b|c)` picks one alternative and `(x|)` leaves x out now and then; `{T1}`, `{duration}` and the
+like are slots; `\(`, `\|` and `\{` are plain characters. Intents stand in the order of execution. A
+slot `{+x}` says nothing: an intent that has `+x` among its arguments is there only where the chosen
+alternative holds that slot. Targets of the kind `pair` share their noun and differ in their look:
+`{look T1}` is "red", `{one T1}` "the red one", `{nouns T1}` "buoys". What TEXT says in fixed words
+stands after `=`: `arc=180`, `S=north`, `F=name_board`.
 """
 
 from __future__ import annotations
@@ -16,25 +18,60 @@ from random import Random
 from typing import Any
 
 OBJECTS = ("ID", "T", "P", "F", "S", "K", "L")
-"""Slots for targets, positions, features, sides, docking marks, ids and data items; a number tells those of one command apart."""
+"""Slots for targets, positions, features, sides, docking marks, ids and data items; a number tells
+those of one command apart.
+"""
 KINDS = ("structure", "boat", "buoy", "cable", "area", "landing", "dock", "thing", "pair")
 VALUES = {
-    "KeepStation": ("duration",), "PerformOrbit": ("radius", "speed", "arc"), "DriftAudit": ("duration",),
-    "HorizontalPanorama": ("sectors", "overlap", "wait"), "FeatureStare": ("duration",), "GlareFreeApproach": (),
-    "ParallelStructurePass": ("length", "distance", "speed"), "SurveyTarget": ("radius",), "BathymetryGridSurvey": ("width", "length", "spacing"),
-    "SubseaCableTrack": ("heading", "max_dist"), "ThermalHotspotLocalizer": ("scan",), "ThermalTimeLapse": ("duration", "interval"),
-    "VisualDockingApproach": ("distance",), "Transit": (), "FollowTarget": (), "SearchAndDetect": (), "DockingApproach": (),
-    "BoatLandingClearanceSweep": (), "Diagnostics": (), "AutoGenerateReportSummary": (), "SmartDataHarvest": (), "Home": (), "Nothing": (),
-}  # fmt: skip
-"""The value slots that each task has; `Home` is the return, `Nothing` a command that asks for nothing."""
+    "KeepStation": ("duration",),
+    "PerformOrbit": ("radius", "speed", "arc"),
+    "DriftAudit": ("duration",),
+    "HorizontalPanorama": ("sectors", "overlap", "wait"),
+    "FeatureStare": ("duration",),
+    "GlareFreeApproach": (),
+    "ParallelStructurePass": ("length", "distance", "speed"),
+    "SurveyTarget": ("radius",),
+    "BathymetryGridSurvey": ("width", "length", "spacing"),
+    "SubseaCableTrack": ("heading", "max_dist"),
+    "ThermalHotspotLocalizer": ("scan",),
+    "ThermalTimeLapse": ("duration", "interval"),
+    "VisualDockingApproach": ("distance",),
+    "Transit": (),
+    "FollowTarget": (),
+    "SearchAndDetect": (),
+    "DockingApproach": (),
+    "BoatLandingClearanceSweep": (),
+    "Diagnostics": (),
+    "AutoGenerateReportSummary": (),
+    "SmartDataHarvest": (),
+    "Home": (),
+    "Nothing": (),
+}
+"""The value slots that each task has; `Home` is the return, `Nothing` a command that asks for
+nothing.
+"""
 VALUE_NAMES = frozenset(name for names in VALUES.values() for name in names)
 PARTED = ("SurveyTarget", "ThermalHotspotLocalizer", "ThermalTimeLapse")
 """Tasks for which a feature or a side is a part of the target, which no parameter holds."""
 HOLDS = {
-    "FeatureStare": "F", "GlareFreeApproach": "F", "ParallelStructurePass": "S", "VisualDockingApproach": "K", "SmartDataHarvest": "L",
-    "FollowTarget": "ID", **dict.fromkeys(PARTED, "FS"),
-}  # fmt: skip
-PLACELESS = frozenset(("Diagnostics", "AutoGenerateReportSummary", "SmartDataHarvest", "VisualDockingApproach", "Home", "Nothing"))
+    "FeatureStare": "F",
+    "GlareFreeApproach": "F",
+    "ParallelStructurePass": "S",
+    "VisualDockingApproach": "K",
+    "SmartDataHarvest": "L",
+    "FollowTarget": "ID",
+    **dict.fromkeys(PARTED, "FS"),
+}
+PLACELESS = frozenset(
+    (
+        "Diagnostics",
+        "AutoGenerateReportSummary",
+        "SmartDataHarvest",
+        "VisualDockingApproach",
+        "Home",
+        "Nothing",
+    )
+)
 REMARKS = ("Not", "Cannot", "Note", "Assume")
 PARAMETER_OF = {"scan": "scan_width_degrees"}
 
@@ -45,7 +82,9 @@ class FormatError(ValueError):
 
 @dataclass(frozen=True)
 class Slot:
-    """`{~a T1:boat located}`: name "T1", base "T", kind "boat", article "a", mode "located", wrong True."""
+    """`{~a T1:boat located}`: name "T1", base "T", kind "boat", article "a", mode "located", wrong
+    True.
+    """
 
     name: str
     base: str
@@ -67,7 +106,9 @@ Node = str | Slot | Choice
 
 @dataclass(frozen=True)
 class Line:
-    """An intent as written: a title with the slots that belong to it; `remark` is the text of a Not, Cannot, Note or Assume."""
+    """An intent as written: a title with the slots that belong to it; `remark` is the text of a
+    Not, Cannot, Note or Assume.
+    """
 
     title: str
     slots: tuple[str, ...] = ()
@@ -84,7 +125,9 @@ class Line:
 
 @dataclass(frozen=True)
 class Template:
-    """One line of a file. `kinds` holds the kind of each target, `wrong` the slots that are taken back by a correction."""
+    """One line of a file. `kinds` holds the kind of each target, `wrong` the slots that are taken
+    back by a correction.
+    """
 
     text: tuple[Node, ...]
     lines: tuple[Line, ...]
@@ -109,7 +152,11 @@ def picked(nodes: Iterable[Node], rng: Random) -> Iterator[str | Slot]:
             yield node
 
 
-SLOT = re.compile(r"(?P<w>~)?(?:(?P<a>a|an|bare|one|look|nouns) )?(?P<v>~)?(?P<name>[A-Za-z_]+\d*)(?::(?P<kind>[a-z]+))?(?: (?P<mode>located|lost|adj|bare))?")
+SLOT = re.compile(
+    r"(?P<w>~)?(?:(?P<a>a|an|bare|one|look|nouns)"
+    r" )?(?P<v>~)?(?P<name>[A-Za-z_]+\d*)(?::(?P<kind>[a-z]+))?(?:"
+    r" (?P<mode>located|lost|adj|bare))?"
+)
 MARK = re.compile(r"[(|){}\\]")
 
 
@@ -124,7 +171,10 @@ def parse_slot(text: str) -> Slot:
         return Slot(text, "+")
     match = SLOT.fullmatch(text.strip())
     if match is None:
-        raise FormatError(f"{{{text}}} is no slot: write {{T1}}, {{a T1}}, {{T1:boat}}, {{P1}}, {{duration}}, {{duration adj}} or {{~P1}}")
+        raise FormatError(
+            f"{{{text}}} is no slot: write {{T1}}, {{a T1}}, {{T1:boat}}, {{P1}}, {{duration}},"
+            " {duration adj} or {~P1}"
+        )
     name, base = match["name"], base_of(match["name"])
     kind, mode, article = match["kind"] or "", match["mode"] or "", match["a"] or ""
     if mode == "bare":
@@ -132,12 +182,22 @@ def parse_slot(text: str) -> Slot:
     if base in OBJECTS and name == base:
         raise FormatError(f"{{{text}}} has no number: write {{{name}1}}")
     if base not in OBJECTS and base not in VALUE_NAMES:
-        raise FormatError(f"{{{text}}} is no slot: objects are {', '.join(f'{item}1' for item in OBJECTS)}, values {', '.join(sorted(VALUE_NAMES))}")
-    if kind and kind not in (("words", "degrees") if base == "heading" else KINDS if base == "T" else ()):
-        raise FormatError(f"{{{text}}}: no kind {kind!r} there; targets have {', '.join(KINDS)}, a heading has words or degrees")
+        raise FormatError(
+            f"{{{text}}} is no slot: objects are {', '.join(f'{item}1' for item in OBJECTS)},"
+            f" values {', '.join(sorted(VALUE_NAMES))}"
+        )
+    if kind and kind not in (
+        ("words", "degrees") if base == "heading" else KINDS if base == "T" else ()
+    ):
+        raise FormatError(
+            f"{{{text}}}: no kind {kind!r} there; targets have {', '.join(KINDS)}, a heading has"
+            " words or degrees"
+        )
     if (mode in ("located", "lost") or article) and base != "T" and article != "bare":
         raise FormatError(f"{{{text}}}: only a target is indefinite, located or lost")
-    return Slot(name, base, kind, "a" if article == "an" else article, mode, bool(match["w"] or match["v"]))
+    return Slot(
+        name, base, kind, "a" if article == "an" else article, mode, bool(match["w"] or match["v"])
+    )
 
 
 def parse_text(text: str) -> tuple[Node, ...]:
@@ -188,12 +248,17 @@ def _choice(text: str, start: int) -> tuple[Node, int]:
         if text[index] == ")":
             break
     if len(options) == 1:
-        raise FormatError(f"{text[start : index + 1]!r} has no alternative: write (x|) for what may be left out, \\( and \\) for brackets")
+        raise FormatError(
+            f"{text[start : index + 1]!r} has no alternative: write (x|) for what may be left out,"
+            " \\( and \\) for brackets"
+        )
     return Choice(tuple(options)), index + 1
 
 
 def parse_line(text: str) -> Line:
-    """One intent. Raises FormatError for unknown titles and arguments that the task does not have."""
+    """One intent. Raises FormatError for unknown titles and arguments that the task does not
+    have.
+    """
     title, _, rest = text.strip().partition(" ")
     if title in REMARKS:
         return _remark(title, rest.strip())
@@ -205,7 +270,11 @@ def parse_line(text: str) -> Line:
     words = rest.split()
     for index, word in enumerate(words):
         if word in ("here", "near"):
-            known |= {"here": True} if word == "here" else {"near": words[index + 1] if index + 1 < len(words) else ""}
+            known |= (
+                {"here": True}
+                if word == "here"
+                else {"near": words[index + 1] if index + 1 < len(words) else ""}
+            )
         elif word.startswith("+"):
             known["tag"] = word
         elif "=" in word:
@@ -232,7 +301,9 @@ def _fixed(title: str, word: str) -> tuple[str, int | float | str]:
     if name in ("F", "S", "K") and name in HOLDS.get(title, "") and title not in PARTED:
         return name, value.replace("_", " ")
     if name not in VALUES[title]:
-        raise FormatError(f"{title} has no {name}: it has {', '.join(VALUES[title]) or 'no values'}")
+        raise FormatError(
+            f"{title} has no {name}: it has {', '.join(VALUES[title]) or 'no values'}"
+        )
     try:
         return name, float(value) if "." in value else int(value)
     except ValueError:
@@ -244,7 +315,9 @@ def _argument(title: str, word: str) -> str:
     base = base_of(name)
     if base in VALUE_NAMES:
         if base not in VALUES[title]:
-            raise FormatError(f"{title} has no {base}: it has {', '.join(VALUES[title]) or 'no values'}")
+            raise FormatError(
+                f"{title} has no {base}: it has {', '.join(VALUES[title]) or 'no values'}"
+            )
     elif base not in OBJECTS or name == base:
         raise FormatError(f"{title}: no argument {word!r}")
     elif base in ("T", "P") and title in PLACELESS:
@@ -258,10 +331,18 @@ def _check_line(line: Line) -> None:
     right = [name for name in line.slots if not name.startswith("~")]
     for base in {base_of(name) for name in right} - {"L"}:
         if sum(base_of(name) == base for name in right) > 1:
-            raise FormatError(f"{line.title} has {base} twice; write one intent per target or value")
+            raise FormatError(
+                f"{line.title} has {base} twice; write one intent per target or value"
+            )
     placed = line.here or any(base_of(name) in ("T", "P") for name in right)
-    if line.title not in PLACELESS and not placed and not (line.title == "FollowTarget" and any(name.startswith("ID") for name in right)):
-        raise FormatError(f"{line.title} has no place: give it T1 or P1, or `here` where the command names none")
+    if (
+        line.title not in PLACELESS
+        and not placed
+        and not (line.title == "FollowTarget" and any(name.startswith("ID") for name in right))
+    ):
+        raise FormatError(
+            f"{line.title} has no place: give it T1 or P1, or `here` where the command names none"
+        )
     if line.title == "SearchAndDetect" and not any(name.startswith("T") for name in right):
         raise FormatError("SearchAndDetect needs a target, T1")
     if line.near and base_of(line.near) != "P":

@@ -1,4 +1,6 @@
-"""Noise on commands written by hand: most stay clean, some arrive as keyboards, telegrams, hurry and radio leave them."""
+"""Noise on commands written by hand: most stay clean, some arrive as keyboards, telegrams, hurry
+and radio leave them.
+"""
 
 from __future__ import annotations
 
@@ -11,11 +13,61 @@ from planner_ft.data.mission.synthetic.surface import protected_words
 
 Values = tuple[str, ...]
 GREETINGS = (
-    "Ok", "OK", "Okay", "Hi", "Hello", "Right", "Morning", "Good morning", "Evening", "Good evening", "Good afternoon", "Hi there", "Alright", "Hey",
-    "Hello there", "Control here", "New task", "Next job", "Base here", "Right then", "Afternoon", "New job for you", "One more",
-)  # fmt: skip
-GREETED = ("ok", "hi", "hello", "hey", "good", "morning", "right", "evening", "alright", "moin", "dear", "ahoy", "new", "next", "afternoon", "control")
-SIGN_OFFS = ("Thanks.", "Thank you.", "Cheers.", "Over.", "Thanks!", "That's all.", "Please confirm.", "Many thanks.", "Please acknowledge.", "Out.", "Ta.")
+    "Ok",
+    "OK",
+    "Okay",
+    "Hi",
+    "Hello",
+    "Right",
+    "Morning",
+    "Good morning",
+    "Evening",
+    "Good evening",
+    "Good afternoon",
+    "Hi there",
+    "Alright",
+    "Hey",
+    "Hello there",
+    "Control here",
+    "New task",
+    "Next job",
+    "Base here",
+    "Right then",
+    "Afternoon",
+    "New job for you",
+    "One more",
+)
+GREETED = (
+    "ok",
+    "hi",
+    "hello",
+    "hey",
+    "good",
+    "morning",
+    "right",
+    "evening",
+    "alright",
+    "moin",
+    "dear",
+    "ahoy",
+    "new",
+    "next",
+    "afternoon",
+    "control",
+)
+SIGN_OFFS = (
+    "Thanks.",
+    "Thank you.",
+    "Cheers.",
+    "Over.",
+    "Thanks!",
+    "That's all.",
+    "Please confirm.",
+    "Many thanks.",
+    "Please acknowledge.",
+    "Out.",
+    "Ta.",
+)
 COMMON_STARTS = """
     a after all an and any around as at before begin bring can carry check circle collect come could cut do dock don't drift drop fetch film find first
     follow for from get give go grab have head here hold how i'd if in inspect it just keep kindly lead leave let let's locate look make map may maybe
@@ -50,7 +102,11 @@ def greeted(text: str, rng: Random) -> str:
 
 def signed(text: str, rng: Random) -> str:
     """With a word of farewell."""
-    return f"{text} {rng.choice(SIGN_OFFS)}" if text[-1] in ".?!" else f"{text}. {rng.choice(SIGN_OFFS)}"
+    return (
+        f"{text} {rng.choice(SIGN_OFFS)}"
+        if text[-1] in ".?!"
+        else f"{text}. {rng.choice(SIGN_OFFS)}"
+    )
 
 
 def garbled(text: str, rng: Random, values: Values) -> str:
@@ -73,13 +129,19 @@ def dictated(text: str, _rng: Random, values: Values) -> str:
 
 
 def telegraphed(text: str, rng: Random, values: Values) -> str:
-    """Without articles and "please", in capitals now and then where no value has any of its own; words of values stay."""
+    """Without articles and "please", in capitals now and then where no value has any of its own;
+    words of values stay.
+    """
     kept = {word for value in values for word in value.split(" ")} & LITTLE
     words = [word for word in text.split(" ") if word.lower() not in LITTLE or word in kept]
     short = " ".join(words)
     if not short:
         return text
-    if rng.random() < 0.45 and "\u00b0" not in text and not any(mark.isupper() for value in values for mark in value):
+    if (
+        rng.random() < 0.45
+        and "\u00b0" not in text
+        and not any(mark.isupper() for value in values for mark in value)
+    ):
         stops = rng.random() < 0.4
         return (re.sub(r"[.;!?](?= |$)|,(?= \D)", " STOP", short) if stops else short).upper()
     return short[:1].upper() + short[1:]

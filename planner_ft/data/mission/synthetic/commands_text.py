@@ -1,4 +1,6 @@
-"""The text of a command put together from its parts: articles, capitals, spaces and the mention of targets."""
+"""The text of a command put together from its parts: articles, capitals, spaces and the mention of
+targets.
+"""
 
 from __future__ import annotations
 
@@ -15,35 +17,80 @@ SOUNDS_VOWEL = re.compile(
     r"(?:[aeioåøöäéAEIO]|u(?!ni(?!d|n|m)|se|su|ti|ri|to|ro)|U(?![a-z]?[a-z]?i)|8|11(?!\d)|18(?!\d)|hour|honest|[FHLMNRSX](?:[A-Z0-9-]|\b(?!')))"
 )
 SOUNDS_CONSONANT = re.compile(r"(?:one\b|once\b|eu|Eu|one-|ROV|RIB|SAR|NATO|LED\b|USV|UAV)")
-ABBREVIATED = frozenset(("approx.", "no.", "nr.", "e.g.", "i.e.", "ca.", "vs.", "ref.", "dr.", "mr.", "ms.", "st.", "capt."))
+ABBREVIATED = frozenset(
+    (
+        "approx.",
+        "no.",
+        "nr.",
+        "e.g.",
+        "i.e.",
+        "ca.",
+        "vs.",
+        "ref.",
+        "dr.",
+        "mr.",
+        "ms.",
+        "st.",
+        "capt.",
+    )
+)
 SENTENCE = re.compile(r"(^|[.!?]\s+|[.!?][\"”)]\s+|\n)([a-zåøöäé])(?=[\w'’-]*)")
 KEEP_SMALL = re.compile(r"[a-z]\)|[xy][=: ]?-?\d|x[=: ]|[a-z]\d")
 
 PLACED = (
-    *("{text} at {place}",) * 26, "{text} ({place})", "{text}, position {place},", "{text}, at {place},", "{text} at position {place}",
-    "{text} over at {place}", "{text} out at {place}", "{text}, {place},", "{text} located at {place}",
-)  # fmt: skip
-TRACKED = ("{text} at {place}", "{text} at {place}", "{text} starting at {place}", "{text} from {place}")
+    *("{text} at {place}",) * 26,
+    "{text} ({place})",
+    "{text}, position {place},",
+    "{text}, at {place},",
+    "{text} at position {place}",
+    "{text} over at {place}",
+    "{text} out at {place}",
+    "{text}, {place},",
+    "{text} located at {place}",
+)
+TRACKED = (
+    "{text} at {place}",
+    "{text} at {place}",
+    "{text} starting at {place}",
+    "{text} from {place}",
+)
 DOUBTS = (
-    "{text} somewhere near {place}", "{text} at about {place}", "{text} at roughly {place}", "{text}, which should be at {place},",
-    "{text} at {place}, I think,", "{text}, probably at {place},", "{text} at around {place}",
-)  # fmt: skip
+    "{text} somewhere near {place}",
+    "{text} at about {place}",
+    "{text} at roughly {place}",
+    "{text}, which should be at {place},",
+    "{text} at {place}, I think,",
+    "{text}, probably at {place},",
+    "{text} at around {place}",
+)
 
 
-def target_words(target: Target, article: str, rng: Random | None = None, style: Style | None = None) -> str:
-    """A mention: `article` "a" is indefinite, "bare" has none; with `rng` and `style` it is in full, its position included."""
+def target_words(
+    target: Target, article: str, rng: Random | None = None, style: Style | None = None
+) -> str:
+    """A mention: `article` "a" is indefinite, "bare" has none; with `rng` and `style` it is in
+    full, its position included.
+    """
     text = target.description or spoken_identity(target)
     if article == "bare":
         return text
     if article in ("look", "one", "nouns"):
         look = text.removesuffix(target.noun).strip()
-        return plural(target.noun) if article == "nouns" else look if article == "look" else f"the {look} one"
+        return (
+            plural(target.noun)
+            if article == "nouns"
+            else look
+            if article == "look"
+            else f"the {look} one"
+        )
     if article == "a":
         return f"{article_for(text)} {text}"
     text = described(target, _NEVER_THAT) if target.description else text
     if rng is None or style is None or target.position is None:
         return text
-    pool: tuple[str, ...] = DOUBTS if target.doubtful else TRACKED if target.noun == "cable" else PLACED
+    pool: tuple[str, ...] = (
+        DOUBTS if target.doubtful else TRACKED if target.noun == "cable" else PLACED
+    )
     place = say_position(target.position, rng, style)
     if place[0] in "[(":
         pool = tuple(form for form in pool if "({" not in form)
@@ -66,7 +113,9 @@ def article_for(text: str) -> str:
 
 
 def joined(parts: list[str]) -> str:
-    """The parts as one text: "a" and "an" put right where a part begins, spaces, marks and capitals put right."""
+    """The parts as one text: "a" and "an" put right where a part begins, spaces, marks and capitals
+    put right.
+    """
     text = ""
     for part in parts:
         if part and part[0] != " " and (match := ARTICLE.search(text)) is not None:
@@ -90,7 +139,11 @@ def capitalised(text: str) -> str:
 
     def large(match: re.Match[str]) -> str:
         before = text[: match.end(1)].rstrip().lower()
-        if before.endswith("...") or before.rpartition(" ")[2].lstrip("(") in ABBREVIATED or KEEP_SMALL.match(text, match.start(2)):
+        if (
+            before.endswith("...")
+            or before.rpartition(" ")[2].lstrip("(") in ABBREVIATED
+            or KEEP_SMALL.match(text, match.start(2))
+        ):
             return match[0]
         return match[1] + match[2].upper()
 

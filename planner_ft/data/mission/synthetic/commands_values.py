@@ -1,4 +1,6 @@
-"""What stands in the slots of a template: targets, positions, parts, ids, data and values, realistic for the task."""
+"""What stands in the slots of a template: targets, positions, parts, ids, data and values,
+realistic for the task.
+"""
 
 from __future__ import annotations
 
@@ -31,28 +33,69 @@ from planner_ft.data.mission.synthetic.scene import AREAS, CABLES
 Sayer = Callable[[Random, Style], Said]
 
 BUOYS = (
-    "buoy", "can buoy", "nun buoy", "wreck buoy", "mooring buoy", "cardinal buoy", "fairway buoy", "weather buoy", "wave buoy", "marker buoy",
-    "spar buoy", "data buoy", "channel buoy", "bell buoy", "light buoy", "safe-water buoy", "special mark", "racing mark", "wave rider", "pick-up buoy",
-)  # fmt: skip
+    "buoy",
+    "can buoy",
+    "nun buoy",
+    "wreck buoy",
+    "mooring buoy",
+    "cardinal buoy",
+    "fairway buoy",
+    "weather buoy",
+    "wave buoy",
+    "marker buoy",
+    "spar buoy",
+    "data buoy",
+    "channel buoy",
+    "bell buoy",
+    "light buoy",
+    "safe-water buoy",
+    "special mark",
+    "racing mark",
+    "wave rider",
+    "pick-up buoy",
+)
 LANDINGS = (
-    "turbine", "wind turbine", "monopile", "transition piece", "jacket", "substation", "converter platform", "platform", "gas platform", "met mast",
-    "lighthouse", "tidal turbine", "research platform", "beacon", "wellhead platform", "service platform", "mooring dolphin", "lightvessel",
-)  # fmt: skip
+    "turbine",
+    "wind turbine",
+    "monopile",
+    "transition piece",
+    "jacket",
+    "substation",
+    "converter platform",
+    "platform",
+    "gas platform",
+    "met mast",
+    "lighthouse",
+    "tidal turbine",
+    "research platform",
+    "beacon",
+    "wellhead platform",
+    "service platform",
+    "mooring dolphin",
+    "lightvessel",
+)
 
 
 NATIONS = re.compile("German|Dutch|Norwegian|Danish|Polish")
 NAMED = re.compile(r"[A-ZÅØÖÄÉ]|\d")
 
 
-def draw_target(rng: Random, key: int, kind: str, *, located: bool, plain: bool, common: bool = False) -> Target:
-    """A target of a kind; `plain` keeps to descriptions that take an article and have no "with ..." phrase, `common` to those without names."""
+def draw_target(
+    rng: Random, key: int, kind: str, *, located: bool, plain: bool, common: bool = False
+) -> Target:
+    """A target of a kind; `plain` keeps to descriptions that take an article and have no "with ..."
+    phrase, `common` to those without names.
+    """
     place = draw_position(rng) if located else None
     for _ in range(12):
         target = _TARGETS[kind](rng, key)
         text = target.description or ""
         if _plural(text) or (plain and (not target.article or " with " in text)):
             continue
-        if common and (not target.article or NAMED.search(NATIONS.sub("", text.replace("ROV", "").replace("RIB", "")))):
+        if common and (
+            not target.article
+            or NAMED.search(NATIONS.sub("", text.replace("ROV", "").replace("RIB", "")))
+        ):
             continue
         break
     return replace(target, position=place, whereabouts="")
@@ -86,7 +129,14 @@ def _cable(rng: Random, key: int) -> Target:
 
 
 def _area(rng: Random, key: int) -> Target:
-    name = rng.choice(AREAS) if rng.random() < 0.7 else f"{words.proper_name(rng)} {rng.choice(('basin', 'channel', 'bank', 'bight', 'reach', 'sound'))}"
+    name = (
+        rng.choice(AREAS)
+        if rng.random() < 0.7
+        else (
+            f"{words.proper_name(rng)}"
+            f" {rng.choice(('basin', 'channel', 'bank', 'bight', 'reach', 'sound'))}"
+        )
+    )
     return Target(key, name, area=True, noun=name)
 
 
@@ -96,22 +146,73 @@ def _dock(rng: Random, key: int) -> Target:
 
 
 FLOATING = (
-    "shipping container", "container", "barrel", "oil drum", "crate", "pallet", "buoyancy tank", "fender", "fishing net", "ghost net", "tree trunk", "log",
-    "raft", "life raft", "life jacket", "life ring", "surfboard", "paddle board", "tarpaulin", "pontoon", "dinghy", "canoe", "kayak", "plank", "tank",
-    "buoy", "mooring buoy", "drum", "refrigerator", "sail bag", "oil boom", "gas bottle", "cable drum", "fish box", "lobster pot", "inflatable", "float",
-)  # fmt: skip
+    "shipping container",
+    "container",
+    "barrel",
+    "oil drum",
+    "crate",
+    "pallet",
+    "buoyancy tank",
+    "fender",
+    "fishing net",
+    "ghost net",
+    "tree trunk",
+    "log",
+    "raft",
+    "life raft",
+    "life jacket",
+    "life ring",
+    "surfboard",
+    "paddle board",
+    "tarpaulin",
+    "pontoon",
+    "dinghy",
+    "canoe",
+    "kayak",
+    "plank",
+    "tank",
+    "buoy",
+    "mooring buoy",
+    "drum",
+    "refrigerator",
+    "sail bag",
+    "oil boom",
+    "gas bottle",
+    "cable drum",
+    "fish box",
+    "lobster pot",
+    "inflatable",
+    "float",
+)
 
 
 _TARGETS: dict[str, Callable[[Random, int], Target]] = {
-    "structure": _structure, "boat": _boat, "buoy": _of(BUOYS), "cable": _cable, "area": _area, "landing": _of(LANDINGS), "dock": _dock, "thing": _of(FLOATING),
-}  # fmt: skip
+    "structure": _structure,
+    "boat": _boat,
+    "buoy": _of(BUOYS),
+    "cable": _cable,
+    "area": _area,
+    "landing": _of(LANDINGS),
+    "dock": _dock,
+    "thing": _of(FLOATING),
+}
 
 LOOK_PAIRS = (
-    ("northern", "southern", "middle"), ("eastern", "western", "middle"), ("inner", "outer", "middle"), ("left-hand", "right-hand", "middle"),
-    ("big", "small", "medium-sized"), ("old", "new", "half-finished"), ("lit", "unlit", "flashing"), ("near", "far", "middle"),
-    ("upstream", "downstream", "middle"), ("tall", "short", "middle"), ("wooden", "steel", "concrete"), ("rusty", "freshly painted", "grey"),
-    ("long", "short", "square"), ("first", "second", "third"),
-)  # fmt: skip
+    ("northern", "southern", "middle"),
+    ("eastern", "western", "middle"),
+    ("inner", "outer", "middle"),
+    ("left-hand", "right-hand", "middle"),
+    ("big", "small", "medium-sized"),
+    ("old", "new", "half-finished"),
+    ("lit", "unlit", "flashing"),
+    ("near", "far", "middle"),
+    ("upstream", "downstream", "middle"),
+    ("tall", "short", "middle"),
+    ("wooden", "steel", "concrete"),
+    ("rusty", "freshly painted", "grey"),
+    ("long", "short", "square"),
+    ("first", "second", "third"),
+)
 
 
 def draw_look_alikes(rng: Random, count: int) -> list[Target]:
@@ -127,19 +228,31 @@ def draw_look_alikes(rng: Random, count: int) -> list[Target]:
 
 
 LENGTHS = {
-    ("PerformOrbit", "radius"): (4, 80), ("SurveyTarget", "radius"): (4, 60), ("ParallelStructurePass", "length"): (15, 300),
-    ("ParallelStructurePass", "distance"): (3, 40), ("BathymetryGridSurvey", "width"): (20, 300), ("BathymetryGridSurvey", "length"): (20, 300),
-    ("BathymetryGridSurvey", "spacing"): (2, 25), ("VisualDockingApproach", "distance"): (1, 9),
-}  # fmt: skip
+    ("PerformOrbit", "radius"): (4, 80),
+    ("SurveyTarget", "radius"): (4, 60),
+    ("ParallelStructurePass", "length"): (15, 300),
+    ("ParallelStructurePass", "distance"): (3, 40),
+    ("BathymetryGridSurvey", "width"): (20, 300),
+    ("BathymetryGridSurvey", "length"): (20, 300),
+    ("BathymetryGridSurvey", "spacing"): (2, 25),
+    ("VisualDockingApproach", "distance"): (1, 9),
+}
 OTHERS: dict[str, Sayer] = {
-    "speed": say_speed, "sectors": say_count, "overlap": say_percent, "wait": say_wait, "heading": say_heading, "interval": say_interval,
+    "speed": say_speed,
+    "sectors": say_count,
+    "overlap": say_percent,
+    "wait": say_wait,
+    "heading": say_heading,
+    "interval": say_interval,
     "scan": lambda rng, style: say_degrees(rng, style, SCANS),
     "arc": lambda rng, style: say_degrees(rng, style, ARCS),
     "max_dist": lambda rng, style: say_length(rng, style, 100, 950, far=True),
-}  # fmt: skip
+}
 
 
-def draw_value(rng: Random, style: Style, title: str, base: str, *, attributive: bool = False, kind: str = "") -> Said:
+def draw_value(
+    rng: Random, style: Style, title: str, base: str, *, attributive: bool = False, kind: str = ""
+) -> Said:
     """A value for the slot `base` of a task, with words in the speaker's manner."""
     while True:
         said = _draw_value(rng, style, title, base)
@@ -172,12 +285,33 @@ def arc_phrase(rng: Random, said: Said) -> str:
     if exact and rng.random() < 0.9:
         return rng.choice(exact)
     degrees = said.attributive or said.text
-    return f"a {degrees} {rng.choice(('arc', 'arc', 'arc', 'sweep', 'turn'))}" if rng.random() < 0.75 else f"an arc of {said.text}"
+    return (
+        f"a {degrees} {rng.choice(('arc', 'arc', 'arc', 'sweep', 'turn'))}"
+        if rng.random() < 0.75
+        else f"an arc of {said.text}"
+    )
 
 
 ARC_PHRASES = {
-    360: ("a full circle", "a full circle", "one full circle", "a complete circle", "a full lap", "one complete lap", "a full orbit", "a full 360"),
-    180: ("half a circle", "half a circle", "a half circle", "half a lap", "a semicircle", "a half orbit", "half an orbit"),
+    360: (
+        "a full circle",
+        "a full circle",
+        "one full circle",
+        "a complete circle",
+        "a full lap",
+        "one complete lap",
+        "a full orbit",
+        "a full 360",
+    ),
+    180: (
+        "half a circle",
+        "half a circle",
+        "a half circle",
+        "half a lap",
+        "a semicircle",
+        "a half orbit",
+        "half an orbit",
+    ),
     90: ("a quarter circle", "a quarter of a circle", "a quarter lap", "a quarter of an orbit"),
     270: ("three quarters of a circle", "a three-quarter circle", "three quarters of a lap"),
 }
@@ -185,9 +319,17 @@ ARC_PHRASES = {
 
 def interval_words(said: Said, before: str) -> str:
     """The time between two measurements: "minute" after "every", "one minute" elsewhere."""
-    if before.rstrip().lower().endswith(("every", "each", "once a", "once per", "one a", "per")) or said.text[0].isdigit():
+    if (
+        before.rstrip().lower().endswith(("every", "each", "once a", "once per", "one a", "per"))
+        or said.text[0].isdigit()
+    ):
         return said.text
-    return {"minute": "one minute", "half minute": "half a minute", "hour": "one hour", "half hour": "half an hour"}.get(said.text, said.text)
+    return {
+        "minute": "one minute",
+        "half minute": "half a minute",
+        "hour": "one hour",
+        "half hour": "half an hour",
+    }.get(said.text, said.text)
 
 
 def near(position: Position, rng: Random) -> Position:

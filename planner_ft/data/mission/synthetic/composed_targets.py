@@ -1,4 +1,6 @@
-"""Commands about several places: one thing at all of them, the same with other figures, or each with things of its own."""
+"""Commands about several places: one thing at all of them, the same with other figures, or each
+with things of its own.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +10,31 @@ from random import Random
 from typing import Any
 
 from planner_ft.data.mission.synthetic.commands_text import article_for
-from planner_ft.data.mission.synthetic.composed_wishes import VALUE, Wish, chosen, clauses, draw_ending, may_say_it, new_wish, phrases
+from planner_ft.data.mission.synthetic.composed_wishes import (
+    VALUE,
+    Wish,
+    chosen,
+    clauses,
+    draw_ending,
+    may_say_it,
+    new_wish,
+    phrases,
+)
 
 EVERYWHERE = {
-    "SurveyTarget": 18, "PerformOrbit": 15, "KeepStation": 14, "HorizontalPanorama": 11, "DriftAudit": 10, "ThermalHotspotLocalizer": 8, "ThermalTimeLapse": 7,
-    "BoatLandingClearanceSweep": 6, "BathymetryGridSurvey": 6, "FeatureStare": 5, "ParallelStructurePass": 5, "GlareFreeApproach": 3,
-}  # fmt: skip
+    "SurveyTarget": 18,
+    "PerformOrbit": 15,
+    "KeepStation": 14,
+    "HorizontalPanorama": 11,
+    "DriftAudit": 10,
+    "ThermalHotspotLocalizer": 8,
+    "ThermalTimeLapse": 7,
+    "BoatLandingClearanceSweep": 6,
+    "BathymetryGridSurvey": 6,
+    "FeatureStare": 5,
+    "ParallelStructurePass": 5,
+    "GlareFreeApproach": 3,
+}
 """How often each task is done at several places."""
 NAMELESS = ("FeatureStare", "GlareFreeApproach", "BathymetryGridSurvey")
 """Tasks whose short name does not say enough: of what, of how much."""
@@ -26,10 +47,14 @@ def tell_targets(rng: Random) -> Told:
     """The text of a command with slots, and its wishes in the order of execution."""
     text, wishes = rng.choices(*_FORMS)[0](rng)
     opening = rng.choice(phrases("targets")["opening"])
-    text = _after(opening, text) if opening and not text.startswith(("I ", "I'd ")) else opening + text
+    text = (
+        _after(opening, text) if opening and not text.startswith(("I ", "I'd ")) else opening + text
+    )
     if rng.random() < ENDING_SHARE:
         last = draw_ending(rng, 9)
-        text += chosen(rng.choice(phrases("targets")["ending"]), rng).replace("<Z imp>", last.tell(rng, "imp"))
+        text += chosen(rng.choice(phrases("targets")["ending"]), rng).replace(
+            "<Z imp>", last.tell(rng, "imp")
+        )
         wishes = [*wishes, last]
     return text, wishes
 
@@ -66,7 +91,13 @@ def _at(wish: Wish, number: int, **changes: Any) -> Wish:
     """The same at another place, with the same values unless `changes` says which are new."""
     kind = wish.place[:1] if wish.place[:1] in ("T", "P") else "T"
     names = [*VALUE.findall(wish.values), "F", "S", "arc", "sectors"]
-    return replace(wish, number=number, place=f"{kind}{number}", shared={name: wish.shared.get(name, wish.number) for name in names} | changes, said={})
+    return replace(
+        wish,
+        number=number,
+        place=f"{kind}{number}",
+        shared={name: wish.shared.get(name, wish.number) for name in names} | changes,
+        said={},
+    )
 
 
 def _copies(rng: Random, wish: Wish, count: int) -> list[Wish]:
@@ -89,14 +120,30 @@ def _said_as(wish: Wish, wishes: list[Wish]) -> list[Wish]:
 
 
 def _all_alike(rng: Random) -> Told:
-    """One thing at all places, with the same values; now and then in an order that is said afterwards."""
+    """One thing at all places, with the same values; now and then in an order that is said
+    afterwards.
+    """
     wish = new_wish(rng, 1, _title(rng))
     wishes = _copies(rng, wish, _count(rng))
     values, wish.values = wish.values, ""
-    mood, opening = ("got", rng.choice(("I want ", "We need ", "I'd like ", "Please get "))) if rng.random() < PASSIVE_SHARE else ("imp", "")
-    text = opening + wish.tell(rng, mood, _listed(rng, [other.place_words(rng) for other in wishes]))
+    mood, opening = (
+        ("got", rng.choice(("I want ", "We need ", "I'd like ", "Please get ")))
+        if rng.random() < PASSIVE_SHARE
+        else ("imp", "")
+    )
+    text = opening + wish.tell(
+        rng, mood, _listed(rng, [other.place_words(rng) for other in wishes])
+    )
     if values and not wish.said:
-        text += " " + wish.numbered(values) + (f" {_say(rng, 'each')}" if rng.random() < 0.45 and VALUE.search(values) and "each" not in values else "")
+        text += (
+            " "
+            + wish.numbered(values)
+            + (
+                f" {_say(rng, 'each')}"
+                if rng.random() < 0.45 and VALUE.search(values) and "each" not in values
+                else ""
+            )
+        )
     _said_as(wish, wishes)
     if rng.random() < 0.3 and not re.search(r"\b(?:then|finally|after)\b", text):
         return _reordered(rng, text, wishes)
@@ -108,9 +155,17 @@ def _reordered(rng: Random, text: str, wishes: list[Wish]) -> Told:
         return f"{text}{_say(rng, 'turned')}.", wishes[::-1]
     index = int(rng.random() * (len(wishes) - 1)) + 1
     if rng.random() < 0.5:
-        return f"{text}{_say(rng, 'first_of_two', Y=f'{{{wishes[index].place}}}')}.", [wishes[index], *wishes[:index], *wishes[index + 1 :]]
+        return f"{text}{_say(rng, 'first_of_two', Y=f'{{{wishes[index].place}}}')}.", [
+            wishes[index],
+            *wishes[:index],
+            *wishes[index + 1 :],
+        ]
     last = index - 1
-    return f"{text}{_say(rng, 'last_of_many', Y=f'{{{wishes[last].place}}}')}.", [*wishes[:last], *wishes[last + 1 :], wishes[last]]
+    return f"{text}{_say(rng, 'last_of_many', Y=f'{{{wishes[last].place}}}')}.", [
+        *wishes[:last],
+        *wishes[last + 1 :],
+        wishes[last],
+    ]
 
 
 def _valued(rng: Random, *, plain: bool = False) -> Wish:
@@ -125,17 +180,29 @@ def _valued(rng: Random, *, plain: bool = False) -> Wish:
 def _own_values(rng: Random) -> Told:
     """The same thing, every place with its own values: "hold at A for 3 min and at B for 5"."""
     first = _valued(rng)
-    others = [replace(first, number=number, place=f"{first.place[0]}{number}", said={}) for number in range(2, _count(rng) + 1)]
+    others = [
+        replace(first, number=number, place=f"{first.place[0]}{number}", said={})
+        for number in range(2, _count(rng) + 1)
+    ]
     form = _form_without_values(rng, first)
     placed = PLACE.search(form)
     assert placed is not None
     parts = [first.numbered(f"{form} {first.values}".replace("@", first.place_words(rng)))]
     for wish in others:
-        wish.said |= {name.replace("1", str(wish.number)): None for name in first.said if name[0] in "FS"}
-        parts.append(wish.numbered(f"{placed[0]} {wish.values}".replace("@", wish.place_words(rng))))
+        wish.said |= {
+            name.replace("1", str(wish.number)): None for name in first.said if name[0] in "FS"
+        }
+        parts.append(
+            wish.numbered(f"{placed[0]} {wish.values}".replace("@", wish.place_words(rng)))
+        )
     _own_parts(first, others)
     joint = rng.choice((", ", ", ", "; ", ", then "))
-    return f"{joint.join(parts[:-1])}{rng.choice((' and ', ' and then ', ', then ', ', and '))}{parts[-1]}.", [first, *others]
+    return (
+        (
+            f"{joint.join(parts[:-1])}{rng.choice((' and ', ' and then ', ', then ', ', and '))}{parts[-1]}."
+        ),
+        [first, *others],
+    )
 
 
 def _own_parts(first: Wish, others: list[Wish]) -> None:
@@ -158,15 +225,29 @@ def _form_without_values(rng: Random, wish: Wish) -> str:
 def _respectively(rng: Random) -> Told:
     """Places first, their values after: "at A, B and C for 2, 4 and 6 minutes respectively"."""
     first = _valued(rng, plain=True)
-    wishes = [first, *(replace(first, number=number, place=f"{first.place[0]}{number}", said={}) for number in range(2, rng.choice((2, 2, 3)) + 1))]
+    wishes = [
+        first,
+        *(
+            replace(first, number=number, place=f"{first.place[0]}{number}", said={})
+            for number in range(2, rng.choice((2, 2, 3)) + 1)
+        ),
+    ]
     base = VALUE.findall(first.values)[0]
     form = _form_without_values(rng, first)
     values = [wish.numbered(f"{{{base}}}") for wish in wishes]
     places = [wish.place_words(rng) for wish in wishes]
     text = first.numbered(form.replace("@", f"{', '.join(places[:-1])} and {places[-1]}"))
     _own_parts(first, wishes[1:])
-    listed = first.values.replace(f"{{{base}}}", f"{', '.join(values[:-1])} and {values[-1]}").lstrip(", ")
-    return f"{text}, {listed}{rng.choice((' respectively', ', respectively', ', in that order', ''))}.", wishes
+    listed = first.values.replace(
+        f"{{{base}}}", f"{', '.join(values[:-1])} and {values[-1]}"
+    ).lstrip(", ")
+    return (
+        (
+            f"{text},"
+            f" {listed}{rng.choice((' respectively', ', respectively', ', in that order', ''))}."
+        ),
+        wishes,
+    )
 
 
 def _same_at(rng: Random) -> Told:
@@ -174,10 +255,20 @@ def _same_at(rng: Random) -> Told:
     wishes = [_valued(rng)]
     if rng.random() < 0.35:
         second = new_wish(rng, 3, _title(rng, but=(wishes[0].title, *NAMELESS)))
-        second.place = wishes[0].place if may_say_it(wishes[0]) and clauses()[second.title]["at"] != "P" else second.place
+        second.place = (
+            wishes[0].place
+            if may_say_it(wishes[0]) and clauses()[second.title]["at"] != "P"
+            else second.place
+        )
         wishes = [*wishes, second] if second.place == wishes[0].place else wishes
-    text = wishes[0].tell(rng, "imp") + "".join(f"{rng.choice((' and ', ', then ', ' and then '))}{wish.tell(rng, 'imp', 'it')}" for wish in wishes[1:])
-    again = [replace(_at(wish, wish.number), place=f"{wishes[0].place[0]}2", said=dict(wish.said)) for wish in wishes]
+    text = wishes[0].tell(rng, "imp") + "".join(
+        f"{rng.choice((' and ', ', then ', ' and then '))}{wish.tell(rng, 'imp', 'it')}"
+        for wish in wishes[1:]
+    )
+    again = [
+        replace(_at(wish, wish.number), place=f"{wishes[0].place[0]}2", said=dict(wish.said))
+        for wish in wishes
+    ]
     changed = ""
     values = [name for name in wishes[0].said if VALUE.fullmatch("{" + name.rstrip("0123456789"))]
     if len(wishes) == 1 and values and rng.random() < 0.4:
@@ -186,9 +277,18 @@ def _same_at(rng: Random) -> Told:
     return f"{text}{same}{changed}.", [*wishes, *again]
 
 
-def _with_one_changed(rng: Random, wish: Wish, again: list[Wish], name: str) -> tuple[str, list[Wish]]:
+def _with_one_changed(
+    rng: Random, wish: Wish, again: list[Wish], name: str
+) -> tuple[str, list[Wish]]:
     base = name.rstrip("0123456789")
-    ways = {"duration": "for {}", "radius": "at {}", "distance": "at {}", "sectors": "in {} sectors", "speed": "at {}", "overlap": "with {} overlap"}
+    ways = {
+        "duration": "for {}",
+        "radius": "at {}",
+        "distance": "at {}",
+        "sectors": "in {} sectors",
+        "speed": "at {}",
+        "overlap": "with {} overlap",
+    }
     if base not in ways:
         return "", again
     new = f"{base}2"
@@ -206,7 +306,9 @@ def _blocks(rng: Random) -> Told:
         block_wishes: list[Wish] = []
         for _ in range(rng.choice((1, 1, 2, 2, 3)) if place[0] == "T" else rng.choice((1, 2))):
             number += 1
-            block_wishes.append(_at_place(rng, number, place, {wish.title for wish in block_wishes}))
+            block_wishes.append(
+                _at_place(rng, number, place, {wish.title for wish in block_wishes})
+            )
         clauses_told = ", ".join(_elliptic(rng, wish) for wish in block_wishes)
         parts.append(_say(rng, "later" if block > 1 else "block", Y=f"{{{place}}}", X=clauses_told))
         told += block_wishes
@@ -233,40 +335,71 @@ def _gapped(rng: Random) -> Told:
     """ "A needs a lap at 12 m, B a hold of 5 min": the verb stands once."""
     wishes = []
     for number in range(1, rng.choice((2, 2, 3)) + 1):
-        wishes.append(new_wish(rng, number, _title(rng, but=(*NAMELESS, "ParallelStructurePass")), place=f"T{number}"))
+        wishes.append(
+            new_wish(
+                rng,
+                number,
+                _title(rng, but=(*NAMELESS, "ParallelStructurePass")),
+                place=f"T{number}",
+            )
+        )
     verb = _say(rng, "needs")
     parts = []
     for index, wish in enumerate(wishes):
         name = wish.call(rng).removeprefix("the ")
         words = wish.numbered(f"{article_for(name)} {name} {wish.values}")
         parts.append(f"{{{wish.place}}} {verb if not index or rng.random() < 0.3 else ''} {words}")
-    return f"{rng.choice((', ', '; ', ', ')).join(parts[:-1])}{_say(rng, 'gapped')}{parts[-1]}.", wishes
+    return (
+        f"{rng.choice((', ', '; ', ', ')).join(parts[:-1])}{_say(rng, 'gapped')}{parts[-1]}.",
+        wishes,
+    )
 
 
 def _at_each(rng: Random) -> Told:
     """Two things at each of several places, place by place."""
     first = new_wish(rng, 1, _title(rng, but=NAMELESS), place="T1")
     second = new_wish(rng, 2, _title(rng, but=(*NAMELESS, first.title)), place="T1")
-    text = f"{_elliptic(rng, first)}, {rng.choice(('then ', 'and then ', 'and '))}{_elliptic(rng, second)}"
+    text = (
+        f"{_elliptic(rng, first)},"
+        f" {rng.choice(('then ', 'and then ', 'and '))}{_elliptic(rng, second)}"
+    )
     places = [f"T{number}" for number in range(1, _count(rng) + 1)]
     listed = ", ".join(f"{{{place}}}" for place in places[:-1]) + f" and {{{places[-1]}}}"
     told = [replace(wish, place=place) for place in places for wish in (first, second)]
-    ahead = rng.choice((f"At each of {listed}: {text}.", f"For each of {listed}, one after the other: {text}.", f"{listed}. At each of them, {text}."))
+    ahead = rng.choice(
+        (
+            f"At each of {listed}: {text}.",
+            f"For each of {listed}, one after the other: {text}.",
+            f"{listed}. At each of them, {text}.",
+        )
+    )
     return ahead, told
 
 
 def _by_number(rng: Random) -> Told:
     """The places are listed, then spoken of as the first, the second and so on."""
     count = rng.choice((2, 2, 3))
-    wishes = [new_wish(rng, number, _title(rng), place=f"T{number}") for number in range(1, count + 1)]
+    wishes = [
+        new_wish(rng, number, _title(rng), place=f"T{number}") for number in range(1, count + 1)
+    ]
     names = rng.choice(
-        (("the first", "the second", "the third"), ("the first one", "the second one", "the last"), ("number one", "number two", "number three"))
+        (
+            ("the first", "the second", "the third"),
+            ("the first one", "the second one", "the last"),
+            ("number one", "number two", "number three"),
+        )
     )
     if count == 2 and rng.random() < 0.35:
         names = ("the former", "the latter", "")
     parts = [wish.tell(rng, "imp", name) for wish, name in zip(wishes, names, strict=False)]
     listed = ", ".join(f"{{T{number}}}" for number in range(1, count)) + f" and {{T{count}}}"
-    return f"{_say(rng, 'listed').replace('Y', listed)} {rng.choice((', ', '; ', ', then ', '. Then ')).join(parts)}.", wishes
+    return (
+        (
+            f"{_say(rng, 'listed').replace('Y', listed)}"
+            f" {rng.choice((', ', '; ', ', then ', '. Then ')).join(parts)}."
+        ),
+        wishes,
+    )
 
 
 def _look_alikes(rng: Random) -> Told:
@@ -285,7 +418,13 @@ def _look_alikes(rng: Random) -> Told:
     for wish, place in ((first, "T1"), (second, "T2")):
         wish.place = place
     if rng.random() < 0.25:
-        return f"{intro} {text}. {rng.choice(('But the {one T2} first.', 'Begin with the {one T2}, though.')).replace('the {', '{')}", [second, first]
+        return (
+            (
+                f"{intro} {text}."
+                f" {rng.choice(('But the {one T2} first.', 'Begin with the {one T2}, though.')).replace('the {', '{')}"
+            ),
+            [second, first],
+        )
     return f"{intro} {text}.", [first, second]
 
 
@@ -294,6 +433,16 @@ def _other(rng: Random) -> str:
 
 
 _FORMS = (
-    (_all_alike, _own_values, _respectively, _same_at, _blocks, _gapped, _at_each, _by_number, _look_alikes),
+    (
+        _all_alike,
+        _own_values,
+        _respectively,
+        _same_at,
+        _blocks,
+        _gapped,
+        _at_each,
+        _by_number,
+        _look_alikes,
+    ),
     (24, 14, 7, 17, 16, 8, 7, 8, 9),
 )

@@ -1,4 +1,6 @@
-"""Things to do as composed commands tell them: the clauses of `composed/clauses.toml` with slots of their own numbers."""
+"""Things to do as composed commands tell them: the clauses of `composed/clauses.toml` with slots of
+their own numbers.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,13 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from planner_ft.data.mission.synthetic.commands_format import VALUE_NAMES, Line, Slot, base_of, parse_slot
+from planner_ft.data.mission.synthetic.commands_format import (
+    VALUE_NAMES,
+    Line,
+    Slot,
+    base_of,
+    parse_slot,
+)
 
 FOLDER = Path(__file__).parent / "composed"
 CHOICE = re.compile(r"\(([^()|]*(?:\|[^()|]*)+)\)")
@@ -21,14 +29,35 @@ ITEMS = 50
 AUXILIARIES = {"got": "", "has": "has been", "is": "is", "tobe": "is to be"}
 """What the moods of a passive clause put for its %."""
 AHEAD, AHEAD_SHARE = ("for", "at", "from"), 0.07
-"""Values that may stand before their clause, "for ten minutes hold at ...", and how often they do."""
-ENDINGS = ("Home", "AutoGenerateReportSummary", "DockingApproach", "SmartDataHarvest", "VisualDockingApproach")
+"""Values that may stand before their clause, "for ten minutes hold at ...", and how often they
+do.
+"""
+ENDINGS = (
+    "Home",
+    "AutoGenerateReportSummary",
+    "DockingApproach",
+    "SmartDataHarvest",
+    "VisualDockingApproach",
+)
 ENDING_WEIGHTS = (36, 28, 12, 16, 8)
 DONE_SOMEWHERE = {
-    "KeepStation": 16, "DriftAudit": 12, "HorizontalPanorama": 12, "PerformOrbit": 15, "SurveyTarget": 16, "ParallelStructurePass": 8,
-    "BathymetryGridSurvey": 9, "SubseaCableTrack": 5, "FeatureStare": 9, "GlareFreeApproach": 5, "ThermalTimeLapse": 7, "ThermalHotspotLocalizer": 7,
-    "BoatLandingClearanceSweep": 5, "SearchAndDetect": 5, "Transit": 3, "FollowTarget": 3,
-}  # fmt: skip
+    "KeepStation": 16,
+    "DriftAudit": 12,
+    "HorizontalPanorama": 12,
+    "PerformOrbit": 15,
+    "SurveyTarget": 16,
+    "ParallelStructurePass": 8,
+    "BathymetryGridSurvey": 9,
+    "SubseaCableTrack": 5,
+    "FeatureStare": 9,
+    "GlareFreeApproach": 5,
+    "ThermalTimeLapse": 7,
+    "ThermalHotspotLocalizer": 7,
+    "BoatLandingClearanceSweep": 5,
+    "SearchAndDetect": 5,
+    "Transit": 3,
+    "FollowTarget": 3,
+}
 """How often each task is asked for."""
 
 
@@ -59,9 +88,11 @@ def _one(options: list[str], rng: Random) -> str:
 
 @dataclass
 class Wish:
-    """One thing to do. `place` is the slot of its place ("T1", "P2", "ID1:..."), `shared` the numbers of the values that several wishes have in common.
+    """One thing to do. `place` is the slot of its place ("T1", "P2", "ID1:..."), `shared` the
+    numbers of the values that several wishes have in common.
 
-    `values` is what follows the clause, "at {radius}"; `apart` says that it is told elsewhere; `said` collects the slots that were told.
+    `values` is what follows the clause, "at {radius}"; `apart` says that it is told elsewhere;
+    `said` collects the slots that were told.
     """
 
     title: str
@@ -78,7 +109,12 @@ class Wish:
         while self.apart and VALUE.search(form):
             form = self._form(rng, mood)
         if self.values and not self.apart and not VALUE.search(form):
-            ahead = mood == "imp" and self.values.startswith(AHEAD) and "," not in self.values and rng.random() < AHEAD_SHARE
+            ahead = (
+                mood == "imp"
+                and self.values.startswith(AHEAD)
+                and "," not in self.values
+                and rng.random() < AHEAD_SHARE
+            )
             form = f"{self.values} {form}" if ahead else f"{form} {self.values}"
         return self.numbered(_placed(form, self.place_words(rng) if place is None else place))
 
@@ -118,7 +154,9 @@ class Wish:
 
 @cache
 def numbered_slot(slot: str, number: int, shared: tuple[tuple[str, int], ...]) -> tuple[str, str]:
-    """ "~radius adj" as "{~radius3 adj}" for the number 3, and its name; slots that have a number keep it, and places have no name here."""
+    """ "~radius adj" as "{~radius3 adj}" for the number 3, and its name; slots that have a number
+    keep it, and places have no name here.
+    """
     if not any(letter.isdigit() for letter in slot):
         base, _, rest = slot.removeprefix("~").partition(" ")
         name = f"L{number + ITEMS}" if base == "M" else f"{base}{dict(shared).get(base, number)}"
@@ -144,7 +182,13 @@ def may_say_it(wish: Wish) -> bool:
 def new_wish(rng: Random, number: int, title: str, place: str | None = None, **known: Any) -> Wish:
     """A wish with slots of the number; `place` is given where another wish has the same."""
     entry = clauses()[title]
-    return Wish(title, number, _place(rng, number, entry["at"]) if place is None else place, chosen(_one(entry["with"], rng), rng), **known)
+    return Wish(
+        title,
+        number,
+        _place(rng, number, entry["at"]) if place is None else place,
+        chosen(_one(entry["with"], rng), rng),
+        **known,
+    )
 
 
 def _place(rng: Random, number: int, at: str) -> str:

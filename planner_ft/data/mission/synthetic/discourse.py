@@ -1,4 +1,6 @@
-"""Ordering and joining clauses into a command: the ways in which operators put several things into words."""
+"""Ordering and joining clauses into a command: the ways in which operators put several things into
+words.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ def joined(parts: Sequence[str], rng: Random) -> str:
     if len(parts) == 2:
         return rng.choice(frames.TWO).format(*parts)
     joint = rng.choice(frames.MANY)
-    last = joint if joint not in (", ", "; ") and rng.random() < 0.6 else rng.choice(frames.LAST_JOINT)
+    last = (
+        joint if joint not in (", ", "; ") and rng.random() < 0.6 else rng.choice(frames.LAST_JOINT)
+    )
     return joint.join(parts[:-1]) + last + parts[-1]
 
 
@@ -32,7 +36,13 @@ def chained(teller: Teller, intents: Sequence[Intent], mood: Mood = "imp") -> st
 
 def framed(text: str, mood: Mood, rng: Random) -> str:
     """The sentence in a frame that suits its mood."""
-    pool = frames.IMPERATIVE_FRAMES if mood == "imp" else frames.NOUN_FRAMES if mood == "np" else frames.GERUND_FRAMES
+    pool = (
+        frames.IMPERATIVE_FRAMES
+        if mood == "imp"
+        else frames.NOUN_FRAMES
+        if mood == "np"
+        else frames.GERUND_FRAMES
+    )
     return rng.choice(pool).replace("{}", text)
 
 
@@ -42,7 +52,11 @@ def one_sentence(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     parts = [teller.tell(intent, mood) for intent in intents]
     if mood != "imp" and len(parts) > 1:
         joint = teller.rng.choice((", ", ", then ", ", after that "))
-        text = joint.join(parts[:-1]) + teller.rng.choice((" and ", ", then ", " and then ", ", and ", " and after that ")) + parts[-1]
+        text = (
+            joint.join(parts[:-1])
+            + teller.rng.choice((" and ", ", then ", " and then ", ", and ", " and after that "))
+            + parts[-1]
+        )
     else:
         text = joined(parts, teller.rng)
     return [framed(text, mood, teller.rng)]
@@ -74,23 +88,46 @@ def several_sentences(teller: Teller, intents: Sequence[Intent]) -> Sentences:
 
 def _placed(text: str, mood: Mood, index: int, last: bool, rng: Random) -> str:
     if index == 0:
-        return rng.choice(frames.FIRST).replace("{}", text) if mood == "imp" and rng.random() < 0.12 else framed(text, mood, rng)
+        return (
+            rng.choice(frames.FIRST).replace("{}", text)
+            if mood == "imp" and rng.random() < 0.12
+            else framed(text, mood, rng)
+        )
     if mood == "np":
         return rng.choice(frames.NEXT_NOUN).replace("{}", text)
-    return rng.choice(frames.LAST if last and rng.random() < 0.18 else frames.NEXT).replace("{}", text)
+    return rng.choice(frames.LAST if last and rng.random() < 0.18 else frames.NEXT).replace(
+        "{}", text
+    )
 
 
 def numbered(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     """A numbered or lettered list, in order."""
     rng = teller.rng
     mood: Mood = "np" if rng.random() < 0.45 else "imp"
-    style = rng.choice(("{}. ", "{}) ", "({}) ", "{}: ", "{} ", "job {}: ", "step {}, ", "task {}: ", "- ", "#{} ", "leg {}: "))
+    style = rng.choice(
+        (
+            "{}. ",
+            "{}) ",
+            "({}) ",
+            "{}: ",
+            "{} ",
+            "job {}: ",
+            "step {}, ",
+            "task {}: ",
+            "- ",
+            "#{} ",
+            "leg {}: ",
+        )
+    )
     labels: Sequence[object] = range(1, len(intents) + 1)
     if style in ("{}) ", "{}. ") and rng.random() < 0.3:
         labels = "abcdefgh"
     elif style in ("job {}: ", "step {}, ", "task {}: ", "leg {}: ") and rng.random() < 0.5:
         labels = ("one", "two", "three", "four", "five", "six", "seven", "eight")
-    items = [style.format(label) + teller.tell(intent, mood) for label, intent in zip(labels, intents, strict=False)]
+    items = [
+        style.format(label) + teller.tell(intent, mood)
+        for label, intent in zip(labels, intents, strict=False)
+    ]
     return [rng.choice((" ", "; ", ". ", ", ", " ", "\n")).join(items)]
 
 
@@ -104,12 +141,20 @@ def telegram(teller: Teller, intents: Sequence[Intent]) -> Sentences:
 
 
 def clip(text: str, intent: Intent) -> str:
-    """The text without its articles, but for those inside of text values, which the plan holds word for word."""
+    """The text without its articles, but for those inside of text values, which the plan holds word
+    for word.
+    """
     values = [value for value in intent.parameters.values() if isinstance(value, str)]
-    values += [target.description for target in (intent.target, *intent.also) if target is not None and target.description]
+    values += [
+        target.description
+        for target in (intent.target, *intent.also)
+        if target is not None and target.description
+    ]
     for value in values:
         text = text.replace(value, value.replace(" ", "\u00a0"))
-    return " ".join(word for word in text.split(" ") if word not in ("a", "an", "the")).replace("\u00a0", " ")
+    return " ".join(word for word in text.split(" ") if word not in ("a", "an", "the")).replace(
+        "\u00a0", " "
+    )
 
 
 def but_first(teller: Teller, intents: Sequence[Intent]) -> Sentences:
@@ -120,12 +165,29 @@ def but_first(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     pattern = rng.choice(frames.BUT_FIRST)
     said: dict[str, str] = {}
     early_first = pattern.find("{early") < pattern.find("{late")
-    for name, group in (("early", early), ("late", late)) if early_first else (("late", late), ("early", early)):
-        parts = [teller.tell(intent, "imp", explicit=bool(said) and position == 0) for position, intent in enumerate(group)]
-        said[name] = joined(parts, rng) if len(parts) < 3 else ", ".join(parts[:-1]) + " and " + parts[-1]
-    if not early_first and not pattern.startswith(("before you", "don't", "make sure")) and rng.random() < 0.25:
+    for name, group in (
+        (("early", early), ("late", late)) if early_first else (("late", late), ("early", early))
+    ):
+        parts = [
+            teller.tell(intent, "imp", explicit=bool(said) and position == 0)
+            for position, intent in enumerate(group)
+        ]
+        said[name] = (
+            joined(parts, rng) if len(parts) < 3 else ", ".join(parts[:-1]) + " and " + parts[-1]
+        )
+    if (
+        not early_first
+        and not pattern.startswith(("before you", "don't", "make sure"))
+        and rng.random() < 0.25
+    ):
         said["late"] = framed(said["late"], "imp", rng).removesuffix("?")
-    return [pattern.format(early=said["early"], late=said["late"], early_cap=said["early"][0].upper() + said["early"][1:])]
+    return [
+        pattern.format(
+            early=said["early"],
+            late=said["late"],
+            early_cap=said["early"][0].upper() + said["early"][1:],
+        )
+    ]
 
 
 def after_gerund(teller: Teller, intents: Sequence[Intent]) -> Sentences:
@@ -145,11 +207,28 @@ def after_gerund(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     early_first = pattern.find("{early") < pattern.find("{late")
     for name in ("early", "late") if early_first else ("late", "early"):
         group, group_mood = (first, early) if name == "early" else (rest, late)
-        parts = [teller.tell(intent, group_mood, explicit=bool(said) and index == 0) for index, intent in enumerate(group)]
+        parts = [
+            teller.tell(intent, group_mood, explicit=bool(said) and index == 0)
+            for index, intent in enumerate(group)
+        ]
         said[name] = joined(parts, rng) if group_mood == "imp" else " and ".join(parts)
     sentences = [pattern.format(**said)]
     if tail:
-        sentences += [_placed(joined([teller.tell(intent, "imp", explicit=index == 0) for index, intent in enumerate(tail)], rng), "imp", 1, True, rng)]
+        sentences += [
+            _placed(
+                joined(
+                    [
+                        teller.tell(intent, "imp", explicit=index == 0)
+                        for index, intent in enumerate(tail)
+                    ],
+                    rng,
+                ),
+                "imp",
+                1,
+                True,
+                rng,
+            )
+        ]
     return sentences
 
 
@@ -175,16 +254,33 @@ def last_first(teller: Teller, intents: Sequence[Intent]) -> Sentences:
                 ("the last thing to do is to", "before that", "and first"),
             )
         )
-    return [f"{opening} {said[0]}", *(f"{middle} {text}" for text in said[1:-1]), f"{final} {said[-1]}"]
+    return [
+        f"{opening} {said[0]}",
+        *(f"{middle} {text}" for text in said[1:-1]),
+        f"{final} {said[-1]}",
+    ]
 
 
 def where_first(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     """The place or the thing is named before what is to be done there."""
     rng = teller.rng
     target = intents[0].target
-    if target is None or target.spot or intents[0].title in ("SearchAndDetect", "SubseaCableTrack") or target.identity is not None or "," in target.whereabouts:
-        return several_sentences(teller, intents) if len(intents) > 1 else one_sentence(teller, intents)
-    own = intents[0].parameters.get("feature_type", intents[0].parameters.get("target_feature")) == target.description
+    if (
+        target is None
+        or target.spot
+        or intents[0].title in ("SearchAndDetect", "SubseaCableTrack")
+        or target.identity is not None
+        or "," in target.whereabouts
+    ):
+        return (
+            several_sentences(teller, intents)
+            if len(intents) > 1
+            else one_sentence(teller, intents)
+        )
+    own = (
+        intents[0].parameters.get("feature_type", intents[0].parameters.get("target_feature"))
+        == target.description
+    )
     if intents[0].title in PLACE_TASKS and not own and rng.random() < 0.5:
         pattern = rng.choice(frames.WHERE_FIRST)
     elif target.description is not None and rng.random() < 0.55:
@@ -209,10 +305,16 @@ def pair(teller: Teller, intents: Sequence[Intent]) -> Sentences:
 def on_site(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     """The vehicle is said to be at the place already."""
     rng = teller.rng
-    target = next(intent.target for intent in intents if intent.target is not None and intent.target.on_site)
+    target = next(
+        intent.target for intent in intents if intent.target is not None and intent.target.on_site
+    )
     place = teller.introduce(target).rstrip(",")
     opening = rng.choice(frames.ON_SITE)
-    rest = one_sentence(teller, intents) if rng.random() < 0.5 or len(intents) == 1 else several_sentences(teller, intents)
+    rest = (
+        one_sentence(teller, intents)
+        if rng.random() < 0.5 or len(intents) == 1
+        else several_sentences(teller, intents)
+    )
     if opening.endswith(",") and rest:
         return [f"{opening.format(place)} {rest[0]}", *rest[1:]]
     return [opening.format(place), *rest]
@@ -221,11 +323,17 @@ def on_site(teller: Teller, intents: Sequence[Intent]) -> Sentences:
 def _introduced(teller: Teller, target: Target, intents: Sequence[Intent]) -> Sentences:
     rng = teller.rng
     text = teller.introduce(target)
-    plain = text.startswith("the ") and not any(mark.isupper() for mark in (target.description or ""))
+    plain = text.startswith("the ") and not any(mark.isupper() for mark in target.description or "")
     opening = (
-        rng.choice(frames.INTROS_INDEFINITE).format(indefinite(text[4:])) if plain and rng.random() < 0.75 else rng.choice(frames.INTROS_DEFINITE).format(text)
+        rng.choice(frames.INTROS_INDEFINITE).format(indefinite(text[4:]))
+        if plain and rng.random() < 0.75
+        else rng.choice(frames.INTROS_DEFINITE).format(text)
     )
-    rest = one_sentence(teller, intents) if rng.random() < 0.5 or len(intents) == 1 else several_sentences(teller, intents)
+    rest = (
+        one_sentence(teller, intents)
+        if rng.random() < 0.5 or len(intents) == 1
+        else several_sentences(teller, intents)
+    )
     return [opening.rstrip(","), *rest]
 
 
@@ -236,13 +344,21 @@ def radio(teller: Teller, intents: Sequence[Intent], boat: str) -> Sentences:
     if rng.random() < 0.3:
         text = ". Break. ".join(teller.tell(intent) for intent in intents)
     elif rng.random() < 0.3:
-        text = ". ".join(_capital(sentence.rstrip("?")) for sentence in several_sentences(teller, intents))
+        text = ". ".join(
+            _capital(sentence.rstrip("?")) for sentence in several_sentences(teller, intents)
+        )
     else:
         text = chained(teller, intents)
     pattern = rng.choice(frames.RADIO)
     if ". {text}" in pattern or ": {text}" in pattern:
         text = _capital(text)
-    return [pattern.format(boat=boat, station=station if not pattern.startswith("{station}") else _capital(station), text=text)]
+    return [
+        pattern.format(
+            boat=boat,
+            station=station if not pattern.startswith("{station}") else _capital(station),
+            text=text,
+        )
+    ]
 
 
 def _capital(text: str) -> str:
@@ -268,6 +384,13 @@ def questions(teller: Teller, intents: Sequence[Intent]) -> Sentences:
     cut = rng.randint(1, len(intents))
     sentences = [rng.choice(asks).format(chained(teller, intents[:cut]))]
     if cut < len(intents):
-        later = ("and then {}?", "and after that {}?", "and could you then {}?", "after that, can you {}?", "and then could you {}?", "then {}, please")
+        later = (
+            "and then {}?",
+            "and after that {}?",
+            "and could you then {}?",
+            "after that, can you {}?",
+            "and then could you {}?",
+            "then {}, please",
+        )
         sentences.append(rng.choice(later).format(chained(teller, intents[cut:])))
     return sentences

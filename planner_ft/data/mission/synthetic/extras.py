@@ -1,4 +1,6 @@
-"""What stands around an order: exclusions, limits, small talk, openers and closers, and commands with no order in them."""
+"""What stands around an order: exclusions, limits, small talk, openers and closers, and commands
+with no order in them.
+"""
 
 from __future__ import annotations
 
@@ -10,42 +12,112 @@ from planner_ft.data.mission.synthetic.numbers import Style, say_length
 from planner_ft.data.mission.synthetic.positions import draw_position, position_words, say_position
 
 RULED_OUT = {
-    "Diagnostics": (("the diagnostics", "the sensor check", "the self-test", "the health check"), "Diagnostics are not run."),
-    "AutoGenerateReportSummary": (("the report", "the write-up", "the summary", "the paperwork"), "No report is written."),
-    "SmartDataHarvest": (("the upload", "the data transfer", "uploading anything", "sending anything"), "No data are uploaded."),
-    "HorizontalPanorama": (("the panorama", "the all-round pictures", "the pano"), "No panorama is taken."),
+    "Diagnostics": (
+        ("the diagnostics", "the sensor check", "the self-test", "the health check"),
+        "Diagnostics are not run.",
+    ),
+    "AutoGenerateReportSummary": (
+        ("the report", "the write-up", "the summary", "the paperwork"),
+        "No report is written.",
+    ),
+    "SmartDataHarvest": (
+        ("the upload", "the data transfer", "uploading anything", "sending anything"),
+        "No data are uploaded.",
+    ),
+    "HorizontalPanorama": (
+        ("the panorama", "the all-round pictures", "the pano"),
+        "No panorama is taken.",
+    ),
     "PerformOrbit": (("the orbit", "the circling", "the lap", "circling"), "No orbit is made."),
-    "ThermalTimeLapse": (("the thermal time-lapse", "the thermal readings", "the thermal series"), "No thermal readings are taken."),
-    "ThermalHotspotLocalizer": (("the hotspot scan", "the hot spot search"), "No hotspot scan is made."),
+    "ThermalTimeLapse": (
+        ("the thermal time-lapse", "the thermal readings", "the thermal series"),
+        "No thermal readings are taken.",
+    ),
+    "ThermalHotspotLocalizer": (
+        ("the hotspot scan", "the hot spot search"),
+        "No hotspot scan is made.",
+    ),
     "FeatureStare": (("the video", "the filming", "the steady footage"), "No video is recorded."),
-    "BathymetryGridSurvey": (("the depth survey", "the soundings", "the bathymetry"), "No depth survey is made."),
+    "BathymetryGridSurvey": (
+        ("the depth survey", "the soundings", "the bathymetry"),
+        "No depth survey is made.",
+    ),
     "DriftAudit": (("the drift", "the drift log", "the drift test"), "No drift is logged."),
-    "ParallelStructurePass": (("the pass", "the run along the side", "the wall run"), "No pass is made."),
-    "BoatLandingClearanceSweep": (("the boat landing scan", "the landing sweep"), "The boat landing is not scanned."),
-    "DockingApproach": (("the docking", "going alongside", "the berthing"), "The vehicle does not dock."),
+    "ParallelStructurePass": (
+        ("the pass", "the run along the side", "the wall run"),
+        "No pass is made.",
+    ),
+    "BoatLandingClearanceSweep": (
+        ("the boat landing scan", "the landing sweep"),
+        "The boat landing is not scanned.",
+    ),
+    "DockingApproach": (
+        ("the docking", "going alongside", "the berthing"),
+        "The vehicle does not dock.",
+    ),
     "SurveyTarget": (("the inspection", "the survey"), "No survey is made."),
-    "KeepStation": (("the station keeping", "the waiting", "the hold"), "The vehicle does not hold position."),
+    "KeepStation": (
+        ("the station keeping", "the waiting", "the hold"),
+        "The vehicle does not hold position.",
+    ),
 }
 HAZARDS = (
-    ("divers are down at {place}", "Divers are in the water at {position}."), ("there are divers in the water at {place}",
-    "Divers are in the water at {position}."),
-    ("keep clear of the net at {place}", "Keep clear of the net at {position}."), ("mind the rock at {place}", "Mind the rock at {position}."),
+    ("divers are down at {place}", "Divers are in the water at {position}."),
+    ("there are divers in the water at {place}", "Divers are in the water at {position}."),
+    ("keep clear of the net at {place}", "Keep clear of the net at {position}."),
+    ("mind the rock at {place}", "Mind the rock at {position}."),
     ("stay away from {place}", "Stay away from {position}."),
-    ("there is a wreck at {place}, mind it", "Mind the wreck at {position}."), ("avoid the shoal at {place}", "Avoid the shoal at {position}."),
-    ("the dredger works at {place}, keep away from it", "Keep away from the dredger at {position}."),
-    ("don't go near {place}", "Do not go near {position}."), ("watch out for the mooring at {place}", "Watch out for the mooring at {position}."),
-    ("a crane barge is anchored at {place}, give it room", "Keep clear of the crane barge at {position}."),
-    ("the swimmers are at {place}", "Swimmers are in the water at {position}."), ("leave {place} alone", "Stay away from {position}."),
+    ("there is a wreck at {place}, mind it", "Mind the wreck at {position}."),
+    ("avoid the shoal at {place}", "Avoid the shoal at {position}."),
+    (
+        "the dredger works at {place}, keep away from it",
+        "Keep away from the dredger at {position}.",
+    ),
+    ("don't go near {place}", "Do not go near {position}."),
+    ("watch out for the mooring at {place}", "Watch out for the mooring at {position}."),
+    (
+        "a crane barge is anchored at {place}, give it room",
+        "Keep clear of the crane barge at {position}.",
+    ),
+    ("the swimmers are at {place}", "Swimmers are in the water at {position}."),
+    ("leave {place} alone", "Stay away from {position}."),
     ("the ferry passes {place}, let it by", "Let the ferry pass at {position}."),
-)  # fmt: skip
+)
 EXCLUSIONS = (
-    "{} was done already", "{} has been done already", "we did {} this morning", "the night shift did {} yesterday",
-    "skip {}", "no need for {}", "leave out {}", "forget about {}", "don't bother with {}", "we don't need {}", "without {} this time",
-    "{} isn't needed", "you can skip {}", "never mind {}", "not {} today", "drop {}",
-    "{} can wait", "cancel {}", "{} is off", "negative on {}", "leave {} for another day", "skip {}, that was done already", "{} is not required",
-    "we can do without {}", "no time for {}", "and please skip {}", "forget {}",
-)  # fmt: skip
-RETURN_EXCLUSIONS = ("don't come home yet", "no need to come home", "don't return to base", "you don't have to come back")
+    "{} was done already",
+    "{} has been done already",
+    "we did {} this morning",
+    "the night shift did {} yesterday",
+    "skip {}",
+    "no need for {}",
+    "leave out {}",
+    "forget about {}",
+    "don't bother with {}",
+    "we don't need {}",
+    "without {} this time",
+    "{} isn't needed",
+    "you can skip {}",
+    "never mind {}",
+    "not {} today",
+    "drop {}",
+    "{} can wait",
+    "cancel {}",
+    "{} is off",
+    "negative on {}",
+    "leave {} for another day",
+    "skip {}, that was done already",
+    "{} is not required",
+    "we can do without {}",
+    "no time for {}",
+    "and please skip {}",
+    "forget {}",
+)
+RETURN_EXCLUSIONS = (
+    "don't come home yet",
+    "no need to come home",
+    "don't return to base",
+    "you don't have to come back",
+)
 
 
 @dataclass(frozen=True)
@@ -61,8 +133,16 @@ def exclusion(rng: Random, planned: set[str], *, home: bool) -> Extra | None:
     if not home and rng.random() < 0.06:
         return Extra(rng.choice(RETURN_EXCLUSIONS), "The vehicle does not return home.")
     usual = ("Diagnostics", "AutoGenerateReportSummary", "SmartDataHarvest")
-    pool = [title for title in (usual if rng.random() < 0.6 else tuple(RULED_OUT)) if title not in planned]
-    if "FeatureStare" in pool and planned & {"GlareFreeApproach", "HorizontalPanorama", "PerformOrbit"}:
+    pool = [
+        title
+        for title in (usual if rng.random() < 0.6 else tuple(RULED_OUT))
+        if title not in planned
+    ]
+    if "FeatureStare" in pool and planned & {
+        "GlareFreeApproach",
+        "HorizontalPanorama",
+        "PerformOrbit",
+    }:
         pool.remove("FeatureStare")
     if not pool:
         return None
@@ -127,25 +207,62 @@ def deadline(rng: Random) -> Extra:
         word, time = rng.choice(("by", "before")), rng.choice(TIMES)
         if word == "by" and " " in time and time.split(" ")[-1] in ("turns", "in"):
             word = "before"
-        text = rng.choice(("be done {}", "all of it {}", "it has to be finished {}", "have it done {}", "this must be done {}", "we need it {}")).format(
-            f"{word} {time}"
-        )
+        text = rng.choice(
+            (
+                "be done {}",
+                "all of it {}",
+                "it has to be finished {}",
+                "have it done {}",
+                "this must be done {}",
+                "we need it {}",
+            )
+        ).format(f"{word} {time}")
         return Extra(text, f"The mission must be finished {word} {time}.")
     condition = rng.choice(CONDITIONS)
     return Extra(
-        rng.choice(("only if {}", "as long as {}", "provided {}", "if {}", "but only while {}", "given that {}")).format(condition),
+        rng.choice(
+            (
+                "only if {}",
+                "as long as {}",
+                "provided {}",
+                "if {}",
+                "but only while {}",
+                "given that {}",
+            )
+        ).format(condition),
         f"The mission is carried out only if {condition}.",
     )
 
 
 def no_thing(rng: Random, planned: set[str]) -> Extra | None:
     """A short exclusion: "no report", "no panorama"."""
-    pool = [title for title in ("Diagnostics", "AutoGenerateReportSummary", "SmartDataHarvest", "HorizontalPanorama", "PerformOrbit") if title not in planned]
+    pool = [
+        title
+        for title in (
+            "Diagnostics",
+            "AutoGenerateReportSummary",
+            "SmartDataHarvest",
+            "HorizontalPanorama",
+            "PerformOrbit",
+        )
+        if title not in planned
+    ]
     if not pool:
         return None
     things, constraint = RULED_OUT[rng.choice(pool)]
     thing = rng.choice([thing for thing in things if thing.startswith("the ")]).removeprefix("the ")
-    return Extra(rng.choice((f"no {thing}", f"no {thing} this time", f"no {thing} please", f"no {thing} needed", f"no {thing} required")), constraint)
+    return Extra(
+        rng.choice(
+            (
+                f"no {thing}",
+                f"no {thing} this time",
+                f"no {thing} please",
+                f"no {thing} needed",
+                f"no {thing} required",
+            )
+        ),
+        constraint,
+    )
 
 
 def limit(rng: Random, style: Style) -> Extra:
@@ -161,7 +278,10 @@ def hazard(rng: Random, style: Style) -> Extra:
     """Something to keep away from, with its position, which is no place to go to."""
     position = draw_position(rng)
     text, constraint = rng.choice(HAZARDS)
-    return Extra(text.format(place=say_position(position, rng, style)), constraint.format(position=position_words(position)))
+    return Extra(
+        text.format(place=say_position(position, rng, style)),
+        constraint.format(position=position_words(position)),
+    )
 
 
 def impossible(rng: Random) -> Extra:
@@ -172,21 +292,61 @@ def impossible(rng: Random) -> Extra:
 NOTHING = "The command asks for nothing that the vehicle has a task for."
 CANCELLED = "The command rules out everything, so no task is left."
 IDLE_TALK = (
-    "how are you doing out there?", "what's the weather like?", "who is on watch tonight?", "did you see the game?", "is anybody there?",
-    "when is lunch?", "are you awake?", "nice work yesterday",
-    "good job with the buoy last week", "thanks for everything", "hello?", "what time is it?", "never mind, wrong channel", "sorry, wrong boat",
+    "how are you doing out there?",
+    "what's the weather like?",
+    "who is on watch tonight?",
+    "did you see the game?",
+    "is anybody there?",
+    "when is lunch?",
+    "are you awake?",
+    "nice work yesterday",
+    "good job with the buoy last week",
+    "thanks for everything",
+    "hello?",
+    "what time is it?",
+    "never mind, wrong channel",
+    "sorry, wrong boat",
     "ignore my last message",
-    "say hello to the crew", "how deep is the sea?", "who painted you?", "do you like boats?", "what's for dinner?",
-    "I'll call you back in a minute", "we'll send orders later", "nothing for you at the moment", "that was all for today", "no orders today",
-    "there's nothing to do right now", "the mission is postponed until Thursday", "we are still waiting for the permit",
-    "can you believe this rain?", "do you copy?", "you're breaking up", "happy birthday",
-    "see you at the barbecue", "was that you on the radar?", "somebody left the gate open", "what do you think of the new crane?",
-    "I wonder who won the regatta", "have a nice weekend", "the permit is not there yet", "do you remember the old ferry?",
-)  # fmt: skip
+    "say hello to the crew",
+    "how deep is the sea?",
+    "who painted you?",
+    "do you like boats?",
+    "what's for dinner?",
+    "I'll call you back in a minute",
+    "we'll send orders later",
+    "nothing for you at the moment",
+    "that was all for today",
+    "no orders today",
+    "there's nothing to do right now",
+    "the mission is postponed until Thursday",
+    "we are still waiting for the permit",
+    "can you believe this rain?",
+    "do you copy?",
+    "you're breaking up",
+    "happy birthday",
+    "see you at the barbecue",
+    "was that you on the radar?",
+    "somebody left the gate open",
+    "what do you think of the new crane?",
+    "I wonder who won the regatta",
+    "have a nice weekend",
+    "the permit is not there yet",
+    "do you remember the old ferry?",
+)
 CANCEL = (
-    "cancel everything", "forget it", "never mind", "scrub the mission", "the whole thing is off", "we're not doing anything today",
-    "all jobs are cancelled", "do nothing for now", "disregard all orders", "call the whole thing off", "belay all that", "no jobs today",
-)  # fmt: skip
+    "cancel everything",
+    "forget it",
+    "never mind",
+    "scrub the mission",
+    "the whole thing is off",
+    "we're not doing anything today",
+    "all jobs are cancelled",
+    "do nothing for now",
+    "disregard all orders",
+    "call the whole thing off",
+    "belay all that",
+    "no jobs today",
+)
 
 
 def empty_command(rng: Random) -> tuple[list[str], list[str], str]:
@@ -195,11 +355,24 @@ def empty_command(rng: Random) -> tuple[list[str], list[str], str]:
     if roll < 0.64:
         wishes = [impossible(rng) for _ in range(rng.choices((1, 2, 3), (70, 24, 6))[0])]
         wishes = list(dict.fromkeys(wishes))
-        text = " and ".join(wish.text for wish in wishes) if len(wishes) < 3 else f"{wishes[0].text}, {wishes[1].text} and {wishes[2].text}"
-        return [rng.choice(frames.IMPERATIVE_FRAMES).replace("{}", text)], list(dict.fromkeys(wish.constraint for wish in wishes)), "impossible"
+        text = (
+            " and ".join(wish.text for wish in wishes)
+            if len(wishes) < 3
+            else f"{wishes[0].text}, {wishes[1].text} and {wishes[2].text}"
+        )
+        return (
+            [rng.choice(frames.IMPERATIVE_FRAMES).replace("{}", text)],
+            list(dict.fromkeys(wish.constraint for wish in wishes)),
+            "impossible",
+        )
     if roll < 0.82:
         sentences = [rng.choice(IDLE_TALK)] if rng.random() < 0.6 else []
-        sentences += [sentence.rstrip(".") for sentence in rng.sample(lexicon.SMALL_TALK, rng.choice((0, 1, 1, 2)) if sentences else rng.choice((1, 2, 3)))]
+        sentences += [
+            sentence.rstrip(".")
+            for sentence in rng.sample(
+                lexicon.SMALL_TALK, rng.choice((0, 1, 1, 2)) if sentences else rng.choice((1, 2, 3))
+            )
+        ]
         return sentences, [NOTHING], "chatter"
     titles: set[str] = set()
     drawn: list[Extra] = []
@@ -208,5 +381,13 @@ def empty_command(rng: Random) -> tuple[list[str], list[str], str]:
         if extra is not None and extra.constraint not in {other.constraint for other in drawn}:
             drawn.append(extra)
     if rng.random() < 0.6:
-        return [rng.choice(CANCEL), *(extra.text for extra in drawn[: rng.choice((0, 1))])], [CANCELLED], "cancelled"
-    return [", ".join(extra.text for extra in drawn)], [*dict.fromkeys(extra.constraint for extra in drawn), CANCELLED], "ruled-out"
+        return (
+            [rng.choice(CANCEL), *(extra.text for extra in drawn[: rng.choice((0, 1))])],
+            [CANCELLED],
+            "cancelled",
+        )
+    return (
+        [", ".join(extra.text for extra in drawn)],
+        [*dict.fromkeys(extra.constraint for extra in drawn), CANCELLED],
+        "ruled-out",
+    )

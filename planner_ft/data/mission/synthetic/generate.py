@@ -1,4 +1,6 @@
-"""Synthetic mission samples: a scene, its plan by the labelling rules, and a command that says it."""
+"""Synthetic mission samples: a scene, its plan by the labelling rules, and a command that says
+it.
+"""
 
 from __future__ import annotations
 
@@ -22,21 +24,33 @@ from planner_ft.data.mission.synthetic.surface import Register, finished
 Record = dict[str, Any]
 
 COMPOSED_SHARE, TEMPLATE_SHARE = 0.10, 0.78
-"""Shares of samples put together for their structure and of those drawn from commands written by hand; the others are composed of phrases."""
+"""Shares of samples put together for their structure and of those drawn from commands written by
+hand; the others are composed of phrases.
+"""
 EMPTY_SHARE = 0.07
 """Share of composed samples that lead to no task; some of the written ones do too."""
 LONG = 7
 FORMS = {
-    "one-sentence": 28, "sentences": 34, "numbered": 4, "telegram": 4, "but-first": 9, "after-gerund": 7, "last-first": 1, "where-first": 12,
-    "radio": 4, "questions": 5,
-}  # fmt: skip
+    "one-sentence": 28,
+    "sentences": 34,
+    "numbered": 4,
+    "telegram": 4,
+    "but-first": 9,
+    "after-gerund": 7,
+    "last-first": 1,
+    "where-first": 12,
+    "radio": 4,
+    "questions": 5,
+}
 TWO_NEEDED = frozenset(("but-first", "after-gerund", "last-first", "numbered"))
 
 
 def sample_missions(seed: int, count: int | None = None) -> Iterator[Record]:
-    """Synthetic mission samples, endless when `count` is None; the same seed gives the same samples.
+    """Synthetic mission samples, endless when `count` is None; the same seed gives the same
+    samples.
 
-    A record is {"id", "family", "prompt", "expected", "tags"}; `family` names the form of the discourse.
+    A record is {"id", "family", "prompt", "expected", "tags"}; `family` names the form of the
+    discourse.
     """
     numbers = itertools.count() if count is None else range(count)
     for number in numbers:
@@ -49,7 +63,10 @@ def draw_mission(rng: Random, name: str) -> Record:
     roll = rng.random()
     if roll < COMPOSED_SHARE:
         return draw_composed(rng, plainer(rng, style), name)
-    if roll < COMPOSED_SHARE + TEMPLATE_SHARE and (record := draw_from_templates(rng, plainer(rng, style), name)) is not None:
+    if (
+        roll < COMPOSED_SHARE + TEMPLATE_SHARE
+        and (record := draw_from_templates(rng, plainer(rng, style), name)) is not None
+    ):
         return record
     return compose_mission(rng, style, name)
 
@@ -67,12 +84,25 @@ def compose_mission(rng: Random, style: Style, name: str) -> Record:
     limits: list[str] = []
     sentences = _with_extras(rng, style, sentences, scene.intents, limits, form)
     expected = {
-        "tasks": [{"title": planned.title, "parameters": planned.parameters, "task_prompt": task_prompt(planned, rng)} for planned in plan],
+        "tasks": [
+            {
+                "title": planned.title,
+                "parameters": planned.parameters,
+                "task_prompt": task_prompt(planned, rng),
+            }
+            for planned in plan
+        ],
         "assumptions": assumptions(plan),
         "constraints": [*constraints(plan), *limits],
     }
     prompt = finished(_addressed(rng, sentences, form), rng, register, _values(scene))
-    return {"id": name, "family": f"synthetic-{form}", "prompt": prompt, "expected": expected, "tags": []}
+    return {
+        "id": name,
+        "family": f"synthetic-{form}",
+        "prompt": prompt,
+        "expected": expected,
+        "tags": [],
+    }
 
 
 def _scene(rng: Random, style: Style) -> tuple[Scene, list[Planned]]:
@@ -99,24 +129,45 @@ def _form(rng: Random, scene: Scene) -> str:
 def _sentences(rng: Random, form: str, teller: Teller, scene: Scene) -> list[str]:
     intents = scene.intents
     if form == "radio":
-        return discourse.radio(teller, intents, words.proper_name(rng) if rng.random() < 0.7 else words.code(rng))
+        return discourse.radio(
+            teller, intents, words.proper_name(rng) if rng.random() < 0.7 else words.code(rng)
+        )
     tell = {
-        "one-sentence": discourse.one_sentence, "sentences": discourse.several_sentences, "numbered": discourse.numbered,
-        "telegram": discourse.telegram, "but-first": discourse.but_first,
-        "after-gerund": discourse.after_gerund, "last-first": discourse.last_first, "where-first": discourse.where_first,
-        "questions": discourse.questions, "on-site": discourse.on_site,
+        "one-sentence": discourse.one_sentence,
+        "sentences": discourse.several_sentences,
+        "numbered": discourse.numbered,
+        "telegram": discourse.telegram,
+        "but-first": discourse.but_first,
+        "after-gerund": discourse.after_gerund,
+        "last-first": discourse.last_first,
+        "where-first": discourse.where_first,
+        "questions": discourse.questions,
+        "on-site": discourse.on_site,
         "pair": discourse.pair,
-    }[form]  # fmt: skip
+    }[form]
     return tell(teller, intents)
 
 
-def _with_extras(rng: Random, style: Style, sentences: list[str], intents: tuple[Intent, ...], limits: list[str], form: str) -> list[str]:
-    """The sentences with what an operator says around an order; constraints for it are added to `limits`."""
+def _with_extras(
+    rng: Random,
+    style: Style,
+    sentences: list[str],
+    intents: tuple[Intent, ...],
+    limits: list[str],
+    form: str,
+) -> list[str]:
+    """The sentences with what an operator says around an order; constraints for it are added to
+    `limits`.
+    """
     titles = {intent.title for intent in intents}
     told = list(sentences)
     added = []
     if rng.random() < 0.09:
-        drawn = extras.no_thing(rng, titles) if rng.random() < 0.35 else extras.exclusion(rng, titles, home=any(intent.home for intent in intents))
+        drawn = (
+            extras.no_thing(rng, titles)
+            if rng.random() < 0.35
+            else extras.exclusion(rng, titles, home=any(intent.home for intent in intents))
+        )
         added += [drawn] if drawn else []
     if rng.random() < 0.08:
         added.append(extras.limit(rng, style))
@@ -134,9 +185,14 @@ def _with_extras(rng: Random, style: Style, sentences: list[str], intents: tuple
     if form in ("radio", "telegram", "numbered"):
         return told
     if rng.random() < 0.015:
-        told = _put(rng, told, rng.choice(frames.QUESTIONS) + ("" if rng.random() < 0.5 else "?"), last=True)
+        told = _put(
+            rng, told, rng.choice(frames.QUESTIONS) + ("" if rng.random() < 0.5 else "?"), last=True
+        )
     if rng.random() < 0.03:
-        talk = [sentence.rstrip(".") for sentence in rng.sample(lexicon.SMALL_TALK, rng.choice((1, 1, 2)))]
+        talk = [
+            sentence.rstrip(".")
+            for sentence in rng.sample(lexicon.SMALL_TALK, rng.choice((1, 1, 2)))
+        ]
         told = [*talk, *told] if rng.random() < 0.7 else [*told, *talk]
     if rng.random() < 0.03:
         told[0] = rng.choice(frames.PURPOSES).replace("{}", told[0])
@@ -188,7 +244,10 @@ def _values(scene: Scene) -> tuple[str, ...]:
 def _empty(rng: Random, style: Style, name: str) -> Record:
     sentences, reasons, kind = extras.empty_command(rng)
     if kind == "impossible" and rng.random() < 0.15:
-        sentences = [*(sentence.rstrip(".") for sentence in rng.sample(lexicon.SMALL_TALK, 1)), *sentences]
+        sentences = [
+            *(sentence.rstrip(".") for sentence in rng.sample(lexicon.SMALL_TALK, 1)),
+            *sentences,
+        ]
     register = Register.draw(rng, "sentences")
     prompt = finished(sentences, rng, register, ())
     return {

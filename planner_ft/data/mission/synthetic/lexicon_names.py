@@ -1,4 +1,6 @@
-"""Names of vessels, places and structures: real-looking ones in several languages, and the elements that make up more."""
+"""Names of vessels, places and structures: real-looking ones in several languages, and the elements
+that make up more.
+"""
 
 from __future__ import annotations
 

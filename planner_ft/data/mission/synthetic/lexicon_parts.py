@@ -1,4 +1,6 @@
-"""Parts that a camera looks at, sides, docking places, docking marks and data to send. All without articles."""
+"""Parts that a camera looks at, sides, docking places, docking marks and data to send. All without
+articles.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""What an operator adds as a limit, and what no task of the vehicle can do: pairs of the words said and the plan's constraint."""
+"""What an operator adds as a limit, and what no task of the vehicle can do: pairs of the words said
+and the plan's constraint.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""What a boat is sent to: nouns by group with the words that suit them, things that move, and call signs. All without articles."""
+"""What a boat is sent to: nouns by group with the words that suit them, things that move, and call
+signs. All without articles.
+"""
 
 from __future__ import annotations
 
@@ -41,10 +43,15 @@ NOUNS: dict[str, tuple[str, ...]] = {
         car; van; tyre; mattress; fridge; tarpaulin; life jacket; life ring; surfboard; paddle board; generator; compressor; scaffold; ladder
         engine block; raft; life raft; oil slick; weather balloon; sonar fish; survey sled; crawler; bicycle; shopping trolley; propeller; rudder
     """),
-    "nature": listed("rock; reef; sandbank; boulder; islet; skerry; cliff; headland; sea stack; mussel bank; island; mud bank; cave; sea arch; ledge"),
-}  # fmt: skip
+    "nature": listed(
+        "rock; reef; sandbank; boulder; islet; skerry; cliff; headland; sea stack; mussel bank; island; mud bank; cave; sea arch; ledge"
+    ),
+}
 TARGET_NOUNS = tuple(noun for nouns in NOUNS.values() for noun in nouns)
-COLOURS = listed("red; green; blue; yellow; white; black; grey; orange; brown; silver; dark blue; light green; pale yellow; purple; turquoise")
+COLOURS = listed(
+    "red; green; blue; yellow; white; black; grey; orange; brown; silver; dark blue; light green;"
+    " pale yellow; purple; turquoise"
+)
 PLACED = listed("""
     northern; southern; eastern; western; outer; inner; middle; nearest; farthest; second; third; next; last; first; main; northernmost; southernmost
     easternmost; westernmost; seaward; upstream; downstream; left-hand; right-hand
@@ -68,15 +75,21 @@ ADJECTIVES: dict[str, tuple[str, ...]] = {
         floating; drifting; submerged; half-sunk; loose; dented; broken; rusty; old; big; small; large; lost; abandoned; stranded; unmarked; suspicious
         plastic; steel; wooden; rubber; aluminium; leaking; burst; torn; tangled; long; bent; heavy; oily; unidentified; striped; overturned; barnacled
     """),
-    "nature": listed("big; small; flat; sharp; outer; low; steep; white; black; bare; mossy; weedy; submerged; long; round; split; biggest; smallest"),
-}  # fmt: skip
-TARGET_ADJECTIVES = tuple(dict.fromkeys((*COLOURS, *PLACED, *(word for words in ADJECTIVES.values() for word in words))))
+    "nature": listed(
+        "big; small; flat; sharp; outer; low; steep; white; black; bare; mossy; weedy; submerged; long; round; split; biggest; smallest"
+    ),
+}
+TARGET_ADJECTIVES = tuple(
+    dict.fromkeys((*COLOURS, *PLACED, *(word for words in ADJECTIVES.values() for word in words)))
+)
 WITH_LOOKS = listed("""
     broken; bent; missing; cracked; torn; rusty; faded; twisted; white; red; green; yellow; blue; black; orange; striped; damaged; loose; double; tall
     open; dented; new; collapsed
 """)
 WITH_PARTS: dict[str, tuple[str, ...]] = {
-    "mark": listed("top; band; lamp; topmark; light; cage; number; stripe; solar panel; bell; reflector; antenna; radar reflector; chain; label; lantern"),
+    "mark": listed(
+        "top; band; lamp; topmark; light; cage; number; stripe; solar panel; bell; reflector; antenna; radar reflector; chain; label; lantern"
+    ),
     "vessel": listed("""
         hull; deckhouse; funnel; mast; bow; stern; wheelhouse; crane; boom; railing; name board; stripe; awning; bowsprit; outboard; A-frame; deck; sail
         cabin roof; radar arch; gunwale
@@ -85,17 +98,30 @@ WITH_PARTS: dict[str, tuple[str, ...]] = {
         ladder; roof; railing; platform; lamp; door; crane; fender; staircase; helideck; sign; window; mast; hatch; walkway; antenna; balcony; pipe
         gangway; handrail; brace; cladding; wall
     """),
-    "thing": listed("lid; rope; label; handle; stripe; net; strap; marking; tag; chain; valve; corner; flag; cover; frame; warning sign"),
+    "thing": listed(
+        "lid; rope; label; handle; stripe; net; strap; marking; tag; chain; valve; corner; flag; cover; frame; warning sign"
+    ),
     "nature": listed("beacon; cross; cairn; pole; flag; perch; tree; hut; crack; cleft; marker"),
-}  # fmt: skip
+}
 WITH_OTHERS = listed("""
     with two masts; with a green light; with solar panels; with a torn sail; with no lamp; with a hole in it; with birds on it; with weed on it
     with a tarpaulin over it; with twin engines; with graffiti; with a patch on it; with a flag; with barnacles; with scaffolding; with peeling paint
     with three legs; with a radar dome; with a number on it; with a wooden deck; with a satellite dish; with chains all round; with tyres on its sides
     with a red light on top; with a dent in it; with a cross on top; with no markings; with a broken rail; with a seal on top; with a wind vane
 """)
-WITH_PHRASES = (*WITH_OTHERS, *dict.fromkeys(f"with the {look} {part}" for look in WITH_LOOKS for parts in WITH_PARTS.values() for part in parts))
-STRUCTURE_PREFIXES = listed("WTG ##; WTG-##; OSS #; OSS-#; TP ##; MP ##; MM-#; T-##; WT-##; MOB #; PLEM #; SBM #; FPSO @#; SPM #; BH-##; DP #")
+WITH_PHRASES = (
+    *WITH_OTHERS,
+    *dict.fromkeys(
+        f"with the {look} {part}"
+        for look in WITH_LOOKS
+        for parts in WITH_PARTS.values()
+        for part in parts
+    ),
+)
+STRUCTURE_PREFIXES = listed(
+    "WTG ##; WTG-##; OSS #; OSS-#; TP ##; MP ##; MM-#; T-##; WT-##; MOB #; PLEM #; SBM #; FPSO @#;"
+    " SPM #; BH-##; DP #"
+)
 MOVING_TARGETS = listed("""
     survey launch; drifting container; swimmer; seal; kayak; red kayak; canoe; dinghy; grey RIB; RIB; inflatable; rowing boat; sailing boat; yacht
     jet ski; surfer; windsurfer; kite surfer; paddle boarder; workboat; crew boat; dive tender; dive boat; pilot boat; tug; barge under tow; ferry

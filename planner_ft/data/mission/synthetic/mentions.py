@@ -30,8 +30,18 @@ def plural(text: str) -> str:
     return f"{text}es" if text.endswith(("s", "x", "ch", "sh")) else f"{text}s"
 
 
-def full_mention(target: Target, rng: Random, style: Style, *, clipped: bool = False, spoken: bool = False, wrong: str = "") -> str:
-    """The target as it is first spoken of, with its place; `clipped` drops the article, `wrong` is said and put right first."""
+def full_mention(
+    target: Target,
+    rng: Random,
+    style: Style,
+    *,
+    clipped: bool = False,
+    spoken: bool = False,
+    wrong: str = "",
+) -> str:
+    """The target as it is first spoken of, with its place; `clipped` drops the article, `wrong` is
+    said and put right first.
+    """
     if target.identity is not None:
         return spoken_identity(target)
     if target.position is None:
@@ -43,7 +53,10 @@ def full_mention(target: Target, rng: Random, style: Style, *, clipped: bool = F
         return (
             place
             if bracketed or rng.random() < 0.8
-            else f"{rng.choice(('position', 'the point', 'grid', 'waypoint', 'the spot', 'the position', 'point'))} {place}"
+            else (
+                f"{rng.choice(('position', 'the point', 'grid', 'waypoint', 'the spot', 'the position', 'point'))}"
+                f" {place}"
+            )
         )
     text = described(target, rng, clipped=clipped)
     if target.doubtful:
@@ -65,14 +78,28 @@ def described(target: Target, rng: Random, *, clipped: bool = False) -> str:
 
 
 PLACED = (
-    *("{text} at {place}",) * 20, "{text} ({place})", "{text}, which is at {place},", "{text} lying at {place}", "{text} over at {place}",
-    "{text} out at {place}", "{text} at position {place}", "{text}, at {place},", "{text} located at {place}",
-)  # fmt: skip
+    *("{text} at {place}",) * 20,
+    "{text} ({place})",
+    "{text}, which is at {place},",
+    "{text} lying at {place}",
+    "{text} over at {place}",
+    "{text} out at {place}",
+    "{text} at position {place}",
+    "{text}, at {place},",
+    "{text} located at {place}",
+)
 DOUBTS = (
-    "{text} somewhere near {place}", "{text} at about {place}", "{text} around {place}", "{text} at roughly {place}", "{text}, at {place} if I remember right,",
-    "{text}, which should be at {place},", "{text} at {place}, I think,", "{text}, probably at {place},", "{text} at {place} or thereabouts",
+    "{text} somewhere near {place}",
+    "{text} at about {place}",
+    "{text} around {place}",
+    "{text} at roughly {place}",
+    "{text}, at {place} if I remember right,",
+    "{text}, which should be at {place},",
+    "{text} at {place}, I think,",
+    "{text}, probably at {place},",
+    "{text} at {place} or thereabouts",
     "{text}, at {place} more or less,",
-)  # fmt: skip
+)
 
 
 def short_mention(target: Target, rng: Random, style: Style, *, spoken: bool = False) -> str:

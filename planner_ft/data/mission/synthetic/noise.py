@@ -6,27 +6,95 @@ import re
 from random import Random
 
 KEYS = {
-    "a": "sq", "b": "vn", "c": "xv", "d": "sf", "e": "wr", "f": "dg", "g": "fh", "h": "gj", "i": "uo", "j": "hk", "k": "jl", "l": "k", "m": "n",
-    "n": "bm", "o": "ip", "p": "o",
-    "q": "w", "r": "et", "s": "ad", "t": "ry", "u": "yi", "v": "cb", "w": "qe", "x": "zc", "y": "tu", "z": "x",
-}  # fmt: skip
+    "a": "sq",
+    "b": "vn",
+    "c": "xv",
+    "d": "sf",
+    "e": "wr",
+    "f": "dg",
+    "g": "fh",
+    "h": "gj",
+    "i": "uo",
+    "j": "hk",
+    "k": "jl",
+    "l": "k",
+    "m": "n",
+    "n": "bm",
+    "o": "ip",
+    "p": "o",
+    "q": "w",
+    "r": "et",
+    "s": "ad",
+    "t": "ry",
+    "u": "yi",
+    "v": "cb",
+    "w": "qe",
+    "x": "zc",
+    "y": "tu",
+    "z": "x",
+}
 SHORT = {
-    "please": "pls", "you": "u", "your": "ur", "and": "n", "are": "r", "then": "thn", "for": "4", "to": "2", "before": "b4", "minutes": "mins",
-    "seconds": "secs", "with": "w", "survey": "surv",
-    "report": "rpt", "sensor": "snsr", "sensors": "snsrs", "check": "chk", "position": "pos", "camera": "cam", "degrees": "deg", "metres": "m",
-    "picture": "pic", "pictures": "pics", "through": "thru",
-    "around": "rnd", "at": "@", "temperature": "temp", "panorama": "pano", "video": "vid", "bathymetry": "bathy", "follow": "folw",
-    "heading": "hdg", "bearing": "brg", "station": "stn", "location": "loc",
-    "without": "w/o", "because": "bc", "thermal": "therm", "speed": "spd", "distance": "dist", "minute": "min", "second": "sec", "hour": "hr",
-    "hours": "hrs", "good": "gd", "tomorrow": "tmrw", "okay": "k",
-}  # fmt: skip
+    "please": "pls",
+    "you": "u",
+    "your": "ur",
+    "and": "n",
+    "are": "r",
+    "then": "thn",
+    "for": "4",
+    "to": "2",
+    "before": "b4",
+    "minutes": "mins",
+    "seconds": "secs",
+    "with": "w",
+    "survey": "surv",
+    "report": "rpt",
+    "sensor": "snsr",
+    "sensors": "snsrs",
+    "check": "chk",
+    "position": "pos",
+    "camera": "cam",
+    "degrees": "deg",
+    "metres": "m",
+    "picture": "pic",
+    "pictures": "pics",
+    "through": "thru",
+    "around": "rnd",
+    "at": "@",
+    "temperature": "temp",
+    "panorama": "pano",
+    "video": "vid",
+    "bathymetry": "bathy",
+    "follow": "folw",
+    "heading": "hdg",
+    "bearing": "brg",
+    "station": "stn",
+    "location": "loc",
+    "without": "w/o",
+    "because": "bc",
+    "thermal": "therm",
+    "speed": "spd",
+    "distance": "dist",
+    "minute": "min",
+    "second": "sec",
+    "hour": "hr",
+    "hours": "hrs",
+    "good": "gd",
+    "tomorrow": "tmrw",
+    "okay": "k",
+}
 FREE_WORDS = re.compile(r"(?<![\w'-])[a-z]{4,}(?![\w'-])")
 
 
 def mistype(word: str, rng: Random) -> str:
     """The word with one slip of the fingers; first letter kept."""
     if len(word) < 4:
-        return word[::-1][:1] + word[1:] if rng.random() < 0.1 else word[0] + word[2:] + word[1] if len(word) == 3 else word
+        return (
+            word[::-1][:1] + word[1:]
+            if rng.random() < 0.1
+            else word[0] + word[2:] + word[1]
+            if len(word) == 3
+            else word
+        )
     roll, index = rng.random(), rng.randint(1, len(word) - 2)
     if roll < 0.4:
         return word[:index] + word[index + 1] + word[index] + word[index + 2 :]
@@ -53,11 +121,16 @@ def texted(text: str, rng: Random, protected: set[str]) -> str:
     """Abbreviations as in a text message."""
     rate = rng.choice((0.3, 0.6, 0.9))
     words = text.split(" ")
-    return " ".join(SHORT[word] if word in SHORT and word not in protected and rng.random() < rate else word for word in words)
+    return " ".join(
+        SHORT[word] if word in SHORT and word not in protected and rng.random() < rate else word
+        for word in words
+    )
 
 
 def unpunctuated(text: str) -> str:
-    """As voice dictation writes it: no full stops, commas or capitals at the start of sentences; names keep theirs."""
+    """As voice dictation writes it: no full stops, commas or capitals at the start of sentences;
+    names keep theirs.
+    """
     text = re.sub(r"([.?!;:]) (\w)", lambda match: f" {match[2]}", text)
     return re.sub(r"(?<!\d)[,](?!\d)|,(?= )|[.?!]$", "", text)
 

@@ -1,4 +1,6 @@
-"""Drawing one task: which parameters the command states, how they are said, and what is said beside them."""
+"""Drawing one task: which parameters the command states, how they are said, and what is said beside
+them.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,28 @@ from planner_ft.data.mission.synthetic.numbers import (
 
 Sayer = Callable[[Random, Style], Said]
 
-ARCS = (360, 360, 360, 360, 180, 180, 180, 90, 90, 270, 45, 60, 120, 135, 150, 200, 210, 225, 240, 300)
+ARCS = (
+    360,
+    360,
+    360,
+    360,
+    180,
+    180,
+    180,
+    90,
+    90,
+    270,
+    45,
+    60,
+    120,
+    135,
+    150,
+    200,
+    210,
+    225,
+    240,
+    300,
+)
 SCANS = (60, 75, 80, 90, 90, 100, 110, 120, 120, 140, 150, 160, 180, 180, 45, 30, 360)
 
 
@@ -57,16 +80,27 @@ PARAMETERS: dict[str, tuple[Parameter, ...]] = {
         Parameter("overlap", 0.42, say_percent),
         Parameter("wait", 0.38, lambda rng, style: say_wait(rng, style)),
     ),
-    "ThermalHotspotLocalizer": (Parameter("scan_width_degrees", 0.55, lambda rng, style: say_degrees(rng, style, SCANS)),),
-    "FeatureStare": (Parameter("duration", 0.74, lambda rng, style: say_duration(rng, style, brief=True)),),
-    "ThermalTimeLapse": (Parameter("duration", 0.86, say_duration), Parameter("interval", 0.78, say_interval)),
-    "BathymetryGridSurvey": (Parameter("spacing", 0.68, lambda rng, style: say_length(rng, style, 2, 25)),),
+    "ThermalHotspotLocalizer": (
+        Parameter("scan_width_degrees", 0.55, lambda rng, style: say_degrees(rng, style, SCANS)),
+    ),
+    "FeatureStare": (
+        Parameter("duration", 0.74, lambda rng, style: say_duration(rng, style, brief=True)),
+    ),
+    "ThermalTimeLapse": (
+        Parameter("duration", 0.86, say_duration),
+        Parameter("interval", 0.78, say_interval),
+    ),
+    "BathymetryGridSurvey": (
+        Parameter("spacing", 0.68, lambda rng, style: say_length(rng, style, 2, 25)),
+    ),
     "SubseaCableTrack": (
         Parameter("heading", 0.74, say_heading),
         Parameter("max_dist", 0.66, lambda rng, style: say_length(rng, style, 100, 950, far=True)),
     ),
     "SurveyTarget": (Parameter("radius", 0.55, lambda rng, style: say_length(rng, style, 4, 60)),),
-    "VisualDockingApproach": (Parameter("distance", 0.6, lambda rng, style: say_length(rng, style, 1, 9)),),
+    "VisualDockingApproach": (
+        Parameter("distance", 0.6, lambda rng, style: say_length(rng, style, 1, 9)),
+    ),
 }
 
 
@@ -83,8 +117,16 @@ def as_said(word: str) -> Said:
 
 
 def stated(rng: Random, title: str, style: Style) -> tuple[dict[str, object], dict[str, Said]]:
-    said = {item.name: item.say(rng, style) for item in PARAMETERS.get(title, ()) if rng.random() < item.share}
-    if "interval" in said and "duration" in said and float(said["interval"].value) * 2 > float(said["duration"].value):
+    said = {
+        item.name: item.say(rng, style)
+        for item in PARAMETERS.get(title, ())
+        if rng.random() < item.share
+    }
+    if (
+        "interval" in said
+        and "duration" in said
+        and float(said["interval"].value) * 2 > float(said["duration"].value)
+    ):
         # A series has room for more than one reading.
         minutes, seconds = rng.randint(4, 60), rng.choice((5, 10, 15, 20, 30, 40, 60))
         said["duration"] = quantity(minutes, "minute", minutes * 60, rng, style)
@@ -96,14 +138,25 @@ def draw_task(rng: Random, style: Style, title: str, target: Target | None) -> I
     parameters, said = stated(rng, title, style)
     if title == "FeatureStare":
         name = words.feature(rng)
-        parameters, said = {"feature_type": name, **parameters}, {"feature_type": as_said(name), **said}
+        parameters, said = (
+            {"feature_type": name, **parameters},
+            {"feature_type": as_said(name), **said},
+        )
     elif title == "GlareFreeApproach":
         name = words.feature(rng)
         parameters, said = {"target_feature": name}, {"target_feature": as_said(name)}
     elif title == "BathymetryGridSurvey" and rng.random() < 0.86:
         width, length = say_length(rng, style, 20, 300), say_length(rng, style, 20, 300)
-        parameters, said = {"width": width.value, "length": length.value, **parameters}, {"width": width, "length": length, **said}
-    if title == "KeepStation" and target is not None and target.must_be_found and "duration" not in parameters:
+        parameters, said = (
+            {"width": width.value, "length": length.value, **parameters},
+            {"width": width, "length": length, **said},
+        )
+    if (
+        title == "KeepStation"
+        and target is not None
+        and target.must_be_found
+        and "duration" not in parameters
+    ):
         # Staying with something that may move for no stated time would be FollowTarget.
         value = say_duration(rng, style)
         parameters, said = {"duration": value.value}, {"duration": value}
@@ -117,20 +170,42 @@ def draw_task(rng: Random, style: Style, title: str, target: Target | None) -> I
 
 
 RIDERS = (
-    "with the video running", "with video on", "filming as you go", "with the camera on", "with the LiDAR running", "taking pictures as you go",
-    "recording video all the way", "with the sonar on",
-    "and keep the camera on it throughout", "with the lights on", "collecting LiDAR data", "with video and LiDAR", "snapping stills on the way",
-    "camera rolling", "with the thermal camera recording",
-)  # fmt: skip
+    "with the video running",
+    "with video on",
+    "filming as you go",
+    "with the camera on",
+    "with the LiDAR running",
+    "taking pictures as you go",
+    "recording video all the way",
+    "with the sonar on",
+    "and keep the camera on it throughout",
+    "with the lights on",
+    "collecting LiDAR data",
+    "with video and LiDAR",
+    "snapping stills on the way",
+    "camera rolling",
+    "with the thermal camera recording",
+)
 RIDDEN = frozenset(("PerformOrbit", "ParallelStructurePass", "SurveyTarget"))
 """Tasks that can have a sensor run beside them, which makes no task of its own."""
-CONFIRMED = frozenset(("SearchAndDetect", "SurveyTarget", "PerformOrbit", "FeatureStare", "ParallelStructurePass"))
+CONFIRMED = frozenset(
+    ("SearchAndDetect", "SurveyTarget", "PerformOrbit", "FeatureStare", "ParallelStructurePass")
+)
 CONFIRMS = (
-    "and confirm that it is still there", "and confirm whether it is still afloat", "and confirm it is intact", "and see whether it has moved",
-    "and check whether it is still upright", "and confirm that it is lit", "and verify that nobody is aboard",
-    "and see if it is damaged", "and confirm it has not sunk", "and make sure it has not drifted", "and confirm that nothing is missing",
-    "and see if anything hangs from it", "and confirm that it is the right one",
-)  # fmt: skip
+    "and confirm that it is still there",
+    "and confirm whether it is still afloat",
+    "and confirm it is intact",
+    "and see whether it has moved",
+    "and check whether it is still upright",
+    "and confirm that it is lit",
+    "and verify that nobody is aboard",
+    "and see if it is damaged",
+    "and confirm it has not sunk",
+    "and make sure it has not drifted",
+    "and confirm that nothing is missing",
+    "and see if anything hangs from it",
+    "and confirm that it is the right one",
+)
 PARTS = (
     "{} face",
     "{} side",
@@ -155,6 +230,11 @@ PARTS = (
 
 def _part(rng: Random, title: str, target: Target | None) -> str:
     """A part of the target that the command speaks of and no parameter holds."""
-    if title not in ("SurveyTarget", "ThermalTimeLapse", "ThermalHotspotLocalizer") or target is None or target.description is None or rng.random() > 0.09:
+    if (
+        title not in ("SurveyTarget", "ThermalTimeLapse", "ThermalHotspotLocalizer")
+        or target is None
+        or target.description is None
+        or rng.random() > 0.09
+    ):
         return ""
     return rng.choice(PARTS).format(words.side(rng)) if rng.random() < 0.7 else words.feature(rng)

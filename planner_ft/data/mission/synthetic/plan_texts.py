@@ -1,4 +1,6 @@
-"""Task prompts, assumptions and constraints: short plain sentences with every stated fact, in few forms that can be learnt."""
+"""Task prompts, assumptions and constraints: short plain sentences with every stated fact, in few
+forms that can be learnt.
+"""
 
 from __future__ import annotations
 
@@ -11,21 +13,33 @@ from planner_ft.data.mission.synthetic.mentions import name_of
 from planner_ft.data.mission.synthetic.positions import position_words
 
 DONE = {
-    "PerformOrbit": "circled", "ParallelStructurePass": "passed", "FeatureStare": "filmed", "GlareFreeApproach": "photographed",
+    "PerformOrbit": "circled",
+    "ParallelStructurePass": "passed",
+    "FeatureStare": "filmed",
+    "GlareFreeApproach": "photographed",
     "ThermalHotspotLocalizer": "scanned",
-    "ThermalTimeLapse": "measured", "SurveyTarget": "inspected", "FollowTarget": "followed", "SubseaCableTrack": "tracked", "Transit": "approached",
-}  # fmt: skip
+    "ThermalTimeLapse": "measured",
+    "SurveyTarget": "inspected",
+    "FollowTarget": "followed",
+    "SubseaCableTrack": "tracked",
+    "Transit": "approached",
+}
 BEGUN = {
-    "KeepStation": "the vehicle holds position there", "DriftAudit": "the drift begins", "HorizontalPanorama": "the panorama is taken",
-    "BoatLandingClearanceSweep": "its boat landing is scanned", "BathymetryGridSurvey": "the depths are surveyed",
-}  # fmt: skip
+    "KeepStation": "the vehicle holds position there",
+    "DriftAudit": "the drift begins",
+    "HorizontalPanorama": "the panorama is taken",
+    "BoatLandingClearanceSweep": "its boat landing is scanned",
+    "BathymetryGridSurvey": "the depths are surveyed",
+}
 ARC_WORDS = {360: "a full circle", 180: "half a circle", 90: "a quarter circle"}
 
 
 def task_prompt(planned: Planned, rng: Random) -> str:
     """The intent of one task in one sentence."""
     sentence = _PROMPTS[planned.title](planned.parameters, planned, rng)
-    purpose = f" {planned.intent.purpose}" if planned.intent.purpose and not planned.inserted else ""
+    purpose = (
+        f" {planned.intent.purpose}" if planned.intent.purpose and not planned.inserted else ""
+    )
     return f"{sentence}{purpose}."
 
 
@@ -88,20 +102,32 @@ def _follow(p: dict[str, Any], planned: Planned, rng: Random) -> str:
 
 
 def _last_seen(p: dict[str, Any]) -> str:
-    return f", last seen at {position_words(tuple(p['target_position']))}" if "target_position" in p else ""
+    return (
+        f", last seen at {position_words(tuple(p['target_position']))}"
+        if "target_position" in p
+        else ""
+    )
 
 
 def _orbit(p: dict[str, Any], planned: Planned, rng: Random) -> str:
     if "arc" not in p:
         text = f"Circle {_place(planned)}"
     else:
-        text = f"Make {ARC_WORDS.get(p['arc'], 'an arc of {} degrees'.format(p['arc']))} around {_place(planned)}"
+        text = (
+            f"Make {ARC_WORDS.get(p['arc'], 'an arc of {} degrees'.format(p['arc']))} around"
+            f" {_place(planned)}"
+        )
     return text + _say(p, "radius", " at a stand-off of {} m") + _say(p, "speed", " at {} m/s")
 
 
 def _pass(p: dict[str, Any], planned: Planned, rng: Random) -> str:
     side = f"the {p['side_id']} side of " if "side_id" in p else ""
-    return f"Run along {side}{_place(planned)}" + _say(p, "length", " for {} m") + _say(p, "distance", ", {} m off") + _say(p, "speed", ", at {} m/s")
+    return (
+        f"Run along {side}{_place(planned)}"
+        + _say(p, "length", " for {} m")
+        + _say(p, "distance", ", {} m off")
+        + _say(p, "speed", ", at {} m/s")
+    )
 
 
 def _dock(p: dict[str, Any], planned: Planned, rng: Random) -> str:
@@ -109,11 +135,17 @@ def _dock(p: dict[str, Any], planned: Planned, rng: Random) -> str:
 
 
 def _visual_dock(p: dict[str, Any], planned: Planned, rng: Random) -> str:
-    return "Dock by camera" + _say(p, "target_feature", " on the {}") + _say(p, "distance", " and stop {} m off")
+    return (
+        "Dock by camera"
+        + _say(p, "target_feature", " on the {}")
+        + _say(p, "distance", " and stop {} m off")
+    )
 
 
 def _drift(p: dict[str, Any], planned: Planned, rng: Random) -> str:
-    return f"Cut the propulsion{_at(planned)} and log the drift" + _say(p, "duration", " for {} seconds")
+    return f"Cut the propulsion{_at(planned)} and log the drift" + _say(
+        p, "duration", " for {} seconds"
+    )
 
 
 def _keep(p: dict[str, Any], planned: Planned, rng: Random) -> str:
@@ -122,21 +154,33 @@ def _keep(p: dict[str, Any], planned: Planned, rng: Random) -> str:
 
 def _panorama(p: dict[str, Any], planned: Planned, rng: Random) -> str:
     sectors = _say(p, "sectors", " in {} sectors")
-    return f"Take a panorama{_at(planned)}{sectors}" + _say(p, "overlap", " with {} percent overlap") + _say(p, "wait", ", waiting {} seconds at each heading")
+    return (
+        f"Take a panorama{_at(planned)}{sectors}"
+        + _say(p, "overlap", " with {} percent overlap")
+        + _say(p, "wait", ", waiting {} seconds at each heading")
+    )
 
 
 def _hotspot(p: dict[str, Any], planned: Planned, rng: Random) -> str:
-    return f"Locate the hottest spot{_of(planned)}" + _say(p, "scan_width_degrees", " with a scan {} degrees wide")
+    return f"Locate the hottest spot{_of(planned)}" + _say(
+        p, "scan_width_degrees", " with a scan {} degrees wide"
+    )
 
 
 def _feature(planned: Planned, name: str) -> str:
     feature = planned.parameters[name]
     own = planned.target is not None and feature == planned.target.description
-    return name_of(planned.target) if own and planned.target is not None else f"the {feature}{_of(planned)}"
+    return (
+        name_of(planned.target)
+        if own and planned.target is not None
+        else f"the {feature}{_of(planned)}"
+    )
 
 
 def _stare(p: dict[str, Any], planned: Planned, rng: Random) -> str:
-    return f"Keep the camera on {_feature(planned, 'feature_type')} and record steady video" + _say(p, "duration", " for {} seconds")
+    return f"Keep the camera on {_feature(planned, 'feature_type')} and record steady video" + _say(
+        p, "duration", " for {} seconds"
+    )
 
 
 def _glare(p: dict[str, Any], planned: Planned, rng: Random) -> str:
@@ -144,7 +188,11 @@ def _glare(p: dict[str, Any], planned: Planned, rng: Random) -> str:
 
 
 def _time_lapse(p: dict[str, Any], planned: Planned, rng: Random) -> str:
-    return f"Take thermal readings{_of(planned)}" + _say(p, "interval", " every {} seconds") + _say(p, "duration", " for {} seconds")
+    return (
+        f"Take thermal readings{_of(planned)}"
+        + _say(p, "interval", " every {} seconds")
+        + _say(p, "duration", " for {} seconds")
+    )
 
 
 def _landing(p: dict[str, Any], planned: Planned, rng: Random) -> str:
@@ -157,19 +205,31 @@ def _bathymetry(p: dict[str, Any], planned: Planned, rng: Random) -> str:
         if "width" in p and "length" in p
         else _say(p, "width", " over a width of {} m") + _say(p, "length", " over a length of {} m")
     )
-    return f"Survey the depths around {_place(planned)}{size}" + _say(p, "spacing", " with lines {} m apart") + _once_found(planned)
+    return (
+        f"Survey the depths around {_place(planned)}{size}"
+        + _say(p, "spacing", " with lines {} m apart")
+        + _once_found(planned)
+    )
 
 
 def _cable(p: dict[str, Any], planned: Planned, rng: Random) -> str:
     assert planned.target is not None
-    start = "where it has been found" if p["start"] == UNRESOLVED else position_words(tuple(p["start"]))
+    start = (
+        "where it has been found" if p["start"] == UNRESOLVED else position_words(tuple(p["start"]))
+    )
     return (
-        f"Track {name_of(planned.target)} by sonar from {start}" + _say(p, "heading", " on a heading of {} degrees") + _say(p, "max_dist", " for at most {} m")
+        f"Track {name_of(planned.target)} by sonar from {start}"
+        + _say(p, "heading", " on a heading of {} degrees")
+        + _say(p, "max_dist", " for at most {} m")
     )
 
 
 def _survey(p: dict[str, Any], planned: Planned, rng: Random) -> str:
-    return f"Inspect {_thing(planned)}" + _say(p, "radius", " at a stand-off of {} m") + _once_found(planned)
+    return (
+        f"Inspect {_thing(planned)}"
+        + _say(p, "radius", " at a stand-off of {} m")
+        + _once_found(planned)
+    )
 
 
 def _harvest(p: dict[str, Any], planned: Planned, rng: Random) -> str:
@@ -180,18 +240,34 @@ def _harvest(p: dict[str, Any], planned: Planned, rng: Random) -> str:
 
 
 _PROMPTS = {
-    "Diagnostics": lambda p, planned, rng: "Run a sensor health check", "AutoGenerateReportSummary": lambda p, planned,
-    rng: "Write a report on what was observed",
-    "Transit": _transit, "SearchAndDetect": _search, "FollowTarget": _follow, "PerformOrbit": _orbit, "ParallelStructurePass": _pass, "DockingApproach": _dock,
-    "VisualDockingApproach": _visual_dock, "DriftAudit": _drift, "KeepStation": _keep, "HorizontalPanorama": _panorama, "ThermalHotspotLocalizer": _hotspot,
-    "FeatureStare": _stare, "GlareFreeApproach": _glare, "ThermalTimeLapse": _time_lapse, "BoatLandingClearanceSweep": _landing,
+    "Diagnostics": lambda p, planned, rng: "Run a sensor health check",
+    "AutoGenerateReportSummary": lambda p, planned, rng: "Write a report on what was observed",
+    "Transit": _transit,
+    "SearchAndDetect": _search,
+    "FollowTarget": _follow,
+    "PerformOrbit": _orbit,
+    "ParallelStructurePass": _pass,
+    "DockingApproach": _dock,
+    "VisualDockingApproach": _visual_dock,
+    "DriftAudit": _drift,
+    "KeepStation": _keep,
+    "HorizontalPanorama": _panorama,
+    "ThermalHotspotLocalizer": _hotspot,
+    "FeatureStare": _stare,
+    "GlareFreeApproach": _glare,
+    "ThermalTimeLapse": _time_lapse,
+    "BoatLandingClearanceSweep": _landing,
     "BathymetryGridSurvey": _bathymetry,
-    "SubseaCableTrack": _cable, "SurveyTarget": _survey, "SmartDataHarvest": _harvest,
-}  # fmt: skip
+    "SubseaCableTrack": _cable,
+    "SurveyTarget": _survey,
+    "SmartDataHarvest": _harvest,
+}
 
 
 def assumptions(plan: list[Planned]) -> list[str]:
-    """What the plan takes for granted: targets to be found, doubtful positions, docks to be filled in, home."""
+    """What the plan takes for granted: targets to be found, doubtful positions, docks to be filled
+    in, home.
+    """
     found: dict[str, None] = {}
     for planned in plan:
         target = planned.target
@@ -216,7 +292,14 @@ def constraints(plan: list[Planned]) -> list[str]:
     for index, planned in enumerate(plan):
         if planned.title != "SearchAndDetect" or planned.target is None:
             continue
-        use = next((later for later in plan[index + 1 :] if later.target == planned.target and _is_use(later)), None)
+        use = next(
+            (
+                later
+                for later in plan[index + 1 :]
+                if later.target == planned.target and _is_use(later)
+            ),
+            None,
+        )
         if use is not None:
             lines.append(_must_be_found(planned.target, use))
     return lines
@@ -233,7 +316,11 @@ def _must_be_found(target: Target, use: Planned) -> str:
     subject = f"its {feature}" if feature and feature != target.description else "it"
     if use.title in BEGUN:
         return f"{name} must be found before {BEGUN[use.title]}."
-    return f"{name} must be found before {subject} {'are' if feature and feature != target.description and _plural(feature) else 'is'} {DONE[use.title]}."
+    return (
+        f"{name} must be found before {subject}"
+        f" {'are' if feature and feature != target.description and _plural(feature) else 'is'}"
+        f" {DONE[use.title]}."
+    )
 
 
 def _plural(text: str) -> bool:

@@ -61,15 +61,36 @@ def say_position(position: Position, rng: Random, style: Style, *, spoken: bool 
         return f"({x}, {y})"
     if form < 30:
         return WRITTEN[form - 12].format(
-            x=x, y=y, east=_side(x, "east", "west", " "), north=_side(y, "north", "south", " "), e=_side(x, "E", "W", ""), n=_side(y, "N", "S", "")
+            x=x,
+            y=y,
+            east=_side(x, "east", "west", " "),
+            north=_side(y, "north", "south", " "),
+            e=_side(x, "E", "W", ""),
+            n=_side(y, "N", "S", ""),
         )
     return _spoken(x, y, rng, style)
 
 
 WRITTEN = (
-    "x={x} y={y}", "x {x} y {y}", "{x} {y}", "{x}, {y}", "{x}/{y}", "{east} {north}", "{e} {n}", "x={x}, y={y}", "[{x},{y}]", "({x} {y})",
-    "{x},{y}", "x:{x} y:{y}", "({x},{y})", "{east}, {north}", "{north} {east}", "x: {x}, y: {y}", "X{x} Y{y}", "x={x}/y={y}",
-)  # fmt: skip
+    "x={x} y={y}",
+    "x {x} y {y}",
+    "{x} {y}",
+    "{x}, {y}",
+    "{x}/{y}",
+    "{east} {north}",
+    "{e} {n}",
+    "x={x}, y={y}",
+    "[{x},{y}]",
+    "({x} {y})",
+    "{x},{y}",
+    "x:{x} y:{y}",
+    "({x},{y})",
+    "{east}, {north}",
+    "{north} {east}",
+    "x: {x}, y: {y}",
+    "X{x} Y{y}",
+    "x={x}/y={y}",
+)
 
 
 def _decimal(value: Number) -> str:
@@ -90,7 +111,10 @@ def _spoken(x: Number, y: Number, rng: Random, style: Style) -> str:
     if roll < 0.3:
         east, north = ("west" if x < 0 else "east"), ("south" if y < 0 else "north")
         metres = rng.choice(("", "", "", f" {style.metre}s"))
-        return f"{say(abs(x))}{metres} {east}{rng.choice((' ', ' ', ', ', ' and '))}{say(abs(y))}{metres} {north}"
+        return (
+            f"{say(abs(x))}{metres}"
+            f" {east}{rng.choice((' ', ' ', ', ', ' and '))}{say(abs(y))}{metres} {north}"
+        )
     if roll < 0.45:
         return f"x {say(x)} y {say(y)}"
     if roll < 0.65:

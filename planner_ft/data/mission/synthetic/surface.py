@@ -1,4 +1,6 @@
-"""From sentences to the text that arrives: capitals, stops, greetings, and the noise of the channel."""
+"""From sentences to the text that arrives: capitals, stops, greetings, and the noise of the
+channel.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,9 @@ ENDS = (*(". ",) * 22, "; ", "; ")
 
 @dataclass(frozen=True)
 class Register:
-    """How one message is written: `spoken` is dictation without marks, `texting` abbreviates, `capitals` starts sentences with them."""
+    """How one message is written: `spoken` is dictation without marks, `texting` abbreviates,
+    `capitals` starts sentences with them.
+    """
 
     spoken: bool
     texting: bool
@@ -28,7 +32,14 @@ class Register:
 
     @classmethod
     def draw(cls, rng: Random, form: str) -> Register:
-        spoken = rng.random() < 0.025 and form in ("one-sentence", "sentences", "but-first", "after-gerund", "where-first", "questions")
+        spoken = rng.random() < 0.025 and form in (
+            "one-sentence",
+            "sentences",
+            "but-first",
+            "after-gerund",
+            "where-first",
+            "questions",
+        )
         terse = form in ("radio", "telegram", "numbered")
         return cls(
             spoken=spoken,
@@ -42,7 +53,9 @@ class Register:
 
 
 def finished(sentences: list[str], rng: Random, register: Register, values: tuple[str, ...]) -> str:
-    """The command as one text. Words of `values` that no lexicon has are never mistyped: only copying can tell them."""
+    """The command as one text. Words of `values` that no lexicon has are never mistyped: only
+    copying can tell them.
+    """
     told = [spaced(sentence.strip().rstrip(",;")) for sentence in sentences if sentence.strip()]
     if register.fillers:
         told = _filled(told, rng, register.fillers)
@@ -50,7 +63,11 @@ def finished(sentences: list[str], rng: Random, register: Register, values: tupl
         opener = rng.choice(lexicon.OPENERS)
         told = [opener, *told] if rng.random() < 0.4 else [f"{opener}, {told[0]}", *told[1:]]
     if register.closed:
-        told = [*told, rng.choice(lexicon.CLOSERS)] if rng.random() < 0.5 else [*told[:-1], _closed(told[-1], rng)]
+        told = (
+            [*told, rng.choice(lexicon.CLOSERS)]
+            if rng.random() < 0.5
+            else [*told[:-1], _closed(told[-1], rng)]
+        )
     text = _run_together(told, rng, register)
     if register.spoken:
         text = unpunctuated(text)
@@ -60,7 +77,11 @@ def finished(sentences: list[str], rng: Random, register: Register, values: tupl
             text = texted(text, rng, {word for value in values for word in value.split(" ")})
         text = typos(text, rng, protected, register.typo_rate)
     text = spaced(text)
-    if rng.random() < 0.004 and not any(mark.isupper() for value in values for mark in value) and "°" not in text:
+    if (
+        rng.random() < 0.004
+        and not any(mark.isupper() for value in values for mark in value)
+        and "°" not in text
+    ):
         text = text.upper()
     return text
 
@@ -94,14 +115,55 @@ def _filled(sentences: list[str], rng: Random, count: int) -> list[str]:
         if filler in MANNERS:
             told[index] = f"{told[index].rstrip('.?!')}, {filler}"
         else:
-            told[index] = f"{filler} {told[index]}" if rng.random() < 0.6 else f"{filler}, {told[index]}"
+            told[index] = (
+                f"{filler} {told[index]}" if rng.random() < 0.6 else f"{filler}, {told[index]}"
+            )
     return told
 
 
-LIGHT = ("er", "um", "uh", "well", "ok", "okay", "so", "right", "hmm", "alright", "uh", "um", "right then", "so um", "ok so", "well then", "uh yeah")
-MANNERS = tuple(text for text in lexicon.FILLERS if text in ("if you please", "please", "if you would", "if you can", "when you are ready",
-"in your own time", "nice and easy", "no rush", "for me", "for us", "if possible", "right away", "straight away", "ASAP", "as soon as you can",
-"pronto", "sharpish"))  # fmt: skip
+LIGHT = (
+    "er",
+    "um",
+    "uh",
+    "well",
+    "ok",
+    "okay",
+    "so",
+    "right",
+    "hmm",
+    "alright",
+    "uh",
+    "um",
+    "right then",
+    "so um",
+    "ok so",
+    "well then",
+    "uh yeah",
+)
+MANNERS = tuple(
+    text
+    for text in lexicon.FILLERS
+    if text
+    in (
+        "if you please",
+        "please",
+        "if you would",
+        "if you can",
+        "when you are ready",
+        "in your own time",
+        "nice and easy",
+        "no rush",
+        "for me",
+        "for us",
+        "if possible",
+        "right away",
+        "straight away",
+        "ASAP",
+        "as soon as you can",
+        "pronto",
+        "sharpish",
+    )
+)
 
 
 @cache
@@ -151,4 +213,9 @@ NEVER = frozenset(
 def protected_words(values: tuple[str, ...]) -> set[str]:
     """Words that are never mistyped: those that only copying can tell, codes, numbers and sides."""
     known = _known_words()
-    return {word for value in values for word in value.split(" ") if word not in known or CODE.search(value)} | NEVER
+    return {
+        word
+        for value in values
+        for word in value.split(" ")
+        if word not in known or CODE.search(value)
+    } | NEVER

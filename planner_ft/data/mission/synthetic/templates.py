@@ -10,21 +10,30 @@ from planner_ft.data.mission.synthetic.bank import BANK
 
 HELD = {
     "ThermalTimeLapse": (
-        "hold at {target} for {duration} taking thermal readings every {interval}", "stay {duration} at {target} taking a thermal reading every {interval}",
+        "hold at {target} for {duration} taking thermal readings every {interval}",
+        "stay {duration} at {target} taking a thermal reading every {interval}",
         "hold position by {target} for {duration} while you log thermal readings",
         "keep station at {target} for {duration} while the thermal camera takes a reading every {interval}",
         "sit at {target} for {duration} with the thermal camera logging every {interval}",
         "stay at {target} while you take thermal readings every {interval} for {duration}",
     ),
     "FeatureStare": (
-        "hold at {target} for {duration} while you film {feature_type}", "stay {duration} at {target} filming {feature_type}",
+        "hold at {target} for {duration} while you film {feature_type}",
+        "stay {duration} at {target} filming {feature_type}",
         "stop at {target} for {duration} filming {feature_type}",
-        "keep station at {target} for {duration} with the camera locked on {feature_type}", "hold still by {target} for {duration}, camera on {feature_type}",
+        "keep station at {target} for {duration} with the camera locked on {feature_type}",
+        "hold still by {target} for {duration}, camera on {feature_type}",
     ),
-    "HorizontalPanorama": ("hold at {target} while you take a panorama", "stay at {target} for a panorama",
-    "keep still at {target} and shoot a panorama in {sectors} sectors"),
-    "ThermalHotspotLocalizer": ("hold at {target} while you look for its hottest spot", "stay at {target} and sweep {scan_width_degrees} for the hottest spot"),
-}  # fmt: skip
+    "HorizontalPanorama": (
+        "hold at {target} while you take a panorama",
+        "stay at {target} for a panorama",
+        "keep still at {target} and shoot a panorama in {sectors} sectors",
+    ),
+    "ThermalHotspotLocalizer": (
+        "hold at {target} while you look for its hottest spot",
+        "stay at {target} and sweep {scan_width_degrees} for the hottest spot",
+    ),
+}
 """Phrases in which holding serves a sensor alone (rule 8), beside those of the bank."""
 
 _SLOT = re.compile(r"\{(\w+)\}")
@@ -62,7 +71,9 @@ class Template:
 
     @cached_property
     def possessive(self) -> Template:
-        """The phrase with "the barge's ladder" in place of "the ladder of the barge"; the feature's bare name is `own_feature`."""
+        """The phrase with "the barge's ladder" in place of "the ladder of the barge"; the feature's
+        bare name is `own_feature`.
+        """
         return Template(_OWNED.sub("{target}'s {own_feature}", self.text))
 
     @cached_property
@@ -91,9 +102,21 @@ def forms(title: str) -> Forms:
     """The compiled phrases of a task."""
     phrases = BANK[title]
     return Forms(
-        full={"imp": _compiled(phrases.imperatives), "np": _compiled(phrases.noun_phrases), "ger": _compiled(phrases.gerunds)},
-        valued={"imp": _compiled(phrases.valued_imperatives + HELD.get(title, ())), "np": _compiled(phrases.valued_noun_phrases), "ger": ()},
-        bare={"imp": _compiled(phrases.bare_imperatives), "np": _compiled(phrases.bare_noun_phrases), "ger": _compiled(phrases.bare_gerunds)},
+        full={
+            "imp": _compiled(phrases.imperatives),
+            "np": _compiled(phrases.noun_phrases),
+            "ger": _compiled(phrases.gerunds),
+        },
+        valued={
+            "imp": _compiled(phrases.valued_imperatives + HELD.get(title, ())),
+            "np": _compiled(phrases.valued_noun_phrases),
+            "ger": (),
+        },
+        bare={
+            "imp": _compiled(phrases.bare_imperatives),
+            "np": _compiled(phrases.bare_noun_phrases),
+            "ger": _compiled(phrases.bare_gerunds),
+        },
         here=_compiled(phrases.here_imperatives),
         adjuncts={name: _compiled(texts) for name, texts in phrases.adjuncts.items()},
     )

@@ -1,1 +1,3 @@
-"""Whole-prompt templates: prompts written out in full, with slots, and the steps that they ask for. See README.md here."""
+"""Whole-prompt templates: prompts written out in full, with slots, and the steps that they ask for.
+See README.md here.
+"""

@@ -24,10 +24,19 @@ TRIES = 40
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Print what is wrong with each line, and how many lines are right; exit status 1 when one is wrong."""
-    parser = argparse.ArgumentParser(prog="python -m planner_ft.data.task.prompts", description="Check template files and show samples of their lines.")
-    parser.add_argument("files", nargs="*", type=Path, metavar="FILE", help="default: the files of the package")
-    parser.add_argument("--show", type=int, default=0, metavar="N", help="print N samples of each line")
+    """Print what is wrong with each line, and how many lines are right; exit status 1 when one is
+    wrong.
+    """
+    parser = argparse.ArgumentParser(
+        prog="python -m planner_ft.data.task.prompts",
+        description="Check template files and show samples of their lines.",
+    )
+    parser.add_argument(
+        "files", nargs="*", type=Path, metavar="FILE", help="default: the files of the package"
+    )
+    parser.add_argument(
+        "--show", type=int, default=0, metavar="N", help="print N samples of each line"
+    )
     parser.add_argument("--vocabulary", default="usv")
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args(arguments)
@@ -78,9 +87,14 @@ def _checked(source: str, book: Phrasebook, rng: random.Random, show: int) -> It
             raise TemplateError(f"makes a plan that is not valid: {problems[0]}")
         drawn += 1
         if drawn <= show:
-            yield f"[{bound.task.title}] {plain(text)}\n    {context.parameters()}\n    {brief(plan)}"
+            yield (
+                f"[{bound.task.title}] {plain(text)}\n    {context.parameters()}\n    {brief(plan)}"
+            )
     if drawn < TRIES / 2:
-        raise TemplateError("comes to nothing in most draws: a needed slot is optional, or a skill stands twice with the same parameters")
+        raise TemplateError(
+            "comes to nothing in most draws: a needed slot is optional, or a skill stands twice"
+            " with the same parameters"
+        )
 
 
 def brief(plan: dict[str, Any]) -> str:

@@ -1,4 +1,6 @@
-"""A parsed line for one task of a vehicle: names checked, each argument assigned to a parameter or to a part of a shape."""
+"""A parsed line for one task of a vehicle: names checked, each argument assigned to a parameter or
+to a part of a shape.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +8,17 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from planner_ft.data.task.phrasebook import Phrasebook
-from planner_ft.data.task.prompts.language import COMPASS_WORDS, TURNS, Argument, CallText, LineText, StepText, TemplateError, flags_of, slots_of
+from planner_ft.data.task.prompts.language import (
+    COMPASS_WORDS,
+    TURNS,
+    Argument,
+    CallText,
+    LineText,
+    StepText,
+    TemplateError,
+    flags_of,
+    slots_of,
+)
 from planner_ft.data.task.prompts.shapes import JOINT, SHAPES, role_of, value_draw, word_role
 from planner_ft.data.task.values import Draw
 from planner_ft.vocabulary.definition import Parameter, Role, Skill, Task
@@ -16,7 +28,9 @@ XY = "xy"
 
 @dataclass(frozen=True)
 class Fill:
-    """One parameter of a skill, or part of a shape, and where its value comes from: a slot, a task parameter, or the line itself."""
+    """One parameter of a skill, or part of a shape, and where its value comes from: a slot, a task
+    parameter, or the line itself.
+    """
 
     target: str
     kind: str
@@ -101,22 +115,41 @@ class _Binder:
             bound.everywhere = Step(Call("ALL", ()), *self._beside(line.everywhere))
         unused = self.keys - set(bound.sources)
         if unused:
-            raise TemplateError(f"{{{min(unused)}}} stands in the text and in no step; for words that are no value of the plan write {{_list}}")
-        asked = {call.flag for step in (*line.steps, *([line.everywhere] if line.everywhere else [])) for call in _calls(step) if call.flag}
+            raise TemplateError(
+                f"{{{min(unused)}}} stands in the text and in no step; for words that are no value"
+                " of the plan write {_list}"
+            )
+        asked = {
+            call.flag
+            for step in (*line.steps, *([line.everywhere] if line.everywhere else []))
+            for call in _calls(step)
+            if call.flag
+        }
         if asked != flags_of(line.text):
-            raise TemplateError(f"the flag ?{min(asked ^ flags_of(line.text))} does not stand both in the text and in the steps")
+            raise TemplateError(
+                f"the flag ?{min(asked ^ flags_of(line.text))} does not stand both in the text and"
+                " in the steps"
+            )
 
     def _step(self, step: StepText) -> Step:
         name = step.movement.name
-        movement = self._shape(step.movement) if name in SHAPES else self._skill(step.movement, "navigation")
+        movement = (
+            self._shape(step.movement)
+            if name in SHAPES
+            else self._skill(step.movement, "navigation")
+        )
         return Step(movement, *self._beside(step), self._step(step.each) if step.each else None)
 
     def _beside(self, step: StepText) -> tuple[tuple[Call, ...], tuple[Call, ...]]:
-        return tuple(self._skill(call, "filter") for call in step.filters), tuple(self._skill(call, "perception") for call in step.perceptions)
+        return tuple(self._skill(call, "filter") for call in step.filters), tuple(
+            self._skill(call, "perception") for call in step.perceptions
+        )
 
     def _param(self, name: str) -> Parameter:
         if name not in self.task.by_name:
-            raise TemplateError(f"{self.task.title} has no parameter {name}{_among(self.task.by_name)}")
+            raise TemplateError(
+                f"{self.task.title} has no parameter {name}{_among(self.task.by_name)}"
+            )
         self.bound.params.add(name)
         return self.task.by_name[name]
 
@@ -127,13 +160,22 @@ class _Binder:
         if skill is None:
             raise TemplateError(f"there is no skill {call.name}")
         if skill.role != role:
-            raise TemplateError(f"{call.name} is a {skill.role} skill: write it {'as a step' if skill.role == 'navigation' else 'with + or &'} ")
+            raise TemplateError(
+                f"{call.name} is a {skill.role} skill: write it"
+                f" {'as a step' if skill.role == 'navigation' else 'with + or &'} "
+            )
         fills: list[Fill] = []
         for argument in call.arguments:
             target = self._target(skill, argument, {fill.target for fill in fills})
             if target:
-                fills.append(self._fill(argument, target, self._skill_source(skill, target, argument)))
-        if skill.motion == "goto" and XY not in {fill.target for fill in fills} and not {"x", "y"} <= {fill.target for fill in fills}:
+                fills.append(
+                    self._fill(argument, target, self._skill_source(skill, target, argument))
+                )
+        if (
+            skill.motion == "goto"
+            and XY not in {fill.target for fill in fills}
+            and not {"x", "y"} <= {fill.target for fill in fills}
+        ):
             raise TemplateError(f"{call.name} needs a position: P1 or param.NAME")
         return Call(call.name, tuple(fills), call.flag, call.at)
 
@@ -162,20 +204,41 @@ class _Binder:
     def _param_target(self, skill: Skill, parameter: Parameter) -> str:
         if parameter.type == "position" and skill.motion == "goto":
             return XY
-        linked = [other.name for other in skill.parameters if self.links.get(f"{skill.name}.{other.name}") == parameter.name]
+        linked = [
+            other.name
+            for other in skill.parameters
+            if self.links.get(f"{skill.name}.{other.name}") == parameter.name
+        ]
         same = [other.name for other in skill.parameters if other.name == parameter.name]
-        unit = [other.name for other in skill.parameters if other.unit == parameter.unit and parameter.unit and other.type == parameter.type]
-        texts = [other.name for other in skill.parameters if other.type in ("id", "text", "texts") and parameter.type in ("id", "text", "texts")]
+        unit = [
+            other.name
+            for other in skill.parameters
+            if other.unit == parameter.unit and parameter.unit and other.type == parameter.type
+        ]
+        texts = [
+            other.name
+            for other in skill.parameters
+            if other.type in ("id", "text", "texts") and parameter.type in ("id", "text", "texts")
+        ]
         for names in (same, linked, unit, texts):
             if names:
                 return names[0]
-        raise TemplateError(f"{skill.name} has no parameter that {parameter.name} of {self.task.title} could fill; write NAME=param.{parameter.name}")
+        raise TemplateError(
+            f"{skill.name} has no parameter that {parameter.name} of {self.task.title} could fill;"
+            f" write NAME=param.{parameter.name}"
+        )
 
     def _skill_source(self, skill: Skill, target: str, argument: Argument) -> Source:
         if target == XY:
-            return Source(value_draw("Offset", "point", "P"), f"{skill.name}.xy", "position", position=True)
+            return Source(
+                value_draw("Offset", "point", "P"), f"{skill.name}.xy", "position", position=True
+            )
         del argument
-        return Source(self.book.skills[skill.name].draws[target], f"{skill.name}.{target}", skill.by_name[target].type)
+        return Source(
+            self.book.skills[skill.name].draws[target],
+            f"{skill.name}.{target}",
+            skill.by_name[target].type,
+        )
 
     def _fill(self, argument: Argument, target: str, source: Source) -> Fill:
         value: Any = argument.value
@@ -185,7 +248,12 @@ class _Binder:
             self._param(value)
         elif argument.kind == "word":
             value = COMPASS_WORDS.get(value, TURNS.get(value, value))
-        return Fill(target, "literal" if argument.kind == "word" else argument.kind, value, argument.negative)
+        return Fill(
+            target,
+            "literal" if argument.kind == "word" else argument.kind,
+            value,
+            argument.negative,
+        )
 
     def _use(self, key: str, source: Source) -> None:
         if key not in self.keys:
@@ -206,12 +274,24 @@ class _Binder:
         for role, place in shape.roles.items():
             if role in fills or (role == "spacing" and "count" in fills):
                 continue
-            name = self.links.get(place) or (self.task.position_parameter if role == "point" else role if role in self.task.by_name else None)
+            name = self.links.get(place) or (
+                self.task.position_parameter
+                if role == "point"
+                else role
+                if role in self.task.by_name
+                else None
+            )
             if not name:
-                raise TemplateError(f"{call.name} needs a {role}, and {self.task.title} has no parameter for it")
+                raise TemplateError(
+                    f"{call.name} needs a {role}, and {self.task.title} has no parameter for it"
+                )
             self._param(name)
             fills[role] = Fill(role, "param", name)
-        self.bound.located |= {str(fill.value) for fill in fills.values() if fill.kind == "param" and fill.target == "point"}
+        self.bound.located |= {
+            str(fill.value)
+            for fill in fills.values()
+            if fill.kind == "param" and fill.target == "point"
+        }
         return Call(call.name, tuple(fills.values()), call.flag, call.at, shape=True)
 
     def _role(self, shape: str, argument: Argument) -> str | None:
@@ -237,12 +317,29 @@ class _Binder:
         if argument.kind == "slot" and argument.name and value not in self.keys:
             return Fill(role, "literal", value)
         if argument.kind == "word":
-            value = TURNS[value] if value in TURNS else COMPASS_WORDS[value] if role == "heading" else value
+            value = (
+                TURNS[value]
+                if value in TURNS
+                else COMPASS_WORDS[value]
+                if role == "heading"
+                else value
+            )
             return Fill(role, "literal", value)
         place = SHAPES[shape].roles.get(role, "")
         kind = "position" if role == "point" else "number"
         return self._fill(
-            argument, role, Source(_no_draw if (shape, role) in JOINT else value_draw(shape, role, base_of(str(value))), place, kind, position=role == "point")
+            argument,
+            role,
+            Source(
+                (
+                    _no_draw
+                    if (shape, role) in JOINT
+                    else value_draw(shape, role, base_of(str(value)))
+                ),
+                place,
+                kind,
+                position=role == "point",
+            ),
         )
 
 

@@ -45,13 +45,19 @@ class Drawing:
     # ------------------------------------------------------------ values
 
     def _task_values(self) -> None:
-        """Task parameters that the text refers to are there; positions are known where something is calculated from them."""
+        """Task parameters that the text refers to are there; positions are known where something is
+        calculated from them.
+        """
         context = self.context
         for name in sorted(self.bound.params):
             context.require(name)
             context.used.add(name)
         place = context.task.position_parameter
-        if place in context.values and context.unresolved(context.values[place]) and (place in self.bound.located or place not in self.bound.params):
+        if (
+            place in context.values
+            and context.unresolved(context.values[place])
+            and (place in self.bound.located or place not in self.bound.params)
+        ):
             context.values[place] = context.entry.draws[place](self.rng)
         for step in self.bound.steps:
             for fill in step.movement.fills:
@@ -65,14 +71,25 @@ class Drawing:
         fills = {fill.target: fill for fill in call.fills}
         axis = self._early(fills.get("axis")) or "y"
         width, along, spacing = shapes.grid_size(rng, free=axis == "y")
-        sizes: dict[str, float] = {"width": width, "length": along, "spacing": spacing, "count": (g.lane_count(width if axis == "y" else along, spacing) or 0)}
+        sizes: dict[str, float] = {
+            "width": width,
+            "length": along,
+            "spacing": spacing,
+            "count": g.lane_count(width if axis == "y" else along, spacing) or 0,
+        }
         for role, size in sizes.items():
             value = length(size, rng) if role != "count" else Value(size, count_text(size, rng))
             fill = fills.get(role)
             if fill and fill.kind == "slot":
                 self.values[fill.value] = value
-            name = fill.value if fill and fill.kind == "param" else context.entry.links.get(f"lawnmower.{role}")
-            if name and ((fill and fill.kind == "param") or name in context.values or rng.random() < SPACING):
+            name = (
+                fill.value
+                if fill and fill.kind == "param"
+                else context.entry.links.get(f"lawnmower.{role}")
+            )
+            if name and (
+                (fill and fill.kind == "param") or name in context.values or rng.random() < SPACING
+            ):
                 context.values[name] = value
 
     def _early(self, fill: Fill | None) -> Any:
@@ -92,7 +109,9 @@ class Drawing:
         return value
 
     def _linked(self, source: Source) -> Value | None:
-        """The task's own value, now and then, so that the parameters repeat what the text states."""
+        """The task's own value, now and then, so that the parameters repeat what the text
+        states.
+        """
         context = self.context
         name = context.linked(source.place) if source.place and self.rng.random() < LINKED else None
         if not name or context.unresolved(context.values[name]) or source.type == "texts":
@@ -105,7 +124,9 @@ class Drawing:
 
     def _new(self, key: str, source: Source) -> Value:
         """A value that differs from those of the same kind."""
-        others = [other.value for name, other in self.values.items() if base_of(name) == base_of(key)]
+        others = [
+            other.value for name, other in self.values.items() if base_of(name) == base_of(key)
+        ]
         value = source.draw(self.rng)
         for _ in range(8):
             if value.value not in others:
@@ -135,7 +156,9 @@ class Drawing:
             if isinstance(part, str):
                 said += part
                 continue
-            after = "".join(other for other in self.parts[place + 1 : place + 4] if isinstance(other, str))
+            after = "".join(
+                other for other in self.parts[place + 1 : place + 4] if isinstance(other, str)
+            )
             said += self._say(part, said, after)
         return tidy(said)
 
@@ -145,8 +168,16 @@ class Drawing:
             return _ARTICLE.sub("", words) if _AFTER_ARTICLE.search(before) else words
         value = self.values[slot.key]
         text = worded(value, slot, before, after)
-        if slot.key in self.bound.signs and "adj" not in slot.wording and not (_WAY.search(_clause_end(before)) or _WAY.search(_clause_start(after))):
-            text += self.rng.choice((" to the left", " to port", " anticlockwise") if value.value < 0 else (" to the right", " to starboard", " clockwise"))
+        if (
+            slot.key in self.bound.signs
+            and "adj" not in slot.wording
+            and not (_WAY.search(_clause_end(before)) or _WAY.search(_clause_start(after)))
+        ):
+            text += self.rng.choice(
+                (" to the left", " to port", " anticlockwise")
+                if value.value < 0
+                else (" to the right", " to starboard", " clockwise")
+            )
         return mark(text)
 
     # ------------------------------------------------------------ steps
@@ -159,7 +190,10 @@ class Drawing:
                 plan += self._expand(step)
         if self.bound.everywhere is None:
             return plan
-        filters, perceptions = self._calls(self.bound.everywhere.filters), self._calls(self.bound.everywhere.perceptions)
+        filters, perceptions = (
+            self._calls(self.bound.everywhere.filters),
+            self._calls(self.bound.everywhere.perceptions),
+        )
         for entry in plan:
             for own, common in ((entry["filters"], filters), (entry["perceptions"], perceptions)):
                 own[:] = [*common, *own] if self.bound.line.front else [*own, *common]
@@ -172,7 +206,14 @@ class Drawing:
             at = {"first": index == 0, "last": index == len(moves) - 1, "": True}
             filters = self._calls([call for call in step.filters if at[call.at]])
             perceptions = self._calls([call for call in step.perceptions if at[call.at]])
-            entries.append({"name": name, "parameters": parameters, "filters": filters, "perceptions": perceptions})
+            entries.append(
+                {
+                    "name": name,
+                    "parameters": parameters,
+                    "filters": filters,
+                    "perceptions": perceptions,
+                }
+            )
             if step.each:
                 entries += self._expand(step.each)
         return entries
@@ -180,8 +221,14 @@ class Drawing:
     def _moves(self, call: Call) -> list[Move]:
         if not call.shape:
             return [(call.name, self._parameters(call))]
-        values = {fill.target: value for fill in call.fills if (value := self._value(fill)) is not None}
-        keys = {motion: self.book.skills[name].skill.parameters[0].name for motion, name in self.book.motions.items() if motion in ("turn_to", "turn_by")}
+        values = {
+            fill.target: value for fill in call.fills if (value := self._value(fill)) is not None
+        }
+        keys = {
+            motion: self.book.skills[name].skill.parameters[0].name
+            for motion, name in self.book.motions.items()
+            if motion in ("turn_to", "turn_by")
+        }
         x, y = self.book.vocabulary.home
         try:
             return shapes.steps_of(call.name, values, self.book.motions, keys, (x, y))
@@ -190,7 +237,12 @@ class Drawing:
 
     def _calls(self, calls: Sequence[Call]) -> list[Entry]:
         return [
-            {"name": call.name, "parameters": canonical_parameters(self._parameters(call), self.book.vocabulary.skill[call.name])}
+            {
+                "name": call.name,
+                "parameters": canonical_parameters(
+                    self._parameters(call), self.book.vocabulary.skill[call.name]
+                ),
+            }
             for call in calls
             if not call.flag or call.flag in self.flags
         ]
@@ -213,7 +265,13 @@ class Drawing:
         """The value, or None for a slot of an alternative that was not chosen."""
         if fill.kind == "literal":
             return g.tidy(fill.value) if isinstance(fill.value, float) else fill.value
-        said = self.context.values[fill.value] if fill.kind == "param" else self.values.get(fill.value) if self._chosen(fill.value) else None
+        said = (
+            self.context.values[fill.value]
+            if fill.kind == "param"
+            else self.values.get(fill.value)
+            if self._chosen(fill.value)
+            else None
+        )
         if said is None:
             return None
         return -said.value if fill.negative else said.value
@@ -226,7 +284,9 @@ class Drawing:
 
 _ARTICLE = re.compile(r"^(the|a|an) ")
 _AFTER_ARTICLE = re.compile(r"\b(the|a|an|this|that|each|every|its|any) $", re.IGNORECASE)
-_WAY = re.compile(r"\b(left|right|port|starboard|clockwise|anticlockwise|counter-clockwise)\b", re.IGNORECASE)
+_WAY = re.compile(
+    r"\b(left|right|port|starboard|clockwise|anticlockwise|counter-clockwise)\b", re.IGNORECASE
+)
 
 
 def _clause_end(text: str) -> str:
@@ -238,7 +298,9 @@ def _clause_start(text: str) -> str:
 
 
 def worded(value: Value, slot: Slot, before: str, after: str) -> str:
-    """The value's wording here: without its article after one, bare between quotation marks, else as the slot asks."""
+    """The value's wording here: without its article after one, bare between quotation marks, else
+    as the slot asks.
+    """
     if before[-1:] in ("'", '"') and after[:1] == before[-1:]:
         return str(value.value)
     if slot.wording & {"adj", "num"} and value.short:
@@ -253,7 +315,9 @@ def worded(value: Value, slot: Slot, before: str, after: str) -> str:
 _GAPS = re.compile(r" +(?=[ .,;:!?)])")
 _SENTENCE = re.compile(r"(?<!i\.e)(?<!e\.g)(?<!approx)(?<=[.!?] )([a-z])")
 _SPOKEN = re.compile(
-    r"(^|(?<=[.!?] ))\x02(the |a |an |due |(?:north|south|east|west)(?:-(?:east|west))?|[a-z]+-?[a-z]* (?:metres?|seconds?|minutes?|degrees?))"
+    r"(^|(?<=[.!?] ))\x02(the |a |an |due"
+    r" |(?:north|south|east|west)(?:-(?:east|west))?|[a-z]+-?[a-z]*"
+    r" (?:metres?|seconds?|minutes?|degrees?))"
 )
 
 
@@ -262,30 +326,49 @@ def tidy(text: str) -> str:
     text = _GAPS.sub("", text).strip()
     if text[:1].isupper() or text[:1] in "\x0212345(":
         text = _SENTENCE.sub(lambda match: match.group(1).upper(), text)
-        text = _SPOKEN.sub(lambda match: "\x02" + match.group(2)[0].upper() + match.group(2)[1:], text)
+        text = _SPOKEN.sub(
+            lambda match: "\x02" + match.group(2)[0].upper() + match.group(2)[1:], text
+        )
     return text
 
 
 def draw_template(bound: Bound, context: Context) -> tuple[str, dict[str, Any], set[str]] | None:
-    """The prompt with its values marked, the expected plan and the skills in it; None when the draw came to nothing."""
+    """The prompt with its values marked, the expected plan and the skills in it; None when the draw
+    came to nothing.
+    """
     drawing = Drawing(bound, context)
     text = drawing.text()
     try:
         entries = drawing.steps()
     except (ValueError, ZeroDivisionError):
         return None
-    if not entries or any(_twice(entry[key]) for entry in entries for key in ("filters", "perceptions")):
+    if not entries or any(
+        _twice(entry[key]) for entry in entries for key in ("filters", "perceptions")
+    ):
         return None
     vocabulary = context.book.vocabulary
-    steps = [plan_step(entry["name"], entry["parameters"], entry["filters"], entry["perceptions"], vocabulary) for entry in entries]
-    skills = {call["name"] for entry in entries for key in ("filters", "perceptions") for call in entry[key]}
+    steps = [
+        plan_step(
+            entry["name"], entry["parameters"], entry["filters"], entry["perceptions"], vocabulary
+        )
+        for entry in entries
+    ]
+    skills = {
+        call["name"]
+        for entry in entries
+        for key in ("filters", "perceptions")
+        for call in entry[key]
+    }
     return text, {"skill_sequence": steps}, skills
 
 
 def _twice(calls: list[Entry]) -> bool:
     """Whether a skill stands twice with the same parameters, or once with none."""
     names = [call["name"] for call in calls]
-    return len(set(names)) < len(names) and any(names.count(call["name"]) > 1 and (not call["parameters"] or calls.count(call) > 1) for call in calls)
+    return len(set(names)) < len(names) and any(
+        names.count(call["name"]) > 1 and (not call["parameters"] or calls.count(call) > 1)
+        for call in calls
+    )
 
 
 def pick(lines: Sequence[Sequence[Bound]], rng: random.Random) -> Bound:

@@ -1,4 +1,6 @@
-"""The language of the prompt templates: one line becomes a tree of text and a list of steps. Names are checked in binding.py."""
+"""The language of the prompt templates: one line becomes a tree of text and a list of steps. Names
+are checked in binding.py.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,16 @@ from dataclasses import dataclass
 from typing import Literal
 
 WORDINGS = ("adj", "num", "noun", "way", "left", "right", "full")
-COMPASS_WORDS = {"north": 0, "north-east": 45, "east": 90, "south-east": 135, "south": 180, "south-west": 225, "west": 270, "north-west": 315}
+COMPASS_WORDS = {
+    "north": 0,
+    "north-east": 45,
+    "east": 90,
+    "south-east": 135,
+    "south": 180,
+    "south-west": 225,
+    "west": 270,
+    "north-west": 315,
+}
 TURNS = {"clockwise": True, "counter-clockwise": False, "anticlockwise": False}
 
 
@@ -17,7 +28,9 @@ class TemplateError(ValueError):
 
 @dataclass(frozen=True)
 class Slot:
-    """A value in the text: `key` with its digit ("time2"), how it is worded, and whether it is a task parameter in words."""
+    """A value in the text: `key` with its digit ("time2"), how it is worded, and whether it is a
+    task parameter in words.
+    """
 
     key: str
     wording: frozenset[str] = frozenset()
@@ -50,7 +63,9 @@ Node = str | Slot | Words | Flag | Choice
 
 @dataclass(frozen=True)
 class Argument:
-    """A parameter of a call: `name` where the line says it, and a slot key, a task parameter, or a literal value."""
+    """A parameter of a call: `name` where the line says it, and a slot key, a task parameter, or a
+    literal value.
+    """
 
     kind: Literal["slot", "param", "literal", "word"]
     value: str | float
@@ -60,7 +75,9 @@ class Argument:
 
 @dataclass(frozen=True)
 class CallText:
-    """A skill or a shape with its arguments. `flag`: only when that alternative was chosen; `at`: only the first or last step."""
+    """A skill or a shape with its arguments. `flag`: only when that alternative was chosen; `at`:
+    only the first or last step.
+    """
 
     name: str
     arguments: tuple[Argument, ...]
@@ -80,7 +97,9 @@ class StepText:
 
 @dataclass(frozen=True)
 class LineText:
-    """A parsed line. `everywhere` runs in every step, mentioned before what the steps have of their own where `front`."""
+    """A parsed line. `everywhere` runs in every step, mentioned before what the steps have of their
+    own where `front`.
+    """
 
     source: str
     tasks: tuple[str, ...]
@@ -109,7 +128,9 @@ _SLOT = re.compile(r"(param[ .:])? *([A-Za-z_]+?)(\d*)((?: [a-z]+)*)$")
 
 
 def parse_text(source: str) -> tuple[Node, ...]:
-    """The text as a tree. A pair of brackets without a bar, or a closing one alone, stands for itself."""
+    """The text as a tree. A pair of brackets without a bar, or a closing one alone, stands for
+    itself.
+    """
     tokens = _TOKEN.findall(source)
     if "".join(tokens) != source:
         raise TemplateError("a brace is not closed")
@@ -162,7 +183,10 @@ def _slot(text: str) -> Node:
     param, base, digit, wording = match.groups()
     words = frozenset(wording.split())
     if words - set(WORDINGS):
-        raise TemplateError(f"{{{text}}}: {', '.join(sorted(words - set(WORDINGS)))} is no wording; one of {', '.join(WORDINGS)}")
+        raise TemplateError(
+            f"{{{text}}}: {', '.join(sorted(words - set(WORDINGS)))} is no wording; one of"
+            f" {', '.join(WORDINGS)}"
+        )
     return Slot(base + digit, words, bool(param))
 
 
@@ -224,7 +248,12 @@ def _parse_step(source: str) -> StepText:
     calls: dict[str, list[CallText]] = {"+": [], "&": []}
     for sign, text in zip(parts[1::2], parts[2::2], strict=True):
         calls[sign].append(_parse_call(text))
-    return StepText(_parse_call(parts[0]), tuple(calls["+"]), tuple(calls["&"]), _parse_step(tail) if tail.strip() else None)
+    return StepText(
+        _parse_call(parts[0]),
+        tuple(calls["+"]),
+        tuple(calls["&"]),
+        _parse_step(tail) if tail.strip() else None,
+    )
 
 
 def _parse_call(source: str) -> CallText:

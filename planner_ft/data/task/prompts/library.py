@@ -17,11 +17,15 @@ from planner_ft.vocabulary.definition import Task, Vocabulary
 
 FOLDER = Path(__file__).parent
 
-_BOUND: weakref.WeakKeyDictionary[Vocabulary, tuple[tuple[str, tuple[Bound, ...]], ...]] = weakref.WeakKeyDictionary()
+_BOUND: weakref.WeakKeyDictionary[Vocabulary, tuple[tuple[str, tuple[Bound, ...]], ...]] = (
+    weakref.WeakKeyDictionary()
+)
 
 
 def numbered_lines(path: Path) -> Iterator[tuple[int, str]]:
-    """The template lines of a file with their numbers; blank lines and those that begin with # are passed over."""
+    """The template lines of a file with their numbers; blank lines and those that begin with # are
+    passed over.
+    """
     for number, line in enumerate(read_text(path).splitlines(), 1):
         if line.strip() and not line.lstrip().startswith("#"):
             yield number, line.strip()
@@ -42,14 +46,22 @@ def parsed() -> tuple[LineText, ...]:
 
 def tasks_for(line: LineText, vocabulary: Vocabulary) -> list[Task]:
     """The tasks that the line names and the vehicle has."""
-    return list(vocabulary.tasks) if "*" in line.tasks else [vocabulary.task[title] for title in line.tasks if title in vocabulary.task]
+    return (
+        list(vocabulary.tasks)
+        if "*" in line.tasks
+        else [vocabulary.task[title] for title in line.tasks if title in vocabulary.task]
+    )
 
 
 def bound_lines(book: Phrasebook) -> Sequence[tuple[str, tuple[Bound, ...]]]:
-    """(text of the line, the line bound to each task that it suits); lines that need what the vehicle has not are left out."""
+    """(text of the line, the line bound to each task that it suits); lines that need what the
+    vehicle has not are left out.
+    """
     vocabulary = book.vocabulary
     if vocabulary not in _BOUND:
-        _BOUND[vocabulary] = tuple((line.source, found) for line in parsed() if (found := tuple(_bindings(line, book))))
+        _BOUND[vocabulary] = tuple(
+            (line.source, found) for line in parsed() if (found := tuple(_bindings(line, book)))
+        )
     return _BOUND[vocabulary]
 
 
@@ -62,5 +74,7 @@ def _bindings(line: LineText, book: Phrasebook) -> Iterator[Bound]:
 
 
 def normal(source: str) -> str:
-    """The line as its split is decided by: without blanks and case, so that tidying it up moves it nowhere."""
+    """The line as its split is decided by: without blanks and case, so that tidying it up moves it
+    nowhere.
+    """
     return re.sub(r"\s+", "", source.lower())

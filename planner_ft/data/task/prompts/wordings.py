@@ -1,4 +1,6 @@
-"""All wordings of a template with its values masked, by which a sample of another origin is kept out of its split."""
+"""All wordings of a template with its values masked, by which a sample of another origin is kept
+out of its split.
+"""
 
 from __future__ import annotations
 
@@ -20,12 +22,17 @@ def mask_key(skeleton: str) -> str:
 
 
 def wordings(line: LineText) -> set[str]:
-    """The keys of the line's wordings. A task parameter in words stands for itself alone, as if it were a value."""
+    """The keys of the line's wordings. A task parameter in words stands for itself alone, as if it
+    were a value.
+    """
     return {mask_key("".join(parts)) for parts in itertools.islice(_expand(line.text), MOST)}
 
 
 def _expand(nodes: Sequence[Node]) -> Iterator[tuple[str, ...]]:
-    return (tuple(itertools.chain.from_iterable(parts)) for parts in itertools.product(*(_options(node) for node in nodes)))
+    return (
+        tuple(itertools.chain.from_iterable(parts))
+        for parts in itertools.product(*(_options(node) for node in nodes))
+    )
 
 
 def _options(node: Node) -> list[tuple[str, ...]]:
@@ -34,5 +41,7 @@ def _options(node: Node) -> list[tuple[str, ...]]:
     if isinstance(node, Flag):
         return [()]
     if isinstance(node, Choice):
-        return [parts for branch in node.branches for parts in itertools.islice(_expand(branch), MOST)]
+        return [
+            parts for branch in node.branches for parts in itertools.islice(_expand(branch), MOST)
+        ]
     return [("_",)]

@@ -1,6 +1,8 @@
-"""What an input leaves no choice about, read from its words: of a task input waypoints, rotations, values, and the steps in which skills run.
+"""What an input leaves no choice about, read from its words: of a task input waypoints, rotations,
+values, and the steps in which skills run.
 
-Precision comes before coverage: what is read is enforced, and where a reading is not certain the model decides.
+Precision comes before coverage: what is read is enforced, and where a reading is not certain the
+model decides.
 
     telegrams, corrected   the text itself: prompts in capitals, what is taken back
     wordings               patterns of places, paths and sizes that the folders share
@@ -13,4 +15,6 @@ Precision comes before coverage: what is read is enforced, and where a reading i
 """
 
 LONGEST = 1000
-"""Characters of an input that is read: wordings are searched for in every place, and what is longer is no order to a Task Agent."""
+"""Characters of an input that is read: wordings are searched for in every place, and what is longer
+is no order to a Task Agent.
+"""

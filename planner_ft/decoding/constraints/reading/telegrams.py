@@ -1,4 +1,6 @@
-"""Prompts all in capitals, and telegrams with STOP for a full stop, as they would stand in small letters."""
+"""Prompts all in capitals, and telegrams with STOP for a full stop, as they would stand in small
+letters.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,8 @@ KEPT = re.compile(r"[NESW]|[NS][NS]?[EW]|[EW][NS][EW]|[A-Z]+[_-]?\d[\w-]*|[A-Z]+
 """Words that keep their capitals: compass points, and identifiers, whose letters nobody knows."""
 WORD = re.compile(r"[^\W\d_][\w'’-]*")
 FULL_STOP = re.compile(
-    r"[,.]?\s+(?<!\bTO A )(?<!\bFULL )(?<!\bAND )(?<!\bTHEN )(?<!\bTO )(?<!\bNO )(?<!\bNOT )(?<!\bTHE )(?<!\bEACH )STOP\b(?! FOR (?:AN? |"
+    r"[,.]?\s+(?<!\bTO A )(?<!\bFULL )(?<!\bAND )(?<!\bTHEN )(?<!\bTO )(?<!\bNO )(?<!\bNOT"
+    r" )(?<!\bTHE )(?<!\bEACH )STOP\b(?! FOR (?:AN? |"
     r"\d)| AT \d| EVERY )[.,;]?",
     re.ASCII,
 )
@@ -22,7 +25,9 @@ LEAST_LETTERS = 12
 
 
 def in_small_letters(prompt: str) -> str:
-    """The prompt, in small letters if it is all in capitals, with full stops for each STOP; as it stands if it is not."""
+    """The prompt, in small letters if it is all in capitals, with full stops for each STOP; as it
+    stands if it is not.
+    """
     letters = sum(map(str.isalpha, prompt))
     if letters < LEAST_LETTERS or sum(map(str.islower, prompt)) * 10 > letters:
         return prompt
@@ -30,6 +35,8 @@ def in_small_letters(prompt: str) -> str:
     prompt = prompt if EAST_WEST.search(prompt) else SECONDS.sub("s", prompt)
 
     def small(word: re.Match[str]) -> str:
-        return word[0] if KEPT.fullmatch(word[0]) or (named and len(word[0]) == 1) else word[0].lower()
+        return (
+            word[0] if KEPT.fullmatch(word[0]) or (named and len(word[0]) == 1) else word[0].lower()
+        )
 
     return WORD.sub(small, FULL_STOP.sub(".", prompt))

@@ -1,4 +1,6 @@
-"""Commands drawn from templates: the text says what the plan holds, and the plan follows the labelling rules."""
+"""Commands drawn from templates: the text says what the plan holds, and the plan follows the
+labelling rules.
+"""
 
 import re
 from random import Random
@@ -50,12 +52,18 @@ def test_a_parameter_is_planned_only_where_it_is_said():
 
 
 def test_an_optional_intent_goes_with_its_alternative():
-    for text, expected in draws("Survey {T1 located}(, then come home{+h}|). => SurveyTarget T1; Home +h"):
-        assert titles(expected) == (["SurveyTarget", "Transit"] if "home" in text else ["SurveyTarget"])
+    for text, expected in draws(
+        "Survey {T1 located}(, then come home{+h}|). => SurveyTarget T1; Home +h"
+    ):
+        assert titles(expected) == (
+            ["SurveyTarget", "Transit"] if "home" in text else ["SurveyTarget"]
+        )
 
 
 def test_what_is_taken_back_is_said_but_not_planned():
-    for text, expected in draws("Wait here for {~duration}, no, make that {duration}. => KeepStation here duration"):
+    for text, expected in draws(
+        "Wait here for {~duration}, no, make that {duration}. => KeepStation here duration"
+    ):
         wrong, right = re.match(r"Wait here for (.*), no, make that (.*)\.", text).groups()
         assert wrong != right
         assert titles(expected) == ["KeepStation"]
@@ -64,7 +72,11 @@ def test_what_is_taken_back_is_said_but_not_planned():
 def test_an_indefinite_target_has_its_article_and_no_position():
     for text, expected in draws("There is {a T1} off the point. Circle it. => PerformOrbit T1"):
         name = expected["tasks"][0]["parameters"]["target_description"]
-        assert f"There is {'an' if name[0] in 'aeiou' else 'a'} {name} off the point." in text or "uni" in name or name.startswith(("RO", "RI", "us"))
+        assert (
+            f"There is {'an' if name[0] in 'aeiou' else 'a'} {name} off the point." in text
+            or "uni" in name
+            or name.startswith(("RO", "RI", "us"))
+        )
         assert titles(expected)[0] == "SearchAndDetect"
 
 
@@ -75,7 +87,9 @@ def test_a_target_can_have_its_position_in_a_slot_of_its_own():
 
 
 def test_the_position_is_said_once():
-    for text, expected in draws("Survey {T1 located}, then circle {T1}. => SurveyTarget T1; PerformOrbit T1"):
+    for text, expected in draws(
+        "Survey {T1 located}, then circle {T1}. => SurveyTarget T1; PerformOrbit T1"
+    ):
         again = text.rstrip(".").split(", then circle ")[-1]
         assert text.startswith((f"Survey {again}", "Survey the "))
         assert not re.search(r"[\[(=]| (?:at|position|near) ", again)
@@ -89,49 +103,81 @@ def test_what_the_vehicle_lies_at_needs_no_way():
 
 
 def test_remarks_become_constraints_and_assumptions():
-    remarks = "Cannot lifting a block; Not AutoGenerateReportSummary; Note Mind {T1}.; Assume The berth is free."
+    remarks = (
+        "Cannot lifting a block; Not AutoGenerateReportSummary; Note Mind {T1}.; Assume The berth"
+        " is free."
+    )
     row = f"Lift the block, no report, mind {{T1}}, berth free: come home. => Home; {remarks}"
     for _, expected in draws(row, 5):
-        assert expected["constraints"][:2] == ["The vehicle has no task for lifting a block.", "No report is written."]
+        assert expected["constraints"][:2] == [
+            "The vehicle has no task for lifting a block.",
+            "No report is written.",
+        ]
         assert expected["constraints"][2].startswith("Mind ")
         assert "The berth is free." in expected["assumptions"]
 
 
 def test_a_command_for_nothing_says_why():
     for _, expected in draws("Nice weather today. => Nothing", 3):
-        assert expected == {"tasks": [], "assumptions": [], "constraints": ["The command asks for nothing that the vehicle has a task for."]}
+        assert expected == {
+            "tasks": [],
+            "assumptions": [],
+            "constraints": ["The command asks for nothing that the vehicle has a task for."],
+        }
 
 
 def test_look_alikes_share_their_noun():
-    row = "Two {nouns T1:pair}: a {look T1} one and a {look T2:pair} one. Survey {one T1}, then the other. => SurveyTarget T1; SurveyTarget T2"
+    row = (
+        "Two {nouns T1:pair}: a {look T1} one and a {look T2:pair} one. Survey {one T1}, then the"
+        " other. => SurveyTarget T1; SurveyTarget T2"
+    )
     for text, expected in draws(row, 20):
-        first, second = (task["parameters"]["target_description"] for task in expected["tasks"] if task["title"] == "SearchAndDetect")
+        first, second = (
+            task["parameters"]["target_description"]
+            for task in expected["tasks"]
+            if task["title"] == "SearchAndDetect"
+        )
         assert first != second
         assert first.split(" ")[-1] == second.split(" ")[-1]
         assert "Survey the " in text
 
 
 def test_a_series_of_readings_has_more_than_one():
-    for _, expected in draws("Read {T1} every {interval} for {duration}. => ThermalTimeLapse T1 interval duration", 200):
+    for _, expected in draws(
+        "Read {T1} every {interval} for {duration}. => ThermalTimeLapse T1 interval duration", 200
+    ):
         parameters = expected["tasks"][-1]["parameters"]
         assert list(parameters) == ["duration", "interval"]
         assert 2 * parameters["interval"] <= parameters["duration"]
 
 
 def test_fixed_values_and_lists_are_planned():
-    for _, expected in draws("Half way round {T1 located}, then send the {L1} and the {L2}. => PerformOrbit T1 arc=180; SmartDataHarvest L1 L2", 10):
+    for _, expected in draws(
+        "Half way round {T1 located}, then send the {L1} and the {L2}. => PerformOrbit T1 arc=180;"
+        " SmartDataHarvest L1 L2",
+        10,
+    ):
         assert expected["tasks"][1]["parameters"]["arc"] == 180
         assert len(set(expected["tasks"][2]["parameters"]["target_list"])) == 2
 
 
 def test_fixed_words_are_planned():
-    row = "Film the name board of {T1 located}, then go down its north side. => FeatureStare T1 F=name_board; ParallelStructurePass T1 S=north"
+    row = (
+        "Film the name board of {T1 located}, then go down its north side. => FeatureStare T1"
+        " F=name_board; ParallelStructurePass T1 S=north"
+    )
     for _, expected in draws(row, 5):
-        assert [parameters for _, parameters in tasks(expected)[1:]] == [{"feature_type": "name board"}, {"side_id": "north"}]
+        assert [parameters for _, parameters in tasks(expected)[1:]] == [
+            {"feature_type": "name board"},
+            {"side_id": "north"},
+        ]
 
 
 def test_texts_are_put_in_order():
-    assert joined(["there is a ", "orange buoy", " at [1, 2],", ". ", "then", "  come home ."]) == "There is an orange buoy at [1, 2]. Then come home."
+    assert (
+        joined(["there is a ", "orange buoy", " at [1, 2],", ". ", "then", "  come home ."])
+        == "There is an orange buoy at [1, 2]. Then come home."
+    )
     assert joined(["an ", "USV", ", a ", "8-minute", " wait"]) == "A USV, an 8-minute wait"
     assert joined(["x=4 y=5", "... no, ", "x=1 y=2."]) == "x=4 y=5... no, x=1 y=2."
 
@@ -148,7 +194,16 @@ def test_the_check_names_file_and_line(tmp_path, capsys):
 
 
 def test_a_size_without_a_unit_stands_before_metres() -> None:
-    texts = [text for text, _ in draws("Sound {width} by {length} at {P1}. => BathymetryGridSurvey P1 width length", 300)]
+    texts = [
+        text
+        for text, _ in draws(
+            "Sound {width} by {length} at {P1}. => BathymetryGridSurvey P1 width length", 300
+        )
+    ]
     bare = [text for text in texts if re.match(r"Sound \d[\d.]* by", text)]
     assert len(bare) > 50
-    assert [text for text in bare if re.search(r"(ft|feet|foot|yards?|yd|km|kilomet\w+|fathoms?|cables?) at ", text)] == []
+    assert [
+        text
+        for text in bare
+        if re.search(r"(ft|feet|foot|yards?|yd|km|kilomet\w+|fathoms?|cables?) at ", text)
+    ] == []

@@ -2,7 +2,11 @@
 
 import pytest
 
-from planner_ft.data.mission.synthetic.commands_check import parse_template, read_templates, shipped_templates
+from planner_ft.data.mission.synthetic.commands_check import (
+    parse_template,
+    read_templates,
+    shipped_templates,
+)
 from planner_ft.data.mission.synthetic.commands_format import Choice, FormatError, parse_text
 from planner_ft.support.errors import PlannerError
 
@@ -29,7 +33,10 @@ def test_alternatives_may_nest_and_marks_can_be_escaped():
         ("Hold at {P1} for {time}. => KeepStation P1", "{time} is no slot"),
         ("Hold at {T}. => KeepStation T1", "{T} has no number"),
         ("Hold at {T1:ship}. => KeepStation T1", "no kind 'ship'"),
-        ("Hold at {P1} for {duration}. => KeepStation P1", "{duration} is said, but belongs to no intent"),
+        (
+            "Hold at {P1} for {duration}. => KeepStation P1",
+            "{duration} is said, but belongs to no intent",
+        ),
         ("Hold at {P1}. => KeepStation P1 duration", "TEXT has no {duration}"),
         ("Hold at {~P1}. => KeepStation here", "no intent has the right P1"),
         ("Hold (at {P1}|there). => KeepStation P1", "not every alternative says"),
@@ -39,8 +46,14 @@ def test_alternatives_may_nest_and_marks_can_be_escaped():
         ("Stay by {T1:boat}. => KeepStation T1", "is FollowTarget"),
         ("Half way round {T1}. => PerformOrbit T1 arc=half", "not a number"),
         ("Circle {T1} and {T2}. => PerformOrbit T1 T2", "T twice"),
-        ("Circle {T1}, no checks. => PerformOrbit T1; Not Checking", "no task 'Checking' to rule out"),
-        ("Find {T1:boat}, then circle {T1:buoy}. => SearchAndDetect T1; PerformOrbit T1", "two kinds"),
+        (
+            "Circle {T1}, no checks. => PerformOrbit T1; Not Checking",
+            "no task 'Checking' to rule out",
+        ),
+        (
+            "Find {T1:boat}, then circle {T1:buoy}. => SearchAndDetect T1; PerformOrbit T1",
+            "two kinds",
+        ),
     ],
 )
 def test_mistakes_are_named(row, said):
@@ -56,7 +69,8 @@ def test_a_slot_that_is_taken_back_can_be_named_among_the_arguments():
 
 def test_kinds_follow_from_the_tasks():
     template = parse(
-        "Follow {T1}, track {T2}, scan {T3}, dock at {T4}. => FollowTarget T1; SubseaCableTrack T2; BoatLandingClearanceSweep T3; DockingApproach T4"
+        "Follow {T1}, track {T2}, scan {T3}, dock at {T4}. => FollowTarget T1; SubseaCableTrack T2;"
+        " BoatLandingClearanceSweep T3; DockingApproach T4"
     )
     assert template.kinds == {"T1": "boat", "T2": "cable", "T3": "landing", "T4": "dock"}
 

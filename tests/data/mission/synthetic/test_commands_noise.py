@@ -3,12 +3,22 @@
 from random import Random
 
 from planner_ft.data.mission.synthetic import sample_missions
-from planner_ft.data.mission.synthetic.commands_noise import dictated, garbled, greeted, noisy, slipped, telegraphed, uncapitalised
+from planner_ft.data.mission.synthetic.commands_noise import (
+    dictated,
+    garbled,
+    greeted,
+    noisy,
+    slipped,
+    telegraphed,
+    uncapitalised,
+)
 
 
 def test_most_commands_stay_clean():
     text = "Circle the old lightvessel Theodora at 30 metres, then come home."
-    kept = sum(noisy(text, Random(seed), ("old lightvessel Theodora",)) == text for seed in range(2000))
+    kept = sum(
+        noisy(text, Random(seed), ("old lightvessel Theodora",)) == text for seed in range(2000)
+    )
     assert 0.68 < kept / 2000 < 0.8
 
 
@@ -20,7 +30,10 @@ def test_slips_spare_names_ids_and_numbers():
 
 
 def test_small_letters_leave_names_alone():
-    assert uncapitalised("Go to Barge Theodora B7 At Once.", ("Theodora B7",)) == "go to barge Theodora B7 at once."
+    assert (
+        uncapitalised("Go to Barge Theodora B7 At Once.", ("Theodora B7",))
+        == "go to barge Theodora B7 at once."
+    )
 
 
 def test_a_greeting_stands_once():
@@ -30,18 +43,28 @@ def test_a_greeting_stands_once():
 
 
 def test_garbled_and_dictated_text_keeps_what_only_copying_can_tell():
-    text = "Please follow barge skrimvold KX-07 from [12, -3] for twenty minutes, then write the report."
+    text = (
+        "Please follow barge skrimvold KX-07 from [12, -3] for twenty minutes, then write the"
+        " report."
+    )
     for seed in range(200):
         told = garbled(text, Random(seed), ("barge skrimvold KX-07",))
         assert "skrimvold KX-07" in told and "[12, -3]" in told and "twenty" in told
-    assert dictated(text, Random(0), ("barge skrimvold KX-07",)) == "please follow barge skrimvold KX-07 from [12, -3] for twenty minutes then write the report"
+    assert (
+        dictated(text, Random(0), ("barge skrimvold KX-07",))
+        == "please follow barge skrimvold KX-07 from [12, -3] for twenty minutes then write the"
+        " report"
+    )
 
 
 def test_a_telegram_has_no_articles_but_those_of_a_value():
     text = "Please film the weld at the quay, then come home."
     short = {telegraphed(text, Random(seed), ("weld",)) for seed in range(50)}
     assert {"Film weld at quay, then come home.", "FILM WELD AT QUAY, THEN COME HOME."} <= short
-    assert telegraphed("Film the weld on the ladder.", Random(0), ("weld on the ladder",)).lower() == "film the weld on the ladder."
+    assert (
+        telegraphed("Film the weld on the ladder.", Random(0), ("weld on the ladder",)).lower()
+        == "film the weld on the ladder."
+    )
 
 
 def test_four_of_five_samples_are_written_commands():

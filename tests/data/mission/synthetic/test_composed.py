@@ -1,4 +1,6 @@
-"""Composed commands: the plan follows the order that is said, and every value goes to the task that it belongs to."""
+"""Composed commands: the plan follows the order that is said, and every value goes to the task that
+it belongs to.
+"""
 
 import re
 from collections import Counter
@@ -6,13 +8,24 @@ from random import Random
 
 import pytest
 
-from planner_ft.data.mission.synthetic import composed_orders, composed_targets, composed_values, sample_missions
+from planner_ft.data.mission.synthetic import (
+    composed_orders,
+    composed_targets,
+    composed_values,
+    sample_missions,
+)
 from planner_ft.data.mission.synthetic.commands_check import built_template
 from planner_ft.data.mission.synthetic.commands_draw import draw_command
 from planner_ft.data.mission.synthetic.commands_format import base_of
 from planner_ft.data.mission.synthetic.composed import KINDS, compose_template
 from planner_ft.data.mission.synthetic.composed_orders import TAG, frames, tell_order
-from planner_ft.data.mission.synthetic.composed_wishes import AUXILIARIES, VALUE, chosen, clauses, slots_of
+from planner_ft.data.mission.synthetic.composed_wishes import (
+    AUXILIARIES,
+    VALUE,
+    chosen,
+    clauses,
+    slots_of,
+)
 from planner_ft.data.mission.synthetic.numbers import draw_style
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems
@@ -29,13 +42,29 @@ def drawn(told, seed):
     """The command and plan of what a teller tells."""
     rng = Random(seed)
     text, wishes = told(rng)
-    return text, wishes, draw_command(built_template(tuple(slots_of(text)), tuple(wish.line() for wish in wishes), "x"), rng, draw_style(rng))[1]
+    return (
+        text,
+        wishes,
+        draw_command(
+            built_template(tuple(slots_of(text)), tuple(wish.line() for wish in wishes), "x"),
+            rng,
+            draw_style(rng),
+        )[1],
+    )
 
 
 def own(expected):
     """The tasks with their values, without places and without those that get there."""
-    tasks = [task for task in expected["tasks"] if task["title"] not in ("SearchAndDetect", "Transit")]
-    return [(task["title"], {name: value for name, value in task["parameters"].items() if not is_place(value)}) for task in tasks]
+    tasks = [
+        task for task in expected["tasks"] if task["title"] not in ("SearchAndDetect", "Transit")
+    ]
+    return [
+        (
+            task["title"],
+            {name: value for name, value in task["parameters"].items() if not is_place(value)},
+        )
+        for task in tasks
+    ]
 
 
 def is_place(value):
@@ -47,7 +76,10 @@ def test_plans_are_strictly_valid_and_texts_complete(kind):
     vocabulary = load_vocabulary()
     for text, expected in draws(kind):
         assert plan_problems("mission", expected, vocabulary, strict=True) == [], text
-        assert not re.search(r"[{}<>@%|](?!\d)|  |\bX\b(?! ?-?\d)", re.sub(r"\d ?%", "", text).replace("X:", "").replace("X=", "")), text
+        assert not re.search(
+            r"[{}<>@%|](?!\d)|  |\bX\b(?! ?-?\d)",
+            re.sub(r"\d ?%", "", text).replace("X:", "").replace("X=", ""),
+        ), text
         assert text[0].isupper() or not text[0].isalpha() or text[1:2] in "=: 0123456789-", text
 
 
@@ -66,7 +98,10 @@ def test_frames_name_their_clauses_from_the_first_on():
     for frame, _ in (*frames(turned=True), *frames(turned=False)):
         letters = sorted({match[1] for match in TAG.finditer(frame)})
         assert letters == list("ABCD"[: len(letters)]), frame
-        assert all(match[2] in (*AUXILIARIES, "imp", "ger", "np", "done", "call") for match in TAG.finditer(frame)), frame
+        assert all(
+            match[2] in (*AUXILIARIES, "imp", "ger", "np", "done", "call")
+            for match in TAG.finditer(frame)
+        ), frame
         text = TAG.sub("", chosen(frame, Random(1)))
         assert not re.search(r"[()|<>]", text), frame
         counts[len(letters), frame.find("<A") > frame.find("<B")] += 1
@@ -74,18 +109,31 @@ def test_frames_name_their_clauses_from_the_first_on():
     assert counts[3, True] + counts[3, False] >= 20
 
 
-@pytest.mark.parametrize("frame", ["<B imp>, but only after <A ger>.", "Before you <B imp>, <A imp>.", "Leave <B np> for last; first: <A imp>."])
+@pytest.mark.parametrize(
+    "frame",
+    [
+        "<B imp>, but only after <A ger>.",
+        "Before you <B imp>, <A imp>.",
+        "Leave <B np> for last; first: <A imp>.",
+    ],
+)
 def test_what_is_said_first_may_be_done_last(frame, monkeypatch):
     monkeypatch.setattr(composed_orders, "frames", lambda turned: ((frame, False),))
     for seed in range(60):
         text, wishes, expected = drawn(tell_order, seed)
         planned = [task["title"] for task in expected["tasks"]]
-        assert [wish.title for wish in wishes if wish.title not in ("Home", "Transit", "SearchAndDetect")] == [title for title, _ in own(expected)]
+        assert [
+            wish.title
+            for wish in wishes
+            if wish.title not in ("Home", "Transit", "SearchAndDetect")
+        ] == [title for title, _ in own(expected)]
         places = [wish.place for wish in wishes]
         if all(places) and len(set(places)) == len(places):
             assert text.index(f"{{{places[-1]}") < text.index(f"{{{places[0]}")
         if wishes[-1].title == "Home":
-            assert planned[-1] == "Transit" and expected["tasks"][-1]["parameters"] == {"target_position": [0, 0]}
+            assert planned[-1] == "Transit" and expected["tasks"][-1]["parameters"] == {
+                "target_position": [0, 0]
+            }
 
 
 def test_the_same_at_another_place_has_the_same_values_unless_one_is_changed():
@@ -95,7 +143,12 @@ def test_the_same_at_another_place_has_the_same_values_unless_one_is_changed():
         tasks = own(expected)
         half = len(tasks) // 2
         assert [title for title, _ in tasks[:half]] == [title for title, _ in tasks[half:]], text
-        differing = [name for first, second in zip(tasks[:half], tasks[half:], strict=True) for name in first[1] if first[1][name] != second[1][name]]
+        differing = [
+            name
+            for first, second in zip(tasks[:half], tasks[half:], strict=True)
+            for name in first[1]
+            if first[1][name] != second[1][name]
+        ]
         assert len(differing) <= ("2}" in text)
         changed += len(differing)
     assert changed > 10
@@ -113,7 +166,9 @@ def test_values_of_their_own_are_kept_apart():
     for seed in range(60):
         text, wishes, expected = drawn(composed_targets._own_values, seed)
         slots = [name for wish in wishes for name in wish.said if base_of(name) not in ("F", "S")]
-        assert len(set(slots)) == len(slots) >= len(wishes) and all(f"{{{name}" in text for name in slots)
+        assert len(set(slots)) == len(slots) >= len(wishes) and all(
+            f"{{{name}" in text for name in slots
+        )
         assert len(own(expected)) == len(wishes)
 
 
@@ -131,13 +186,19 @@ def test_figures_that_follow_reach_their_tasks():
         for wish in wishes:
             wanted = set(VALUE.findall(wish.values))
             task = next(parameters for title, parameters in own(expected) if title == wish.title)
-            assert {{"scan": "scan_width_degrees"}.get(name, name) for name in wanted} <= set(task), text
+            assert {{"scan": "scan_width_degrees"}.get(name, name) for name in wanted} <= set(
+                task
+            ), text
 
 
 def test_a_place_said_in_another_sentence_needs_no_search():
     for _, expected in draws("placed"):
         assert "SearchAndDetect" not in [task["title"] for task in expected["tasks"]]
-        assert all(position != [-99, -99] for task in expected["tasks"] for position in task["parameters"].values())
+        assert all(
+            position != [-99, -99]
+            for task in expected["tasks"]
+            for position in task["parameters"].values()
+        )
 
 
 def test_what_is_dropped_is_not_planned_and_what_is_swapped_is():

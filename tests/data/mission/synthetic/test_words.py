@@ -4,16 +4,42 @@ import re
 from random import Random
 
 from planner_ft.data.mission.synthetic import lexicon
-from planner_ft.data.mission.synthetic.lexicon_names import PLACE_ENDS, PLACE_STARTS, SHIP_ENDS, SHIP_STARTS
+from planner_ft.data.mission.synthetic.lexicon_names import (
+    PLACE_ENDS,
+    PLACE_STARTS,
+    SHIP_ENDS,
+    SHIP_STARTS,
+)
 from planner_ft.data.mission.synthetic.names import code, place_name, ship_name
 from planner_ft.data.mission.synthetic.words import FEATURE_LOOKS, noun, structure, things
 
 
 def known_words() -> set[str]:
     pools = (
-        lexicon.TARGET_NOUNS, lexicon.TARGET_ADJECTIVES, lexicon.WITH_PHRASES, lexicon.PROPER_NAMES, FEATURE_LOOKS, SHIP_STARTS, SHIP_ENDS,
-        ("with", "the", "a", "an", "of", "number", "No.", "KP", "Alpha", "Beta", "Gamma", "Delta", "Echo", "Bravo"),
-    )  # fmt: skip
+        lexicon.TARGET_NOUNS,
+        lexicon.TARGET_ADJECTIVES,
+        lexicon.WITH_PHRASES,
+        lexicon.PROPER_NAMES,
+        FEATURE_LOOKS,
+        SHIP_STARTS,
+        SHIP_ENDS,
+        (
+            "with",
+            "the",
+            "a",
+            "an",
+            "of",
+            "number",
+            "No.",
+            "KP",
+            "Alpha",
+            "Beta",
+            "Gamma",
+            "Delta",
+            "Echo",
+            "Bravo",
+        ),
+    )
     texts = [text for pool in pools for text in pool]
     return {*things(), *(word for text in texts for word in text.split(" "))}
 
@@ -23,7 +49,10 @@ def test_few_descriptions_hold_an_invented_word():
     places = {start + end for start in PLACE_STARTS for end in PLACE_ENDS}
     for seed in range(3000):
         words = (structure(Random(seed), 1, located=False).description or "").split(" ")
-        invented += any(word not in known and word not in places and not re.search(r"\d|^[A-Z]+$|^[A-Z]/", word) for word in words)
+        invented += any(
+            word not in known and word not in places and not re.search(r"\d|^[A-Z]+$|^[A-Z]/", word)
+            for word in words
+        )
     assert 0.02 < invented / 3000 < 0.08
 
 

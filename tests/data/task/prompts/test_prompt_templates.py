@@ -21,7 +21,9 @@ BOOK = Phrasebook(USV, unseen=False)
 
 
 def samples(source, count=40):
-    """(prompt, task parameters, steps) of a line; a step is (name, parameters, filters, perceptions)."""
+    """(prompt, task parameters, steps) of a line; a step is (name, parameters, filters,
+    perceptions).
+    """
     rng = random.Random(7)
     line = parse_line(source)
     bound = bind(line, USV.task[line.tasks[0]], BOOK)
@@ -30,14 +32,22 @@ def samples(source, count=40):
         drawn = draw_template(bound, context)
         if drawn:
             steps = [
-                (step["navigation_skill"]["name"], step["navigation_skill"]["parameters"], step["filter_skills"], step["perception_skills"])
+                (
+                    step["navigation_skill"]["name"],
+                    step["navigation_skill"]["parameters"],
+                    step["filter_skills"],
+                    step["perception_skills"],
+                )
                 for step in drawn[1]["skill_sequence"]
             ]
             yield plain(drawn[0]), context.parameters(), steps
 
 
 def test_a_value_stands_in_the_text_and_in_its_step():
-    for prompt, _parameters, steps in samples("KeepStation | Hold for {time adj}s, then for {time2}. => StationKeep time; StationKeep time2 &GetGPSLocation"):
+    for prompt, _parameters, steps in samples(
+        "KeepStation | Hold for {time adj}s, then for {time2}. => StationKeep time; StationKeep"
+        " time2 &GetGPSLocation"
+    ):
         assert [name for name, *_rest in steps] == ["StationKeep", "StationKeep"]
         assert steps[0][1]["time"] != steps[1][1]["time"] and "{" not in prompt
         assert [call["name"] for call in steps[1][3]] == ["GetGPSLocation"] and steps[0][3] == []
@@ -45,14 +55,18 @@ def test_a_value_stands_in_the_text_and_in_its_step():
 
 def test_a_slot_in_an_alternative_counts_only_when_it_was_chosen():
     seen = set()
-    for prompt, _parameters, [(_name, given, _filters, _calls)] in samples("KeepStation | Stay here(, within {radius}|). => StationKeep radius"):
+    for prompt, _parameters, [(_name, given, _filters, _calls)] in samples(
+        "KeepStation | Stay here(, within {radius}|). => StationKeep radius"
+    ):
         assert ("radius" in given) == ("within" in prompt)
         seen.add("radius" in given)
     assert seen == {True, False}
 
 
 def test_a_flag_brings_a_skill_when_its_alternative_was_chosen():
-    for prompt, _parameters, [(*_rest, calls)] in samples("KeepStation | Stay here(, filming{?film}|). => StationKeep &SetStreamRecording?film"):
+    for prompt, _parameters, [(*_rest, calls)] in samples(
+        "KeepStation | Stay here(, filming{?film}|). => StationKeep &SetStreamRecording?film"
+    ):
         assert bool(calls) == ("filming" in prompt)
 
 
@@ -64,30 +78,50 @@ def test_the_tasks_own_parameter_is_copied():
 
 
 def test_left_and_right_give_the_sign_and_the_side_is_said_once():
-    for prompt, _parameters, [(_name, given, *_rest)] in samples("FeatureStare | Ease the bow {delta_yaw left} to port. => NudgeYaw delta_yaw"):
+    for prompt, _parameters, [(_name, given, *_rest)] in samples(
+        "FeatureStare | Ease the bow {delta_yaw left} to port. => NudgeYaw delta_yaw"
+    ):
         assert given["delta_yaw"] < 0 and len(re.findall("port|left|anticlockwise", prompt)) == 1
-    for prompt, _parameters, [(_name, given, *_rest)] in samples("FeatureStare | Nudge it {delta_yaw right}. => NudgeYaw delta_yaw"):
+    for prompt, _parameters, [(_name, given, *_rest)] in samples(
+        "FeatureStare | Nudge it {delta_yaw right}. => NudgeYaw delta_yaw"
+    ):
         assert given["delta_yaw"] > 0 and re.search("right|starboard|clockwise", prompt)
 
 
 def test_all_runs_in_every_step_and_in_the_order_of_the_line():
-    source = "Transit | {P1}, then {P2}. => ALL +LockHeading &GetGPSLocation; GoToXY P1; GoToXY P2 &GetSeabedDepth"
+    source = (
+        "Transit | {P1}, then {P2}. => ALL +LockHeading &GetGPSLocation; GoToXY P1; GoToXY P2"
+        " &GetSeabedDepth"
+    )
     for _prompt, _parameters, steps in samples(source, 5):
-        assert [[call["name"] for call in filters] for *_rest, filters, _calls in steps] == [["LockHeading"]] * 2
-        assert [[call["name"] for call in calls] for *_rest, calls in steps] == [["GetGPSLocation"], ["GetGPSLocation", "GetSeabedDepth"]]
+        assert [[call["name"] for call in filters] for *_rest, filters, _calls in steps] == [
+            ["LockHeading"]
+        ] * 2
+        assert [[call["name"] for call in calls] for *_rest, calls in steps] == [
+            ["GetGPSLocation"],
+            ["GetGPSLocation", "GetSeabedDepth"],
+        ]
 
 
 def test_shapes_take_what_they_need_from_the_task():
-    for _prompt, given, steps in samples("PerformOrbit | Four points round the centre. => Ring 4 / StationKeep &GetThermalStats"):
+    for _prompt, given, steps in samples(
+        "PerformOrbit | Four points round the centre. => Ring 4 / StationKeep &GetThermalStats"
+    ):
         (x, y), radius = given["center"], given["radius"]
         points = [(step[1]["x"], step[1]["y"]) for step in steps[::2]]
-        assert points == [pytest.approx(point, abs=0.006) for point in ((x + radius, y), (x, y + radius), (x - radius, y), (x, y - radius))]
+        assert points == [
+            pytest.approx(point, abs=0.006)
+            for point in ((x + radius, y), (x, y + radius), (x - radius, y), (x, y - radius))
+        ]
         assert [name for name, *_rest in steps[1::2]] == ["StationKeep"] * 4
 
 
 def test_a_grid_of_stated_size_is_covered():
     text = "{width} by {length} about {P1}, {spacing} apart, from the {corner}."
-    source = f"BathymetryGridSurvey | {text} => Grid P1 width length spacing corner &LogEnvironmentState@last"
+    source = (
+        f"BathymetryGridSurvey | {text} => Grid P1 width length spacing corner"
+        " &LogEnvironmentState@last"
+    )
     for _prompt, _parameters, steps in samples(source):
         xs = {step[1]["x"] for step in steps}
         assert len(steps) == 2 * len(xs)
@@ -95,10 +129,21 @@ def test_a_grid_of_stated_size_is_covered():
 
 
 def test_an_offset_lies_in_the_named_direction():
-    source = "Transit | Go {distance num} {direction} of {param target_position}. => Offset param.target_position distance direction"
+    source = (
+        "Transit | Go {distance num} {direction} of {param target_position}. => Offset"
+        " param.target_position distance direction"
+    )
     for prompt, parameters, [(_name, given, *_rest)] in samples(source):
-        east, north = given["x"] - parameters["target_position"][0], given["y"] - parameters["target_position"][1]
-        for word, component in (("north", north), ("south", -north), ("east", east), ("west", -east)):
+        east, north = (
+            given["x"] - parameters["target_position"][0],
+            given["y"] - parameters["target_position"][1],
+        )
+        for word, component in (
+            ("north", north),
+            ("south", -north),
+            ("east", east),
+            ("west", -east),
+        ):
             assert (component > 0) == (word in prompt)
 
 
@@ -111,7 +156,10 @@ def test_an_offset_lies_in_the_named_direction():
         ("KeepStation | Hold. => StationKeep time", "not in the text"),
         ("KeepStation | Hold. => Hover", "no skill Hover"),
         ("KeepStation | Hold. => StationKeep &LockHeading", "is a filter skill"),
-        ("KeepStation | Hold {threshold}. => StationKeep threshold", "StationKeep has no parameter threshold"),
+        (
+            "KeepStation | Hold {threshold}. => StationKeep threshold",
+            "StationKeep has no parameter threshold",
+        ),
         ("KeepStation | Hold. => StationKeep param.radius", "KeepStation has no parameter radius"),
         ("KeepStation | Go round. => Square", "needs a point"),
         ("KeepStation | Film{?film}. => StationKeep", "the flag ?film"),
@@ -125,7 +173,10 @@ def test_a_wrong_line_is_explained(line, message):
 
 def test_the_checker_names_file_and_line(tmp_path, capsys):
     path = tmp_path / "some.txt"
-    path.write_text("# a comment\n\nKeepStation | Hold. => Hover\nKeepStation | Hold. => StationKeep\nSwim | Hold. => StationKeep\n")
+    path.write_text(
+        "# a comment\n\nKeepStation | Hold. => Hover\nKeepStation | Hold. => StationKeep\nSwim |"
+        " Hold. => StationKeep\n"
+    )
     assert main([str(path), "--show", "1"]) == 1
     out = capsys.readouterr().out
     assert f"{path}:3: there is no skill Hover" in out and f"{path}:5: there is no task Swim" in out
@@ -138,7 +189,10 @@ def test_the_lines_of_the_package_are_right(capsys):
 
 
 def test_every_wording_of_a_line_is_known_without_its_values():
-    line = parse_line("KeepStation | (Hold|Stay) for {time}(, then for {time2}|). => StationKeep time; StationKeep time2")
+    line = parse_line(
+        "KeepStation | (Hold|Stay) for {time}(, then for {time2}|). => StationKeep time;"
+        " StationKeep time2"
+    )
     known = wordings(line)
     assert known == {"hold for _", "stay for _", "hold for _ then for _", "stay for _ then for _"}
     bound = bind(line, USV.task["KeepStation"], BOOK)

@@ -35,8 +35,14 @@ def test_the_first_number_goes(text: str, taken_back: set[float], instead: set[f
         ("Turn to 100, I mean 120, and wait.", "Turn to 120, and wait."),
         ("Turn to north, no, make it north-east.", "Turn to north-east."),
         ("Ten degrees to port, sorry, starboard.", "Ten degrees to starboard."),
-        ("Float for two minutes. Scratch that: three and a half.", "Float for three and a half minutes."),
-        ("Hold within 5 m, correction, 8 m, for ten seconds, or rather twenty seconds.", "Hold within 8 m, for twenty seconds."),
+        (
+            "Float for two minutes. Scratch that: three and a half.",
+            "Float for three and a half minutes.",
+        ),
+        (
+            "Hold within 5 m, correction, 8 m, for ten seconds, or rather twenty seconds.",
+            "Hold within 8 m, for twenty seconds.",
+        ),
         ("Radius 16 metres - oh, I mean 6 - and stay.", "Radius 6 metres - and stay."),
     ],
 )

@@ -1,6 +1,8 @@
-"""The page in a real headless browser, before a real server whose agents say what a test lets them say.
+"""The page in a real headless browser, before a real server whose agents say what a test lets them
+say.
 
-Skipped where there is no chromium, chromedriver or selenium; PLANNERFT_REQUIRE_BROWSER=1 makes that a failure.
+Skipped where there is no chromium, chromedriver or selenium; PLANNERFT_REQUIRE_BROWSER=1 makes that
+a failure.
 """
 
 from __future__ import annotations
@@ -32,64 +34,126 @@ from tests.browser import headless_chromium
 
 PATIENCE = 60
 """Seconds after which what a test waits for does not come."""
-COMMAND = "Find the green buoy, circle it at 12 m with video, survey depths over 20 by 20 m at [60, -30] with lanes every 10 m, come home."
+COMMAND = (
+    "Find the green buoy, circle it at 12 m with video, survey depths over 20 by 20 m at [60, -30]"
+    " with lanes every 10 m, come home."
+)
 Step = dict[str, Any]
 
 
-def step(name: str, *filters: dict[str, Any], gather: tuple[str, ...] = (), **parameters: Any) -> Step:
+def step(
+    name: str, *filters: dict[str, Any], gather: tuple[str, ...] = (), **parameters: Any
+) -> Step:
     return {
-        "navigation_skill": {"name": name, "parameters": parameters}, "filter_skills": list(filters),
+        "navigation_skill": {"name": name, "parameters": parameters},
+        "filter_skills": list(filters),
         "perception_skills": [{"name": one, "parameters": {}} for one in gather],
-        "stop_conditions": ["position reached"], "failure_modes": ["position not reachable"], "expected_outputs": [],
-    }  # fmt: skip
+        "stop_conditions": ["position reached"],
+        "failure_modes": ["position not reachable"],
+        "expected_outputs": [],
+    }
 
 
 def go(*corners: tuple[float, float], gather: tuple[str, ...] = ()) -> list[Step]:
     return [step("GoToXY", gather=gather, x=x, y=y) for x, y in corners]
 
 
-BOX = {"name": "BoundaryEnforcement", "parameters": {"poly_coords": [[40, -50], [80, -50], [80, -10], [40, -10]]}}
-LANES = go((50, -40), (50, -20), (60, -20), (60, -40), (70, -40), (70, -20), gather=("GetSeabedDepth",))
+BOX = {
+    "name": "BoundaryEnforcement",
+    "parameters": {"poly_coords": [[40, -50], [80, -50], [80, -10], [40, -10]]},
+}
+LANES = go(
+    (50, -40), (50, -20), (60, -20), (60, -40), (70, -40), (70, -20), gather=("GetSeabedDepth",)
+)
 TASKS: list[tuple[str, dict[str, Any], str, list[Step] | None]] = [
-    ("SearchAndDetect", {"target_description": "green buoy"}, "Find the green buoy.", [step("StationKeep", gather=("DetectObjects",), time=30)]),
+    (
+        "SearchAndDetect",
+        {"target_description": "green buoy"},
+        "Find the green buoy.",
+        [step("StationKeep", gather=("DetectObjects",), time=30)],
+    ),
     ("Transit", {"target_position": [-99, -99]}, "Go to the green buoy once it is found.", None),
-    ("PerformOrbit", {"center": [-99, -99], "radius": 12, "speed": 1.2}, "Circle the green buoy at 12 m.", None),
-    ("BathymetryGridSurvey", {"center": [60, -30], "width": 20, "length": 20, "spacing": 10}, "Survey the depths.",
-     [{**LANES[0], "filter_skills": [BOX]}, *LANES[1:]]),
+    (
+        "PerformOrbit",
+        {"center": [-99, -99], "radius": 12, "speed": 1.2},
+        "Circle the green buoy at 12 m.",
+        None,
+    ),
+    (
+        "BathymetryGridSurvey",
+        {"center": [60, -30], "width": 20, "length": 20, "spacing": 10},
+        "Survey the depths.",
+        [{**LANES[0], "filter_skills": [BOX]}, *LANES[1:]],
+    ),
     ("Transit", {"target_position": [0, 0]}, "Return home.", go((0, 0))),
-]  # fmt: skip
+]
 
 
 def answer(plan: dict[str, Any] | None) -> Answer:
     return Answer("", plan, (), (), 3, 10, 6, 0.25)
 
 
-def planned(command: str, tasks: list[tuple[str, dict[str, Any], str, list[Step] | None]]) -> Planned:
+def planned(
+    command: str, tasks: list[tuple[str, dict[str, Any], str, list[Step] | None]]
+) -> Planned:
     """What agents would give that answer with these tasks."""
-    entries = [{"title": title, "parameters": parameters, "task_prompt": prompt} for title, parameters, prompt, _skills in tasks]
-    mission = answer({"tasks": entries, "assumptions": ["Home is [0, 0]."], "constraints": ["The green buoy must be found first."]})
+    entries = [
+        {"title": title, "parameters": parameters, "task_prompt": prompt}
+        for title, parameters, prompt, _skills in tasks
+    ]
+    mission = answer(
+        {
+            "tasks": entries,
+            "assumptions": ["Home is [0, 0]."],
+            "constraints": ["The green buoy must be found first."],
+        }
+    )
     with_skills = tuple(
-        PlannedTask(title, dict(parameters), prompt, None if skills is None else answer({"skill_sequence": skills}), None if skills else "green buoy")
+        PlannedTask(
+            title,
+            dict(parameters),
+            prompt,
+            None if skills is None else answer({"skill_sequence": skills}),
+            None if skills else "green buoy",
+        )
         for title, parameters, prompt, skills in tasks
     )
     usage = {"mission": AgentUse.of("embedded", "lora+grounded", None, 0.5, [mission])}
-    return Planned(command, mission, with_skills, (), usage=usage, manifest=build_manifest("plan", seed=None, configuration={}))
+    return Planned(
+        command,
+        mission,
+        with_skills,
+        (),
+        usage=usage,
+        manifest=build_manifest("plan", seed=None, configuration={}),
+    )
 
 
-def make_plan(command: str = COMMAND, tasks: list[tuple[str, dict[str, Any], str, list[Step] | None]] = TASKS) -> PlanDocument:
+def make_plan(
+    command: str = COMMAND, tasks: list[tuple[str, dict[str, Any], str, list[Step] | None]] = TASKS
+) -> PlanDocument:
     return build(planned(command, tasks), load_vocabulary())
 
 
 @dataclass
 class Agents:
-    """Stands in for Planner: what a command or a task gets is put in by the test, one answer after the other."""
+    """Stands in for Planner: what a command or a task gets is put in by the test, one answer after
+    the other.
+    """
 
     answers: queue.SimpleQueue[Any] = field(default_factory=queue.SimpleQueue)
 
     def plan(self, command: str, _locations: Any, on_event: Callable[[Any], None]) -> Planned:
         tasks = self.answers.get(timeout=PATIENCE)
         result = planned(command, tasks)
-        on_event(TasksKnown(tuple(PlannedTask(task.title, task.parameters, task.task_prompt) for task in result.tasks)))
+        on_event(
+            TasksKnown(
+                tuple(
+                    PlannedTask(task.title, task.parameters, task.task_prompt)
+                    for task in result.tasks
+                )
+            )
+        )
         for number, task in enumerate(result.tasks, start=1):
             if task.answer is not None:
                 self.answers.get(timeout=PATIENCE)
@@ -138,8 +202,19 @@ def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[
         write_document(path, document or make_plan())
         listener = socket.create_server(("127.0.0.1", 0))
         door = Door("127.0.0.1", listener.getsockname()[1])
-        session = Session(path, WebSettings(folder=tmp_path, planning=PlanSettings(configuration="base")), load_vocabulary())
-        server = uvicorn.Server(uvicorn.Config(web_app(session, door), log_level="error", access_log=False, timeout_graceful_shutdown=1))
+        session = Session(
+            path,
+            WebSettings(folder=tmp_path, planning=PlanSettings(configuration="base")),
+            load_vocabulary(),
+        )
+        server = uvicorn.Server(
+            uvicorn.Config(
+                web_app(session, door),
+                log_level="error",
+                access_log=False,
+                timeout_graceful_shutdown=1,
+            )
+        )
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]}, daemon=True)
         thread.start()
         running.append((server, session, thread))
@@ -177,29 +252,46 @@ class Page:
         return self.driver.find_element("css selector", selector)
 
     def text(self, selector: str) -> str:
-        """The text of the first such element, empty without one; read at once, since it may be drawn anew at any time."""
-        script = "const one = document.querySelector(arguments[0]); return one ? (one.innerText ?? one.textContent).replaceAll('\\u00a0', ' ') : ''"
+        """The text of the first such element, empty without one; read at once, since it may be
+        drawn anew at any time.
+        """
+        script = (
+            "const one = document.querySelector(arguments[0]); return one ? (one.innerText ??"
+            " one.textContent).replaceAll('\\u00a0', ' ') : ''"
+        )
         found: str = self.run(script, selector)
         return found
 
     def until(self, script: str, what: str = "") -> None:
         from selenium.webdriver.support.ui import WebDriverWait
 
-        WebDriverWait(self.driver, PATIENCE, poll_frequency=0.1).until(lambda driver: driver.execute_script(script), what or script)
+        WebDriverWait(self.driver, PATIENCE, poll_frequency=0.1).until(
+            lambda driver: driver.execute_script(script), what or script
+        )
 
     def says(self, selector: str, text: str) -> None:
         """Waits until an element of that kind says the text."""
         said = f"(one) => one.textContent.replaceAll('\\u00a0', ' ').includes({json.dumps(text)})"
-        self.until(f"return [...document.querySelectorAll({json.dumps(selector)})].some({said})", f"{selector}: {text}")
+        self.until(
+            f"return [...document.querySelectorAll({json.dumps(selector)})].some({said})",
+            f"{selector}: {text}",
+        )
 
     def gone(self, selector: str) -> None:
-        self.until(f"return document.querySelector({json.dumps(selector)}) === null", f"no {selector}")
+        self.until(
+            f"return document.querySelector({json.dumps(selector)}) === null", f"no {selector}"
+        )
 
     def press(self, name: str, within: str = "body") -> None:
         """Presses the button or link that is called so, by its text or label."""
         script = """return [...document.querySelectorAll(arguments[0] + ' button, ' + arguments[0] + ' a')].find((one) => !one.disabled && one.checkVisibility()
           && [one.textContent.trim(), one.getAttribute('aria-label')].includes(arguments[1])) || null"""
-        self.until(script.replace("arguments[0]", json.dumps(within)).replace("arguments[1]", json.dumps(name)), f"button {name}")
+        self.until(
+            script.replace("arguments[0]", json.dumps(within)).replace(
+                "arguments[1]", json.dumps(name)
+            ),
+            f"button {name}",
+        )
         button = self.run(script, within, name)
         self.run("arguments[0].scrollIntoView({block: 'center'})", button)
         button.click()
@@ -212,11 +304,16 @@ class Page:
             ActionChains(self.driver).send_keys(key).perform()
 
     def focused(self) -> str:
-        found: str = self.run("const one = document.activeElement; return one.getAttribute('aria-label') || one.innerText || one.id || one.tagName")
+        found: str = self.run(
+            "const one = document.activeElement; return one.getAttribute('aria-label') ||"
+            " one.innerText || one.id || one.tagName"
+        )
         return found
 
     def titles(self) -> list[str]:
-        found: list[str] = self.run("return [...document.querySelectorAll('.task .title')].map((one) => one.textContent)")
+        found: list[str] = self.run(
+            "return [...document.querySelectorAll('.task .title')].map((one) => one.textContent)"
+        )
         return found
 
     def write(self, selector: str, text: str) -> None:
@@ -229,14 +326,26 @@ class Page:
 
 @pytest.fixture
 def opened(chromium: Any, start: Callable[..., Review]) -> Iterator[Callable[..., Page]]:
-    """Opens the page on a plan. Afterwards no script may have failed and no request may have left the origin."""
+    """Opens the page on a plan. Afterwards no script may have failed and no request may have left
+    the origin.
+    """
     pages: list[Page] = []
 
-    def open_page(document: PlanDocument | None = None, width: int = 1440, height: int = 900, *, dark: bool = False, why: str | None = None) -> Page:
+    def open_page(
+        document: PlanDocument | None = None,
+        width: int = 1440,
+        height: int = 900,
+        *,
+        dark: bool = False,
+        why: str | None = None,
+    ) -> Page:
         review = start(document, why)
         screen = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600}
         chromium.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
-        features = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}, {"name": "prefers-reduced-motion", "value": "reduce"}]
+        features = [
+            {"name": "prefers-color-scheme", "value": "dark" if dark else "light"},
+            {"name": "prefers-reduced-motion", "value": "reduce"},
+        ]
         chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
         chromium.get(f"{review.base}/?token={review.door.keys.session}")
         page = Page(chromium, review)
@@ -248,9 +357,17 @@ def opened(chromium: Any, start: Callable[..., Review]) -> Iterator[Callable[...
         chromium.get_log(kind)
     yield open_page
     refusals = ("status of 409", "status of 422")
-    assert [entry for entry in chromium.get_log("browser") if not any(refusal in entry["message"] for refusal in refusals)] == []
+    assert [
+        entry
+        for entry in chromium.get_log("browser")
+        if not any(refusal in entry["message"] for refusal in refusals)
+    ] == []
     asked = [json.loads(entry["message"])["message"] for entry in chromium.get_log("performance")]
-    addresses = {message["params"]["request"]["url"] for message in asked if message["method"] == "Network.requestWillBeSent"}
+    addresses = {
+        message["params"]["request"]["url"]
+        for message in asked
+        if message["method"] == "Network.requestWillBeSent"
+    }
     own = (*(page.review.base for page in pages), "data:", "about:")
     assert [address for address in addresses if not address.startswith(own)] == []
     assert not pages or chromium.execute_script("return window.attacked") is None

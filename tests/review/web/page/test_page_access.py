@@ -25,7 +25,10 @@ const ratio = (a, b) => (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
 const water = luminance(getComputedStyle(document.querySelector('.frame')).backgroundColor);
 return [...document.querySelectorAll('.leg polyline:not(.reach), .home path')]
   .map((one) => ratio(luminance(getComputedStyle(one).stroke), water)).filter((found) => found < 3)"""
-OUTLINE = "const s = getComputedStyle(document.activeElement); return s.outlineStyle === 'solid' && parseFloat(s.outlineWidth) >= 2"
+OUTLINE = (
+    "const s = getComputedStyle(document.activeElement); return s.outlineStyle === 'solid' &&"
+    " parseFloat(s.outlineWidth) >= 2"
+)
 
 
 def tab_to(page: Page, name: str, key: str) -> None:
@@ -64,9 +67,15 @@ def test_a_whole_review_by_keyboard(opened: Opened) -> None:
     ActionChains(page.driver).key_down(Keys.ALT).send_keys(Keys.ARROW_UP).key_up(Keys.ALT).perform()
     page.says(".changes li", "moved")
     page.keys("u")
-    page.until("return ![...document.querySelectorAll('.changes li')].some((one) => one.textContent.includes('moved'))")
+    page.until(
+        "return ![...document.querySelectorAll('.changes li')].some((one) =>"
+        " one.textContent.includes('moved'))"
+    )
     page.keys("c", "+")
-    page.until("return document.activeElement.id === 'chart-view' && !document.querySelector('.chart header button:last-child').disabled")
+    page.until(
+        "return document.activeElement.id === 'chart-view' && !document.querySelector('.chart"
+        " header button:last-child').disabled"
+    )
     for _warning in page.all(".warnings input"):
         page.keys("w", Keys.SPACE)
     page.says("#warnings-title", "All warnings acknowledged")
@@ -108,8 +117,12 @@ def test_text_stands_out_from_its_background(opened: Opened, dark: bool, least: 
     page.run("document.querySelectorAll('.warnings input')[0].click()")
     page.run("document.querySelector('#task-t3 [data-parameter=radius] .value').click()")
     page.one(".edit")
-    script = CONTRAST.replace("'main *, header *'", "'#page *'").replace("ratio < 4.5", f"ratio < {least} && !node.closest(':disabled, .unseen, .faint')")
-    script = script.replace("getComputedStyle(node), fill", "getComputedStyle(node), enabled = true, fill")
+    script = CONTRAST.replace("'main *, header *'", "'#page *'").replace(
+        "ratio < 4.5", f"ratio < {least} && !node.closest(':disabled, .unseen, .faint')"
+    )
+    script = script.replace(
+        "getComputedStyle(node), fill", "getComputedStyle(node), enabled = true, fill"
+    )
     found = [entry for entry in page.run(script) if entry[0].lower() not in ("option", "optgroup")]
     assert found == []
     assert page.run(LINES) == []
@@ -124,7 +137,10 @@ def test_no_width_needs_to_scroll_sideways(opened: Opened, width: int) -> None:
     assert page.run("return document.documentElement.scrollWidth") <= width
     if width >= 1280:
         assert page.run("return document.documentElement.scrollHeight") <= 800
-    wide = "return [...document.querySelectorAll('.panel')].filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.className)"
+    wide = (
+        "return [...document.querySelectorAll('.panel')].filter((one) => one.scrollWidth >"
+        " one.clientWidth + 1).map((one) => one.className)"
+    )
     assert page.run(wide) == []
 
 

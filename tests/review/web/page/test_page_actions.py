@@ -23,7 +23,9 @@ def open_value(page: Page, task: str, name: str) -> None:
 
 def test_warnings_come_first_and_lead_to_what_they_are_about(opened: Opened) -> None:
     page = opened()
-    assert page.run("return document.querySelector('main h2').textContent").endswith("to acknowledge")
+    assert page.run("return document.querySelector('main h2').textContent").endswith(
+        "to acknowledge"
+    )
     page.says(".warnings li", "green buoy")
     page.press("Show task 2, target_position", ".warnings")
     assert "target_position" in page.focused()
@@ -49,7 +51,9 @@ def test_approving_needs_every_warning_and_a_name_and_says_which_is_lacking(open
     page.says(".bar .state", "Ada Reviewer")
     record = page.review.decisions()[-1]
     assert (record["event"], record["reviewer"]) == ("approved", "Ada Reviewer")
-    assert {warning["id"] for warning in record["acknowledged"]} == {warning["id"] for warning in page.review.document()["warnings"]}
+    assert {warning["id"] for warning in record["acknowledged"]} == {
+        warning["id"] for warning in page.review.document()["warnings"]
+    }
 
 
 def test_a_warning_that_changes_is_to_be_acknowledged_again(opened: Opened) -> None:
@@ -59,7 +63,10 @@ def test_a_warning_that_changes_is_to_be_acknowledged_again(opened: Opened) -> N
     page.says("#warnings-title", "All warnings acknowledged")
     plan = page.review.document()
     first, *others = plan["warnings"]
-    write_document(page.review.path, {**plan, "warnings": [{**first, "text": "It is worse than that."}, *others]})
+    write_document(
+        page.review.path,
+        {**plan, "warnings": [{**first, "text": "It is worse than that."}, *others]},
+    )
     page.says("#warnings-title", "1 warning to acknowledge")
 
 
@@ -78,12 +85,42 @@ def test_rejecting_asks_for_the_reason(opened: Opened) -> None:
 
 def test_spans_of_the_command_are_marked_by_colour_and_by_line(opened: Opened) -> None:
     plan = make_plan()
-    spans = [("objective", "Find"), ("target", "the green buoy"), ("sensor", "video"), ("constraint", "come home")]
-    elements = [{"element": name, "start": plan["command"].index(text), "end": plan["command"].index(text) + len(text), "text": text} for name, text in spans]
-    page = opened({**plan, "ontology": {"elements": elements, "missing": [], "questions": ["Which camera is to record?"]}})
+    spans = [
+        ("objective", "Find"),
+        ("target", "the green buoy"),
+        ("sensor", "video"),
+        ("constraint", "come home"),
+    ]
+    elements = [
+        {
+            "element": name,
+            "start": plan["command"].index(text),
+            "end": plan["command"].index(text) + len(text),
+            "text": text,
+        }
+        for name, text in spans
+    ]
+    page = opened(
+        {
+            **plan,
+            "ontology": {
+                "elements": elements,
+                "missing": [],
+                "questions": ["Which camera is to record?"],
+            },
+        }
+    )
     assert page.one(".command").get_property("textContent") == plan["command"]
-    styles = page.run("return [...document.querySelectorAll('.command span')].map((one) => [one.textContent, getComputedStyle(one).textDecorationStyle])")
-    assert styles == [["Find", "solid"], ["the green buoy", "double"], ["video", "dotted"], ["come home", "dashed"]]
+    styles = page.run(
+        "return [...document.querySelectorAll('.command span')].map((one) => [one.textContent,"
+        " getComputedStyle(one).textDecorationStyle])"
+    )
+    assert styles == [
+        ["Find", "solid"],
+        ["the green buoy", "double"],
+        ["video", "dotted"],
+        ["come home", "dashed"],
+    ]
     page.says(".legend div", "“the green buoy”")
     page.says(".questions li", "Which camera is to record?")
 
@@ -99,10 +136,15 @@ def test_a_value_lights_its_words_in_the_command_also_after_an_emoji(opened: Ope
 def test_a_value_that_only_the_model_chose_stands_apart(opened: Opened) -> None:
     page = opened()
     assert page.text('#task-t3 [data-parameter="speed"] .source').startswith("model's own")
-    assert page.run("return getComputedStyle(document.querySelector('.source.model')).borderStyle") == "dashed"
+    assert (
+        page.run("return getComputedStyle(document.querySelector('.source.model')).borderStyle")
+        == "dashed"
+    )
 
 
-def test_a_value_is_edited_in_place_refused_at_its_field_and_shown_as_a_difference(opened: Opened) -> None:
+def test_a_value_is_edited_in_place_refused_at_its_field_and_shown_as_a_difference(
+    opened: Opened,
+) -> None:
     page = opened()
     open_value(page, "t3", "radius")
     page.keys("-5", "\n")
@@ -127,7 +169,10 @@ def test_a_value_is_left_out_and_given_again(opened: Opened) -> None:
     page.press("Leave out")
     page.gone('#task-t3 [data-parameter="speed"]')
     assert "speed" not in page.review.document()["tasks"][2]["parameters"]
-    page.run("const one = document.querySelector('#task-t3 .parameters .add'); one.value = 'arc'; one.dispatchEvent(new Event('change', {bubbles: true}))")
+    page.run(
+        "const one = document.querySelector('#task-t3 .parameters .add'); one.value = 'arc';"
+        " one.dispatchEvent(new Event('change', {bubbles: true}))"
+    )
     page.keys("180", "\n")
     page.says('#task-t3 [data-parameter="arc"]', "180°")
 
@@ -137,7 +182,9 @@ def test_a_value_of_a_skill_is_edited(opened: Opened) -> None:
     page.one("#task-t5 .skill .value").click()
     page.keys("3", "\n")
     page.says(".changes li", "5 Transit, skills")
-    assert page.review.document()["tasks"][4]["skill_sequence"][0]["navigation_skill"]["parameters"] == {"x": 3, "y": 0}
+    assert page.review.document()["tasks"][4]["skill_sequence"][0]["navigation_skill"][
+        "parameters"
+    ] == {"x": 3, "y": 0}
 
 
 def test_tasks_are_moved_by_button_by_keys_and_by_dragging(opened: Opened) -> None:
@@ -147,15 +194,29 @@ def test_tasks_are_moved_by_button_by_keys_and_by_dragging(opened: Opened) -> No
     page = opened()
     before = page.titles()
     page.press("Earlier: task 4, BathymetryGridSurvey")
-    page.until("return document.querySelectorAll('.task .title')[2].textContent === 'BathymetryGridSurvey'")
+    page.until(
+        "return document.querySelectorAll('.task .title')[2].textContent === 'BathymetryGridSurvey'"
+    )
     page.until("return document.activeElement.innerText.includes('BathymetryGridSurvey')")
-    ActionChains(page.driver).key_down(Keys.ALT).send_keys(Keys.ARROW_DOWN).key_up(Keys.ALT).perform()
-    page.until("return document.querySelectorAll('.task .title')[3].textContent === 'BathymetryGridSurvey'")
+    ActionChains(page.driver).key_down(Keys.ALT).send_keys(Keys.ARROW_DOWN).key_up(
+        Keys.ALT
+    ).perform()
+    page.until(
+        "return document.querySelectorAll('.task .title')[3].textContent === 'BathymetryGridSurvey'"
+    )
     assert page.titles() == before
     handle, goal = page.all(".task .handle")[1], page.all(".task .handle")[0]
-    ActionChains(page.driver).move_to_element(handle).click_and_hold().move_to_element_with_offset(goal, 0, -8).release().perform()
+    ActionChains(page.driver).move_to_element(handle).click_and_hold().move_to_element_with_offset(
+        goal, 0, -8
+    ).release().perform()
     page.until("return document.querySelectorAll('.task .title')[0].textContent === 'Transit'")
-    assert [task["id"] for task in page.review.document()["tasks"]] == ["t2", "t1", "t3", "t4", "t5"]
+    assert [task["id"] for task in page.review.document()["tasks"]] == [
+        "t2",
+        "t1",
+        "t3",
+        "t4",
+        "t5",
+    ]
     page.says(".changes li", "moved")
 
 
@@ -219,7 +280,15 @@ def test_a_new_command_is_watched_task_by_task_and_saved_beside_the_former(opene
     page.until("return document.querySelectorAll('.task').length === 2")
     assert page.text(".plan .command") == "Go home slowly."
     assert len(page.review.document()["tasks"]) == len(TASKS)
-    assert len(page.run("return [...document.querySelectorAll('.bar select option')].map((one) => one.value)").copy()) >= 2
+    assert (
+        len(
+            page.run(
+                "return [...document.querySelectorAll('.bar select option')].map((one) =>"
+                " one.value)"
+            ).copy()
+        )
+        >= 2
+    )
 
 
 def test_another_plan_of_the_folder_is_opened(opened: Opened) -> None:
@@ -228,7 +297,10 @@ def test_another_plan_of_the_folder_is_opened(opened: Opened) -> None:
     page = opened()
     write_document(page.review.path.with_name("other.json"), make_plan("Come home.", TASKS[4:]))
     page.run("location.reload()")
-    page.until("return [...document.querySelectorAll('.bar option')].some((one) => one.value === 'other.json')")
+    page.until(
+        "return [...document.querySelectorAll('.bar option')].some((one) => one.value ==="
+        " 'other.json')"
+    )
     Select(page.one(".bar select")).select_by_value("other.json")
     page.until("return document.querySelectorAll('.task').length === 1")
     assert page.text(".plan .command") == "Come home."
@@ -247,8 +319,10 @@ def test_without_agents_the_plan_is_reviewed_and_the_page_says_why(opened: Opene
 
 def test_a_change_that_meets_another_is_told_and_can_be_made_again(opened: Opened) -> None:
     page = opened()
-    page.run("""const real = window.fetch; window.held = [];
-      window.fetch = (path, options) => (path === '/api/state' ? new Promise((go) => window.held.push(() => go(real(path, options)))) : real(path, options))""")
+    page.run(
+        """const real = window.fetch; window.held = [];
+      window.fetch = (path, options) => (path === '/api/state' ? new Promise((go) => window.held.push(() => go(real(path, options)))) : real(path, options))"""
+    )
     page.review.elsewhere({"kind": "parameter", "task": "t4", "name": "spacing", "value": 5})
     open_value(page, "t3", "radius")
     page.keys("15", "\n")
@@ -272,11 +346,23 @@ def test_what_is_being_written_is_kept_when_somebody_else_changes_it(opened: Ope
 
 
 def test_markup_in_a_command_is_shown_as_it_is(opened: Opened) -> None:
-    command = "Find <img src=x onerror='window.attacked=1'> & </script><script>window.attacked=1</script>\u202e at [1, 2]."
-    tasks = [("SearchAndDetect", {"target_description": "<b onclick=alert(1)>buoy</b>"}, "<svg onload='window.attacked=1'>", go((1, 2)))]
+    command = (
+        "Find <img src=x onerror='window.attacked=1'> &"
+        " </script><script>window.attacked=1</script>\u202e at [1, 2]."
+    )
+    tasks = [
+        (
+            "SearchAndDetect",
+            {"target_description": "<b onclick=alert(1)>buoy</b>"},
+            "<svg onload='window.attacked=1'>",
+            go((1, 2)),
+        )
+    ]
     page = opened(make_plan(command, tasks))
     assert page.one(".command").get_property("textContent") == command
-    assert page.text('[data-parameter="target_description"] .value') == "<b onclick=alert(1)>buoy</b>"
+    assert (
+        page.text('[data-parameter="target_description"] .value') == "<b onclick=alert(1)>buoy</b>"
+    )
     assert page.text(".prompt span") == "<svg onload='window.attacked=1'>"
     assert page.all("main img, main script, main b[onclick]") == []
 
@@ -289,5 +375,8 @@ def test_a_theme_is_remembered(opened: Opened) -> None:
     night = page.run("return getComputedStyle(document.body).backgroundColor")
     page.run("location.reload()")
     page.one("main.plan")
-    assert page.run("return [document.documentElement.dataset.theme, getComputedStyle(document.body).backgroundColor]") == ["night", night]
+    assert page.run(
+        "return [document.documentElement.dataset.theme,"
+        " getComputedStyle(document.body).backgroundColor]"
+    ) == ["night", night]
     page.run("localStorage.clear()")

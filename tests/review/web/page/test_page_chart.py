@@ -29,7 +29,9 @@ def test_an_open_place_is_typed_dragged_tapped_and_moved_by_keys(opened: Opened)
     page.press("Undo")
     page.one(".waiting .chip")
     chart = page.one("#chart-view")
-    ActionChains(page.driver).move_to_element(page.one(".chip")).click_and_hold().move_by_offset(20, 20).move_to_element(chart).release().perform()
+    ActionChains(page.driver).move_to_element(page.one(".chip")).click_and_hold().move_by_offset(
+        20, 20
+    ).move_to_element(chart).release().perform()
     page.one(".placed .at")
     dragged = page.review.document()["located"]["green buoy"]
     page.press("Undo")
@@ -41,7 +43,10 @@ def test_an_open_place_is_typed_dragged_tapped_and_moved_by_keys(opened: Opened)
     assert tapped[1] < dragged[1]
     page.press("Undo")
     page.one(".waiting .chip").send_keys(Keys.ENTER)
-    page.until("return document.activeElement.id === 'chart-view' && document.querySelector('.aim') !== null")
+    page.until(
+        "return document.activeElement.id === 'chart-view' && document.querySelector('.aim') !=="
+        " null"
+    )
     middle = page.text(".aim text")
     page.keys(Keys.ARROW_RIGHT, Keys.ARROW_UP)
     page.until(f"return document.querySelector('.aim text').textContent !== {middle!r}")
@@ -62,14 +67,22 @@ def test_the_chart_draws_everything_and_follows_the_selection(opened: Opened) ->
     assert len(page.all(".leg")) >= 8
     page.one("#task-t4 .head").send_keys(Keys.ENTER)
     page.until("return document.querySelector('.leg.chosen') !== null")
-    assert set(page.run("return [...document.querySelectorAll('.leg.chosen')].map((one) => one.dataset.task)")) == {"t4"}
-    labels = page.run("return [...document.querySelectorAll('.waypoints text')].map((one) => one.textContent)")
+    assert set(
+        page.run(
+            "return [...document.querySelectorAll('.leg.chosen')].map((one) => one.dataset.task)"
+        )
+    ) == {"t4"}
+    labels = page.run(
+        "return [...document.querySelectorAll('.waypoints text')].map((one) => one.textContent)"
+    )
     assert "4.1" in labels
     assert all(label.startswith("4.") for label in labels)
-    page.run("""const leg = document.querySelector('.leg[data-task="t5"] polyline.reach'), box = leg.getBoundingClientRect();
+    page.run(
+        """const leg = document.querySelector('.leg[data-task="t5"] polyline.reach'), box = leg.getBoundingClientRect();
       const at = {bubbles: true, button: 0, pointerId: 7, clientX: box.left + box.width / 2, clientY: box.top + box.height / 2};
       document.getElementById('chart-view').setPointerCapture = () => {};
-      leg.dispatchEvent(new PointerEvent('pointerdown', at)); leg.dispatchEvent(new PointerEvent('pointerup', at))""")
+      leg.dispatchEvent(new PointerEvent('pointerdown', at)); leg.dispatchEvent(new PointerEvent('pointerup', at))"""
+    )
     page.until("return document.querySelector('.task.chosen').id === 'task-t5'")
 
 
@@ -79,7 +92,9 @@ def test_the_view_is_zoomed_by_wheel_and_keys_and_brought_back(opened: Opened) -
 
     page = opened()
     whole = page.text(".scale text")
-    ActionChains(page.driver).scroll_from_origin(ScrollOrigin.from_element(page.one("#chart-view")), 0, -1500).perform()
+    ActionChains(page.driver).scroll_from_origin(
+        ScrollOrigin.from_element(page.one("#chart-view")), 0, -1500
+    ).perform()
     page.until(f"return document.querySelector('.scale text').textContent !== {whole!r}")
     page.one("#chart-view").send_keys("0")
     page.until(f"return document.querySelector('.scale text').textContent === {whole!r}")

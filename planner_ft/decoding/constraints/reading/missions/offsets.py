@@ -1,4 +1,6 @@
-"""Places that are told from stated ones: "40 m due east of [110, 65]", "20 m north and 15 m west of the pile at (30, 8)"."""
+"""Places that are told from stated ones: "40 m due east of [110, 65]", "20 m north and 15 m west of
+the pile at (30, 8)".
+"""
 
 from __future__ import annotations
 
@@ -14,10 +16,13 @@ from planner_ft.decoding.constraints.reading.paths.written_out import JOINED
 
 Point = tuple[float, float]
 _WAY = r"(?:north[ -]?(?:east|west)|south[ -]?(?:east|west)|north|south|east|west)"
-_DIRECTED = re.compile(rf"\s?(?:(?:straight|directly|due|to the|dead) ){{0,2}}({_WAY})(?:wards?)?\b", re.IGNORECASE)
+_DIRECTED = re.compile(
+    rf"\s?(?:(?:straight|directly|due|to the|dead) ){{0,2}}({_WAY})(?:wards?)?\b", re.IGNORECASE
+)
 _NUMBER = r"[-−–]?\d{1,7}(?:\.\d{1,4})?"
 _OF_PLACE = re.compile(
-    rf" (?:of|from)(?P<thing> (?:the|that|our) [\w' -]{{2,40}}?,? (?:at|on|in|\())?\s?(?:point |position )?[\[(]\s*({_NUMBER})\s*[,;/]\s*({_NUMBER})\s*[\])]",
+    r" (?:of|from)(?P<thing> (?:the|that|our) [\w' -]{2,40}?,? (?:at|on|in|\())?\s?(?:point"
+    rf" |position )?[\[(]\s*({_NUMBER})\s*[,;/]\s*({_NUMBER})\s*[\])]",
     re.IGNORECASE,
 )
 
@@ -27,7 +32,9 @@ _OF_HOME = re.compile(r" (?:of|from) (?:home|base|the origin)\b(?! (?:port|berth
 
 @dataclass(frozen=True)
 class Offset:
-    """A place that words from `start` to `end` tell from another, its `base`; `bare` where they name nothing that is there."""
+    """A place that words from `start` to `end` tell from another, its `base`; `bare` where they
+    name nothing that is there.
+    """
 
     start: int
     end: int
@@ -37,7 +44,9 @@ class Offset:
 
 
 def read_offsets(text: str, home: Point | None = None) -> Iterator[Offset]:
-    """The places that a text tells from stated ones, from `home` where it is given, by one way or two that cross."""
+    """The places that a text tells from stated ones, from `home` where it is given, by one way or
+    two that cross.
+    """
     ways = list(_ways(text))
     for index, (quantity, end, bearing) in enumerate(ways):
         match = _OF_PLACE.match(text, end)
@@ -56,11 +65,19 @@ def read_offsets(text: str, home: Point | None = None) -> Iterator[Offset]:
             place, start = g.offset(place, before[2], before[0].value), before[0].start
         behind = match or from_home
         assert behind is not None
-        yield Offset(start, behind.end(), (round(place[0], 2), round(place[1], 2)), base, match is not None and match["thing"] is None)
+        yield Offset(
+            start,
+            behind.end(),
+            (round(place[0], 2), round(place[1], 2)),
+            base,
+            match is not None and match["thing"] is None,
+        )
 
 
 def _ways(text: str) -> Iterator[tuple[Quantity, int, float]]:
-    """Lengths with a direction behind them: the length, where the direction ends, and its bearing."""
+    """Lengths with a direction behind them: the length, where the direction ends, and its
+    bearing.
+    """
     for quantity in quantities(text):
         match = _DIRECTED.match(text, quantity.end)
         if match and quantity.unit == "m" and quantity.value > 0:

@@ -1,5 +1,7 @@
-"""What a command says of the order: tasks that come before others ("ahead of the contact a depth grid"), places in another row than they are told in
-("the farthest from home first", "do this list from the bottom up", "on the way from one to the other")."""
+"""What a command says of the order: tasks that come before others ("ahead of the contact a depth
+grid"), places in another row than they are told in ("the farthest from home first", "do this list
+from the bottom up", "on the way from one to the other").
+"""
 
 from __future__ import annotations
 
@@ -10,39 +12,69 @@ from dataclasses import dataclass
 from itertools import combinations, pairwise
 
 from planner_ft.data.numerals import signed
-from planner_ft.decoding.constraints.reading.missions.apart import PLACE, SENTENCE, named_places, sentences
+from planner_ft.decoding.constraints.reading.missions.apart import (
+    PLACE,
+    SENTENCE,
+    named_places,
+    sentences,
+)
 from planner_ft.decoding.constraints.reading.missions.spoken import SAYS
 
 Position = tuple[float, float]
 _DATA = re.compile(r"\b(?:upload|send|sent|transmit|beam)", re.IGNORECASE)
 _TIME = r"(?! (?:\d|an? |half|\w+ (?:minutes|seconds|hours)))"
 ONLY_THEN = re.compile(
-    r"\b(?:but |though |and |however )?(?:only|not|no sooner|not sooner|no earlier|never) (?:once|when|after|until|till|before|than)(?: after)?\b"
-    rf"|\b(?:has|have|is|are) to wait (?:until|till|for)\b{_TIME}|\bwaits? (?:until|till|for)\b{_TIME}",
+    r"\b(?:but |though |and |however )?(?:only|not|no sooner|not sooner|no earlier|never)"
+    r" (?:once|when|after|until|till|before|than)(?: after)?\b"
+    rf"|\b(?:has|have|is|are) to wait (?:until|till|for)\b{_TIME}|\bwaits?"
+    rf" (?:until|till|for)\b{_TIME}",
     re.IGNORECASE,
 )
 """What stands between a task and the one that comes before it."""
 _WAITS = re.compile(
-    r"\b(?:that|that one|this|this one|it|which) (?:\w+ ){0,2}(?:has|is|will have) to wait (?:until|till|for)\b|\b(?:that|which"
+    r"\b(?:that|that one|this|this one|it|which) (?:\w+ ){0,2}(?:has|is|will have) to wait"
+    r" (?:until|till|for)\b|\b(?:that|which"
     r"|it)(?: one)? waits? (?:until|till|for)\b",
     re.IGNORECASE,
 )
 _AHEAD = re.compile(
-    r"(?:^|[.;:!?,–—-] ?|\band )(?:but )?(?:ahead of|before|prior to) (?P<later>[^.;:,]{3,60}?)(?:, | (?=an? |the |do |run |make ))", re.IGNORECASE
+    r"(?:^|[.;:!?,–—-] ?|\band )(?:but )?(?:ahead of|before|prior to) (?P<later>[^.;:,]{3,60}?)(?:,"
+    r" | (?=an? |the |do |run |make ))",
+    re.IGNORECASE,
 )
-_BEHIND = re.compile(r"(?:^|[.;:!?] ?)(?:after|once|when|following) (?P<earlier>[^.;:,]{3,60}?),", re.IGNORECASE)
-_BEFORE = re.compile(r" (?:ahead of|before|prior to|in advance of) (?!that\b|you\b|it\b|leaving|going|noon|dark|the (?:tide|storm|weather))", re.IGNORECASE)
-_NO_ORDER = re.compile(r"\b(?:not|no|never|don['’]?t|unless|if|or|again|twice|both|each|every|instead|last time|yesterday)\b", re.IGNORECASE)
+_BEHIND = re.compile(
+    r"(?:^|[.;:!?] ?)(?:after|once|when|following) (?P<earlier>[^.;:,]{3,60}?),", re.IGNORECASE
+)
+_BEFORE = re.compile(
+    r" (?:ahead of|before|prior to|in advance of) (?!that\b|you\b|it\b|leaving|going|noon|dark|the"
+    r" (?:tide|storm|weather))",
+    re.IGNORECASE,
+)
+_NO_ORDER = re.compile(
+    r"\b(?:not|no|never|don['’]?t|unless|if|or|again|twice|both|each|every|instead|last"
+    r" time|yesterday)\b",
+    re.IGNORECASE,
+)
 _REST = re.compile(r"[.;:,!?]|\band\b|\bthen\b", re.IGNORECASE)
-_BETWEEN = re.compile(r"\s*(?:,|and|, and|&|;)\s*(?:(?:at|to|the one at|one at|then) )?", re.IGNORECASE)
+_BETWEEN = re.compile(
+    r"\s*(?:,|and|, and|&|;)\s*(?:(?:at|to|the one at|one at|then) )?", re.IGNORECASE
+)
 _FAR = r"(?:farthest|furthest|most distant|remotest|outermost)"
 _NEAR = r"(?:nearest|closest|innermost)"
-_ONE = r"(?: one| stop| point| place)?(?: (?:out|away|off))?(?: (?:from|of|to) (?:home|base))?(?: comes| goes)?"
+_ONE = (
+    r"(?: one| stop| point| place)?(?: (?:out|away|off))?(?: (?:from|of|to) (?:home|base))?(?:"
+    r" comes| goes)?"
+)
 
 
 def _sorted_by(first: str, last: str, inwards: str) -> re.Pattern[str]:
     """Words for a row from one end to the other."""
-    ways = (rf"{first}{_ONE} first", rf"{last}{_ONE} last", rf"(?:start|begin)(?:ing)? (?:with|at|from) the {first}", rf"from (?:the )?{first} {inwards}")
+    ways = (
+        rf"{first}{_ONE} first",
+        rf"{last}{_ONE} last",
+        rf"(?:start|begin)(?:ing)? (?:with|at|from) the {first}",
+        rf"from (?:the )?{first} {inwards}",
+    )
     return re.compile(rf"\b(?:{'|'.join(ways)})\b", re.IGNORECASE)
 
 
@@ -55,25 +87,57 @@ def _distance(place: Position) -> float:
 
 
 _SORTED: tuple[tuple[re.Pattern[str], Callable[[Position], float]], ...] = (
-    (_sorted_by(_FAR, _NEAR, rf"(?:one )?(?:inwards?|in|to the {_NEAR})"), lambda place: -_distance(place)),
+    (
+        _sorted_by(_FAR, _NEAR, rf"(?:one )?(?:inwards?|in|to the {_NEAR})"),
+        lambda place: -_distance(place),
+    ),
     (_sorted_by(_NEAR, _FAR, rf"(?:one )?(?:outwards?|out|to the {_FAR})"), _distance),
-    (_sorted_by(_side("north"), r"southern(?:most)?", rf"(?:southwards?|to (?:the )?{_side('south')})"), lambda place: -place[1]),
-    (_sorted_by(_side("south"), r"northern(?:most)?", rf"(?:northwards?|to (?:the )?{_side('north')})"), lambda place: place[1]),
-    (_sorted_by(_side("east"), r"western(?:most)?", rf"(?:westwards?|to (?:the )?{_side('west')})"), lambda place: -place[0]),
-    (_sorted_by(_side("west"), r"eastern(?:most)?", rf"(?:eastwards?|to (?:the )?{_side('east')})"), lambda place: place[0]),
+    (
+        _sorted_by(
+            _side("north"), r"southern(?:most)?", rf"(?:southwards?|to (?:the )?{_side('south')})"
+        ),
+        lambda place: -place[1],
+    ),
+    (
+        _sorted_by(
+            _side("south"), r"northern(?:most)?", rf"(?:northwards?|to (?:the )?{_side('north')})"
+        ),
+        lambda place: place[1],
+    ),
+    (
+        _sorted_by(
+            _side("east"), r"western(?:most)?", rf"(?:westwards?|to (?:the )?{_side('west')})"
+        ),
+        lambda place: -place[0],
+    ),
+    (
+        _sorted_by(
+            _side("west"), r"eastern(?:most)?", rf"(?:eastwards?|to (?:the )?{_side('east')})"
+        ),
+        lambda place: place[0],
+    ),
 )
 _REVERSED = re.compile(
-    r"\b(?:in (?:the )?(?:reverse|opposite|inverse)(?:d)? order|in reverse|from (?:the )?last to (?:the )?first|last (?:one )?first|back to front|"
-    r"from (?:the )?bottom (?:up|to (?:the )?top)|from the end(?: to the (?:start|beginning))?|from back to front|bottom up|backwards through (?:the"
+    r"\b(?:in (?:the )?(?:reverse|opposite|inverse)(?:d)? order|in reverse|from (?:the )?last to"
+    r" (?:the )?first|last (?:one )?first|back to front|"
+    r"from (?:the )?bottom (?:up|to (?:the )?top)|from the end(?: to the (?:start|beginning))?|from"
+    r" back to front|bottom up|backwards through (?:the"
     r"|this) list)\b",
     re.IGNORECASE,
 )
 _ITEM = re.compile(r"(?:^|\n|(?<=[:;.,]) ?)\s*(?:\(?(?P<number>\d{1,2})[.)]|[-*•])\s+")
-_ORDER = re.compile(r"\b(?:before|after|first|last|until|till|ahead|prior|finally|reverse|once (?!more)|when|both|each)\b", re.IGNORECASE)
+_ORDER = re.compile(
+    r"\b(?:before|after|first|last|until|till|ahead|prior|finally|reverse|once"
+    r" (?!more)|when|both|each)\b",
+    re.IGNORECASE,
+)
 _CONTACT = re.compile(r"\bcontact\b", re.IGNORECASE)
-_FOLLOWED = re.compile(r"\bfollow\w* (?:the )?contact|\bcontact\b.{0,12}\bto (?:follow|shadow|tail)\b", re.IGNORECASE)
+_FOLLOWED = re.compile(
+    r"\bfollow\w* (?:the )?contact|\bcontact\b.{0,12}\bto (?:follow|shadow|tail)\b", re.IGNORECASE
+)
 _TWO = re.compile(
-    r"\b(?:on the way|en route|half-?way|in between|between) (?:from |between )?(?:(?:the )?(?:one|first|former) (?:to|and) (?:the )?(?:other|second"
+    r"\b(?:on the way|en route|half-?way|in between|between) (?:from |between )?(?:(?:the"
+    r" )?(?:one|first|former) (?:to|and) (?:the )?(?:other|second"
     r"|latter|next)|the two|them|these two)\b",
     re.IGNORECASE,
 )
@@ -110,7 +174,11 @@ def read_orders(text: str) -> Orders:
 
 def asked(text: str) -> set[str]:
     """The tasks that a part of a sentence speaks of: what is sent may have the name of one."""
-    return {"SmartDataHarvest"} if _DATA.search(text) else {title for title, words in SAYS.items() if words.search(text)}
+    return (
+        {"SmartDataHarvest"}
+        if _DATA.search(text)
+        else {title for title, words in SAYS.items() if words.search(text)}
+    )
 
 
 def _titles(text: str) -> Iterator[tuple[str, str]]:
@@ -120,7 +188,12 @@ def _titles(text: str) -> Iterator[tuple[str, str]]:
             if len(earlier) == len(later) == 1 and earlier != later:
                 one, other = next(iter(earlier)), next(iter(later))
                 # A dock is a place as well, and what is not known yet is searched for unasked.
-                if one != "DockingApproach" and other != "SearchAndDetect" and _once(one, text) and _once(other, text):
+                if (
+                    one != "DockingApproach"
+                    and other != "SearchAndDetect"
+                    and _once(one, text)
+                    and _once(other, text)
+                ):
                     yield one, other
     for first, second in combinations([titles for titles, _held in _from_the_end(text)], 2):
         yield from ((one, other) for one in first for other in second)
@@ -146,7 +219,15 @@ def _parts(sentence: str, text: str) -> Iterator[tuple[set[str], set[str]]]:
         return
     for match in _AHEAD.finditer(sentence):
         rest = _REST.split(sentence[match.end() :])[0]
-        yield asked(rest), asked(match["later"]) or ({"FollowTarget"} if _CONTACT.search(match["later"]) and _FOLLOWED.search(text) else set())
+        yield (
+            asked(rest),
+            asked(match["later"])
+            or (
+                {"FollowTarget"}
+                if _CONTACT.search(match["later"]) and _FOLLOWED.search(text)
+                else set()
+            ),
+        )
 
 
 def _places(text: str) -> Iterator[tuple[Position, Position]]:
@@ -173,7 +254,11 @@ def _in_a_row(text: str, found: Found) -> Iterator[tuple[Position, Position]]:
     rows = [row for row in rows if len(row) > 1]
     keys = [key for words, key in _SORTED if words.search(text)]
     turned = _REVERSED.search(text) is not None and not _items(text)
-    if len(rows) != 1 or len(keys) + turned != 1 or re.search(r"\b(?:not|no need|never)\b[^.;]{0,20}\b(?:order|first)", text):
+    if (
+        len(rows) != 1
+        or len(keys) + turned != 1
+        or re.search(r"\b(?:not|no need|never)\b[^.;]{0,20}\b(?:order|first)", text)
+    ):
         return
     row = list(reversed(rows[0])) if turned else sorted(rows[0], key=keys[0])
     if turned or len({keys[0](place) for place in row}) == len(row):
@@ -184,20 +269,30 @@ def _items(text: str) -> list[tuple[int, int]]:
     """Where the items of the only list of a text begin and end."""
     marks = list(_ITEM.finditer(text))
     numbers = [match["number"] for match in marks]
-    if len(marks) < 2 or (numbers[0] and numbers != [str(number) for number in range(1, len(marks) + 1)]) or (numbers[0] is None and any(numbers)):
+    if (
+        len(marks) < 2
+        or (numbers[0] and numbers != [str(number) for number in range(1, len(marks) + 1)])
+        or (numbers[0] is None and any(numbers))
+    ):
         return []
     ends = [*(match.start() for match in marks[1:]), len(text)]
     return [(match.end(), end) for match, end in zip(marks, ends, strict=True)]
 
 
 def _from_the_end(text: str) -> list[tuple[list[str], list[Position]]]:
-    """The tasks, spoken of once each, and the places of the items of a list that is to be done from its end, in that order."""
+    """The tasks, spoken of once each, and the places of the items of a list that is to be done from
+    its end, in that order.
+    """
     items, said = _items(text), _REVERSED.search(text)
     if not items or said is None or any(start <= said.start() < end for start, end in items[:-1]):
         return []
     found = []
     for first, last in reversed(items):
-        titles = sorted(title for title in asked(text[first:last]) if title != "DockingApproach" and len(SAYS[title].findall(text)) == 1)
+        titles = sorted(
+            title
+            for title in asked(text[first:last])
+            if title != "DockingApproach" and len(SAYS[title].findall(text)) == 1
+        )
         found.append((titles, [_position(match) for match in PLACE.finditer(text, first, last)]))
     return found
 
@@ -215,12 +310,15 @@ def _listed(text: str) -> Iterator[tuple[Position, Position]]:
 
 
 def _labelled(text: str, found: Found) -> Iterator[tuple[Position, Position]]:
-    """Places that get a label each before anything is done there: "spot A is [1, 2], spot B is [3, 4]. At B ..., at A ..."."""
+    """Places that get a label each before anything is done there: "spot A is [1, 2], spot B is [3,
+    4]. At B ..., at A ...".
+    """
     names = {key[1]: place for key, place in named_places(text, found)}
     if len(names) != len(found) or _ORDER.search(text, found[-1][2]):
         return
     spoken = re.compile(
-        rf"\b(?:at|to|from|near|by|on|in|of|then|{{nouns}})s? (?P<id>{'|'.join(map(re.escape, names))})\b".replace(
+        r"\b(?:at|to|from|near|by|on|in|of|then|{nouns})s?"
+        rf" (?P<id>{'|'.join(map(re.escape, names))})\b".replace(
             "{nouns}", "spot|point|place|site|stop|position"
         )
     )
@@ -230,7 +328,9 @@ def _labelled(text: str, found: Found) -> Iterator[tuple[Position, Position]]:
 
 
 def _between(text: str, found: Found) -> Iterator[tuple[Position, Position]]:
-    """What is done on the way from the first of two places to the second: "on the way from one to the other stop at the light tower at [0, 20]"."""
+    """What is done on the way from the first of two places to the second: "on the way from one to
+    the other stop at the light tower at [0, 20]".
+    """
     match = _TWO.search(text)
     if match is None:
         return

@@ -1,4 +1,6 @@
-"""Stand-offs, lengths and speeds that certainly belong to the one pass, orbit, survey or docking that a command asks for: "50 m long and 6 off"."""
+"""Stand-offs, lengths and speeds that certainly belong to the one pass, orbit, survey or docking
+that a command asks for: "50 m long and 6 off".
+"""
 
 from __future__ import annotations
 
@@ -19,40 +21,62 @@ _KINDS = {
         re.IGNORECASE,
     ),
     "orbit": re.compile(
-        r"\b(?:orbit\w*|circl\w+|(?:go|goes|going|once|way|ride|sail|run|full|lap|half) a?round|laps?|loops?|circumnavigat\w*|arcs?)\b", re.IGNORECASE),
+        r"\b(?:orbit\w*|circl\w+|(?:go|goes|going|once|way|ride|sail|run|full|lap|half) a?round|laps?|loops?|circumnavigat\w*|arcs?)\b",
+        re.IGNORECASE,
+    ),
     "square": re.compile(
         r"\b(?:survey\w*|inspect\w*|examin\w*|assess\w*|apprais\w*|stud(?:y|ies)|size up|eyeball|check \w+ (?:out|over)|go over|look (?:at|over)|"
         r"look \w+ over)\b",
         re.IGNORECASE,
     ),
-    "visual": re.compile(r"\b(?:dock|docking|berth|berthing|moor|mooring up|bring (?:you|her|it) in)\b"
-                         r"(?=.*\b(?:camera|visual\w*|sight|mark\w*|lens|optic\w*)\b)"
-                         r"|\b(?:camera|visual\w*)\b.*\b(?:dock|docking|berth|berthing|approach)\b", re.IGNORECASE),
-}  # fmt: skip
+    "visual": re.compile(
+        r"\b(?:dock|docking|berth|berthing|moor|mooring up|bring (?:you|her|it) in)\b"
+        r"(?=.*\b(?:camera|visual\w*|sight|mark\w*|lens|optic\w*)\b)"
+        r"|\b(?:camera|visual\w*)\b.*\b(?:dock|docking|berth|berthing|approach)\b",
+        re.IGNORECASE,
+    ),
+}
 _OTHER = re.compile(
     r"\b(?:depths?|sound\w*|bathymetr\w*|grid\w*|lanes?|lines?|cables?|panorama\w*|hott?est|thermal|film\w*|footage|video|glare\w*|drift\w*|box|area|"
-    r"berth\w*|dock\w*|moor\w*|alongside|follow\w*|keep\w* (?:at least|clear|away)|stay\w* (?:away|clear)|at least|no closer|at most|nearer|ferry|traffic|"
-    r"fairway|(?<!of )both|each|either|all|other|(?<!per )(?<!a )second|again|twice|times|back|but|last|first|plus|"
+    r"berth\w*|dock\w*|moor\w*|alongside|follow\w*|keep\w* (?:at least|clear|away)|stay\w*"
+    r" (?:away|clear)|at least|no closer|at most|nearer|ferry|traffic|"
+    r"fairway|(?<!of )both|each|either|all|other|(?<!per )(?<!a"
+    r" )second|again|twice|times|back|but|last|first|plus|"
     r"respectively|height|high|deep|draught|tide|swell|wide)\b",
     re.IGNORECASE,
 )
 _DOCKING = re.compile(r"\b(?:berth\w*|dock\w*|moor\w*|back)\b", re.IGNORECASE)
 UNSURE = re.compile(
-    r"\b(?:instead|rather|sorry|scratch|strike|correct\w*|make (?:it|that)|change\w*|amend\w*|actually|mean|meant|second thoughts?|no longer|wait|oops|hm+|"
+    r"\b(?:instead|rather|sorry|scratch|strike|correct\w*|make"
+    r" (?:it|that)|change\w*|amend\w*|actually|mean|meant|second thoughts?|no longer|wait|oops|hm+|"
     r"edit|new|not \d|no(?=,)|wrong|mixed up|other way|reflection|too|the same(?=[;,.]|$))\b",
     re.IGNORECASE,
 )
 """Words of commands that take something back."""
-_NOT = re.compile(r"\b(?:forget|skip|leave|cancel\w*|without|neither|nor|not|never|except|don['’]?t|minus the|if|unless|or)\b", re.IGNORECASE)
+_NOT = re.compile(
+    r"\b(?:forget|skip|leave|cancel\w*|without|neither|nor|not|never|except|don['’]?t|minus"
+    r" the|if|unless|or)\b",
+    re.IGNORECASE,
+)
 """Words of sentences that rule something out or leave a choice."""
-_OFF_BEHIND = re.compile(r" ?,? ?(?:off|out|away|clear|abeam|distant|short|in front)\b(?! (?:to|home|with|for|at|there))", re.IGNORECASE)
-_STOP_BEHIND = re.compile(r" ?,? ?(?:off|out|away|short|in front|from|before|clear)\b", re.IGNORECASE)
+_OFF_BEHIND = re.compile(
+    r" ?,? ?(?:off|out|away|clear|abeam|distant|short|in front)\b(?!"
+    r" (?:to|home|with|for|at|there))",
+    re.IGNORECASE,
+)
+_STOP_BEHIND = re.compile(
+    r" ?,? ?(?:off|out|away|short|in front|from|before|clear)\b", re.IGNORECASE
+)
 _OFF_BEFORE = re.compile(
-    r"\b(?:stand-?off|distance|clearance|radius)(?: of| is|:|=|,)? $|\b(?:at|from) (?:a (?:distance|radius|stand-?off|range) of |about |some )?$", re.IGNORECASE
+    r"\b(?:stand-?off|distance|clearance|radius)(?: of| is|:|=|,)? $|\b(?:at|from) (?:a"
+    r" (?:distance|radius|stand-?off|range) of |about |some )?$",
+    re.IGNORECASE,
 )
 _SAME = re.compile(
-    r"\b(?:at|from|with|keeping|on) (?:that|the|this) (?:very |exact )?same (?:distance|stand-?off|range|radius|clearance)\b"
-    r"|\bsame (?:distance|stand-?off|radius|range)(?: as before| again| as the (?:orbit|circle|survey))?\b",
+    r"\b(?:at|from|with|keeping|on) (?:that|the|this) (?:very |exact )?same"
+    r" (?:distance|stand-?off|range|radius|clearance)\b"
+    r"|\bsame (?:distance|stand-?off|radius|range)(?: as before| again| as the"
+    r" (?:orbit|circle|survey))?\b",
     re.IGNORECASE,
 )
 _CLAUSE = re.compile(r"[,;:]|\b(?:and|then|before|after)\b", re.IGNORECASE)
@@ -70,7 +94,11 @@ def read_standoffs(text: str) -> Told:
     for pattern, words in _KINDS.items():
         about = [sentence for sentence in sentences if words.search(sentence)]
         count = sum(len(words.findall(sentence)) for sentence in sentences)
-        if len(about) == 1 and count == 1 and not any(other.search(about[0]) for name, other in _KINDS.items() if name != pattern):
+        if (
+            len(about) == 1
+            and count == 1
+            and not any(other.search(about[0]) for name, other in _KINDS.items() if name != pattern)
+        ):
             told.update(_of(about[0], pattern))
     told.update(_same_distance(blank))
     return told
@@ -98,13 +126,19 @@ def _of(sentence: str, pattern: str) -> Iterator[tuple[tuple[str, str], float]]:
 def _is_off(sentence: str, number: Quantity, pattern: str) -> bool:
     """Whether a number says how far from its target the vehicle is to be."""
     word = sentence[number.start : number.end].lower()
-    if number.unit not in ("m", None) or number.said <= 0 or (number.unit is None and word in ("one", "half", "quarter")):
+    if (
+        number.unit not in ("m", None)
+        or number.said <= 0
+        or (number.unit is None and word in ("one", "half", "quarter"))
+    ):
         return False
     if sentence[number.start - 1 : number.start].isalnum():
         return False
     behind = _STOP_BEHIND if pattern == "visual" else _OFF_BEHIND
     before = sentence[max(0, number.start - 32) : number.start]
-    return behind.match(sentence, number.end) is not None or (number.unit == "m" and _OFF_BEFORE.search(before) is not None)
+    return behind.match(sentence, number.end) is not None or (
+        number.unit == "m" and _OFF_BEFORE.search(before) is not None
+    )
 
 
 def _same_distance(text: str) -> Iterator[tuple[tuple[str, str], float]]:
@@ -118,6 +152,10 @@ def _same_distance(text: str) -> Iterator[tuple[tuple[str, str], float]]:
         return
     kinds = [pattern for pattern in ("orbit", "square") if _KINDS[pattern].search(clause)]
     before = text[: match.start()]
-    values = {round(number.value, 4) for number in quantities(before) if number.unit == "m" and _is_off(before, number, "orbit")}
+    values = {
+        round(number.value, 4)
+        for number in quantities(before)
+        if number.unit == "m" and _is_off(before, number, "orbit")
+    }
     if len(kinds) == 1 and len(values) == 1 and len(_KINDS[kinds[0]].findall(text)) == 1:
         yield (kinds[0], NAMES[kinds[0]]), values.pop()

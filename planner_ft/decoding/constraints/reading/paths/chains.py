@@ -1,7 +1,9 @@
-"""Places, legs and returns one after the other: "you are at [5, 5]: 40 m on 090, 30 m on 000, then straight back to the point you left".
+"""Places, legs and returns one after the other: "you are at [5, 5]: 40 m on 090, 30 m on 000, then
+straight back to the point you left".
 
-Legs are counted from the place before them, or from where the vehicle lies, which is no waypoint of its own. A run can be retraced ("the same line back"), or
-half of it, or end where it began. None where anything else in the text could lead somewhere.
+Legs are counted from the place before them, or from where the vehicle lies, which is no waypoint of
+its own. A run can be retraced ("the same line back"), or half of it, or end where it began. None
+where anything else in the text could lead somewhere.
 """
 
 from __future__ import annotations
@@ -19,7 +21,11 @@ from planner_ft.decoding.constraints.reading.paths import destination_wordings a
 from planner_ft.decoding.constraints.reading.paths import face_wordings as f
 from planner_ft.decoding.constraints.reading.paths import legs as l
 from planner_ft.decoding.constraints.reading.paths import run_wordings as r
-from planner_ft.decoding.constraints.reading.paths.itinerary import plain_text, reworded, without_fences
+from planner_ft.decoding.constraints.reading.paths.itinerary import (
+    plain_text,
+    reworded,
+    without_fences,
+)
 from planner_ft.decoding.constraints.reading.paths.shapes import Point, stated_lengths, stated_sizes
 from planner_ft.decoding.constraints.reading.paths.written_out import IN_CABLES, in_metres
 
@@ -38,7 +44,9 @@ _RETURNS: tuple[tuple[re.Pattern[str], Kind], ...] = (
 
 @dataclass(frozen=True)
 class _Event:
-    """Something that leads to a place, from `start` to `end` of the text; at the place of one that is `lying` the vehicle is."""
+    """Something that leads to a place, from `start` to `end` of the text; at the place of one that
+    is `lying` the vehicle is.
+    """
 
     start: int
     end: int
@@ -50,7 +58,9 @@ class _Event:
 
 @dataclass
 class _Way:
-    """What was walked; `here` is where the vehicle is, `since` the corners of the legs since the last place, `between` the last two places in a row."""
+    """What was walked; `here` is where the vehicle is, `since` the corners of the legs since the
+    last place, `between` the last two places in a row.
+    """
 
     home: Point
     path: list[Point] = field(default_factory=list)
@@ -80,11 +90,15 @@ class _Way:
             return False
         if event.kind == "half":
             one, two = self.since[-2:]
-            return len(self.since) == 2 and self._to(g.point((one[0] + two[0]) / 2, (one[1] + two[1]) / 2))
+            return len(self.since) == 2 and self._to(
+                g.point((one[0] + two[0]) / 2, (one[1] + two[1]) / 2)
+            )
         if event.kind == "retrace":
             gone = [self._to(point) for point in self.since[-2::-1]]
             return all(gone)
-        return self._to(self.origin if event.kind == "origin" and self.origin is not None else self.since[0])
+        return self._to(
+            self.origin if event.kind == "origin" and self.origin is not None else self.since[0]
+        )
 
     def _to_place(self, point: Point, *, lying: bool) -> bool:
         if lying:
@@ -105,29 +119,45 @@ class _Way:
 
 
 def read_chain(record: dict[str, Any], home: Point) -> Path | None:
-    """Every waypoint of the answer in order, where the input is such a chain; None where it is not, or where something is not clear."""
+    """Every waypoint of the answer in order, where the input is such a chain; None where it is not,
+    or where something is not clear.
+    """
     chain = _read(record, home)
     return chain[0] if chain else None
 
 
 def chain_in_places(record: dict[str, Any], home: Point) -> str | None:
-    """The text of such a chain with the place of each leg in its stead; None where a part of it leads to more than one place, or to none."""
-    chain = _read({**record, "prompt": IN_CABLES.sub(in_metres, str(record.get("prompt", "")))}, home)
+    """The text of such a chain with the place of each leg in its stead; None where a part of it
+    leads to more than one place, or to none.
+    """
+    chain = _read(
+        {**record, "prompt": IN_CABLES.sub(in_metres, str(record.get("prompt", "")))}, home
+    )
     if chain is None:
         return None
     path, text, events = chain
     led = [event for event in events if not event.lying]
-    if len(led) != len(path) or any(event.lying and event.point != home for event in events) or all(event.kind == "place" for event in led):
+    if (
+        len(led) != len(path)
+        or any(event.lying and event.point != home for event in events)
+        or all(event.kind == "place" for event in led)
+    ):
         return None
     for event, (x, y) in reversed([*zip(led, path, strict=True)]):
         before = c.LEAD_IN.search(text[max(0, event.start - 60) : event.start])
         start = event.start - len(before[0]) if before else event.start
         stop = re.search(r"[.;:]\s[^.;:]*$", text[start : event.start])
         start += len(text[start : event.start]) - len(stop[0]) + 2 if stop else 0
-        joined = ", then " if text[:start].strip() and text[:start].rstrip()[-1] not in ".;:!" else " "
+        joined = (
+            ", then " if text[:start].strip() and text[:start].rstrip()[-1] not in ".;:!" else " "
+        )
         text = f"{text[:start].rstrip(' ,')}{joined}go to ({x:g}, {y:g}){text[event.end :]}"
     for event in events:
-        text = f"{text[: event.start]}{re.sub(r'^[ ,]*(?:then )?', '', text[event.end :])}" if event.lying else text
+        text = (
+            f"{text[: event.start]}{re.sub(r'^[ ,]*(?:then )?', '', text[event.end :])}"
+            if event.lying
+            else text
+        )
     return text.strip()
 
 
@@ -140,7 +170,13 @@ def _read(record: dict[str, Any], home: Point) -> tuple[Path, str, list[_Event]]
     text = r.QUOTED.sub(_blank, text)
     explicit = list(r.EXPLICIT.finditer(text))
     places = [match for match in explicit if match["a"] or match["c"]]
-    if any(match["e"] and (re.match(r"\s*:", text[match.end() :]) or not c.LEG_BEFORE.search(text[: match.start()])) for match in explicit):
+    if any(
+        match["e"]
+        and (
+            re.match(r"\s*:", text[match.end() :]) or not c.LEG_BEFORE.search(text[: match.start()])
+        )
+        for match in explicit
+    ):
         return None
     bare = text
     for place in places:
@@ -185,15 +221,24 @@ class _Rest:
 
     def take(self, event: _Event) -> None:
         self.events.append(event)
-        self.text = self.text[: event.start] + "§" * (event.end - event.start) + self.text[event.end :]
+        self.text = (
+            self.text[: event.start] + "§" * (event.end - event.start) + self.text[event.end :]
+        )
 
 
-def _events(bare: str, places: list[re.Match[str]], start: Point | None, home: Point, dropped: int | None) -> tuple[str, list[_Event]] | None:
-    """The text without what leads somewhere, and that in its order; None where something leads nowhere that is known."""
+def _events(
+    bare: str, places: list[re.Match[str]], start: Point | None, home: Point, dropped: int | None
+) -> tuple[str, list[_Event]] | None:
+    """The text without what leads somewhere, and that in its order; None where something leads
+    nowhere that is known.
+    """
     legs = l.paired_legs(bare)
     if (
         legs is None
-        or any(c.PAIR_OF_WAYS.search(bare[: leg.start]) and l.LENGTH.match(bare[leg.start :]) for leg in legs)
+        or any(
+            c.PAIR_OF_WAYS.search(bare[: leg.start]) and l.LENGTH.match(bare[leg.start :])
+            for leg in legs
+        )
         or (dropped is not None and not legs)
     ):
         return None
@@ -213,13 +258,21 @@ def _events(bare: str, places: list[re.Match[str]], start: Point | None, home: P
         return None
     if start is not None and not places and (own := c.FROM_START.search(rest.text)):
         rest.take(_Event(own.start(), own.end(), "place", start))
-    if not legs and not any(event.lying for event in rest.events) and not _returns(bare, places, rest.events):
+    if (
+        not legs
+        and not any(event.lying for event in rest.events)
+        and not _returns(bare, places, rest.events)
+    ):
         return None
     return rest.text, sorted(rest.events, key=lambda event: event.start)
 
 
-def _stated(bare: str, places: list[re.Match[str]], legs: list[_Event], home: Point) -> list[_Event] | None:
-    """The places that a text states, or home where legs begin there; None where one of them is not gone to, or where nothing tells where legs begin."""
+def _stated(
+    bare: str, places: list[re.Match[str]], legs: list[_Event], home: Point
+) -> list[_Event] | None:
+    """The places that a text states, or home where legs begin there; None where one of them is not
+    gone to, or where nothing tells where legs begin.
+    """
     found = []
     for place in places:
         event = _place(bare, place, legs)
@@ -239,7 +292,9 @@ def _place(bare: str, place: re.Match[str], before_it: list[_Event]) -> _Event |
     begin = c.LYING.search(before[-80:])
     if (begin or behind) and not any(event.start < place.start() for event in before_it):
         first = place.start() - len(begin[0]) if begin else place.start()
-        return _Event(first, behind.end() if behind else place.end(), "place", _point(place), lying=True)
+        return _Event(
+            first, behind.end() if behind else place.end(), "place", _point(place), lying=True
+        )
     if c.NO_PLACE.search(_clause(before)) or not c.PLACE_LED.search(before[-70:]):
         return None
     if not d.TO_PLACE.search(before[-80:]) and c.LOOKED_AT.search(re.split(r"[.;]\s", before)[-1]):
@@ -248,12 +303,19 @@ def _place(bare: str, place: re.Match[str], before_it: list[_Event]) -> _Event |
 
 
 def _take_returns(rest: _Rest, *, several: bool) -> bool:
-    """Take the words that lead back out of a text; False where it is not told how far, of `several` legs."""
+    """Take the words that lead back out of a text; False where it is not told how far, of `several`
+    legs.
+    """
     for pattern, kind in _RETURNS:
         # In the text as it was before the words of this kind are taken.
         for match in pattern.finditer(rest.text):
             rest.take(_Event(match.start(), _end_of_return(rest.text, match, kind), kind))
-            if pattern is c.STRAIGHT_BACK and several and "straight" not in match[0].lower() and "direct" not in match[0].lower():
+            if (
+                pattern is c.STRAIGHT_BACK
+                and several
+                and "straight" not in match[0].lower()
+                and "direct" not in match[0].lower()
+            ):
                 return False
     return True
 
@@ -269,7 +331,11 @@ def _end_of_return(text: str, match: re.Match[str], kind: Kind) -> int:
 def _returns(bare: str, places: list[re.Match[str]], events: list[_Event]) -> bool:
     """Whether a way between two places is gone back as well."""
     back = any(event.kind in ("half", "begin", "retrace") for event in events)
-    again = len(places) == 3 and _point(places[2]) == _point(places[0]) and re.search(r"\bback (?:again )?to\s+$", bare[: places[2].start()], re.IGNORECASE)
+    again = (
+        len(places) == 3
+        and _point(places[2]) == _point(places[0])
+        and re.search(r"\bback (?:again )?to\s+$", bare[: places[2].start()], re.IGNORECASE)
+    )
     return (len(places) == 2 and back) or bool(again)
 
 
@@ -314,11 +380,15 @@ def _idle(rest: str, bare: str, events: list[_Event]) -> bool:
         or r.UNPLACED.search(rest)
     ):
         return False
-    if any(re.match(r"\s?(?:further|farther|more)\b", rest[end:], re.IGNORECASE) for _value, _at, end in stated_lengths(rest, [])):
+    if any(
+        re.match(r"\s?(?:further|farther|more)\b", rest[end:], re.IGNORECASE)
+        for _value, _at, end in stated_lengths(rest, [])
+    ):
         return False
-    return all(w.OTHER_LENGTH.search(l.sentence_rest(rest, at)) for _value, at, _end in stated_sizes(rest, [])) and not any(
-        r.WAY_BEHIND.match(rest[end:]) for _value, _at, end in stated_lengths(rest, [])
-    )
+    return all(
+        w.OTHER_LENGTH.search(l.sentence_rest(rest, at))
+        for _value, at, _end in stated_sizes(rest, [])
+    ) and not any(r.WAY_BEHIND.match(rest[end:]) for _value, _at, end in stated_lengths(rest, []))
 
 
 def _sentence(text: str, at: int) -> tuple[int, int]:

@@ -1,8 +1,10 @@
-"""The waypoints that a task input leaves no choice about, in order: grids, survey squares, stated places and ways off.
+"""The waypoints that a task input leaves no choice about, in order: grids, survey squares, stated
+places and ways off.
 
-What is not certain is not read: None says that the model chooses among the places that the facts give (`waypoints`). Rules: lanes of a
-grid run along y from the south-west corner and a square starts in the middle of its east side and goes counter-clockwise, unless the
-input says otherwise (labelling rules of the task level).
+What is not certain is not read: None says that the model chooses among the places that the facts
+give (`waypoints`). Rules: lanes of a grid run along y from the south-west corner and a square
+starts in the middle of its east side and goes counter-clockwise, unless the input says otherwise
+(labelling rules of the task level).
 """
 
 from __future__ import annotations
@@ -17,24 +19,44 @@ from planner_ft.data.stated import radio_digits
 from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.reading import wordings as w
 from planner_ft.decoding.constraints.reading.paths import run_wordings as r
-from planner_ft.decoding.constraints.reading.paths.shapes import Facts, Place, Point, Uncertain, grid_path, square_path, stated_sizes, stated_ways
+from planner_ft.decoding.constraints.reading.paths.shapes import (
+    Facts,
+    Place,
+    Point,
+    Uncertain,
+    grid_path,
+    square_path,
+    stated_sizes,
+    stated_ways,
+)
 from planner_ft.vocabulary import Vocabulary
 
 Path = tuple[Point, ...]
 PLACED = re.compile(r"[\[(,;/=]|[xy]|east|west|north|south|minus|[-−]", re.IGNORECASE)
-"""What two numbers that are a place have between or around them: "200 and 230" are headings as well."""
+"""What two numbers that are a place have between or around them: "200 and 230" are headings as
+well.
+"""
 
-NOT_BEFORE = re.compile(r",? (?:and )?not before(?: (?:that|it|then|this))?(?=[,.;]|$)", re.IGNORECASE)
+NOT_BEFORE = re.compile(
+    r",? (?:and )?not before(?: (?:that|it|then|this))?(?=[,.;]|$)", re.IGNORECASE
+)
 """Words that only say since when something is done."""
 WAY_BACK = re.compile(r"\bway back\b(?! home)", re.IGNORECASE)
-BACK_TO = re.compile(r"\b(?:back|return\w*) (?:(?:as far as|up|down|only|over|out|on) )?(?:to )?(?:the [\w -]{1,20} at )?[\[(]", re.IGNORECASE)
+BACK_TO = re.compile(
+    r"\b(?:back|return\w*) (?:(?:as far as|up|down|only|over|out|on) )?(?:to )?(?:the [\w -]{1,20}"
+    r" at )?[\[(]",
+    re.IGNORECASE,
+)
 """Back to a stated place, which the way back leads to."""
 NO_MOVEMENT = re.compile(
-    r"\b(?:mooring|moored) (?:dolphins?|buoys?|posts?|lines?|blocks?|ropes?|chains?|rings?|bollards?|boats?|vessels?|yachts?|ships?|barges?)\b|"
+    r"\b(?:mooring|moored)"
+    r" (?:dolphins?|buoys?|posts?|lines?|blocks?|ropes?|chains?|rings?|bollards?|boats?|vessels?|yachts?|ships?|barges?)\b|"
     r"\bfollows (?:x|y|the line)\b|"
-    r"\b(?:lidar|laser|scanner|scan)[ -]sweeps?\b|\b(?:at|with|under|on) (?:an? |the )?(?:(?:scan|scanning|sweep|slice) )?angle(?: of)? "
+    r"\b(?:lidar|laser|scanner|scan)[ -]sweeps?\b|\b(?:at|with|under|on) (?:an? |the"
+    r" )?(?:(?:scan|scanning|sweep|slice) )?angle(?: of)? "
     r"\d+(?:\.\d+)?(?: ?deg(?:rees)?\b| ?°)?|"
-    r"\blook(?:s|ing)? for\b|\blook-?out\b|\bstands (?:on|at) [xy]\b|\bstand-?off\b|\bturning points?\b|"
+    r"\blook(?:s|ing)? for\b|\blook-?out\b|\bstands (?:on|at) [xy]\b|\bstand-?off\b|\bturning"
+    r" points?\b|"
     r"\bsecond (?:leg|run|pass|lane|line|one|square|lap|round|way-?point|point)\b",
     re.IGNORECASE,
 )
@@ -47,14 +69,22 @@ OWN_NAMED = re.compile(r"\b(?:target|goal|berth) (?:coordinates|position)\b", re
 
 
 def read_itinerary(record: dict[str, Any], vocabulary: Vocabulary) -> Path | None:
-    """Every waypoint of the answer in order, where the input leaves no choice; None where it does."""
+    """Every waypoint of the answer in order, where the input leaves no choice; None where it
+    does.
+    """
     given = record.get("parameters")
     parameters = given if isinstance(given, dict) else {}
     text = reworded(without_fences(_without_marks(str(record.get("prompt", "")))))
     if text is None or w.UNORDERED.search(text) or w.UNSURE.search(text):
         return None
     parts = [part for part in w.PART.split(text) if part and part.strip()]
-    facts = Facts(parameters, _own_place(parameters), g.point(*vocabulary.home), len(parts) == 1, _turned(text))
+    facts = Facts(
+        parameters,
+        _own_place(parameters),
+        g.point(*vocabulary.home),
+        len(parts) == 1,
+        _turned(text),
+    )
     walked: list[Point] = []
     shaped: list[list[Point]] = []
     try:
@@ -69,34 +99,59 @@ def read_itinerary(record: dict[str, Any], vocabulary: Vocabulary) -> Path | Non
     # "Mow the area after that, lanes north-south" speaks of one grid.
     if any(one == two for one, two in itertools.pairwise(shaped)):
         return None
-    if any(one == two for one, two in itertools.pairwise(walked)) or g.point(*vocabulary.unresolved) in walked:
+    if (
+        any(one == two for one, two in itertools.pairwise(walked))
+        or g.point(*vocabulary.unresolved) in walked
+    ):
         return None
     return tuple(walked) if walked and not unsettled(walked, text, facts.home) else None
 
 
 def plain_text(prompt: str) -> str:
     """A prompt with its spoken digits and its thousands in figures."""
-    return r.THOUSANDS.sub(lambda number: number[0].replace(",", ""), radio_digits(r.SPOKEN.sub(_figures, prompt)))
+    return r.THOUSANDS.sub(
+        lambda number: number[0].replace(",", ""), radio_digits(r.SPOKEN.sub(_figures, prompt))
+    )
 
 
 def _figures(spoken: re.Match[str]) -> str:
     """Three digits that were said one by one, as figures."""
-    return "".join(str(r.DIGITS.index(word.lower().removesuffix("r") if word.lower() == "niner" else word.lower())) for word in spoken.groups())
+    return "".join(
+        str(
+            r.DIGITS.index(
+                word.lower().removesuffix("r") if word.lower() == "niner" else word.lower()
+            )
+        )
+        for word in spoken.groups()
+    )
 
 
 def reworded(text: str) -> str | None:
-    """A text without notes and without a way home that is ruled out, with places for names of places; None where the names cannot be told."""
+    """A text without notes and without a way home that is ruled out, with places for names of
+    places; None where the names cannot be told.
+    """
     text = NOT_BEFORE.sub(_blanks, w.NOT_HOME.sub(_blanks, w.QUOTED.sub(_blanks, text)))
-    text = w.THEN_IN.sub(r"\1 go in", w.TO_BASE.sub("return to base", w.IN_LETTERS.sub(_direction, text)))
+    text = w.THEN_IN.sub(
+        r"\1 go in", w.TO_BASE.sub("return to base", w.IN_LETTERS.sub(_direction, text))
+    )
     places = {match["name"]: match["place"] for match in w.NAMED_PLACE.finditer(text)}
     rest = w.NAMED_PLACE.sub(_blanks, text)
     said = re.findall(rf"\b[{''.join(places)}]\b", rest) if len(places) > 1 else []
     if not said:
         return text
-    lists = [match for match in w.NAME_LIST.finditer(rest) if set(re.findall(r"\b[A-Z]\b", match[0])) == set(places)]
+    lists = [
+        match
+        for match in w.NAME_LIST.finditer(rest)
+        if set(re.findall(r"\b[A-Z]\b", match[0])) == set(places)
+    ]
     if len(lists) != 1 or len(re.findall(r"\b[A-Z]\b", lists[0][0])) != len(said):
         return None
-    return rest[: lists[0].start()].strip(" ,;.") + " " + re.sub(r"\b[A-Z]\b", lambda name: places[name[0]], lists[0][0]) + rest[lists[0].end() :]
+    return (
+        rest[: lists[0].start()].strip(" ,;.")
+        + " "
+        + re.sub(r"\b[A-Z]\b", lambda name: places[name[0]], lists[0][0])
+        + rest[lists[0].end() :]
+    )
 
 
 def _blanks(match: re.Match[str]) -> str:
@@ -109,17 +164,32 @@ def _direction(match: re.Match[str]) -> str:
 
 
 def unsettled(walked: Sequence[Point], text: str, home: Point) -> bool:
-    """Whether a place may be visited twice only because the text says where something is done, or the way home is spoken of and not gone."""
-    if home not in walked and w.WAY_HOME.search(WAY_BACK.sub(" ", text) if BACK_TO.search(text) else text):
+    """Whether a place may be visited twice only because the text says where something is done, or
+    the way home is spoken of and not gone.
+    """
+    if home not in walked and w.WAY_HOME.search(
+        WAY_BACK.sub(" ", text) if BACK_TO.search(text) else text
+    ):
         return True
-    return len(set(walked)) < len(walked) and w.SCOPE_CUE.search(text) is not None and not w.COMING_BACK.search(text)
+    return (
+        len(set(walked)) < len(walked)
+        and w.SCOPE_CUE.search(text) is not None
+        and not w.COMING_BACK.search(text)
+    )
 
 
 def stays(record: dict[str, Any]) -> bool:
-    """Whether a task input certainly sends the vehicle nowhere: it has no place outside of fences, no way off and no word of a run."""
+    """Whether a task input certainly sends the vehicle nowhere: it has no place outside of fences,
+    no way off and no word of a run.
+    """
     given = record.get("parameters")
     text = radio_digits(without_fences(_without_marks(str(record.get("prompt", "")))))
-    led = w.LEADS.search(w.NO_LEAD.sub(" ", text)) or w.GOES.search(text) or _shapes(text) or w.SHAPED.search(text)
+    led = (
+        w.LEADS.search(w.NO_LEAD.sub(" ", text))
+        or w.GOES.search(text)
+        or _shapes(text)
+        or w.SHAPED.search(text)
+    )
     placed = any(PLACED.search(text[start:end]) for _x, _y, start, end in positions(text))
     own = _own_place(given if isinstance(given, dict) else {})
     return own is None and not led and not placed and not any(stated_ways(text, []))
@@ -131,19 +201,28 @@ def moves_otherwise(text: str) -> bool:
 
 
 def _with_details(parts: list[str]) -> list[str]:
-    """The parts, those that lead nowhere put to the one part with a shape: they may say where and which way round it is run."""
+    """The parts, those that lead nowhere put to the one part with a shape: they may say where and
+    which way round it is run.
+    """
     shaped = [index for index, part in enumerate(parts) if _shapes(part)]
     if len(shaped) != 1:
         return parts
     idle = {index for index, part in enumerate(parts) if index not in shaped and not _leads(part)}
     whole = ". ".join(part for index, part in enumerate(parts) if index in idle or index in shaped)
-    return [whole if index in shaped else part for index, part in enumerate(parts) if index not in idle]
+    return [
+        whole if index in shaped else part for index, part in enumerate(parts) if index not in idle
+    ]
 
 
 def _leads(part: str) -> bool:
-    """Whether a part of the text may lead somewhere: it has a place that is no centre, or a word for a way."""
+    """Whether a part of the text may lead somewhere: it has a place that is no centre, or a word
+    for a way.
+    """
     stated = [part[:start] for _x, _y, start, _end in positions(part)]
-    return any(not w.CENTRE.search(before) for before in stated) or w.LEADS.search(w.NO_LEAD.sub(" ", part)) is not None
+    return (
+        any(not w.CENTRE.search(before) for before in stated)
+        or w.LEADS.search(w.NO_LEAD.sub(" ", part)) is not None
+    )
 
 
 def _shapes(text: str) -> list[re.Pattern[str]]:
@@ -154,7 +233,10 @@ def _shapes(text: str) -> list[re.Pattern[str]]:
 
 def _without_marks(text: str) -> str:
     """A text with a semicolon in place of each number of a list."""
-    return w.LIST_MARK.sub(lambda mark: mark[0] if _inside(text[: mark.start()]) else ";" + " " * (len(mark[0]) - 1), text)
+    return w.LIST_MARK.sub(
+        lambda mark: mark[0] if _inside(text[: mark.start()]) else ";" + " " * (len(mark[0]) - 1),
+        text,
+    )
 
 
 def _inside(before: str) -> bool:
@@ -163,21 +245,31 @@ def _inside(before: str) -> bool:
 
 
 def _turned(text: str) -> float | None:
-    found = [float(match[1]) if match[1] else w.bearing_of(match[2]) for match in w.TURNED.finditer(text)]
+    found = [
+        float(match[1]) if match[1] else w.bearing_of(match[2]) for match in w.TURNED.finditer(text)
+    ]
     return found[0] if len(found) == 1 else None
 
 
 def without_fences(text: str) -> str:
     """A text with blanks for the corners of boundaries: pairs in a row behind a word for one."""
     for row in itertools.chain(w.ROW.finditer(text), w.BOX.finditer(text)):
-        if w.FENCE.search(text[: row.start()]) or (not w.BOX.fullmatch(row[0]) and w.FENCE_BEHIND.match(text[row.end() :])):
+        if w.FENCE.search(text[: row.start()]) or (
+            not w.BOX.fullmatch(row[0]) and w.FENCE_BEHIND.match(text[row.end() :])
+        ):
             text = text[: row.start()] + " " * len(row[0]) + text[row.end() :]
     return text
 
 
 def _own_place(parameters: dict[str, Any]) -> Point | None:
     """The one place among the task's parameters."""
-    own = [value for value in parameters.values() if isinstance(value, list) and len(value) == 2 and all(isinstance(item, int | float) for item in value)]
+    own = [
+        value
+        for value in parameters.values()
+        if isinstance(value, list)
+        and len(value) == 2
+        and all(isinstance(item, int | float) for item in value)
+    ]
     return g.point(*own[0]) if len(own) == 1 else None
 
 
@@ -186,7 +278,9 @@ def _part(text: str, facts: Facts, walked: list[Point]) -> list[Point]:
     places = [
         Place(g.point(x, y), start, end)
         for x, y, start, end in positions(text)
-        if not _angles(text, start, end) and _is_place(text[start:end]) and not w.COUNTS.search(text[:start])
+        if not _angles(text, start, end)
+        and _is_place(text[start:end])
+        and not w.COUNTS.search(text[:start])
     ]
     shapes = _shapes(text)
     if any(one.end > two.start for one, two in itertools.pairwise(places)):
@@ -201,10 +295,16 @@ def _part(text: str, facts: Facts, walked: list[Point]) -> list[Point]:
 
 def _angles(text: str, start: int, end: int) -> bool:
     """Whether two numbers are headings."""
-    bare = w.BARE_PAIR.fullmatch(text[start:end]) and not w.TO_BEFORE.search(text[:start]) and text[max(0, start - 1) : start] not in ("[", "(", "-", "−", "–")
+    bare = (
+        w.BARE_PAIR.fullmatch(text[start:end])
+        and not w.TO_BEFORE.search(text[:start])
+        and text[max(0, start - 1) : start] not in ("[", "(", "-", "−", "–")
+    )
     if text[start : start + 4].lower() == "one " and FIRST_ONE.search(text[:start]):
         return True
-    return w.ANGLED.search(text[start : end + 8]) is not None or bool(bare and w.TURNING.search(text))
+    return w.ANGLED.search(text[start : end + 8]) is not None or bool(
+        bare and w.TURNING.search(text)
+    )
 
 
 def _is_place(text: str) -> bool:
@@ -219,7 +319,12 @@ def _legs(text: str, places: list[Place], facts: Facts, walked: list[Point]) -> 
     events: list[tuple[int, Point | None, tuple[float, float] | None]] = []
     used: set[int] = set()
     ways = list(stated_ways(text, places))
-    if places and not ways and all(place.point in walked for place in places) and not w.LEADS.search(w.NO_LEAD.sub(" ", w.SCOPE.sub(" ", text))):
+    if (
+        places
+        and not ways
+        and all(place.point in walked for place in places)
+        and not w.LEADS.search(w.NO_LEAD.sub(" ", w.SCOPE.sub(" ", text)))
+    ):
         rest = _blank(text, places)
         if w.SCOPE_CUE.search(rest):
             return []
@@ -235,7 +340,11 @@ def _legs(text: str, places: list[Place], facts: Facts, walked: list[Point]) -> 
             if w.NO_DESTINATION.search(before) or w.CENTRE.search(before):
                 raise Uncertain
             events.append((place.start, place.point, None))
-    named = [match for match in w.TO_OWN.finditer(text) if not any(start <= match.start() < end for _l, _b, start, end, _o in ways)]
+    named = [
+        match
+        for match in w.TO_OWN.finditer(text)
+        if not any(start <= match.start() < end for _l, _b, start, end, _o in ways)
+    ]
     if any("start" in match[0].lower() and "start" not in facts.parameters for match in named):
         raise Uncertain
     if w.OWN_OPENS.match(text) and not named:
@@ -247,12 +356,20 @@ def _legs(text: str, places: list[Place], facts: Facts, walked: list[Point]) -> 
     events += [(at, facts.own, None) for at in owns] + [(at, facts.home, None) for at in homes]
     line = _line(text, places, facts, ways)
     events += line
-    left = [start for _value, start, _end in stated_sizes(text, places) if not line and start not in {way[2] for way in ways}]
+    left = [
+        start
+        for _value, start, _end in stated_sizes(text, places)
+        if not line and start not in {way[2] for way in ways}
+    ]
     if left and (events or w.FURTHER.search(text)) and not w.OTHER_LENGTH.search(text):
         raise Uncertain
     if w.BACK_ALONE.search(_blank(text, [], w.HOME)):
         raise Uncertain
-    if (not events and w.LEADS.search(w.NO_LEAD.sub(" ", text))) or w.UNREAD.search(_blank(text, places, w.HOME)) or (owns and facts.own is None):
+    if (
+        (not events and w.LEADS.search(w.NO_LEAD.sub(" ", text)))
+        or w.UNREAD.search(_blank(text, places, w.HOME))
+        or (owns and facts.own is None)
+    ):
         raise Uncertain
     return _follow(sorted(events, key=lambda event: event[0]), walked)
 
@@ -266,17 +383,27 @@ def _blank(text: str, places: list[Place], *patterns: re.Pattern[str]) -> str:
     return text
 
 
-def _line(text: str, places: list[Place], facts: Facts, ways: list[Any]) -> list[tuple[int, None, tuple[float, float]]]:
-    """A straight run whose direction and length stand apart: "along 45 degrees for 40 m", "the distance of the task on 090"."""
+def _line(
+    text: str, places: list[Place], facts: Facts, ways: list[Any]
+) -> list[tuple[int, None, tuple[float, float]]]:
+    """A straight run whose direction and length stand apart: "along 45 degrees for 40 m", "the
+    distance of the task on 090".
+    """
     if ways or not w.LINE.search(text):
         return []
-    lengths = {value: start for value, start, _end in stated_sizes(text, places)} | _own_number(w.OWN_LENGTH, text, facts, ("max_dist", "length"))
+    lengths = {value: start for value, start, _end in stated_sizes(text, places)} | _own_number(
+        w.OWN_LENGTH, text, facts, ("max_dist", "length")
+    )
     bare = _blank(text, places)
-    directions = {float(match[1]): match.start() for match in w.ON_DEGREES.finditer(bare)} | _own_number(w.OWN_HEADING, text, facts, ("heading",))
+    directions = {
+        float(match[1]): match.start() for match in w.ON_DEGREES.finditer(bare)
+    } | _own_number(w.OWN_HEADING, text, facts, ("heading",))
     directions |= {w.bearing_of(match[1]): match.start() for match in w.ON_WAY.finditer(text)}
     if facts.turned is not None and (that := w.THAT_BEARING.search(text)):
         directions[facts.turned] = that.start()
-    if not w.OWN_LENGTH.search(text) and (not lengths or (w.NO_LINE.search(text) and not directions)):
+    if not w.OWN_LENGTH.search(text) and (
+        not lengths or (w.NO_LINE.search(text) and not directions)
+    ):
         return []
     if len(lengths) != 1 or len(directions) != 1 or w.NO_LINE.search(text):
         raise Uncertain
@@ -286,9 +413,18 @@ def _line(text: str, places: list[Place], facts: Facts, ways: list[Any]) -> list
     return [(max(first, second), None, (direction, length))]
 
 
-def _own_number(wording: re.Pattern[str], text: str, facts: Facts, names: tuple[str, ...]) -> dict[float, int]:
+def _own_number(
+    wording: re.Pattern[str], text: str, facts: Facts, names: tuple[str, ...]
+) -> dict[float, int]:
     """The task's own value that the text refers to, with where it does."""
-    value = next((facts.parameters[name] for name in names if isinstance(facts.parameters.get(name), int | float)), None)
+    value = next(
+        (
+            facts.parameters[name]
+            for name in names
+            if isinstance(facts.parameters.get(name), int | float)
+        ),
+        None,
+    )
     match = wording.search(text)
     return {value: match.start()} if match and value is not None else {}
 
@@ -303,7 +439,9 @@ def _base(text: str, end: int, places: list[Place], facts: Facts) -> tuple[Point
     raise Uncertain
 
 
-def _follow(events: list[tuple[int, Point | None, tuple[float, float] | None]], walked: list[Point]) -> list[Point]:
+def _follow(
+    events: list[tuple[int, Point | None, tuple[float, float] | None]], walked: list[Point]
+) -> list[Point]:
     found: list[Point] = []
     for _at, point, way in events:
         if point is None and not (found or walked):

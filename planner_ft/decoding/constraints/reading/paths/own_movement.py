@@ -1,8 +1,10 @@
-"""The movement of a task that is handed down as a whole: "Survey the depths around [40, 20] over 80 m by 50 m with lines 5 m apart."
+"""The movement of a task that is handed down as a whole: "Survey the depths around [40, 20] over 80
+m by 50 m with lines 5 m apart."
 
-The Mission Agent's task prompts say what is wanted, in one sentence and without steps; the movement is then the task's own, as its pattern and its
-parameters give it (planner_ft/data/task/handed_down.py words the same). A prompt that speaks of another place, a way off, a second movement or a
-length that the task does not have is no such sentence.
+The Mission Agent's task prompts say what is wanted, in one sentence and without steps; the movement
+is then the task's own, as its pattern and its parameters give it
+(planner_ft/data/task/handed_down.py words the same). A prompt that speaks of another place, a way
+off, a second movement or a length that the task does not have is no such sentence.
 """
 
 from __future__ import annotations
@@ -19,7 +21,10 @@ from planner_ft.vocabulary import Task, Vocabulary
 
 Path = tuple[Point, ...]
 FOUND = re.compile(
-    r",?\s*\b(?:once|after|when|as soon as)\b[^.,;]*\b(?:found|located|detected|confirmed)\b|\bwhere (?:it|he|she|they)\b[^.,;]*\bfound\b", re.IGNORECASE
+    r",?\s*\b(?:once|after|when|as soon"
+    r" as)\b[^.,;]*\b(?:found|located|detected|confirmed)\b|\bwhere"
+    r" (?:it|he|she|they)\b[^.,;]*\bfound\b",
+    re.IGNORECASE,
 )
 """Words for a place that a search has found: it is filled in by now."""
 BEGINNINGS = {
@@ -32,16 +37,25 @@ BEGINNINGS = {
 """Verbs that a sentence begins with which asks for a movement of this pattern as a whole."""
 ON_SITE = re.compile(
     r"(?:circle|orbit|hold|keep|stay|maintain|cut|drift|locate|find|scan|reposition|photograph|film|record|"
-    r"make (?:half )?an? (?:\w+ )?(?:arc|circle|orbit|round)|take (?:an? )?(?:pano\w*|thermal|temperature|readings|measure\w*|picture\w*|photo\w*|image\w*))\b",
+    r"make (?:half )?an? (?:\w+ )?(?:arc|circle|orbit|round)|take (?:an?"
+    r" )?(?:pano\w*|thermal|temperature|readings|measure\w*|picture\w*|photo\w*|image\w*))\b",
     re.IGNORECASE,
 )
 """Verbs of what is performed where the vehicle was brought before."""
-ONWARD = re.compile(r"\b(?:(?:then|before|afterwards|next|finally|go|going|proceed\w*|return\w*|home)\b|(?:to|from|towards|via|way) [\[(])", re.IGNORECASE)
+ONWARD = re.compile(
+    r"\b(?:(?:then|before|afterwards|next|finally|go|going|proceed\w*|return\w*|home)\b|(?:to|from|towards|via|way)"
+    r" [\[(])",
+    re.IGNORECASE,
+)
 """Words of another movement beside that."""
 NAME = re.compile(r"\b[A-Z]+\d*-\d+(?:-\d+)?\b")
 """A name with numbers ("buoy J92-6"), which is no place."""
 HOME = re.compile(r"\b(?:home|base|start\w*)\b", re.IGNORECASE)
-AREA = re.compile(r"\b(?:depths?|bathymetr\w+|sounding\w*|seabed|sea floor|bottom|grid|lawn-?mower|lines|lanes)\b", re.IGNORECASE)
+AREA = re.compile(
+    r"\b(?:depths?|bathymetr\w+|sounding\w*|seabed|sea"
+    r" floor|bottom|grid|lawn-?mower|lines|lanes)\b",
+    re.IGNORECASE,
+)
 OTHERWISE = re.compile(
     r"\b(?:clock-?wise|counter\w*|anti\w*|corners?|sides?|mid-?\w*|half|edge|turn\w*|rotat\w*|arc|north\w*|south\w*|east\w*|west\w*|zig\w*|spiral\w*|twice|"
     r"times|"
@@ -53,8 +67,12 @@ OTHERWISE = re.compile(
 """Words that a movement other than the plain one may be meant with."""
 
 
-def own_movement(text: str, parameters: dict[str, Any], own: Point | None, task: Task, vocabulary: Vocabulary) -> Path | None:
-    """The waypoints of a task whose prompt asks for it as a whole; none where it is performed where the vehicle is; None for other prompts."""
+def own_movement(
+    text: str, parameters: dict[str, Any], own: Point | None, task: Task, vocabulary: Vocabulary
+) -> Path | None:
+    """The waypoints of a task whose prompt asks for it as a whole; none where it is performed where
+    the vehicle is; None for other prompts.
+    """
     plain = NAME.sub(lambda name: "N" * len(name[0]), FOUND.sub("", text)).strip().rstrip(".! ")
     places = _places(plain)
     if re.search(r"[.;:!?]\s", plain) or len(places) > 1:
@@ -63,16 +81,31 @@ def own_movement(text: str, parameters: dict[str, Any], own: Point | None, task:
     for _x, _y, start, end in places:
         bare = bare[:start] + " " * (end - start) + bare[end:]
     if task.arrival == "transit":
-        return () if ON_SITE.match(bare) and not ONWARD.search(plain) and not any(stated_ways(bare, [])) else None
+        return (
+            ()
+            if ON_SITE.match(bare) and not ONWARD.search(plain) and not any(stated_ways(bare, []))
+            else None
+        )
     beginning = BEGINNINGS.get(task.pattern)
-    if own is None or beginning is None or any(g.point(x, y) != own for x, y, _start, _end in places):
+    if (
+        own is None
+        or beginning is None
+        or any(g.point(x, y) != own for x, y, _start, _end in places)
+    ):
         return None
-    if not re.match(rf"(?:{beginning})\b", bare, re.IGNORECASE) or OTHERWISE.search(bare) or any(stated_ways(bare, [])):
+    if (
+        not re.match(rf"(?:{beginning})\b", bare, re.IGNORECASE)
+        or OTHERWISE.search(bare)
+        or any(stated_ways(bare, []))
+    ):
         return None
     if HOME.search(bare) and own != g.point(*vocabulary.home):
         return None
     values = [value for value in parameters.values() if isinstance(value, int | float)]
-    if any(quantity.unit == "m" and g.tidy(quantity.value) not in values for quantity in quantities(bare)):
+    if any(
+        quantity.unit == "m" and g.tidy(quantity.value) not in values
+        for quantity in quantities(bare)
+    ):
         return None
     return _path(bare, parameters, own, task)
 
@@ -97,7 +130,9 @@ def _path(text: str, parameters: dict[str, Any], own: Point, task: Task) -> Path
 
 
 def _grid(parameters: dict[str, Any], own: Point) -> Path | None:
-    """The lanes of a grid; where the spacing does not divide the width, as many as fit, from the south-west corner on."""
+    """The lanes of a grid; where the spacing does not divide the width, as many as fit, from the
+    south-west corner on.
+    """
     width, length, spacing = (_number(parameters, name) for name in ("width", "length", "spacing"))
     if not width or not length or not spacing:
         return None

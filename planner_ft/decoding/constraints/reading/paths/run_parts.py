@@ -1,4 +1,6 @@
-"""What straight runs and ways to places are read from: the task's own facts, what leads somewhere in a text, and how certain that is."""
+"""What straight runs and ways to places are read from: the task's own facts, what leads somewhere
+in a text, and how certain that is.
+"""
 
 from __future__ import annotations
 
@@ -14,10 +16,12 @@ Grade = Literal["sure", "maybe", "mention"]
 
 @dataclass(frozen=True)
 class Event:
-    """Something that leads to a place: the place itself, or a way (bearing, length) from where the vehicle is, from `start` to `end` of the text.
+    """Something that leads to a place: the place itself, or a way (bearing, length) from where the
+    vehicle is, from `start` to `end` of the text.
 
-    `sure`: the words say so; `maybe`: it is said beside something else ("while going to"), and counts where the place is not named otherwise;
-    `mention`: it is spoken of only. `since`: where the words begin that are understood with it.
+    `sure`: the words say so; `maybe`: it is said beside something else ("while going to"), and
+    counts where the place is not named otherwise; `mention`: it is spoken of only. `since`: where
+    the words begin that are understood with it.
     """
 
     start: int
@@ -36,7 +40,14 @@ class TaskFacts:
 
     def number(self, *names: str) -> float | None:
         """The first of these parameters that the task has."""
-        return next((value for name in names if isinstance(value := self.parameters.get(name), int | float)), None)
+        return next(
+            (
+                value
+                for name in names
+                if isinstance(value := self.parameters.get(name), int | float)
+            ),
+            None,
+        )
 
 
 def unquoted(text: str) -> str:

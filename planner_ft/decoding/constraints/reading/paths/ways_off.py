@@ -11,19 +11,41 @@ from planner_ft.decoding.constraints.reading.paths.run_parts import Event
 from planner_ft.decoding.constraints.reading.paths.shapes import Point, Uncertain, stated_lengths
 
 
-def ways_off(bare: str, mentioned: list[tuple[int, int, Point]]) -> Iterator[tuple[Event, int | None]]:
-    """Lengths with a direction: "80 m north of the buoy at [75, 50]", "then 30 m due west"; with where the place stands that it is counted from."""
+def ways_off(
+    bare: str, mentioned: list[tuple[int, int, Point]]
+) -> Iterator[tuple[Event, int | None]]:
+    """Lengths with a direction: "80 m north of the buoy at [75, 50]", "then 30 m due west"; with
+    where the place stands that it is counted from.
+    """
     for match in r.STOP_SHORT.finditer(bare):
-        base = next((one for one in mentioned if one[0] <= match.start() < one[1] or one[1] == match.start()), None)
-        lengths = [value for value, start, _end in stated_lengths(bare, []) if match.start(2) <= start < match.end()]
+        base = next(
+            (
+                one
+                for one in mentioned
+                if one[0] <= match.start() < one[1] or one[1] == match.start()
+            ),
+            None,
+        )
+        lengths = [
+            value
+            for value, start, _end in stated_lengths(bare, [])
+            if match.start(2) <= start < match.end()
+        ]
         if base is None or len(lengths) != 1:
             raise Uncertain
-        yield Event(base[0], match.end(), g.offset(base[2], w.bearing_of(match[1]), lengths[0])), base[0]
+        yield (
+            Event(base[0], match.end(), g.offset(base[2], w.bearing_of(match[1]), lengths[0])),
+            base[0],
+        )
     yield from _offsets(bare, mentioned)
 
 
-def _offsets(bare: str, mentioned: list[tuple[int, int, Point]]) -> Iterator[tuple[Event, int | None]]:
-    """Ways counted from a place or from where the vehicle is; two that are joined ("20 m east and 30 m north of") are one."""
+def _offsets(
+    bare: str, mentioned: list[tuple[int, int, Point]]
+) -> Iterator[tuple[Event, int | None]]:
+    """Ways counted from a place or from where the vehicle is; two that are joined ("20 m east and
+    30 m north of") are one.
+    """
     joined: list[tuple[int, int, float, float]] = []
     about: tuple[int, int, Point] | None = None
     for value, start, end in stated_lengths(bare, []):
@@ -54,7 +76,9 @@ def _offsets(bare: str, mentioned: list[tuple[int, int, Point]]) -> Iterator[tup
     yield from _legs(joined, bare, mentioned)
 
 
-def _anchor(bare: str, behind: int, mentioned: list[tuple[int, int, Point]]) -> tuple[int, int, Point]:
+def _anchor(
+    bare: str, behind: int, mentioned: list[tuple[int, int, Point]]
+) -> tuple[int, int, Point]:
     """What a way off is counted from."""
     anchor = next((one for one in mentioned if one[0] >= behind), None)
     if anchor is None or not r.ANCHOR.fullmatch(bare[behind : anchor[0]]):
@@ -62,8 +86,12 @@ def _anchor(bare: str, behind: int, mentioned: list[tuple[int, int, Point]]) -> 
     return anchor
 
 
-def _legs(legs: list[tuple[int, int, float, float]], bare: str, mentioned: list[tuple[int, int, Point]]) -> Iterator[tuple[Event, int | None]]:
-    """Ways from where the vehicle is, or from a place that follows them: "sail 25 m north-east from [3, 4]"."""
+def _legs(
+    legs: list[tuple[int, int, float, float]], bare: str, mentioned: list[tuple[int, int, Point]]
+) -> Iterator[tuple[Event, int | None]]:
+    """Ways from where the vehicle is, or from a place that follows them: "sail 25 m north-east from
+    [3, 4]".
+    """
     if len(legs) > 1:
         raise Uncertain
     for start, behind, bearing, value in legs:

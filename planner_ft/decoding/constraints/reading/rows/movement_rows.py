@@ -1,6 +1,8 @@
-"""The movements of a task input as a row: in which of them a step of a plan is, found by the plan's own movements.
+"""The movements of a task input as a row: in which of them a step of a plan is, found by the plan's
+own movements.
 
-A movement of the text is one step where it goes to a place or turns once, and as many as it takes where it runs a grid or a line.
+A movement of the text is one step where it goes to a place or turns once, and as many as it takes
+where it runs a grid or a line.
 """
 
 from __future__ import annotations
@@ -16,7 +18,8 @@ from planner_ft.decoding.constraints.reading.rows import movement_words as m
 
 @dataclass(frozen=True)
 class Unit:
-    """A movement of the text: its navigation skill, where its words stand, of how many steps it is (None: not known), and the place that it goes to.
+    """A movement of the text: its navigation skill, where its words stand, of how many steps it is
+    (None: not known), and the place that it goes to.
 
     One that is `chained` is a place that the one before it is followed by.
     """
@@ -40,17 +43,32 @@ class Row:
     units: tuple[Unit, ...]
 
     def unit(self, names: Sequence[str]) -> int | None:
-        """In which movement the last of some steps is; None where the steps are not those of the text."""
+        """In which movement the last of some steps is; None where the steps are not those of the
+        text.
+        """
         at, done = -1, 0
         for name in names:
             unit = self.units[at] if at >= 0 else None
             if unit is not None and name == unit.kind and (unit.steps is None or done < unit.steps):
-                if unit.steps is None and at + 1 < len(self.units) and self.units[at + 1].kind == name:
+                if (
+                    unit.steps is None
+                    and at + 1 < len(self.units)
+                    and self.units[at + 1].kind == name
+                ):
                     return None
                 done += 1
                 continue
             at, done = at + 1, 1
-            if at >= len(self.units) or self.units[at].kind != name or (unit is not None and unit.steps is not None and unit.steps > 1 and unit.kind == name):
+            if (
+                at >= len(self.units)
+                or self.units[at].kind != name
+                or (
+                    unit is not None
+                    and unit.steps is not None
+                    and unit.steps > 1
+                    and unit.kind == name
+                )
+            ):
                 return None
         return at if at >= 0 else None
 
@@ -61,7 +79,9 @@ class Row:
 
 @dataclass(frozen=True)
 class Plain:
-    """A text in small letters with signs for places and quotations, the places, and where each letter stood."""
+    """A text in small letters with signs for places and quotations, the places, and where each
+    letter stood.
+    """
 
     text: str
     places: dict[int, tuple[float, float]]
@@ -69,7 +89,9 @@ class Plain:
 
 
 _SIGN = re.compile(r"(?:\b(?:x|minus|\+)\s*=?\s*|[\[({]\s?|[-−–](?=~))*~(?:\s?[\])}])*")
-_WRITTEN = re.compile(r"^(?!.*(?:minute|second|hour|metre|meter)).*(?:\d|\b[xy]\b|minus)", re.DOTALL)
+_WRITTEN = re.compile(
+    r"^(?!.*(?:minute|second|hour|metre|meter)).*(?:\d|\b[xy]\b|minus)", re.DOTALL
+)
 _NAMED = re.compile(r"\b(?:position|waypoint|point)\s+(?=~)")
 _LITERAL = re.compile(r"\s*@\s*")
 
@@ -79,10 +101,16 @@ def plain(text: str) -> Plain:
     made, origin = without_fences(text).lower(), tuple(range(len(text)))
     if len(made) != len(text):
         return Plain("", {}, ())
-    made, origin = _put(made, origin, [(match.start(), match.end(), " at ") for match in _LITERAL.finditer(made)])
+    made, origin = _put(
+        made, origin, [(match.start(), match.end(), " at ") for match in _LITERAL.finditer(made)]
+    )
     found, behind = [], len(made)
     for x, y, start, end in sorted(positions(made), key=lambda place: -place[2]):
-        if end <= behind and not m.COUNTED.search(made[:start]) and _WRITTEN.search(made[start:end]):
+        if (
+            end <= behind
+            and not m.COUNTED.search(made[:start])
+            and _WRITTEN.search(made[start:end])
+        ):
             found.append((start, end, (float(x), float(y))))
             behind = start
     found.reverse()
@@ -95,13 +123,21 @@ def plain(text: str) -> Plain:
         (re.compile(r"\s+(?=[,.;:!?])"), ""),
         (re.compile(r"[ \t]+"), " "),
     ):
-        made, origin = _put(made, origin, [(match.start(), match.end(), sign) for match in pattern.finditer(made)])
+        made, origin = _put(
+            made, origin, [(match.start(), match.end(), sign) for match in pattern.finditer(made)]
+        )
     signs = [match.start() for match in re.finditer("@", made)]
-    places = {sign: place for sign, (_start, _end, place) in zip(signs, found, strict=True)} if len(signs) == len(found) else {}
+    places = (
+        {sign: place for sign, (_start, _end, place) in zip(signs, found, strict=True)}
+        if len(signs) == len(found)
+        else {}
+    )
     return Plain(made, places, origin)
 
 
-def _put(text: str, origin: tuple[int, ...], parts: list[tuple[int, int, str]]) -> tuple[str, tuple[int, ...]]:
+def _put(
+    text: str, origin: tuple[int, ...], parts: list[tuple[int, int, str]]
+) -> tuple[str, tuple[int, ...]]:
     """A text with other words in some parts, and where its letters stood."""
     made: list[str] = []
     where: list[int] = []

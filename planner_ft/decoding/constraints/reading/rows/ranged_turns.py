@@ -1,5 +1,6 @@
-"""Headings from one to another in equal steps, told in any order: "begin facing 090 and work anticlockwise through north to 270, a heading every 45 "
-"degrees"."""
+"""Headings from one to another in equal steps, told in any order: "begin facing 090 and work
+anticlockwise through north to 270, a heading every 45 " "degrees".
+"""
 
 from __future__ import annotations
 
@@ -11,32 +12,52 @@ from planner_ft.decoding.constraints.reading.rows.turn_parts import MOST, ROTATE
 
 _LEADS = r"(?: (?:the|due|on|at|with|from|facing|heading|bearing|a heading of|to))*"
 _BEGIN = f.compiled(rf"\b(?:from|start\w*|begin\w*|first (?:face|facing)){_LEADS} (?P<v>{f.V})")
-_END = f.compiled(rf"\b(?:(?:round |back |over )?to|as far as|until(?: you (?:face|reach|are on))?|up to|end\w*|finish\w*|stop\w*){_LEADS} (?P<v>{f.V})")
+_END = f.compiled(
+    r"\b(?:(?:round |back |over )?to|as far as|until(?: you (?:face|reach|are on))?|up"
+    rf" to|end\w*|finish\w*|stop\w*){_LEADS} (?P<v>{f.V})"
+)
 _THROUGH = f.compiled(rf"\b(?:through|via|by way of|over|past){_LEADS} (?P<v>{f.V})")
 _STEP = f.compiled(
-    r"\bevery (?P<a>D\d+(?:\.\d+)?)|\b(?:in |by )?(?:steps|intervals|increments|turns|jumps) of (?P<b>D\d+(?:\.\d+)?)|"
-    r"\b(?:in |by )?(?P<c>D\d+(?:\.\d+)?)(?:[- ](?:steps|intervals|increments|spacing|jumps)| apart| at a time| each time)"
+    r"\bevery (?P<a>D\d+(?:\.\d+)?)|\b(?:in |by )?(?:steps|intervals|increments|turns|jumps) of"
+    r" (?P<b>D\d+(?:\.\d+)?)|"
+    r"\b(?:in |by )?(?P<c>D\d+(?:\.\d+)?)(?:[- ](?:steps|intervals|increments|spacing|jumps)|"
+    r" apart| at a time| each time)"
 )
-_WAY_ROUND = f.compiled(r"(?:(?:counter|anti)[- ]?)?clock-?wise|\bto (?:port|starboard|the left|the right)\b")
+_WAY_ROUND = f.compiled(
+    r"(?:(?:counter|anti)[- ]?)?clock-?wise|\bto (?:port|starboard|the left|the right)\b"
+)
 _ONE = f.compiled(r"\bN1 (?=(?:heading|bearing|stop|look|direction|turn|shot|picture|still)\b)")
-_HEADINGS = f.compiled(r"\b(?:turn\w*|rotat\w+|headings?|bearings?|fac(?:e|ing)|bow|pan\w*|swing\w*|look\w*|pivot\w*|spin\w*|work\w*|step\w*)\b")
-_OTHERWISE = f.compiled(r"\b(?:~a|radius|circle|orbit|arc|steer\w*|course|metres|waypoints?|run|line)\b")
+_HEADINGS = f.compiled(
+    r"\b(?:turn\w*|rotat\w+|headings?|bearings?|fac(?:e|ing)|bow|pan\w*|swing\w*|look\w*|pivot\w*|spin\w*|work\w*|step\w*)\b"
+)
+_OTHERWISE = f.compiled(
+    r"\b(?:~a|radius|circle|orbit|arc|steer\w*|course|metres|waypoints?|run|line)\b"
+)
 
 
 def ranged(text: str) -> Iterator[Found]:
-    """The headings of each sentence that tells both ends, the step and the way round, and no other angle."""
+    """The headings of each sentence that tells both ends, the step and the way round, and no other
+    angle.
+    """
     at = 0
     for sentence in re.split(r"(?<=[.;]) ", text):
         start, at = at, at + len(sentence) + 1
         found = _headings(_ONE.sub(f.mask, sentence))
         if found:
-            yield Found(start + found[0], start + found[1], tuple((ROTATE, value) for value in found[2]))
+            yield Found(
+                start + found[0], start + found[1], tuple((ROTATE, value) for value in found[2])
+            )
 
 
 def _headings(sentence: str) -> tuple[int, int, list[float]] | None:
     """Where a sentence tells such headings, and which."""
     steps, ways = [*_STEP.finditer(sentence)], [*_WAY_ROUND.finditer(sentence)]
-    if len(steps) != 1 or len(ways) != 1 or not _HEADINGS.search(sentence) or _OTHERWISE.search(sentence):
+    if (
+        len(steps) != 1
+        or len(ways) != 1
+        or not _HEADINGS.search(sentence)
+        or _OTHERWISE.search(sentence)
+    ):
         return None
     rest = _STEP.sub(f.mask, sentence)
     through = [*_THROUGH.finditer(rest)]

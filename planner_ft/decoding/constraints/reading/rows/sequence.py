@@ -1,7 +1,9 @@
-"""Every movement of a task input in order, with its values, where the input is nothing but movements in plain words one after the other.
+"""Every movement of a task input in order, with its values, where the input is nothing but
+movements in plain words one after the other.
 
-The text is written in one form (`turn_forms`) and taken clause by clause; each clause has to be a movement, something about one that was
-read, or free of every word and value that a movement may be meant by. Else nothing is read. Scopes ("in the second hold only") are taken out before.
+The text is written in one form (`turn_forms`) and taken clause by clause; each clause has to be a
+movement, something about one that was read, or free of every word and value that a movement may be
+meant by. Else nothing is read. Scopes ("in the second hold only") are taken out before.
 """
 
 from __future__ import annotations
@@ -16,7 +18,17 @@ from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.reading.paths.itinerary import without_fences
 from planner_ft.decoding.constraints.reading.rows import sequence_words as w
 from planner_ft.decoding.constraints.reading.rows import turn_forms as f
-from planner_ft.decoding.constraints.reading.rows.sequence_clauses import ARC, DRIFT, GOTO, HOLD, VISUAL, WAIT, Clauses, Movement, Uncertain
+from planner_ft.decoding.constraints.reading.rows.sequence_clauses import (
+    ARC,
+    DRIFT,
+    GOTO,
+    HOLD,
+    VISUAL,
+    WAIT,
+    Clauses,
+    Movement,
+    Uncertain,
+)
 from planner_ft.decoding.constraints.reading.rows.sequence_text import prepare
 from planner_ft.decoding.constraints.reading.rows.turn_parts import MOST, NUDGE, ROTATE, Turn
 from planner_ft.decoding.constraints.reading.rows.turns import read_turns
@@ -29,7 +41,9 @@ Sequence = tuple[Movement, ...]
 
 
 def read_sequence(record: dict[str, Any], vocabulary: Vocabulary) -> Sequence | None:
-    """The movements of the answer; None where the input leaves a choice or says them in a way that is not read here."""
+    """The movements of the answer; None where the input leaves a choice or says them in a way that
+    is not read here.
+    """
     if not {*NAMES} <= set(vocabulary.skill):
         return None
     given = record.get("parameters")
@@ -38,7 +52,13 @@ def read_sequence(record: dict[str, Any], vocabulary: Vocabulary) -> Sequence | 
     turns = read_turns(record, vocabulary)
     try:
         task = vocabulary.task.get(str(record.get("task")))
-        found = _Reader(prompt, parameters, turns, g.point(*vocabulary.home), stays=task is not None and task.pattern == "hold").read()
+        found = _Reader(
+            prompt,
+            parameters,
+            turns,
+            g.point(*vocabulary.home),
+            stays=task is not None and task.pattern == "hold",
+        ).read()
     except Uncertain:
         return None
     said = tuple((one.name, one.values[TURNED[one.name]]) for one in found if one.name in TURNED)
@@ -47,16 +67,26 @@ def read_sequence(record: dict[str, Any], vocabulary: Vocabulary) -> Sequence | 
     return tuple(found) if len(found) <= MOST else None
 
 
-def agreed(found: Sequence | None, itinerary: tuple[g.Point, ...] | None, vocabulary: Vocabulary) -> Sequence | None:
-    """The movements, unless another reading has other waypoints, or a parameter cannot have what they say."""
+def agreed(
+    found: Sequence | None, itinerary: tuple[g.Point, ...] | None, vocabulary: Vocabulary
+) -> Sequence | None:
+    """The movements, unless another reading has other waypoints, or a parameter cannot have what
+    they say.
+    """
     points = tuple(one.point for one in found or () if one.point)
     # It lies at home already: "from your berth at [0, 0] go to [30, 8]".
-    if found is None or (itinerary is not None and itinerary not in (points, (g.point(*vocabulary.home), *points))):
+    if found is None or (
+        itinerary is not None and itinerary not in (points, (g.point(*vocabulary.home), *points))
+    ):
         return None
     for one in found:
         for name, value in one.values.items():
             limits = vocabulary.skill[one.name].by_name[name]
-            if limits.minimum is not None and limits.maximum is not None and not limits.minimum <= value <= limits.maximum:
+            if (
+                limits.minimum is not None
+                and limits.maximum is not None
+                and not limits.minimum <= value <= limits.maximum
+            ):
                 return None
     return found
 
@@ -64,7 +94,15 @@ def agreed(found: Sequence | None, itinerary: tuple[g.Point, ...] | None, vocabu
 class _Reader(Clauses):
     """Reads one text; `stays` where the task is done on station unless a movement is told."""
 
-    def __init__(self, prompt: str, parameters: Mapping[str, Any], turns: tuple[Turn, ...] | None, home: g.Point, *, stays: bool) -> None:
+    def __init__(
+        self,
+        prompt: str,
+        parameters: Mapping[str, Any],
+        turns: tuple[Turn, ...] | None,
+        home: g.Point,
+        *,
+        stays: bool,
+    ) -> None:
         prepared = prepare(prompt, parameters)
         if prepared is None:
             raise Uncertain
@@ -82,7 +120,12 @@ class _Reader(Clauses):
         if not self._found:
             raise Uncertain
         self._shared()
-        self._found = [replace(one, values={name: g.tidy(round(value, 2)) for name, value in one.values.items()}) for one in self._found]
+        self._found = [
+            replace(
+                one, values={name: g.tidy(round(value, 2)) for name, value in one.values.items()}
+            )
+            for one in self._found
+        ]
         names = {one.name for one in self._found}
         if any(scope.search(self.text) and not names & set(known) for scope, known in _SCOPED):
             raise Uncertain
@@ -120,13 +163,23 @@ class _Reader(Clauses):
 
     def _after_each(self, rest: str) -> None:
         """A hold or a wait behind each rotation that was read."""
-        before, turned = [one for one in self._found if one.name not in TURNED], [one for one in self._found if one.name in TURNED]
+        before, turned = (
+            [one for one in self._found if one.name not in TURNED],
+            [one for one in self._found if one.name in TURNED],
+        )
         self._found = []
-        self._clauses(re.split(r" (?:before you|before turning|before going|and then turn)\b", rest)[0])
+        self._clauses(
+            re.split(r" (?:before you|before turning|before going|and then turn)\b", rest)[0]
+        )
         behind, self._found = self._found, []
         if not turned and len(before) > 1:
             turned, before = before, []
-        if len(turned) < 2 or not behind or any(one.name not in (HOLD, WAIT, DRIFT) for one in behind) or any(one.name != GOTO for one in before):
+        if (
+            len(turned) < 2
+            or not behind
+            or any(one.name not in (HOLD, WAIT, DRIFT) for one in behind)
+            or any(one.name != GOTO for one in before)
+        ):
             raise Uncertain
         if turned[0].name == GOTO and any(one.name != GOTO for one in turned):
             raise Uncertain
@@ -146,12 +199,16 @@ class _Reader(Clauses):
                 self._mark, at = (mark[0].strip() or self._mark), mark.end()
 
     def _counted_turns(self, sentence: str) -> str | None:
-        """Where all rotations of the text are counted in one sentence ("four headings clockwise from north"), those, and the rest of it."""
+        """Where all rotations of the text are counted in one sentence ("four headings clockwise
+        from north"), those, and the rest of it.
+        """
         if (
             self._turns is None
             or len(self._turns) < 2
             or not re.search(
-                r"\b(?:N\d+ (?:evenly|equal|headings|directions|bearings|sectors|times|turns|pans|nudges|steps|views|parts|rotations)|in steps of|every D|"
+                r"\b(?:N\d+"
+                r" (?:evenly|equal|headings|directions|bearings|sectors|times|turns|pans|nudges|steps|views|parts|rotations)|in"
+                r" steps of|every D|"
                 r"D[\d.]+ apart)",
                 sentence,
             )
@@ -177,7 +234,17 @@ class _Reader(Clauses):
         clause = w.FILLER.sub("", clause.strip(" ,:()-_")).strip(" ,:()-_")
         if not clause or w.TAIL.match(clause):
             return None
-        for read in (self._two_holds, self._between, self._wait, self._drift, self._visual, self._arc, self._goto, self._turn, self._hold):
+        for read in (
+            self._two_holds,
+            self._between,
+            self._wait,
+            self._drift,
+            self._visual,
+            self._arc,
+            self._goto,
+            self._turn,
+            self._hold,
+        ):
             rest = read(clause)
             if rest is not None:
                 self._fresh = True
@@ -191,7 +258,11 @@ class _Reader(Clauses):
         plain = rest.strip(" ,:()-_")
         if not plain or w.TAIL.match(plain):
             return None
-        if not led and plain != rest and (w.HOLD.match(plain) or w.TURN_TO.match(plain) or w.DRIFT.match(plain)):
+        if (
+            not led
+            and plain != rest
+            and (w.HOLD.match(plain) or w.TURN_TO.match(plain) or w.DRIFT.match(plain))
+        ):
             return self._clause(plain)
         if _EITHER.search(plain):
             raise Uncertain
@@ -201,7 +272,9 @@ class _Reader(Clauses):
             raise Uncertain
         if led and (w.KEEPS.match(plain) or _BARE_NUMBER.match(plain)):
             raise Uncertain
-        if any(map(w.PERCEIVING.match, _spellings(plain))) and not any(w.MOVES.search(spelt) for spelt in _spellings(plain)):
+        if any(map(w.PERCEIVING.match, _spellings(plain))) and not any(
+            w.MOVES.search(spelt) for spelt in _spellings(plain)
+        ):
             return None
         plain = LOCKED.sub(" ", f.SENSED.sub(" ", _PERCEIVED.sub(" ", plain)))
         if any(w.CUES.search(spelt) for spelt in _spellings(plain)):
@@ -211,29 +284,47 @@ class _Reader(Clauses):
     def _modifier(self, clause: str) -> str | None:
         """A radius or a time on its own belongs to the movement before it."""
         every = re.search(
-            r"(?: (?:for|in|on|of) (?:both|all|each)(?: (?:of them|times|turns|arcs|holds|sweeps|bends|curves))?| both times| each time| each)$|"
+            r"(?: (?:for|in|on|of) (?:both|all|each)(?: (?:of"
+            r" them|times|turns|arcs|holds|sweeps|bends|curves))?| both times| each time| each)$|"
             r"^both (?:times )?|_",
             clause,
         )
         bare = clause.replace(every[0], " ").strip() if every else clause
         bare = re.sub(r"^(?:keep|stay|remain|keeping|staying) (?=within L)", "", bare)
-        match = re.fullmatch(rf"{w.WITHIN.pattern}|(?:with )?(?P<r>{w.L}) (?:for )?radius|(?:with )?(?:a )?radius (?:is |of )?(?P<q>{w.L}|N\d[\d.]*)", bare)
+        match = re.fullmatch(
+            rf"{w.WITHIN.pattern}|(?:with )?(?P<r>{w.L}) (?:for )?radius|(?:with )?(?:a )?radius"
+            rf" (?:is |of )?(?P<q>{w.L}|N\d[\d.]*)",
+            bare,
+        )
         if match and self._found and (self._fresh or every):
             length = float(next(value for value in match.groupdict().values() if value)[1:])
-            kind = next((one.name for one in reversed(self._found) if one.name in (ARC, HOLD)), None)
-            lacking = [number for number, one in enumerate(self._found) if one.name == kind and "radius" not in one.values]
+            kind = next(
+                (one.name for one in reversed(self._found) if one.name in (ARC, HOLD)), None
+            )
+            lacking = [
+                number
+                for number, one in enumerate(self._found)
+                if one.name == kind and "radius" not in one.values
+            ]
             if not lacking or (not every and lacking[-1] != len(self._found) - 1):
                 raise Uncertain
             for number in lacking if every else lacking[-1:]:
-                self._found[number] = replace(self._found[number], values={**self._found[number].values, "radius": length})
+                self._found[number] = replace(
+                    self._found[number], values={**self._found[number].values, "radius": length}
+                )
             return ""
         yaw = w.YAW_BEHIND.match(clause)
         if yaw and self._behind == GOTO and "yaw" not in self._found[-1].values:
-            self._found[-1] = replace(self._found[-1], values={**self._found[-1].values, "yaw": float((yaw["v"] or yaw["w"])[1:])})
+            self._found[-1] = replace(
+                self._found[-1],
+                values={**self._found[-1].values, "yaw": float((yaw["v"] or yaw["w"])[1:])},
+            )
             return ""
         time = re.fullmatch(w.FOR_TIME.pattern, bare)
         if time and self._behind in (HOLD, DRIFT) and "time" not in self._found[-1].values:
-            self._found[-1] = replace(self._found[-1], values={**self._found[-1].values, "time": float(time["t"][1:])})
+            self._found[-1] = replace(
+                self._found[-1], values={**self._found[-1].values, "time": float(time["t"][1:])}
+            )
             return ""
         return None
 
@@ -259,7 +350,8 @@ class _Reader(Clauses):
             raise Uncertain
         return ""
 
-    # ------------------------------------------------------------ values that several movements share
+    # ------------------------------------------------------------ values that several movements
+    # share
 
     def _shared(self) -> None:
         """Parts of a whole time: "the first ten of the twenty minutes", "half the time"."""
@@ -276,45 +368,74 @@ class _Reader(Clauses):
                 factors = [factor for factor in (60,) if known * factor < total and known < 60]
             if len(factors) != 1 or 0.5 in said.values():
                 raise Uncertain
-            shares = {place: value * factors[0] if value else total - known * factors[0] for place, value in said.items()}
+            shares = {
+                place: value * factors[0] if value else total - known * factors[0]
+                for place, value in said.items()
+            }
         elif sorted(said.values()) in ([0.0, 0.5], [0.5, 0.5]):
             shares = dict.fromkeys(said, total / 2)
         else:
             raise Uncertain
         for place, share in shares.items():
-            self._found[place] = replace(self._found[place], values={**self._found[place].values, "time": g.tidy(share)})
+            self._found[place] = replace(
+                self._found[place], values={**self._found[place].values, "time": g.tidy(share)}
+            )
 
 
 _UNTOLD = f.compiled(
-    rf"\b(?:headings|bearings|table|see to it|the whole time (?:that )?you|while you|as you|when you|whenever)\b|C[\d.]+|{w.P}|{w.T}|\bENGINES\b"
+    r"\b(?:headings|bearings|table|see to it|the whole time (?:that )?you|while you|as you|when"
+    rf" you|whenever)\b|C[\d.]+|{w.P}|{w.T}|\bENGINES\b"
 )
-"""What a movement may be meant by in a text in which none was read: without it the vehicle stays where it is, if the task is done on station."""
+"""What a movement may be meant by in a text in which none was read: without it the vehicle stays
+where it is, if the task is done on station.
+"""
 _EITHER = f.compiled(r"^or (?:[a-z]+ ){0,3}[NTDLP]\d")
 _TITLE = f.compiled(
-    r"^(?:(?:make )?an? s(?:-bend|-turn|-curve)?(?: [a-z]+){0,2}$|(?:berth|pier|buoy|contact|site|turbine|job|task|plan|leg|order|dock|jetty) (?:N\d+|[a-z])$)"
+    r"^(?:(?:make )?an? s(?:-bend|-turn|-curve)?(?:"
+    r" [a-z]+){0,2}$|(?:berth|pier|buoy|contact|site|turbine|job|task|plan|leg|order|dock|jetty)"
+    r" (?:N\d+|[a-z])$)"
 )
-_BARE_NUMBER = f.compiled(r"^(?:(?:to|for|at) )?N-?[\d.]+(?: (?:there|next|in|again|last|too|now)\b|$| _)")
+_BARE_NUMBER = f.compiled(
+    r"^(?:(?:to|for|at) )?N-?[\d.]+(?: (?:there|next|in|again|last|too|now)\b|$| _)"
+)
 _PERCEIVED = f.compiled(
-    r"\blet (?:her|the bow|it|the boat) swing\b|\b(?:may|can|free to) swing\b|^swing(?: free(?:ly)?)?(?: in the \w+)?$|^(?:facing the [a-z ]+|holding|"
+    r"\blet (?:her|the bow|it|the boat) swing\b|\b(?:may|can|free to) swing\b|^swing(?:"
+    r" free(?:ly)?)?(?: in the \w+)?$|^(?:facing the [a-z ]+|holding|"
     r"turning|drifting)$|"
-    r"\btrack(?:ing)? (?![^.;,]*\b(?:cable|pipe\w*|line|wall|face|along|heading|course|bearing)\b)(?:object |contact |target |the )?[^.;,]*|"
-    r"\banother (?:fix|still|photo|picture|snapshot|image|reading|marker|mark|pin|note)\b|^(?:\w+ )?panorama(?: in N\d+)?$|"
-    r"\b(?:with|at|in) D[\d.]+ (?:field|view|fov)|\b(?:gps|current|own|our|its|geo|relative|ship's) (?:position|heading)\b|\b(?:heading|bow|nose|"
+    r"\btrack(?:ing)?"
+    r" (?![^.;,]*\b(?:cable|pipe\w*|line|wall|face|along|heading|course|bearing)\b)(?:object"
+    r" |contact |target |the )?[^.;,]*|"
+    r"\banother (?:fix|still|photo|picture|snapshot|image|reading|marker|mark|pin|note)\b|^(?:\w+"
+    r" )?panorama(?: in N\d+)?$|"
+    r"\b(?:with|at|in) D[\d.]+ (?:field|view|fov)|\b(?:gps|current|own|our|its|geo|relative|ship's)"
+    r" (?:position|heading)\b|\b(?:heading|bow|nose|"
     r"yaw)(?: is| stays| kept)? (?:locked|fixed|free|unlocked)\b|"
-    r"\b(?:lock(?:ed|ing)?|fix|free) (?:the |her |its )?(?:heading|bow|nose)\b|\b(?:relative )?pose (?:relative )?to\b"
+    r"\b(?:lock(?:ed|ing)?|fix|free) (?:the |her |its )?(?:heading|bow|nose)\b|\b(?:relative )?pose"
+    r" (?:relative )?to\b"
 )
 _WORD = f.compiled(r"\b[a-z]{4,}\b")
 _IN = (
-    r"\b(?:in|during|while|whilst|as|when|for|on|throughout|the|both|each|this|that)(?: (?:you|she|the|it|a|each|both|every|nth|first|second|last|"
+    r"\b(?:in|during|while|whilst|as|when|for|on|throughout|the|both|each|this|that)(?:"
+    r" (?:you|she|the|it|a|each|both|every|nth|first|second|last|"
     r"final|N\d+|is|are|boat|only))* "
 )
 _SCOPED = (
     (f.compiled(_IN + r"(?:holds?|holding|station[- ]keeping|staying|stays)\b"), (HOLD, VISUAL)),
     (f.compiled(_IN + r"(?:drifts?|drifting|floats?|floating|adrift|afloat)\b"), (DRIFT,)),
-    (f.compiled(_IN + r"(?:turns?|turning|rotat\w+|nudges?|nudging|pans?|panning|swings?|swinging)\b"), (ROTATE, NUDGE, ARC)),
+    (
+        f.compiled(
+            _IN + r"(?:turns?|turning|rotat\w+|nudges?|nudging|pans?|panning|swings?|swinging)\b"
+        ),
+        (ROTATE, NUDGE, ARC),
+    ),
     (f.compiled(_IN + r"(?:arcs?|sweeps?|sweeping|curves?)\b"), (ARC,)),
     (f.compiled(_IN + r"(?:waits?|waiting|settl\w+|steadies)\b"), (WAIT, HOLD)),
-    (f.compiled(_IN + r"(?:legs?|runs?|running|way(?! round)|transits?|passages?|trip|sailing)\b"), (GOTO,)),
+    (
+        f.compiled(
+            _IN + r"(?:legs?|runs?|running|way(?! round)|transits?|passages?|trip|sailing)\b"
+        ),
+        (GOTO,),
+    ),
 )
 """Movements that scopes speak of, with the skills that they can be."""
 

@@ -1,4 +1,6 @@
-"""What a reading of rotations is made of: the rotations that a part of a text gives (`turns`, `counted_turns`)."""
+"""What a reading of rotations is made of: the rotations that a part of a text gives (`turns`,
+`counted_turns`).
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,9 @@ CURVED = f.compiled(r"~a|radius|circle|orbit|curve|bend|\bwide\b|round (?:it|the
 
 @dataclass(frozen=True)
 class Found:
-    """Rotations that the text from `start` to `end` gives; `side_note` when they are said in passing ("while facing ...")."""
+    """Rotations that the text from `start` to `end` gives; `side_note` when they are said in
+    passing ("while facing ...").
+    """
 
     start: int
     end: int

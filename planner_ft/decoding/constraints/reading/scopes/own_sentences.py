@@ -1,7 +1,9 @@
-"""Skills that a sentence of its own asks for, behind those of the movements: they run in every step.
+"""Skills that a sentence of its own asks for, behind those of the movements: they run in every
+step.
 
-"Rate the usability of the frame on the starboard camera." at the end of an input names no movement and no step, so that none is left out. A sentence that
-could say where it holds, or that another one speaks on, is not read.
+"Rate the usability of the frame on the starboard camera." at the end of an input names no movement
+and no step, so that none is left out. A sentence that could say where it holds, or that another one
+speaks on, is not read.
 """
 
 from __future__ import annotations
@@ -25,7 +27,8 @@ SOMEWHERE = re.compile(
 )
 """Words by which a sentence may say where something runs, or speak of what another one asks for."""
 _SPOKEN_ON = re.compile(
-    r"\b(?:it|that|this|them|those|these|they|both|all|ditto|likewise|same)\b|\bthe (?:check|reading|measurement|"
+    r"\b(?:it|that|this|them|those|these|they|both|all|ditto|likewise|same)\b|\bthe"
+    r" (?:check|reading|measurement|"
     r"detector|tracker|recording)\b"
 )
 """Words of a later sentence that may be about a skill asked for before."""
@@ -34,10 +37,19 @@ _MEANWHILE = re.compile(r"^\W*(?:meanwhile|in the meantime|all the while)\b,?")
 _LIST = re.compile(r"^\W*(?:\(?[\da-f][.)]|[-*])\s|\n")
 
 
-def read_own_sentences(text: str, asked: Collection[str], vocabulary: Vocabulary) -> dict[str, Scope]:
-    """Those of the skills `asked` for that run in every step because a sentence of their own asks for them behind all movements."""
+def read_own_sentences(
+    text: str, asked: Collection[str], vocabulary: Vocabulary
+) -> dict[str, Scope]:
+    """Those of the skills `asked` for that run in every step because a sentence of their own asks
+    for them behind all movements.
+    """
     plain = plain_form(text)
-    names = [skill.name for role in ("filter", "perception") for skill in vocabulary.skills_in_role(role) if skill.name in SKILL_WORDS]
+    names = [
+        skill.name
+        for role in ("filter", "perception")
+        for skill in vocabulary.skills_in_role(role)
+        if skill.name in SKILL_WORDS
+    ]
     sentences = [sentence for sentence in w.SENTENCE.split(plain) if sentence.strip()]
     if w.CHANGED.search(plain) or _LIST.search(plain):
         return {}
@@ -48,20 +60,30 @@ def read_own_sentences(text: str, asked: Collection[str], vocabulary: Vocabulary
             sentences[number] = _MEANWHILE.sub("", sentence)
         before = sum(mark.kind == "move" for mark in marks_of(sentence, [], True))
     marks = [marks_of(sentence, names, True) for sentence in sentences]
-    moved = [number for number, found in enumerate(marks) if any(mark.kind == "move" for mark in found)]
+    moved = [
+        number for number, found in enumerate(marks) if any(mark.kind == "move" for mark in found)
+    ]
     if not moved:
         return {}
     found = {}
     for name in asked:
-        places = [number for number, said in enumerate(marks) if _asks(sentences[number], name, said)]
-        if len(places) == 1 and places[0] > moved[-1] and _holds_throughout(places[0], sentences, [mark.kind for mark in marks[places[0]]]):
+        places = [
+            number for number, said in enumerate(marks) if _asks(sentences[number], name, said)
+        ]
+        if (
+            len(places) == 1
+            and places[0] > moved[-1]
+            and _holds_throughout(places[0], sentences, [mark.kind for mark in marks[places[0]]])
+        ):
             found[name] = Scope((EVERYWHERE,), source="sentence")
     return found
 
 
 def _asks(sentence: str, name: str, said: Sequence[Mark]) -> bool:
     """Whether a sentence speaks of a skill."""
-    return any(mark.kind == "skill" and mark.value == name for mark in said) or asks_for(sentence, name)
+    return any(mark.kind == "skill" and mark.value == name for mark in said) or asks_for(
+        sentence, name
+    )
 
 
 def _holds_throughout(number: int, sentences: list[str], kinds: list[str]) -> bool:

@@ -1,7 +1,9 @@
-"""In which steps a skill runs, told by places on a path that is known: "at the middle of the south side", "on the last lane", "from the start point onwards".
+"""In which steps a skill runs, told by places on a path that is known: "at the middle of the south
+side", "on the last lane", "from the start point onwards".
 
-Each sentence, or part of one between semicolons, that tells such places has its skills run there and nowhere else. Words that only rule out the rest
-("elsewhere not", "not on the way there") say nothing more. What is told in two ways is not read.
+Each sentence, or part of one between semicolons, that tells such places has its skills run there
+and nowhere else. Words that only rule out the rest ("elsewhere not", "not on the way there") say
+nothing more. What is told in two ways is not read.
 """
 
 from __future__ import annotations
@@ -21,14 +23,22 @@ from planner_ft.decoding.constraints.reading.skills.evidence import asks_for
 
 _LED_TO = ("line", "pass", "lawnmower", "square")
 """Patterns of tasks that begin where their path does, whatever that is."""
-_TIED = re.compile(r"\b(?:if|unless|every (?:other|second|third)|alternat\w*|half|instead of the (?:grid|square))\b")
-_STAYS = re.compile(r"\b(?:hold|wait|stay|stop|halt|pause|drift|float|keep station|turn|rotate|face|pan)(?:s|ing|ping)?\b")
+_TIED = re.compile(
+    r"\b(?:if|unless|every (?:other|second|third)|alternat\w*|half|instead of the"
+    r" (?:grid|square))\b"
+)
+_STAYS = re.compile(
+    r"\b(?:hold|wait|stay|stop|halt|pause|drift|float|keep"
+    r" station|turn|rotate|face|pan)(?:s|ing|ping)?\b"
+)
 """Words of movements that go nowhere: what a sentence with one of them says may be about that."""
 _LIMITS = ("BoundaryEnforcement", "ObstacleAvoidance", "LockHeading")
 _PARTS = re.compile(r",|\b(?:and|but|while)\b")
 _JOINT = re.compile(r",? (?:and|or|as well as|and also|and again) ")
 _GOES_ON = re.compile(r"\d|\bten\b|\b\w+ (?:metres|will do|is enough)\b|ditto|too\b|also")
-"""Words that go on about the skills before: "twenty metres up to the first point; from there to the end, ten"."""
+"""Words that go on about the skills before: "twenty metres up to the first point; from there to the
+end, ten".
+"""
 _Told = tuple[Holds | None, bool]
 """Where a skill runs (None: not known), and whether it is asked for plainly."""
 
@@ -41,28 +51,45 @@ class PathScope:
     plainly: bool
 
     def allows(self, path: Path) -> bool | None:
-        """Whether the skill must run (True) or must not (False) on the way to the last of some waypoints; None: not known."""
+        """Whether the skill must run (True) or must not (False) on the way to the last of some
+        waypoints; None: not known.
+        """
         verdicts = [holds(path) for holds in self.holds]
         runs = True in verdicts
         return None if (runs and not self.plainly) or (not runs and None in verdicts) else runs
 
 
-def read_path_scopes(text: str, names: Iterable[str], paths: Sequence[Path], pattern: str) -> dict[str, PathScope]:
-    """Where on the one path of a task, that may be any of some `paths` of one shape, filter and perception skills run, by their names."""
+def read_path_scopes(
+    text: str, names: Iterable[str], paths: Sequence[Path], pattern: str
+) -> dict[str, PathScope]:
+    """Where on the one path of a task, that may be any of some `paths` of one shape, filter and
+    perception skills run, by their names.
+    """
     said = plain(text)
-    if not said.text or w.CHANGED.search(said.text) or len({len(path) for path in paths}) > 1 or (paths and len(paths[0]) < 2):
+    if (
+        not said.text
+        or w.CHANGED.search(said.text)
+        or len({len(path) for path in paths}) > 1
+        or (paths and len(paths[0]) < 2)
+    ):
         return {}
     spots = list(spots_of(said, paths, pattern)) if paths or pattern in _LED_TO else []
     if not spots:
         return {}
-    mentions = mentions_of(said.text, [name for name in names if name in SKILL_WORDS], [Anchor(spot.start, spot.end, True, None) for spot in spots])
+    mentions = mentions_of(
+        said.text,
+        [name for name in names if name in SKILL_WORDS],
+        [Anchor(spot.start, spot.end, True, None) for spot in spots],
+    )
     found: dict[str, list[_Told]] = {}
     for name, told in _told(said.text, mentions, spots):
         found.setdefault(name, []).append(told)
     return {name: scope for name, places in found.items() if (scope := _scope(places)) is not None}
 
 
-def _told(text: str, mentions: Sequence[Mention], spots: Sequence[Spot]) -> Iterator[tuple[str, _Told]]:
+def _told(
+    text: str, mentions: Sequence[Mention], spots: Sequence[Spot]
+) -> Iterator[tuple[str, _Told]]:
     """Each skill, sentence by sentence, with what is told of it."""
     latest: set[str] = set()
     for begin, end in _sentences(text):
@@ -76,16 +103,26 @@ def _told(text: str, mentions: Sequence[Mention], spots: Sequence[Spot]) -> Iter
         stays = _STAYS.search(sentence) is not None
         for mention, holds in _placed(text, begin, end, here, inside):
             clause = text[max(begin, text.rfind(",", begin, mention.start)) : end]
-            yield mention.name, (None if stays else holds, asks_for(clause, mention.name) or asks_for(sentence, mention.name))
+            yield (
+                mention.name,
+                (
+                    None if stays else holds,
+                    asks_for(clause, mention.name) or asks_for(sentence, mention.name),
+                ),
+            )
 
 
 def _scope(places: Sequence[_Told]) -> PathScope | None:
-    """Where a skill runs. A word for it elsewhere may ask for it there, except in what the task is called: "depth grid"."""
+    """Where a skill runs. A word for it elsewhere may ask for it there, except in what the task is
+    called: "depth grid".
+    """
     told = [(holds, plainly) for holds, plainly in places if holds is not None]
     titles = len(places) - len(told)
     if not told or titles > 1 or (titles == 1 and (places[0][0] is not None or places[0][1])):
         return None
-    return PathScope(tuple(holds for holds, _plainly in told), any(plainly for _holds, plainly in told))
+    return PathScope(
+        tuple(holds for holds, _plainly in told), any(plainly for _holds, plainly in told)
+    )
 
 
 def _sentences(text: str) -> Iterator[tuple[int, int]]:
@@ -96,7 +133,9 @@ def _sentences(text: str) -> Iterator[tuple[int, int]]:
     yield begin, len(text)
 
 
-def _placed(text: str, begin: int, end: int, mentions: Sequence[Mention], spots: Sequence[Spot]) -> Iterator[tuple[Mention, Holds | None]]:
+def _placed(
+    text: str, begin: int, end: int, mentions: Sequence[Mention], spots: Sequence[Spot]
+) -> Iterator[tuple[Mention, Holds | None]]:
     """Each mention of a sentence with the places that are meant."""
     positive = [spot for spot in spots if not spot.ruled_out]
     if not positive and spots and not _TIED.search(text[begin:end]):
@@ -112,16 +151,27 @@ def _placed(text: str, begin: int, end: int, mentions: Sequence[Mention], spots:
         return
     if len(positive) == 1:
         for mention in mentions:
-            closer = [other for other in mentions if mention.end <= other.start < positive[0].start and "," in text[mention.end : other.start]]
+            closer = [
+                other
+                for other in mentions
+                if mention.end <= other.start < positive[0].start
+                and "," in text[mention.end : other.start]
+            ]
             if mention.name in _LIMITS and closer:
                 # "Inside @, pin q at the last point."
                 yield mention, None
                 continue
-            yield mention, _less(positive[0].holds, [spot.holds for spot in spots if spot.ruled_out])
+            yield (
+                mention,
+                _less(positive[0].holds, [spot.holds for spot in spots if spot.ruled_out]),
+            )
         return
     if len(positive) == 2 and _JOINT.fullmatch(text[positive[0].end : positive[1].start]):
         for mention in mentions:
-            near = "," not in text[mention.end : positive[0].start] + text[positive[1].end : mention.start]
+            near = (
+                ","
+                not in text[mention.end : positive[0].start] + text[positive[1].end : mention.start]
+            )
             yield mention, _either(positive[0].holds, positive[1].holds) if near else None
         return
     parts = _parts(text, begin, end, positive)
@@ -142,7 +192,11 @@ def _either(one: Holds, other: Holds) -> Holds:
 
 def _less(where: Holds, barred: Sequence[Holds]) -> Holds:
     """A place without others: "on the northbound run, not on the way to its start"."""
-    return (lambda path: False if any(one(path) for one in barred) else where(path)) if barred else where
+    return (
+        (lambda path: False if any(one(path) for one in barred) else where(path))
+        if barred
+        else where
+    )
 
 
 def _but(spots: Sequence[Holds]) -> Holds:
@@ -153,11 +207,14 @@ def _but(spots: Sequence[Holds]) -> Holds:
     return holds
 
 
-def _parts(text: str, begin: int, end: int, spots: Sequence[Spot]) -> list[tuple[tuple[int, int], Spot | None]]:
+def _parts(
+    text: str, begin: int, end: int, spots: Sequence[Spot]
+) -> list[tuple[tuple[int, int], Spot | None]]:
     """The parts of a sentence that tell one place each."""
     cuts = [begin]
     for one, other in itertools.pairwise(spots):
-        # The part ends at the last separator before the next place, or at the first behind this one where the places end their parts.
+        # The part ends at the last separator before the next place, or at the first behind this one
+        # where the places end their parts.
         between = list(_PARTS.finditer(text, one.end, other.start))
         opens = not text[begin : one.start].strip(" ,")
         if not between:

@@ -1,4 +1,6 @@
-"""Places on a path that is known, as a text tells them: "at the middle of the south side", "on the last lane", "from the start point onwards"."""
+"""Places on a path that is known, as a text tells them: "at the middle of the south side", "on the
+last lane", "from the start point onwards".
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,9 @@ class Spot:
 
 @dataclass(frozen=True)
 class _Phrase:
-    """Words for places on one of some paths, that are of one shape; none where the path is not known."""
+    """Words for places on one of some paths, that are of one shape; none where the path is not
+    known.
+    """
 
     kind: str
     match: re.Match[str]
@@ -65,7 +69,11 @@ def spots_of(said: Plain, paths: Sequence[Path], pattern: str) -> Iterator[Spot]
             spot = _spot(_Phrase(kind, match, said, paths))
             spots += [spot] if spot else []
     if spots:
-        spots += [Spot(*match.span(), lambda path: True, False) for match in p.EVERYWHERE.finditer(said.text) if not _overlaps(match, taken)]
+        spots += [
+            Spot(*match.span(), lambda path: True, False)
+            for match in p.EVERYWHERE.finditer(said.text)
+            if not _overlaps(match, taken)
+        ]
     yield from sorted(spots, key=lambda spot: spot.start)
 
 
@@ -81,11 +89,23 @@ def _overlaps(match: re.Match[str], taken: Sequence[tuple[int, int]]) -> bool:
 
 def _spot(phrase: _Phrase) -> Spot | None:
     text, match = phrase.said.text, phrase.match
-    before, behind = re.split(r"[.;]", text[: match.start()])[-1], re.split(r"[.;]", text[match.end() :])[0]
+    before, behind = (
+        re.split(r"[.;]", text[: match.start()])[-1],
+        re.split(r"[.;]", text[match.end() :])[0],
+    )
     if phrase.kind in _BEGUN_AT and p.BEGINS.search(before):
         return None
     holds = _HOLDS[phrase.kind](phrase) if phrase.paths or phrase.kind in _ON_ANY else None
-    return Spot(match.start(), match.end(), holds, bool(p.RULED_OUT.search(before) or p.RULES_OUT.match(behind))) if holds is not None else None
+    return (
+        Spot(
+            match.start(),
+            match.end(),
+            holds,
+            bool(p.RULED_OUT.search(before) or p.RULES_OUT.match(behind)),
+        )
+        if holds is not None
+        else None
+    )
 
 
 # ---------------------------------------------------------------- on any path
@@ -102,14 +122,18 @@ def _behind_start(path: Path) -> bool:
 
 def _legs(phrase: _Phrase) -> Holds | None:
     """ "On legs 1 and 3", of those that are numbered behind a start point."""
-    started = re.search(r"\bstart(?:ing)? (?:point|position|at|from)\b.*\bleg 1\b[:=,.]? ", phrase.said.text)
+    started = re.search(
+        r"\bstart(?:ing)? (?:point|position|at|from)\b.*\bleg 1\b[:=,.]? ", phrase.said.text
+    )
     wanted = [int(number) for number in re.findall(r"\d", phrase.group("cards"))]
     return _at(*wanted) if started and (not phrase.count or max(wanted) < phrase.count) else None
 
 
 def _home_or_shape(phrase: _Phrase) -> Holds | None:
     """The way home is the one that the text asks for, behind all others."""
-    going = p.GOES_HOME.search(phrase.said.text) and not p.NOT_ALL.search(phrase.said.text[slice(*phrase.sentence)])
+    going = p.GOES_HOME.search(phrase.said.text) and not p.NOT_ALL.search(
+        phrase.said.text[slice(*phrase.sentence)]
+    )
     return (lambda path: _is_home(path) == (phrase.kind == "home")) if going else None
 
 
@@ -129,7 +153,9 @@ def _second(phrase: _Phrase) -> Holds | None:
     """ "On that run", that has one leg behind its start."""
     if phrase.paths:
         return _at(1) if phrase.count == 2 else None
-    more = re.search(r"\b(?:back|return|legs|runs|passes|twice|again|second)\b|\bleg \d", phrase.said.text)
+    more = re.search(
+        r"\b(?:back|return|legs|runs|passes|twice|again|second)\b|\bleg \d", phrase.said.text
+    )
     return _behind_start if not more else None
 
 
@@ -147,21 +173,33 @@ def _on_lane(phrase: _Phrase) -> Holds | None:
 def _between(phrase: _Phrase) -> Holds | None:
     """ "From (4, 5) to (4, 50)", where that is no movement."""
     text, match = phrase.said.text, phrase.match
-    one, other = (phrase.said.places.get(match.start() + sign.start()) for sign in re.finditer("@", match[0]))
+    one, other = (
+        phrase.said.places.get(match.start() + sign.start()) for sign in re.finditer("@", match[0])
+    )
     path = [tuple(map(float, point)) for point in phrase.paths[0]]
-    steps = [index for index in range(1, phrase.count) if (path[index - 1], path[index]) == (one, other)]
+    steps = [
+        index for index in range(1, phrase.count) if (path[index - 1], path[index]) == (one, other)
+    ]
     begin, end = phrase.sentence
-    alone = len(phrase.paths) == 1 and len(steps) == 1 and not p.DONE.search(text[begin : match.start()] + text[match.end() : end])
+    alone = (
+        len(phrase.paths) == 1
+        and len(steps) == 1
+        and not p.DONE.search(text[begin : match.start()] + text[match.end() : end])
+    )
     return _at(*steps) if alone else None
 
 
 def _bound(phrase: _Phrase) -> Holds | None:
-    """ "On the northbound run", where the text has a southbound one; "run it northbound" is a movement."""
+    """ "On the northbound run", where the text has a southbound one; "run it northbound" is a
+    movement.
+    """
     sentence = phrase.said.text[slice(*phrase.sentence)]
     both = p.BOTH_WAYS.search(phrase.said.text) or p.BOTH_WAYS_SAID.search(sentence)
     if not both or p.DONE.search(p.BOUND_WAY.sub(" ", sentence)):
         return None
-    way = {"north": (0, 1), "south": (0, -1), "east": (1, 0), "west": (-1, 0)}[phrase.group("way", "way2")]
+    way = {"north": (0, 1), "south": (0, -1), "east": (1, 0), "west": (-1, 0)}[
+        phrase.group("way", "way2")
+    ]
     return _towards(way)
 
 
@@ -180,7 +218,14 @@ def _towards(way: tuple[int, int]) -> Holds:
 
 def _on_square(phrase: _Phrase) -> Holds | None:
     """The places of a survey square, the same for every way round it."""
-    boxes = {tuple(round(bound(point[axis] for point in path), 2) for axis in (0, 1) for bound in (min, max)) for path in phrase.paths}
+    boxes = {
+        tuple(
+            round(bound(point[axis] for point in path), 2)
+            for axis in (0, 1)
+            for bound in (min, max)
+        )
+        for path in phrase.paths
+    }
     if len(boxes) != 1 or len(set(phrase.paths[0])) != 8:
         return None
     left, right, bottom, top = boxes.pop()

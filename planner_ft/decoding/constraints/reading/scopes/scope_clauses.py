@@ -1,4 +1,6 @@
-"""The clauses of a text with the words in them that count: for skills, for scopes and for movements."""
+"""The clauses of a text with the words in them that count: for skills, for scopes and for
+movements.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,12 @@ from planner_ft.decoding.constraints.reading.paths.itinerary import without_fenc
 from planner_ft.decoding.constraints.reading.rows import movement_words as m
 from planner_ft.decoding.constraints.reading.scopes import scope_words as w
 from planner_ft.decoding.constraints.reading.scopes.scope_parts import EVERYWHERE, Part
-from planner_ft.decoding.constraints.reading.scopes.skill_words import FREE, LAPSED, NEGATED, SKILL_WORDS
+from planner_ft.decoding.constraints.reading.scopes.skill_words import (
+    FREE,
+    LAPSED,
+    NEGATED,
+    SKILL_WORDS,
+)
 
 TOLD = ("range", "but", "middle", "return")
 """Scopes that only the movements of the text tell."""
@@ -36,7 +43,9 @@ class Mark:
 
 @dataclass(frozen=True)
 class Clause:
-    """A clause with its marks in order; `head`: the scope that a heading before it gives to all of it."""
+    """A clause with its marks in order; `head`: the scope that a heading before it gives to all of
+    it.
+    """
 
     text: str
     marks: tuple[Mark, ...]
@@ -50,7 +59,9 @@ class Clause:
 
 
 def plain_form(text: str) -> str:
-    """The text in small letters, with marks for quotations and places and without corners of boundaries and names of cameras."""
+    """The text in small letters, with marks for quotations and places and without corners of
+    boundaries and names of cameras.
+    """
     plain = m.QUOTED.sub(" q ", without_fences(text))
     behind = len(plain)
     for _x, _y, start, end in sorted(positions(plain), key=lambda found: -found[2]):
@@ -95,7 +106,15 @@ def marks_of(text: str, names: Sequence[str], counted: bool) -> list[Mark]:
     scopes = list(
         _apart(
             (
-                Mark(match.start(), match.end(), "scope", kind, _part(kind, match, counted), _negated(text, match), match.groupdict() | {"whole": match[0]})
+                Mark(
+                    match.start(),
+                    match.end(),
+                    "scope",
+                    kind,
+                    _part(kind, match, counted),
+                    _negated(text, match),
+                    match.groupdict() | {"whole": match[0]},
+                )
                 for kind, pattern in w.SCOPES
                 for match in pattern.finditer(text)
             ),
@@ -104,18 +123,39 @@ def marks_of(text: str, names: Sequence[str], counted: bool) -> list[Mark]:
     )
     moves = list(
         _apart(
-            (Mark(match.start(), match.end(), "move", name) for name, pattern in m.MOVEMENTS for match in pattern.finditer(text)),
+            (
+                Mark(match.start(), match.end(), "move", name)
+                for name, pattern in m.MOVEMENTS
+                for match in pattern.finditer(text)
+            ),
             [mark for mark in scopes if mark.value != "to"],
         )
     )
-    scopes = [mark for mark in _apart(scopes, moves) if not (moves and mark.value == "to" and w.AFTER_THAT.match(text[: mark.end]))]
+    scopes = [
+        mark
+        for mark in _apart(scopes, moves)
+        if not (moves and mark.value == "to" and w.AFTER_THAT.match(text[: mark.end]))
+    ]
     skills = [
-        Mark(match.start(), match.end(), "skill", name, None, bool(NEGATED.search(text[: match.start()]) or LAPSED.match(text[match.end() :])))
+        Mark(
+            match.start(),
+            match.end(),
+            "skill",
+            name,
+            None,
+            bool(NEGATED.search(text[: match.start()]) or LAPSED.match(text[match.end() :])),
+        )
         for name in names
         for match in SKILL_WORDS[name].finditer(text)
         if not FREE.search(match[0])
     ]
-    skills = [mark for mark in skills if not any(other.start <= mark.start and mark.end <= other.end for other in (*scopes, *moves))]
+    skills = [
+        mark
+        for mark in skills
+        if not any(
+            other.start <= mark.start and mark.end <= other.end for other in (*scopes, *moves)
+        )
+    ]
     return sorted([*scopes, *moves, *skills], key=lambda mark: (mark.start, mark.end))
 
 
@@ -137,12 +177,16 @@ def _negated(text: str, match: re.Match[str]) -> bool:
 
 def _part(kind: str, match: re.Match[str], counted: bool) -> Part | None:
     """The steps that a scope means; None where it is not read."""
-    if kind in _UNREAD or (kind == "ordinal" and str(match.groupdict().get("noun")).startswith("of ")):
+    if kind in _UNREAD or (
+        kind == "ordinal" and str(match.groupdict().get("noun")).startswith("of ")
+    ):
         return None
     if kind in _WHOLE:
         return _WHOLE[kind]
     if kind == "while":
-        gerund = next(name for name, value in match.groupdict().items() if value and name != "gerund")
+        gerund = next(
+            name for name, value in match.groupdict().items() if value and name != "gerund"
+        )
         meant, others = w.GERUNDS[gerund]
         return Part(frozenset({meant}), frozenset(others))
     return _of_noun(kind, match.groupdict(), counted)
@@ -160,13 +204,35 @@ def _of_noun(kind: str, groups: Mapping[str, str | None], counted: bool) -> Part
     elif kind == "except" and part.sure | part.maybe:
         part = replace(part, others=True)
     if kind == "several":
-        return replace(part, which=frozenset(range(w.COUNTS[groups["count"] or ""]))) if groups["side"] == "first" else None
+        return (
+            replace(part, which=frozenset(range(w.COUNTS[groups["count"] or ""])))
+            if groups["side"] == "first"
+            else None
+        )
     if cards := groups.get("cards"):
-        return replace(part, which=frozenset(w.CARDINAL[word] for word in re.findall(r"\b(?:[a-f]|[1-9]|[a-z]{3,5})\b", cards) if word in w.CARDINAL))
+        return replace(
+            part,
+            which=frozenset(
+                w.CARDINAL[word]
+                for word in re.findall(r"\b(?:[a-f]|[1-9]|[a-z]{3,5})\b", cards)
+                if word in w.CARDINAL
+            ),
+        )
     if ords := groups.get("ords"):
-        return replace(part, which=frozenset(w.ORDINAL[word] for word in re.findall(rf"\b{w.ORD}\b", ords)), excepted=kind == "except")
+        return replace(
+            part,
+            which=frozenset(w.ORDINAL[word] for word in re.findall(rf"\b{w.ORD}\b", ords)),
+            excepted=kind == "except",
+        )
     return part
 
 
 def kinds_of(noun: str) -> tuple[frozenset[str], frozenset[str]]:
-    return next((kinds for pattern, kinds in zip(w.MOVEMENT_KINDS, w.NOUNS.values(), strict=True) if pattern.fullmatch(noun)), (frozenset(), frozenset()))
+    return next(
+        (
+            kinds
+            for pattern, kinds in zip(w.MOVEMENT_KINDS, w.NOUNS.values(), strict=True)
+            if pattern.fullmatch(noun)
+        ),
+        (frozenset(), frozenset()),
+    )

@@ -10,7 +10,9 @@ from planner_ft.decoding.constraints.reading.scopes import scope_words as w
 
 @dataclass(frozen=True)
 class Part:
-    """Some steps: those of `sure` navigation skills (and perhaps of those of `maybe`), any where both are empty; of these the `which`-th, or all."""
+    """Some steps: those of `sure` navigation skills (and perhaps of those of `maybe`), any where
+    both are empty; of these the `which`-th, or all.
+    """
 
     sure: frozenset[str] = frozenset()
     maybe: frozenset[str] = frozenset()
@@ -19,13 +21,17 @@ class Part:
     counted: bool = True
     """Whether steps can be counted: False where one movement of the text may be several of them."""
     script: tuple[str, ...] = ()
-    """The navigation skills of the text's movements, where `which` counts these: it holds while the plan goes by them."""
+    """The navigation skills of the text's movements, where `which` counts these: it holds while the
+    plan goes by them.
+    """
     others: bool = False
     """What holds for movements of other kinds: "in all but the last hold" is in these as well."""
     by_movement: bool = False
     """Whether `which` counts the movements of the text, that may be of several steps each."""
 
-    def holds(self, earlier: Sequence[str] | None, index: int, skill: str, is_last: bool | None) -> bool | None:
+    def holds(
+        self, earlier: Sequence[str] | None, index: int, skill: str, is_last: bool | None
+    ) -> bool | None:
         if self.by_movement:
             if index and (earlier is None or (*earlier, skill) != self.script[: index + 1]):
                 return None
@@ -42,7 +48,11 @@ class Part:
         if self.which is None:
             return True
         kinds = self.sure | self.maybe
-        return self._counts(sum(name in kinds for name in earlier), is_last, overall=False) if earlier is not None else None
+        return (
+            self._counts(sum(name in kinds for name in earlier), is_last, overall=False)
+            if earlier is not None
+            else None
+        )
 
     def _counts(self, index: int, is_last: bool | None, *, overall: bool) -> bool | None:
         if self.which is None:
@@ -64,19 +74,33 @@ class Part:
 
 @dataclass(frozen=True)
 class Scope:
-    """The steps in which a skill runs: those of any of `parts`, and perhaps others where the text is `open`."""
+    """The steps in which a skill runs: those of any of `parts`, and perhaps others where the text
+    is `open`.
+    """
 
     parts: tuple[Part, ...]
     open: bool = False
     source: str = ""
     script: tuple[str, ...] = ()
 
-    def allows(self, step_index: int, navigation_skill: str, is_last: bool | None = None, earlier: Sequence[str] | None = None) -> bool | None:
+    def allows(
+        self,
+        step_index: int,
+        navigation_skill: str,
+        is_last: bool | None = None,
+        earlier: Sequence[str] | None = None,
+    ) -> bool | None:
         """Whether the skill must run (True) or must not (False) in the step; None: not known.
 
-        `is_last` is None where it is not known whether the step ends the plan, `earlier` the navigation skills of the steps before it.
+        `is_last` is None where it is not known whether the step ends the plan, `earlier` the
+        navigation skills of the steps before it.
         """
-        if is_last is None and earlier is not None and self.script and (*earlier, navigation_skill) == self.script[: step_index + 1]:
+        if (
+            is_last is None
+            and earlier is not None
+            and self.script
+            and (*earlier, navigation_skill) == self.script[: step_index + 1]
+        ):
             is_last = step_index + 1 == len(self.script)
         found = [part.holds(earlier, step_index, navigation_skill, is_last) for part in self.parts]
         if True in found:

@@ -1,7 +1,8 @@
 """In which steps of its plan a filter or perception skill runs, where a task input says so plainly.
 
-The text is cut into clauses. In each stand words for skills, for scopes ("on the second leg only") and for movements. A scope holds for the skills that
-stand next to it; a skill in the clause of a movement runs in that movement. What could be meant in two ways is not read: the model decides.
+The text is cut into clauses. In each stand words for skills, for scopes ("on the second leg only")
+and for movements. A scope holds for the skills that stand next to it; a skill in the clause of a
+movement runs in that movement. What could be meant in two ways is not read: the model decides.
 """
 
 from __future__ import annotations
@@ -12,7 +13,12 @@ from collections.abc import Iterator, Sequence
 from planner_ft.decoding.constraints.reading.rows import movement_words as m
 from planner_ft.decoding.constraints.reading.scopes import scope_words as w
 from planner_ft.decoding.constraints.reading.scopes.governing_scopes import governed
-from planner_ft.decoding.constraints.reading.scopes.scope_clauses import Clause, clauses_of, is_counted, plain_form
+from planner_ft.decoding.constraints.reading.scopes.scope_clauses import (
+    Clause,
+    clauses_of,
+    is_counted,
+    plain_form,
+)
 from planner_ft.decoding.constraints.reading.scopes.scope_parts import EVERYWHERE, Part, Scope
 from planner_ft.decoding.constraints.reading.scopes.settled_scopes import TextReading
 from planner_ft.decoding.constraints.reading.scopes.skill_words import SKILL_WORDS
@@ -27,7 +33,12 @@ def read_scopes(text: str, vocabulary: Vocabulary) -> dict[str, Scope]:
     plain = plain_form(text)
     if w.CHANGED.search(plain):
         return {}
-    names = [skill.name for role in ("filter", "perception") for skill in vocabulary.skills_in_role(role) if skill.name in SKILL_WORDS]
+    names = [
+        skill.name
+        for role in ("filter", "perception")
+        for skill in vocabulary.skills_in_role(role)
+        if skill.name in SKILL_WORDS
+    ]
     counted = is_counted(plain)
     clauses = clauses_of(plain, names, counted)
     reading = _reading(plain, clauses, counted)
@@ -37,15 +48,29 @@ def read_scopes(text: str, vocabulary: Vocabulary) -> dict[str, Scope]:
     for clause in clauses:
         for name, part, source in _placed(clause, before, reading):
             found.setdefault(name, []).append((part, source))
-        # "While turning, have the detector look for ferries; while holding, too": the scope is for the skill before.
-        if clause.of("scope") and not clause.of("skill") and not clause.of("move") and not w.REFUSED.search(clause.text):
+        # "While turning, have the detector look for ferries; while holding, too": the scope is for
+        # the skill before.
+        if (
+            clause.of("scope")
+            and not clause.of("skill")
+            and not clause.of("move")
+            and not w.REFUSED.search(clause.text)
+        ):
             for name in latest:
                 found.setdefault(name, []).append((None, "unread"))
         latest = {mark.value for mark in clause.of("skill")} or latest
         before += len(clause.of("move"))
-    scopes = {name: scope for name, places in found.items() if (scope := _scope(places, reading)) is not None}
+    scopes = {
+        name: scope
+        for name, places in found.items()
+        if (scope := _scope(places, reading)) is not None
+    }
     # Legs that are numbered behind a start point are not the first steps.
-    return {name: scope for name, scope in scopes.items() if "numbered" not in scope.source or not _STARTED.search(plain)}
+    return {
+        name: scope
+        for name, scope in scopes.items()
+        if "numbered" not in scope.source or not _STARTED.search(plain)
+    }
 
 
 def _reading(plain: str, clauses: Sequence[Clause], counted: bool) -> TextReading:
@@ -63,7 +88,12 @@ def _reading(plain: str, clauses: Sequence[Clause], counted: bool) -> TextReadin
         stops=m.HOLD in moves or bool(w.STOPS.search(plain)),
         homewards=bool(w.HOMEWARDS.search(plain)),
         elliptic=bool(w.ELLIPTIC.search(plain)),
-        kinds=any(mark.value in ("kind", "all") and mark.part is not None and bool(mark.part.sure | mark.part.maybe) for mark in scopes),
+        kinds=any(
+            mark.value in ("kind", "all")
+            and mark.part is not None
+            and bool(mark.part.sure | mark.part.maybe)
+            for mark in scopes
+        ),
         paused=bool(w.PAUSED.search(plain)),
     )
 
@@ -72,7 +102,11 @@ def _scope(places: list[tuple[Part | None, str]], reading: TextReading) -> Scope
     parts = tuple(dict.fromkeys(part for part, _source in places if part is not None))
     # Spoken of in different ways: one of them may be meant for another skill.
     unread = any(part is None for part, _source in places)
-    if not parts or (unread and EVERYWHERE in parts) or len({source for part, source in places if part is not None}) > 1:
+    if (
+        not parts
+        or (unread and EVERYWHERE in parts)
+        or len({source for part, source in places if part is not None}) > 1
+    ):
         return None
     return Scope(
         parts,
@@ -82,8 +116,12 @@ def _scope(places: list[tuple[Part | None, str]], reading: TextReading) -> Scope
     )
 
 
-def _placed(clause: Clause, before: int, reading: TextReading) -> Iterator[tuple[str, Part | None, str]]:
-    """Each skill of a clause with its steps and how they were found; None for steps that are not known."""
+def _placed(
+    clause: Clause, before: int, reading: TextReading
+) -> Iterator[tuple[str, Part | None, str]]:
+    """Each skill of a clause with its steps and how they were found; None for steps that are not
+    known.
+    """
     skills, scopes, moved = clause.of("skill"), clause.of("scope"), clause.of("move")
     if not skills:
         return
@@ -99,7 +137,11 @@ def _placed(clause: Clause, before: int, reading: TextReading) -> Iterator[tuple
             len(moved) == 1
             and not w.NO_MOVE.search(clause.text)
             and ":" not in clause.text[mark.end : moved[0].start]
-            and (mark.start > moved[0].start or "," not in clause.text[mark.end : moved[0].start] or w.BESIDES.match(clause.text))
+            and (
+                mark.start > moved[0].start
+                or "," not in clause.text[mark.end : moved[0].start]
+                or w.BESIDES.match(clause.text)
+            )
         ):
             yield mark.value, _movement(before, reading), "move"
         elif not moved and not reading.scoped and len(reading.moves) < 2 and reading.runs < 3:
@@ -115,4 +157,8 @@ def _movement(index: int, reading: TextReading) -> Part | None:
     name = reading.moves[index]
     if len(reading.moves) < 2 or reading.moves.count(name) > 1:
         return None
-    return Part(frozenset({name}), m.KINDS - {name}) if name not in (m.GOTO, m.FACE, m.NUDGE) and reading.whole and reading.ordered else None
+    return (
+        Part(frozenset({name}), m.KINDS - {name})
+        if name not in (m.GOTO, m.FACE, m.NUDGE) and reading.whole and reading.ordered
+        else None
+    )

@@ -1,4 +1,6 @@
-"""The steps that a scope means by the kind of a movement: "in the hold", "on all legs", "while turning", "at the corners"."""
+"""The steps that a scope means by the kind of a movement: "in the hold", "on all legs", "while
+turning", "at the corners".
+"""
 
 from __future__ import annotations
 
@@ -7,14 +9,24 @@ import re
 from planner_ft.decoding.constraints.reading.rows.movement_rows import Row
 from planner_ft.decoding.constraints.reading.scopes import scope_words as w
 from planner_ft.decoding.constraints.reading.scopes import step_scope_words as s
-from planner_ft.decoding.constraints.reading.scopes.where import EVERYWHERE, Phrase, Where, at, the_one
+from planner_ft.decoding.constraints.reading.scopes.where import (
+    EVERYWHERE,
+    Phrase,
+    Where,
+    at,
+    the_one,
+)
 
 _TO_ITS_START = re.compile(
-    r"\b(?:not|nor|never|none|nothing|no \w+) (?:on|during|for|in) the (?:way|leg|run|approach|transit|trip) (?:out )?to (?:its|the|where (?:it|"
+    r"\b(?:not|nor|never|none|nothing|no \w+) (?:on|during|for|in) the"
+    r" (?:way|leg|run|approach|transit|trip) (?:out )?to (?:its|the|where (?:it|"
     r"the \w+)) (?:start|begin)\w*\b"
 )
 _FROM_CORNER = re.compile(r"\b(?:start|begin|from|first|enter)\w*\b[^.;]{0,30}\bcorner\b")
-_FROM_MIDDLE = re.compile(r"\b(?:start|begin|from|first)\w*\b[^.;]{0,30}\b(?:middle|mid|centre of the|due (?:north|south|east|west))")
+_FROM_MIDDLE = re.compile(
+    r"\b(?:start|begin|from|first)\w*\b[^.;]{0,30}\b(?:middle|mid|centre of the|due"
+    r" (?:north|south|east|west))"
+)
 
 
 def kinds_of(noun: str) -> frozenset[str]:
@@ -44,7 +56,9 @@ def every_one(phrase: Phrase) -> Where | None:
     kinds, words = kinds_of(noun), phrase.words.split()
     number = next((value for word, value in w.COUNTS.items() if word in words), None)
     if kinds != s.ANY:
-        counted = number in (None, len(units_of(phrase.row, kinds))) or not all(unit.single for unit in phrase.row.units)
+        counted = number in (None, len(units_of(phrase.row, kinds))) or not all(
+            unit.single for unit in phrase.row.units
+        )
         return all_of(phrase.row, kinds) if counted else None
     if number in (None, phrase.count) or not phrase.row.units:
         return EVERYWHERE
@@ -69,14 +83,25 @@ def meanwhile(phrase: Phrase) -> Where | None:
 
 def of_kind(phrase: Phrase) -> Where | None:
     """ "In the hold": the only one, or all holds where several are meant."""
-    if len(phrase.goes) < 2 and _TO_ITS_START.search(phrase.said.text) and re.search(r"\b(?:run|pass|line|track|leg)s?\b", phrase.words):
+    if (
+        len(phrase.goes) < 2
+        and _TO_ITS_START.search(phrase.said.text)
+        and re.search(r"\b(?:run|pass|line|track|leg)s?\b", phrase.words)
+    ):
         return Where(beginning=False)
     noun, row = phrase.noun or "", phrase.row
     kinds = kinds_of(noun)
     units, several = units_of(row, kinds), noun.endswith("s")
     if not units and several and kinds in ({s.DRIFT}, {s.ARC}):
         return Where(kinds=kinds)
-    if not units or kinds == s.ANY or (re.match("lane|transect", noun) and len({row.units[index].single for index in units}) > 1):
+    if (
+        not units
+        or kinds == s.ANY
+        or (
+            re.match("lane|transect", noun)
+            and len({row.units[index].single for index in units}) > 1
+        )
+    ):
         return None
     if len(units) == 1:
         return None if several and row.units[units[0]].single else all_of(row, kinds)
@@ -90,9 +115,15 @@ def of_kind(phrase: Phrase) -> Where | None:
 def corners(phrase: Phrase) -> Where | None:
     """The corners of a survey square, or the middles of its sides: every other waypoint."""
     text, is_corner = phrase.said.text, phrase.group("corner") is not None
-    if not re.search(r"\bsquare\b|\binspect\w*|\bsurvey\b", text) or text.count("@") > 2 or re.search(r"\bgrid|\blanes?\b|lawn", text):
+    if (
+        not re.search(r"\bsquare\b|\binspect\w*|\bsurvey\b", text)
+        or text.count("@") > 2
+        or re.search(r"\bgrid|\blanes?\b|lawn", text)
+    ):
         return None
-    begins = _FROM_CORNER.search(text) is not None and not re.search(r"\bat (?:the |each |every |all )?(?:four )?corners?\b[^.;]{0,10}$", text)
+    begins = _FROM_CORNER.search(text) is not None and not re.search(
+        r"\bat (?:the |each |every |all )?(?:four )?corners?\b[^.;]{0,10}$", text
+    )
     if begins and _FROM_MIDDLE.search(text):
         return None
     return Where(parity=0 if is_corner == begins else 1)

@@ -1,4 +1,6 @@
-"""What the scopes of a text mean: the movements of its row, kinds of movement, or every other waypoint of a survey square."""
+"""What the scopes of a text mean: the movements of its row, kinds of movement, or every other
+waypoint of a survey square.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,13 @@ from collections.abc import Callable, Mapping
 from planner_ft.decoding.constraints.reading.scopes import scope_words as w
 from planner_ft.decoding.constraints.reading.scopes import step_kinds, step_numbers
 from planner_ft.decoding.constraints.reading.scopes import step_scope_words as s
-from planner_ft.decoding.constraints.reading.scopes.where import EVERYWHERE, Phrase, Where, at, the_one
+from planner_ft.decoding.constraints.reading.scopes.where import (
+    EVERYWHERE,
+    Phrase,
+    Where,
+    at,
+    the_one,
+)
 
 
 def meaning(phrase: Phrase) -> Where | None:
@@ -16,13 +24,21 @@ def meaning(phrase: Phrase) -> Where | None:
     return _MEANINGS[phrase.kind](phrase)
 
 
-# ---------------------------------------------------------------- all of the text, or what was told before
+# ---------------------------------------------------------------- all of the text, or what was told
+# before
 
 
 def _everywhere(phrase: Phrase) -> Where | None:
     text, begin = phrase.said.text, phrase.match.start()
-    alone = any(not anchor.is_scope and not re.search(r"[.;]", text[anchor.end : begin]) for anchor in phrase.before)
-    return None if alone and re.search(r"way|always|continuously", phrase.words) and phrase.count > 1 else EVERYWHERE
+    alone = any(
+        not anchor.is_scope and not re.search(r"[.;]", text[anchor.end : begin])
+        for anchor in phrase.before
+    )
+    return (
+        None
+        if alone and re.search(r"way|always|continuously", phrase.words) and phrase.count > 1
+        else EVERYWHERE
+    )
 
 
 def _both(phrase: Phrase) -> Where | None:
@@ -43,7 +59,11 @@ def _each(phrase: Phrase) -> Where | None:
 def _together(phrase: Phrase) -> frozenset[int]:
     """Several movements that were spoken of last, else all of them."""
     last = phrase.last
-    return last.units if last and last.units and len(last.units) > 1 else frozenset(range(phrase.count))
+    return (
+        last.units
+        if last and last.units and len(last.units) > 1
+        else frozenset(range(phrase.count))
+    )
 
 
 def _ordered(phrase: Phrase) -> Where | None:
@@ -61,16 +81,24 @@ def _pointed(phrase: Phrase) -> Where | None:
     noun = phrase.noun
     if noun is None:
         sentence = phrase.match.string[: phrase.match.start()].rstrip()
-        own = sentence.endswith((".", "!", "?")) and re.match("meanwhile|in the meantime", phrase.words)
+        own = sentence.endswith((".", "!", "?")) and re.match(
+            "meanwhile|in the meantime", phrase.words
+        )
         return _sentence_before(phrase, sentence) if own else phrase.last
     kinds, many = step_kinds.kinds_of(noun), noun.endswith("s")
     last, row = phrase.last, phrase.row
     if kinds != s.ANY and many and row.of(kinds) and not noun.startswith(("pass", "cross")):
-        units = [index for index in (last.units or ()) if row.units[index].kind in kinds] if last else []
+        units = (
+            [index for index in last.units or () if row.units[index].kind in kinds] if last else []
+        )
         return at(units) if len(units) > 1 else step_kinds.all_of(row, kinds)
     if kinds == s.ANY or last is None or last.units is None:
         return last if not many or noun.startswith("pass") else None
-    return step_kinds.all_of(row, kinds) if many and len(last.units) == 1 else _latest(phrase, last.units, kinds)
+    return (
+        step_kinds.all_of(row, kinds)
+        if many and len(last.units) == 1
+        else _latest(phrase, last.units, kinds)
+    )
 
 
 def _sentence_before(phrase: Phrase, text: str) -> Where | None:
@@ -83,8 +111,16 @@ def _sentence_before(phrase: Phrase, text: str) -> Where | None:
 def _latest(phrase: Phrase, spoken: frozenset[int], kinds: frozenset[str]) -> Where | None:
     """Of the movements spoken of last those of some kinds, else the only earlier one."""
     units = phrase.row.units
-    fitting = [index for index in spoken if units[index].kind in kinds or (kinds == {s.HOLD} and units[index].kind == s.VISUAL)]
-    return at(fitting) if fitting else the_one([index for index in phrase.passed if units[index].kind in kinds])
+    fitting = [
+        index
+        for index in spoken
+        if units[index].kind in kinds or (kinds == {s.HOLD} and units[index].kind == s.VISUAL)
+    ]
+    return (
+        at(fitting)
+        if fitting
+        else the_one([index for index in phrase.passed if units[index].kind in kinds])
+    )
 
 
 def _then(phrase: Phrase) -> Where | None:
@@ -100,7 +136,12 @@ def _onwards(phrase: Phrase) -> Where | None:
     if not last or not last.units:
         return None
     first = max(last.units)
-    if first + 1 < phrase.count and "there" in phrase.words and units[first].kind == s.GOTO and units[first].place:
+    if (
+        first + 1 < phrase.count
+        and "there" in phrase.words
+        and units[first].kind == s.GOTO
+        and units[first].place
+    ):
         # What begins at a place is not on the way to it.
         first += 1
     return at(range(first, phrase.count))
@@ -109,7 +150,11 @@ def _onwards(phrase: Phrase) -> Where | None:
 def _rest(phrase: Phrase) -> Where | None:
     """ "For the rest"."""
     ahead = range(max(phrase.passed) + 1, phrase.count) if phrase.passed else range(0)
-    return phrase.last if not ahead and phrase.before and phrase.before[-1].kind == "beyond" else at(ahead)
+    return (
+        phrase.last
+        if not ahead and phrase.before and phrase.before[-1].kind == "beyond"
+        else at(ahead)
+    )
 
 
 # ---------------------------------------------------------------- ways and places
@@ -142,7 +187,11 @@ def _up_to(phrase: Phrase) -> Where | None:
 def _at_place(phrase: Phrase) -> Where | None:
     """ "At (4, 5) only", "at the last waypoint"."""
     place = phrase.place if "@" in phrase.words else None
-    return the_one([index for index in phrase.goes if phrase.row.units[index].place == place] if place else phrase.goes[-1:])
+    return the_one(
+        [index for index in phrase.goes if phrase.row.units[index].place == place]
+        if place
+        else phrase.goes[-1:]
+    )
 
 
 _MEANINGS: Mapping[str, Callable[[Phrase], Where | None]] = {

@@ -50,7 +50,9 @@ class Anchor:
 
 @dataclass(frozen=True)
 class Phrase:
-    """The words of a scope, with what tells the steps that they mean: the text, the row of its movements, and the anchors before the words."""
+    """The words of a scope, with what tells the steps that they mean: the text, the row of its
+    movements, and the anchors before the words.
+    """
 
     kind: str
     match: re.Match[str]
@@ -75,7 +77,9 @@ class Phrase:
     @functools.cached_property
     def passed(self) -> list[int]:
         """The movements before the words."""
-        return [index for index, unit in enumerate(self.row.units) if unit.end <= self.match.start()]
+        return [
+            index for index, unit in enumerate(self.row.units) if unit.end <= self.match.start()
+        ]
 
     @functools.cached_property
     def goes(self) -> tuple[int, ...]:

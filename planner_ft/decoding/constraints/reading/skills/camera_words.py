@@ -1,17 +1,21 @@
-"""The words that a task input can ask by for what is seen by camera, and how well. Read on text in small letters."""
+"""The words that a task input can ask by for what is seen by camera, and how well. Read on text in
+small letters.
+"""
 
 from __future__ import annotations
 
 from planner_ft.decoding.constraints.reading.skills.evidence_parts import SENSED
 
 _CLASSES = (
-    r"people|persons|persons? (?:in|over)|swimmers|divers?|(?:life ?|jet ?)?(?:rafts|jackets|boats|skis)|kayaks|canoes|dinghies|yachts|ships|"
+    r"people|persons|persons? (?:in|over)|swimmers|divers?|(?:life ?|jet"
+    r" ?)?(?:rafts|jackets|boats|skis)|kayaks|canoes|dinghies|yachts|ships|"
     r"vessels|ferries|tugs|barges|"
     r"buoys|pots|birds|gulls|seals|whales|dolphins|porpoises|turtles|debris|logs|driftwood|trunks|ropes|nets|floes|ice|weed|seaweed|oil|slicks?|"
     r"waste|"
     r"plastic|rubbish|flotsam|wreckage|cracks|corrosion|rust|dents|growth|damage|defects?|drones|containers|pontoons|surfers|windsurfers|boarders|"
     r"rowers|"
-    r"trawlers|tankers|workboats|inflatables|pallets|tyres|tires|obstructions|crew|survivors?|casualt\w+|man overboard|mob|"
+    r"trawlers|tankers|workboats|inflatables|pallets|tyres|tires|obstructions|crew|survivors?|casualt\w+|man"
+    r" overboard|mob|"
     r"fenders|ladders|piles|anchors|cables|hulls|cyclists|anybody|anyone|someone|animals?|fish|floating|intruders?|"
     r"lobster\w*|crab\w*|paddle\w*|liferaft\w*|lifeboat\w*|speedboats?"
 )
@@ -126,4 +130,4 @@ CAMERA: dict[str, tuple[str, ...]] = {
         r"much) [^.;]{0,40}(?:cent|middle|off\b|mid-)|how (?:far|much) (?:off|out)\b|visual(?:ly)? (?:error|off|dist\w*)",
         r"(?:out of|beside|left of|right of|away from) (?:the )?(?:[a-z]+ )?(?:cent(?:re|er)|middle)\b|mid-?(?:frame|picture|image)",
     ),
-}  # fmt: skip
+}

@@ -1,6 +1,7 @@
 """What an input asks for in plain words, and what takes nothing of that back, for `evidence`.
 
-Patterns are read on text in small letters, in a sentence that holds no word of doubt once PASSING is left out.
+Patterns are read on text in small letters, in a sentence that holds no word of doubt once PASSING
+is left out.
 """
 
 from __future__ import annotations
@@ -8,30 +9,48 @@ from __future__ import annotations
 from planner_ft.decoding.constraints.reading.skills.evidence_parts import COUNT, SIZE
 
 _STEP = r"(?:turns?|holds?|legs?|runs?|steps?|parts?|stages?|drifts?|arcs?|waits?|stays?|halts?|pauses?|nudges?|pans?|corners?|others?|rest|way|moves?|lanes?)"
-_OBSTACLES = r"(?:everything|anything|every(?: \w+)? obstacle|any(?: \w+)? obstacles?|all(?: the)? obstacles|obstacles|all traffic|all of (?:them|it))"
+_OBSTACLES = (
+    r"(?:everything|anything|every(?: \w+)? obstacle|any(?: \w+)? obstacles?|all(?: the)?"
+    r" obstacles|obstacles|all traffic|all of (?:them|it))"
+)
 _CAMERA = r"(?:image|picture|video|frame)"
 _SEEN = r"(?!\w*(?: \w+)? (?:by|on|with|from) (?:the )?(?:sonar|lidar))"
 
 PASSING = (
-    rf"\b(?:{SIZE} (?:clear )?off\b|off (?:every|any|all|the other)\w*|(?:move|set|cast|pull|stand|start)(?:s|ing)?[- ]off\b|{SIZE} to spare|"
-    r"down (?:it|to|the (?:line|quay|face|wall|side)|on|past|along|from|as)\b|(?:write|writing|take|note|jot|put|back|log|go|run|slide|come|head|sail|set) "
+    rf"\b(?:{SIZE} (?:clear )?off\b|off (?:every|any|all|the"
+    rf" other)\w*|(?:move|set|cast|pull|stand|start)(?:s|ing)?[- ]off\b|{SIZE} to spare|"
+    r"down (?:it|to|the"
+    r" (?:line|quay|face|wall|side)|on|past|along|from|as)\b|(?:write|writing|take|note|jot|put|back|log|go|run|slide|come|head|sail|set) "
     r"(?:it |that )?down\b|"
-    r"(?:no|not|never|at no) (?:any )?(?:less|more|fewer|closer|nearer|worse|further|farther) than|(?:drifting|straying) no more\b|"
+    r"(?:no|not|never|at no) (?:any )?(?:less|more|fewer|closer|nearer|worse|further|farther)"
+    r" than|(?:drifting|straying) no more\b|"
     rf"minus (?:\d|{COUNT})|"
-    r"wait(?: (?:there|here))?,? (?:until|till|for|at|on station|up to|\d)|(?:the|that|this|a|each|every|given|while you|while|you|and|then|to|stated|second|"
+    r"wait(?: (?:there|here))?,? (?:until|till|for|at|on station|up"
+    r" to|\d)|(?:the|that|this|a|each|every|given|while you|while|you|and|then|to|stated|second|"
     r"first|last) wait\b(?!,)|"
-    r"(?:the|a|an|that|this|each|every|first|second|third|last|[\w-]+-(?:second|minute)) stop\b|stop (?:at|there|for|in|on|when|here|short)\b|"
-    r"free(?:ly)?[ -](?:drift|float|span)\w*|(?:drift|float)\w* free(?:ly)?\b|for the (?:up|down)load\b|mean (?:and|or|temperature|value|of)\b|"
-    rf"(?:and|but|,) not (?:before|earlier|sooner|between|after|(?:for |in |on |at |during )?the (?:\w+ )?{_STEP})\b|"
-    rf"never (?:under way|(?:in|on|during|at) (?:the )?(?:\w+ )?{_STEP})\b|nothing (?:in|on|during|at|for) (?:the )?(?:\w+ )?{_STEP}\b|"
-    r"(?:all|every\w*|each)(?: [a-z]+){0,4} (?:but|except|save|bar)(?: (?:for|on|in|at|during))?(?: the)? (?:first|second|third|fourth|last|\d+|one)\b|"
-    r"(?:until|till|when|once) (?:all|every|each)[^.;]{0,20} (?:have|has) been\b|where (?:we|you|she|it) (?:have|has) been\b|"
-    r"(?:without|never|not|don't)(?: ever| to)? leav(?:e|ing)(?: (?:it|this|that|the (?!mark|pin)\w+|your \w+)|(?= ?[.,;:]|$))|(?:don't|"
+    r"(?:the|a|an|that|this|each|every|first|second|third|last|[\w-]+-(?:second|minute))"
+    r" stop\b|stop (?:at|there|for|in|on|when|here|short)\b|"
+    r"free(?:ly)?[ -](?:drift|float|span)\w*|(?:drift|float)\w* free(?:ly)?\b|for the"
+    r" (?:up|down)load\b|mean (?:and|or|temperature|value|of)\b|"
+    r"(?:and|but|,) not (?:before|earlier|sooner|between|after|(?:for |in |on |at |during )?the"
+    rf" (?:\w+ )?{_STEP})\b|"
+    rf"never (?:under way|(?:in|on|during|at) (?:the )?(?:\w+ )?{_STEP})\b|nothing"
+    rf" (?:in|on|during|at|for) (?:the )?(?:\w+ )?{_STEP}\b|"
+    r"(?:all|every\w*|each)(?: [a-z]+){0,4} (?:but|except|save|bar)(?: (?:for|on|in|at|during))?(?:"
+    r" the)? (?:first|second|third|fourth|last|\d+|one)\b|"
+    r"(?:until|till|when|once) (?:all|every|each)[^.;]{0,20} (?:have|has) been\b|where"
+    r" (?:we|you|she|it) (?:have|has) been\b|"
+    r"(?:without|never|not|don't)(?: ever| to)? leav(?:e|ing)(?: (?:it|this|that|the"
+    r" (?!mark|pin)\w+|your \w+)|(?= ?[.,;:]|$))|(?:don't|"
     r"do not|not to) (?:move|stop|turn|hurry)\b(?! (?:[a-z]+ ){0,3}(?:on|off)\b)|"
-    r"(?:note|caption|labelled|label) (?:[a-z0-9]+ ){0,3}[a-z0-9]+$|leave (?:it|that|them) out (?:at|in|on|during)\b|"
-    r"where (?:the |that |a |no )?[a-z]+ (?:is|are) no longer (?:needed|wanted|required|in force|necessary))"
+    r"(?:note|caption|labelled|label) (?:[a-z0-9]+ ){0,3}[a-z0-9]+$|leave (?:it|that|them) out"
+    r" (?:at|in|on|during)\b|"
+    r"where (?:the |that |a |no )?[a-z]+ (?:is|are) no longer (?:needed|wanted|required|in"
+    r" force|necessary))"
 )
-"""Words of doubt that are none: lengths, ways, waits and stops, and what bounds where something is done."""
+"""Words of doubt that are none: lengths, ways, waits and stops, and what bounds where something is
+done.
+"""
 
 ASKED: dict[str, tuple[str, ...]] = {
     "LockHeading": (
@@ -98,7 +117,9 @@ ASKED: dict[str, tuple[str, ...]] = {
         r"obstacle distances?\b|(?:lidar )?distance (?:straight )?(?:ahead|out)\b|distance to (?:the )?(?:nearest |next )?(?:obstacle|structure|wall)s?\b",
         r"lidar distance (?:with|over|in|at) an? \S+?[ -]degree f(?:ov|ield)|room in front\b(?! and)",
     ),
-    "FitCylinderModel": (r"cylinder (?:fit|model|is fitted|has to be fitted)\b|fit(?:ting)? (?:of )?a cylinder\b|curve (?:search|in the (?:point )?cloud)\b",),
+    "FitCylinderModel": (
+        r"cylinder (?:fit|model|is fitted|has to be fitted)\b|fit(?:ting)? (?:of )?a cylinder\b|curve (?:search|in the (?:point )?cloud)\b",
+    ),
     "CheckPlanarity": (
         r"planarity\b|for flatness\b|flatness of\b|flat or curved\b|curved or flat\b|(?:whether|if|see|how) (?:[a-z' -]{1,40} is )?flat\b",
     ),
@@ -151,7 +172,9 @@ ASKED: dict[str, tuple[str, ...]] = {
         r"(?:log|sav|record|tak|keep|writ|captur)\w* (?:a |an |the )?(?:log of |snapshot of |record of )?(?:the )?environment(?:al)?\b|"
         r"environment(?:al)? (?:snapshots?|log|logging|sensors logged|on record)\b|environment logger\b",
     ),
-    "GetRelativePose": (r"relative pose\b|pose (?:relative|readings?)\b|(?:your|our|her|its) pose (?:in|to|against)\b",),
+    "GetRelativePose": (
+        r"relative pose\b|pose (?:relative|readings?)\b|(?:your|our|her|its) pose (?:in|to|against)\b",
+    ),
     "VerifyGeotagQuality": (
         r"(?:geotag|gps)(?: \w+)? (?:quality|accuracy)\b|geotags? (?:are|is) (?:good|accurate)\b|gps is (?:horizontally )?accurate\b|gps quality check\b|"
         r"accuracy of the (?:gps|geotags?)\b",
@@ -164,5 +187,5 @@ ASKED: dict[str, tuple[str, ...]] = {
         r"(?:register|log|enter|record|note|add|put)(?:ing)? (?:down )?[^.;,]{1,40} as (?:an|the) observation\b|an observation in the log\b|"
         r"(?:in|on|into) the (?:data )?logger\b|(?:register|add|put)(?:ing|s)? (?:the|an) observation\b|observation \"",
     ),
-}  # fmt: skip
+}
 """What means a skill and no other, besides the UNMISTAKABLE ones."""

@@ -1,7 +1,7 @@
 """What evidence of a skill means in its surroundings, for `evidence`.
 
-What is sought or measured for another skill, what a task's own name stands for where its input names no perception skill, and what means a skill and
-no other.
+What is sought or measured for another skill, what a task's own name stands for where its input
+names no perception skill, and what means a skill and no other.
 """
 
 from __future__ import annotations
@@ -9,77 +9,103 @@ from __future__ import annotations
 from planner_ft.decoding.constraints.reading.skills.evidence_parts import COUNT, SIZE
 
 SEEKING = (
-    r"(?:detect(?:s|ed|ing|ion|ions)?\b|look(?:s|ed|ing)? (?:out |first |again |then )?(?:for|around|about|with)|(?:be|keep|keeping|stay) "
+    r"(?:detect(?:s|ed|ing|ion|ions)?\b|look(?:s|ed|ing)? (?:out |first |again |then"
+    r" )?(?:for|around|about|with)|(?:be|keep|keeping|stay) "
     r"looking|locat(?:e|es|ing)\b|"
     r"discover\w*|mak(?:e|es|ing) out|"
-    r"watch(?:es|ed|ing)? (?:out )?for|(?:a|keep|keeping|on) (?:close |sharp |good )?watch\b(?! circle)|search(?!ing the (?:buffer))\w*|seek\w*|"
+    r"watch(?:es|ed|ing)? (?:out )?for|(?:a|keep|keeping|on) (?:close |sharp |good )?watch\b(?!"
+    r" circle)|search(?!ing the (?:buffer))\w*|seek\w*|"
     r"find(?:s|ing)?\b(?! out)|"
-    r"(?<!the )(?<!this )(?<!that )(?<!hot )(?<!hottest )(?<!warmest )(?<!same )spot(?:s|ted|ting)?\b(?! (?:where|while|for|\d))|scan(?:s|ned|"
+    r"(?<!the )(?<!this )(?<!that )(?<!hot )(?<!hottest )(?<!warmest )(?<!same"
+    r" )spot(?:s|ted|ting)?\b(?! (?:where|while|for|\d))|scan(?:s|ned|"
     r"ning)? (?:[a-z]+ ){0,4}for|check(?:s|ed|ing)? for|"
-    r"see(?:s|ing)? (?:if|whether) (?:there|any)|identif\w+|pick(?:s|ed|ing)? (?:up|out)|flag\w* any|sight(?:s|ing)?\b|hunt\w*|scout\w*|"
+    r"see(?:s|ing)? (?:if|whether) (?:there|any)|identif\w+|pick(?:s|ed|ing)? (?:up|out)|flag\w*"
+    r" any|sight(?:s|ing)?\b|hunt\w*|scout\w*|"
     r"recogni[sz]\w*|"
     r"survey\w* for|inspect\w* for|turn and look|comb\b)"
 )
-"""Verbs of seeking, which object detection is asked for by where nothing says that another sensor seeks."""
+"""Verbs of seeking, which object detection is asked for by where nothing says that another sensor
+seeks.
+"""
 SOUGHT_OTHERWISE = (
-    r"^(?:(?!(?:and|while|with|then|or|as|when|meanwhile|plus) )[a-z'-]+ ){0,5}?(?:sonar\w*|side-? ?scan|hot\w*|warm\w*|heat|droplets?|drops?|"
+    r"^(?:(?!(?:and|while|with|then|or|as|when|meanwhile|plus) )[a-z'-]+ ){0,5}?(?:sonar\w*|side-?"
+    r" ?scan|hot\w*|warm\w*|heat|droplets?|drops?|"
     r"spray|water drops|lens\w*|text|lettering|letters|writing|"
     r"writ\w*|"
-    r"cylinders?|curves?|clouds?|depths?|horizon|distances?|sectors?(?! light)|offset|pixel|quality|pose|gps|geo-?tag\w*|position|observations?|"
+    r"cylinders?|curves?|clouds?|depths?|horizon|distances?|sectors?(?!"
+    r" light)|offset|pixel|quality|pose|gps|geo-?tag\w*|position|observations?|"
     r"flatness|"
     r"planarity|flat|"
-    r"temperatures?|soundings?|obstacles? dist\w*|how (?:close|far|level|deep)|(?:closest|nearest) (?:return|echo|thing|point)|round shape|return)\b"
+    r"temperatures?|soundings?|obstacles? dist\w*|how (?:close|far|level|deep)|(?:closest|nearest)"
+    r" (?:return|echo|thing|point)|round shape|return)\b"
 )
 """What is sought with a sensor or for a skill of its own, just behind the verb."""
 BY_SONAR_BEHIND = (
-    r"^(?:(?!\band (?:[a-z]+ )?(?:detect|look|search|find|spot|watch|run|us|check|scan|mak|pick|hunt)| - )[^.;,:]){0,70}\b(?:on|with|using|by|"
+    r"^(?:(?!\band (?:[a-z]+"
+    r" )?(?:detect|look|search|find|spot|watch|run|us|check|scan|mak|pick|hunt)| -"
+    r" )[^.;,:]){0,70}\b(?:on|with|using|by|"
     r"in|via|through|"
     r"from|off|"
-    r"under) (?:the |a |our |your )?(?:[a-z-]+ )?(?:sonar|side-? ?scan|multi-?beam|sonar echo|sub-bottom)"
+    r"under) (?:the |a |our |your )?(?:[a-z-]+ )?(?:sonar|side-? ?scan|multi-?beam|sonar"
+    r" echo|sub-bottom)"
 )
 BY_SONAR_BEFORE = r"(?:sonar|side-? ?scan|multi-?beam)[\w ]{0,25}$"
 RECORDED = (
-    r"(?:record|film|log|sav|writ|stor|start|tap|let|run|sensor|tag|upload|send|transmit)\w* (?:of |from |with |the |a |to |up )*(?:[\w-]+ ){0,2}$|"
-    r"(?:depths?|soundings?|sounded|depth\w* \w+|water under the keel|read(?:ings?)?|bottom|deep it is)\b[^.;]{0,25}(?:from|by|with|off|using|"
+    r"(?:record|film|log|sav|writ|stor|start|tap|let|run|sensor|tag|upload|send|transmit)\w* (?:of"
+    r" |from |with |the |a |to |up )*(?:[\w-]+ ){0,2}$|"
+    r"(?:depths?|soundings?|sounded|depth\w* \w+|water under the keel|read(?:ings?)?|bottom|deep it"
+    r" is)\b[^.;]{0,25}(?:from|by|with|off|using|"
     r"on) (?:the )?(?:[\w-]+ ){0,2}$"
 )
 """What stands before a sonar that is recorded, or that the depth is taken with."""
 ANY_SEEKING = (
-    r"\b(?:detect\w*|look(?:s|ed|ing)? (?:out )?(?:for|on|at)|search\w*|find\w*|spot(?:s|ting)\b|watch\w* (?:it |the )?(?:sonar|display|for)|"
+    r"\b(?:detect\w*|look(?:s|ed|ing)? (?:out"
+    r" )?(?:for|on|at)|search\w*|find\w*|spot(?:s|ting)\b|watch\w* (?:it |the"
+    r" )?(?:sonar|display|for)|"
     r"scan\w* (?:it|the|for)|features?\b|pick\w* (?:out|up)|mak\w* out|"
     r"sonar\w* (?:on )?for (?:any|the|a|an|[a-z]+s)\b|hunt\w*|seek\w*|comb\w*|blobs?)"
 )
-RECORDED_BEHIND = r"^ (?:\w{1,2} )?(?:is |are |be |being |to be |gets? |must be |should be )?(?:record\w*|film\w*|on record|rolling|data|files?)\b"
+RECORDED_BEHIND = (
+    r"^ (?:\w{1,2} )?(?:is |are |be |being |to be |gets? |must be |should be"
+    r" )?(?:record\w*|film\w*|on record|rolling|data|files?)\b"
+)
 """What stands behind a sonar that is recorded, or whose files are spoken of."""
 
 PLACE_BEFORE = (
-    r"(?:\b(?:confirm(?:s|ing)? (?:its|their|her)|(?:hold|keep|maintain|stay|remain|retain|resum|regain|chang|reach|assum|tak|leav|shift|adjust|"
+    r"(?:\b(?:confirm(?:s|ing)?"
+    r" (?:its|their|her)|(?:hold|keep|maintain|stay|remain|retain|resum|regain|chang|reach|assum|tak|leav|shift|adjust|"
     r"correct)(?:e|es|s|ed|ing)?)|\b(?:in|on|into|to|at|from|of|for|around|round|about|over|past|near|by|within|towards|"
     r"between|through|via|is|are|target|start|starting|end|goal|given|planned|stated|last|known|located|found|same|hotspot|turning|final|finish|"
     r"hot|docking|holding|berth|waypoint|task|mooring|ordered|set|"
-    r"next|first|second|third|fourth|two|three|both|other|each|every|these|those|as a|by eye|hottest|local|this|that|present|ready|one|relative|"
+    r"next|first|second|third|fourth|two|three|both|other|each|every|these|those|as a|by"
+    r" eye|hottest|local|this|that|present|ready|one|relative|"
     r"two|new|safe))"
     r"(?: (?:the|your|this|that|its|her|our|a|an|my|their|target|start|starting|goal|given|planned|stated|last|known|present|current|same|located|"
     r"exact|task's|first|second|third|new|final|original))* $"
 )
 """What stands before a position that is a place, or that is held, and none that is logged."""
 PLACE_BEHIND = (
-    r"^ ?(?:\(|\[|-?\d|held|kept|maintained|of (?:the|any|it|what)|x[ =\d]|error|accura|qual|as (?:a|the|given|\"|ordered|planned)|yourself|given|"
-    r"is reached|reached|has\b|lies|near|north|south|east|west|within|until|ready|named|called|relative|with respect|for (?:\d|(?:a|an|\w+) "
+    r"^ ?(?:\(|\[|-?\d|held|kept|maintained|of (?:the|any|it|what)|x[ =\d]|error|accura|qual|as"
+    r" (?:a|the|given|\"|ordered|planned)|yourself|given|"
+    r"is reached|reached|has\b|lies|near|north|south|east|west|within|until|ready|named|called|relative|with"
+    r" respect|for (?:\d|(?:a|an|\w+) "
     r"(?:seconds|minutes?|hours?|mins|secs)\b)"
     r"|stated|holding|or\b)"
 )
 """What stands behind one."""
 OF_SHOT = (
-    r"(?:still|snap|pic|photo|image|frame|shot|imagery|them|one|each)\w*[^.;]{0,40}\bwith (?:its|their|the|a|exact|own|it's|gps|precise)?(?: "
+    r"(?:still|snap|pic|photo|image|frame|shot|imagery|them|one|each)\w*[^.;]{0,40}\bwith"
+    r" (?:its|their|the|a|exact|own|it's|gps|precise)?(?: "
     r"\w+)? ?$"
 )
 """What stands before a position that goes with a single image."""
 
 MEASURED_OTHERWISE = (
-    r"depth|sound|distan|dist\b|rang|horizon|tilt|angle|pose|offset|pixel|quality|planar|flat|accura|sector|how (?:far|close|deep|level|flat)|"
+    r"depth|sound|distan|dist\b|rang|horizon|tilt|angle|pose|offset|pixel|quality|planar|flat|accura|sector|how"
+    r" (?:far|close|deep|level|flat)|"
     r"wind|position|clearance|"
-    r"obstacle|gps|fix|lidar|\bmeasur\w* \d|cylinder|error|closest|nearest|slice|text|letter|measuring \w+ by|level"
+    r"obstacle|gps|fix|lidar|\bmeasur\w*"
+    r" \d|cylinder|error|closest|nearest|slice|text|letter|measuring \w+ by|level"
 )
 """What a measurement in the same clause is of, where it is none of a temperature."""
 
@@ -87,18 +113,44 @@ HEALTH = ("VerifyGeotagQuality", "GetImageQualityMetrics", "GetHorizonAngle", "C
 """What a health check covers where its input does not say."""
 IMPLIED: tuple[tuple[str, tuple[str, ...]], ...] = (
     (
-        r"health|self-? ?(?:check|test)\w*|diagnos\w+|(?:sensors?|systems?|equipment|functional|instruments?) (?:[a-z]+ )?(?:checks?|tests?)|"
-        r"(?:check|test|verify|inspect|go through)\w* (?:[a-z]+ ){0,3}(?:sensors|systems?|equipment|instruments)|pre-?\w+ checks?",
+        r"health|self-?"
+        r" ?(?:check|test)\w*|diagnos\w+|(?:sensors?|systems?|equipment|functional|instruments?)"
+        r" (?:[a-z]+ )?(?:checks?|tests?)|"
+        r"(?:check|test|verify|inspect|go through)\w* (?:[a-z]+"
+        r" ){0,3}(?:sensors|systems?|equipment|instruments)|pre-?\w+ checks?",
         HEALTH,
     ),
-    (r"(?:follow|track|trac|survey|inspect|run along|chase|pursu|go along)\w* [^.;]{0,40}(?:cables?|pipe\w*|umbilical)\b", ("DetectSonarFeature",)),
-    (r"survey\w*|grid|lawn-?mow\w*|mow\w*|mapp?(?:ing|ed)?\b|transects?|chart", ("GetSeabedDepth",)),
-    (r"panoram\w*|pano\b|all[- ]round|glare\w*|sectors|reflection\w*|sun\b|sunlight|dazzl\w*|views? (?:all )?round", ("CaptureGeoSnapshot",)),
-    (r"star(?:e|ing)\b|(?:steady|stare|stead\w+) [^.;]{0,30}(?:at|on|look|feature)", ("SetStreamRecording",)),
-    (r"(?:landing|ladder)[^.;]{0,30}(?:clear|sweep|scan|free|check|safe)\w*|(?:clear|sweep|scan|check)\w*[^.;]{0,40}landing", ("LogLidarSlice",)),
+    (
+        (
+            r"(?:follow|track|trac|survey|inspect|run along|chase|pursu|go along)\w*"
+            r" [^.;]{0,40}(?:cables?|pipe\w*|umbilical)\b"
+        ),
+        ("DetectSonarFeature",),
+    ),
+    (
+        r"survey\w*|grid|lawn-?mow\w*|mow\w*|mapp?(?:ing|ed)?\b|transects?|chart",
+        ("GetSeabedDepth",),
+    ),
+    (
+        (
+            r"panoram\w*|pano\b|all[-"
+            r" ]round|glare\w*|sectors|reflection\w*|sun\b|sunlight|dazzl\w*|views? (?:all )?round"
+        ),
+        ("CaptureGeoSnapshot",),
+    ),
+    (
+        r"star(?:e|ing)\b|(?:steady|stare|stead\w+) [^.;]{0,30}(?:at|on|look|feature)",
+        ("SetStreamRecording",),
+    ),
+    (
+        r"(?:landing|ladder)[^.;]{0,30}(?:clear|sweep|scan|free|check|safe)\w*|(?:clear|sweep|scan|check)\w*[^.;]{0,40}landing",
+        ("LogLidarSlice",),
+    ),
     (r"heat\w*|therm\w*|infra-?red", ("LocateHotspot", "GetThermalStats")),
 )
-"""Words of a task's own name or purpose, and the skills that they stand for where the input names none that could be meant."""
+"""Words of a task's own name or purpose, and the skills that they stand for where the input names
+none that could be meant.
+"""
 
 UNMISTAKABLE: dict[str, tuple[str, ...]] = {
     "LockHeading": (
@@ -257,13 +309,17 @@ UNMISTAKABLE: dict[str, tuple[str, ...]] = {
         r"\b|regist(?:er|ering)\b",
         r"entry in the logger\b|into the logger\b|down as seen\b|log entry, \"",
     ),
-}  # fmt: skip
+}
 
 HARMLESS = (
-    r"\b(?:and |but )?(?:nothing (?:else|more|besides)(?: is needed| runs)?|otherwise nothing(?: runs)?|nothing otherwise|nowhere else|"
+    r"\b(?:and |but )?(?:nothing (?:else|more|besides)(?: is needed| runs)?|otherwise nothing(?:"
+    r" runs)?|nothing otherwise|nowhere else|"
     r"at no other time|no more than that|"
-    r"no other sensor at any time|none before|not (?:in|on|during|before|after|between) (?:the )?[\w-]+(?: [\w-]+)?(?=[.,;:]|$)|let nothing(?= come)|"
-    r"(?:all|every\w*|each|throughout)(?: \w+)? but (?:in |on |at |for )?(?:the )?|but (?:only|just)|"
-    r"(?:find(?:ing)? out|see|tell(?: me| us)?|say|check|know|learn|ask|report|word on) if|if there (?:is|are) any)\b"
+    r"no other sensor at any time|none before|not (?:in|on|during|before|after|between) (?:the"
+    r" )?[\w-]+(?: [\w-]+)?(?=[.,;:]|$)|let nothing(?= come)|"
+    r"(?:all|every\w*|each|throughout)(?: \w+)? but (?:in |on |at |for )?(?:the )?|but"
+    r" (?:only|just)|"
+    r"(?:find(?:ing)? out|see|tell(?: me| us)?|say|check|know|learn|ask|report|word on) if|if there"
+    r" (?:is|are) any)\b"
 )
 """Phrases that bound what is asked for and take none of it back."""

@@ -1,7 +1,9 @@
-"""The words that a task input can ask for a filter or perception skill by, for `evidence`. Patterns are read on text in small letters.
+"""The words that a task input can ask for a filter or perception skill by, for `evidence`. Patterns
+are read on text in small letters.
 
-What a skill can be meant by is taken broadly: a word that fits two skills stands with both. Where the words behind or before make plain that another
-skill is meant ("record the depth" records no stream), the pattern passes them over.
+What a skill can be meant by is taken broadly: a word that fits two skills stands with both. Where
+the words behind or before make plain that another skill is meant ("record the depth" records no
+stream), the pattern passes them over.
 """
 
 from __future__ import annotations

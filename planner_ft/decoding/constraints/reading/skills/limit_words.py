@@ -1,8 +1,16 @@
-"""The words that a task input can ask by for what limits a movement: the heading, clearances and boundaries. Read on text in small letters."""
+"""The words that a task input can ask by for what limits a movement: the heading, clearances and
+boundaries. Read on text in small letters.
+"""
 
 from __future__ import annotations
 
-from planner_ft.decoding.constraints.reading.skills.evidence_parts import BOW, COUNT, GAP, LENGTH, SIZE
+from planner_ft.decoding.constraints.reading.skills.evidence_parts import (
+    BOW,
+    COUNT,
+    GAP,
+    LENGTH,
+    SIZE,
+)
 
 LIMITS: dict[str, tuple[str, ...]] = {
     "LockHeading": (
@@ -88,4 +96,4 @@ LIMITS: dict[str, tuple[str, ...]] = {
         r"(?:x|east\w*) (?:from|between) -?\d[^.;]*(?:y|north\w*) (?:from|between) -?\d|lines?\b[^.;]{0,20}(?:cross|limit)|(?:must not|may not|"
         r"never|not) (?:be |to be )?(?:left|crossed)|(?:in|:) [\[(] ?-?\d[^\])a-z]*[\])](?:[ ,;]+(?:and )?[\[(] ?-?\d[^\])a-z]*[\])]){2}",
     ),
-}  # fmt: skip
+}

@@ -1,4 +1,6 @@
-"""The words that a task input can ask by for what is measured: distances, shapes, depths, positions. Read on text in small letters."""
+"""The words that a task input can ask by for what is measured: distances, shapes, depths,
+positions. Read on text in small letters.
+"""
 
 from __future__ import annotations
 
@@ -121,4 +123,4 @@ MEASURING: dict[str, tuple[str, ...]] = {
         r"(?:gps|gnss|fix(?:es)?|satellite\w*|receiver|position\w*)\b[^.;,]{0,30}\b(?:wrong|off|out by|err\w*|believ\w*|stand\w* up|hold\w* up|"
         r"count\w* on|rel(?:y|ied)|to the test)\b|(?:rely|relying|count|bank|depend)\w* on (?:the |our )?(?:gps|gnss|fix|sat|position)",
     ),
-}  # fmt: skip
+}

@@ -1,6 +1,8 @@
-"""Which movements an input can ask for, by its words: a turn, an arc, a drift or a wait that no word speaks of cannot be meant.
+"""Which movements an input can ask for, by its words: a turn, an arc, a drift or a wait that no
+word speaks of cannot be meant.
 
-Places to go to are not told here, waypoints are read apart. An input may hold position unless it speaks of a drift.
+Places to go to are not told here, waypoints are read apart. An input may hold position unless it
+speaks of a drift.
 """
 
 from __future__ import annotations
@@ -14,11 +16,17 @@ _TURNED = r"turn|rotat|swing|swung|swivel|pivot|spin|spun|yaw|veer|twist|slew|de
 _PATTERNS = {
     "turn_by": (
         _TURNED,
-        r"nudg|\bpan|trim|shift|port\b|starboard|left|right|clockwise|angle|camera|tweak|ease|a touch|sidew|half|quarter|round|steps?",
+        (
+            r"nudg|\bpan|trim|shift|port\b|starboard|left|right|clockwise|angle|camera|tweak|ease|a"
+            r" touch|sidew|half|quarter|round|steps?"
+        ),
     ),
     "turn_to": (
         _TURNED,
-        r"fac(?:e|ing)|bearing|point|look|north|south|east|west|\b[nsew]{1,3}\b|\b\d{3}\b|aim|direct|compass|align|lin\w+ up|come (?:to|round|on|about)",
+        (
+            r"fac(?:e|ing)|bearing|point|look|north|south|east|west|\b[nsew]{1,3}\b|\b\d{3}\b|aim|direct|compass|align|lin\w+"
+            r" up|come (?:to|round|on|about)"
+        ),
         r"square|orient|aspect|view|sector|panoram|steer|course|towards?|onto|pans?\b|panning",
     ),
     "arc": (
@@ -26,11 +34,17 @@ _PATTERNS = {
         r"ring\b|circuit|about (?:it|the|\()|bow out|wide",
     ),
     "drift": (
-        r"drift|float|engine|motor|propul|adrift|current|thrust|power|carr(?:y|ied)|free|idle|tide|coast|stream|wind|let (?:go|her|it|the|yourself|your)",
+        (
+            r"drift|float|engine|motor|propul|adrift|current|thrust|power|carr(?:y|ied)|free|idle|tide|coast|stream|wind|let"
+            r" (?:go|her|it|the|yourself|your)"
+        ),
         r"passive|propeller|screws?\b|shut|off\b|throttle|zero",
     ),
     "wait": (
-        r"stead|stab|settl|still|calm|pitch|roll|motion|rock|sway|level|quiet|wait|rest|swell|wobbl|heel|tilt|until|till|paus|mov|even keel|heav|lively",
+        (
+            r"stead|stab|settl|still|calm|pitch|roll|motion|rock|sway|level|quiet|wait|rest|swell|wobbl|heel|tilt|until|till|paus|mov|even"
+            r" keel|heav|lively"
+        ),
         r"come to|lies?\b|less than|under \d|below|within",
     ),
     "visual": (
@@ -39,7 +53,10 @@ _PATTERNS = {
     ),
     "hold": (
         r"hold|held|stay|station|keep|kept|remain|wait|stop|halt|paus|loiter|stand|park|rest\b|resting|linger|sit\b|sits|sitting|hover|place|put\b|spot|still",
-        r"lie\b|lying|dwell|idle|moor|anchor|position|here|there|guard|watch|hang|wherever|where (?:you|she|it|we)|stuck|bide|motionless",
+        (
+            r"lie\b|lying|dwell|idle|moor|anchor|position|here|there|guard|watch|hang|wherever|where"
+            r" (?:you|she|it|we)|stuck|bide|motionless"
+        ),
     ),
 }
 DRIFTS = re.compile(r"drift|float|adrift|\bengines?\b|propulsion", re.IGNORECASE)
@@ -48,11 +65,17 @@ WORDS = {motion: re.compile("|".join(words), re.IGNORECASE) for motion, words in
 
 
 def spoken_movements(text: str, vocabulary: Vocabulary) -> frozenset[str] | None:
-    """Names of the navigation skills that some word of the text can mean, and of all that this does not tell; None where the text cannot be read."""
+    """Names of the navigation skills that some word of the text can mean, and of all that this does
+    not tell; None where the text cannot be read.
+    """
     if not readable(text):
         return None
     spelt = variants(text)
     said = {motion for motion, words in WORDS.items() if any(words.search(one) for one in spelt)}
     if not any(DRIFTS.search(one) for one in spelt):
         said.add("hold")
-    return frozenset(skill.name for skill in vocabulary.skills_in_role("navigation") if skill.motion not in WORDS or skill.motion in said)
+    return frozenset(
+        skill.name
+        for skill in vocabulary.skills_in_role("navigation")
+        if skill.motion not in WORDS or skill.motion in said
+    )

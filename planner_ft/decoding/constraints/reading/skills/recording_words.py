@@ -1,4 +1,6 @@
-"""The words that a task input can ask by for what is recorded: streams, images, logs and marks. Read on text in small letters."""
+"""The words that a task input can ask by for what is recorded: streams, images, logs and marks.
+Read on text in small letters.
+"""
 
 from __future__ import annotations
 
@@ -119,4 +121,4 @@ RECORDING: dict[str, tuple[str, ...]] = {
         r"throughout|how|sonar|lidar|radar|cam\w*|video|while|too|there|here|as|along|meanwhile|wherever|once|only|what|whatever|slices?|\w+_\w+|"
         r"\w+ to disk)\b)",
     ),
-}  # fmt: skip
+}

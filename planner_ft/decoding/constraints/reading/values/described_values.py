@@ -1,7 +1,9 @@
-"""Text values that an input says behind the words for a skill, to their end: "thermal stats of the ladder rungs", "pixel error to the hatch cover".
+"""Text values that an input says behind the words for a skill, to their end: "thermal stats of the
+ladder rungs", "pixel error to the hatch cover".
 
-A value is read where one phrase follows such words and its end is plain: the end of the clause, or a word that no name goes on with. It is enforced where
-the skill is spoken of in as many sentences as values are read.
+A value is read where one phrase follows such words and its end is plain: the end of the clause, or
+a word that no name goes on with. It is enforced where the skill is spoken of in as many sentences
+as values are read.
 """
 
 from __future__ import annotations
@@ -30,7 +32,8 @@ _VERB = (
     r"note|have|let|set|put|do|use|give|pass|stop|end|come|face|wait|drift|look|film|mind|avoid|respect|lock|leave|also|\w+ing)"
 )
 _END = (
-    r"(?=[.;,!?)]|$| (?:only|alone|in(?! (?:the )?(?:picture|frame|image|view|water|centre|middle))|on|at|during|while|when|throughout|all|"
+    r"(?=[.;,!?)]|$| (?:only|alone|in(?! (?:the"
+    r" )?(?:picture|frame|image|view|water|centre|middle))|on|at|during|while|when|throughout|all|"
     r"then|for|as|with|over|until|till|to|too|please|by|under|after|before|once|along|"
     rf"every|each|both|but|is|are|has|from|steady|centred|read|logged|tracked|recorded|checked|measured|taken|watched|monitored|"
     rf"(?:as well )?and (?:then )?{_VERB})(?![\w-]))"
@@ -39,7 +42,10 @@ _CLAUSE = r"(?=[.;,!?)]|$)"
 _SENSOR = rf"{_NAME}{_END}"
 _PATTERNS: dict[tuple[str, str], tuple[str, ...]] = {
     ("GetThermalStats", "roi"): (
-        rf"(?:thermal|temperature|heat) (?:stats|statistics|figures) (?:of|for|from|on|over) {_NAME}{_END}",
+        (
+            r"(?:thermal|temperature|heat) (?:stats|statistics|figures) (?:of|for|from|on|over)"
+            rf" {_NAME}{_END}"
+        ),
         rf"temperatures? (?:of|on|at) {_NAME}{_END}",
     ),
     ("CheckPlanarity", "roi"): (
@@ -48,22 +54,42 @@ _PATTERNS: dict[tuple[str, str], tuple[str, ...]] = {
         rf"(?:planarity|flatness)(?: check)? (?:of|on|for|over) {_NAME}{_END}",
         rf"check(?:ing)? {_NAME} for flatness\b",
     ),
-    ("OCRScanning", "region"): (rf"(?:text|lettering|writing|letters|ocr) (?:on|in|of) {_NAME}{_END}",),
+    ("OCRScanning", "region"): (
+        rf"(?:text|lettering|writing|letters|ocr) (?:on|in|of) {_NAME}{_END}",
+    ),
     ("DetectSonarFeature", "type"): (
-        rf"sonar(?: display)?(?: (?:search|look|looking|searching|watch|out|on|detection))? (?:for|after) (?:any )?{_NAME}{_END}",
-        rf"on the sonar(?: display)?,? (?:i am|we are|i'm|we're|look|search|watch|seek|looking|searching)(?: out)? (?:for|after) (?:any )?{_NAME}{_END}",
+        (
+            r"sonar(?: display)?(?: (?:search|look|looking|searching|watch|out|on|detection))?"
+            rf" (?:for|after) (?:any )?{_NAME}{_END}"
+        ),
+        (
+            r"on the sonar(?: display)?,? (?:i am|we"
+            r" are|i'm|we're|look|search|watch|seek|looking|searching)(?: out)? (?:for|after)"
+            rf" (?:any )?{_NAME}{_END}"
+        ),
     ),
     ("CalculateVisualOffset", "target_id"): (
-        rf"(?:pixel|visual) (?:error|offset|distance)s?(?: from (?:the )?(?:image |picture |frame )?cent(?:re|er))? (?:of|to) {_NAME}{_END}",
+        (
+            r"(?:pixel|visual) (?:error|offset|distance)s?(?: from (?:the )?(?:image |picture"
+            rf" |frame )?cent(?:re|er))? (?:of|to) {_NAME}{_END}"
+        ),
     ),
-    ("GetRelativePose", "target"): (rf"(?:relative pose|pose relative|pose readings|pose) (?:to|of) {_NAME}{_END}",),
+    ("GetRelativePose", "target"): (
+        rf"(?:relative pose|pose relative|pose readings|pose) (?:to|of) {_NAME}{_END}",
+    ),
     ("TrackObjects", "object_id"): (
         rf"tracker (?:follows|on|stays on|following|follow|keeps|holds|keeps to) {_NAME}{_END}",
         rf"(?:identity of|tabs on|tracking of) {_NAME}{_END}",
     ),
     ("VisualStationKeep", "target_id"): (
-        rf"\b(?:keep|hold|keeping|holding|centre) {_NAME} (?:centred|centered|in the (?:centre|center|middle|picture|frame))\b(?! (?:centred|steady))",
-        rf"(?:^|[.;] ){_NAME} (?:stays|is kept|is to stay|remains) in (?:the )?(?:centre|center|middle) of (?:the )?(?:frame|picture|image|view)\b",
+        (
+            rf"\b(?:keep|hold|keeping|holding|centre) {_NAME} (?:centred|centered|in the"
+            r" (?:centre|center|middle|picture|frame))\b(?! (?:centred|steady))"
+        ),
+        (
+            rf"(?:^|[.;] ){_NAME} (?:stays|is kept|is to stay|remains) in (?:the"
+            r" )?(?:centre|center|middle) of (?:the )?(?:frame|picture|image|view)\b"
+        ),
     ),
     ("CheckLensClearness", "camera_id"): (rf"lens(?:es)? (?:of|on) {_SENSOR}",),
     ("GetImageQualityMetrics", "camera_id"): (
@@ -76,66 +102,106 @@ _PATTERNS: dict[tuple[str, str], tuple[str, ...]] = {
     ),
     ("SetStreamRecording", "sensor_id"): (
         rf"\brecording (?:of|from|by|on for) {_SENSOR}",
-        rf"\b(?:write|record|store) {_NAME} (?:to disk|under (?:the )?(?:file )?tag|with (?:file )?tag)\b",
+        (
+            rf"\b(?:write|record|store) {_NAME} (?:to disk|under (?:the )?(?:file )?tag|with"
+            r" (?:file )?tag)\b"
+        ),
     ),
     ("SetStreamRecording", "file_tag"): (
         rf"(?:file )?tag(?:ged)?(?: as| is|:|,)? (?P<v>{IDENTIFIER}){_END}",
-        rf"\b(?:recording|record|disk|film)\b[^.;]{{0,60}} (?:under|as) (?:the )?(?:file )?(?:tag |name )?(?P<v>{IDENTIFIER}){_END}",
+        (
+            r"\b(?:recording|record|disk|film)\b[^.;]{0,60} (?:under|as) (?:the )?(?:file"
+            rf" )?(?:tag |name )?(?P<v>{IDENTIFIER}){_END}"
+        ),
     ),
-    ("CaptureGeoSnapshot", "note"): (rf"\b(?:stills?|pictures?|photos?|snapshots?|frames?)\b[^.;]{{0,40}}\bnote(?: is|:|,)? {_NAME}{_CLAUSE}",),
+    ("CaptureGeoSnapshot", "note"): (
+        (
+            r"\b(?:stills?|pictures?|photos?|snapshots?|frames?)\b[^.;]{0,40}\bnote(?: is|:|,)?"
+            rf" {_NAME}{_CLAUSE}"
+        ),
+    ),
     ("CaptureGeoSnapshot", "sensor_id"): (
-        rf"\b(?:stills?|pictures?|photos?|snapshots?|frames?)(?: with position)? (?:from|with|by|through|on|off) (?:the )?(?:camera |sensor )?"
+        rf"\b(?:stills?|pictures?|photos?|snapshots?|frames?)(?: with position)?"
+        rf" (?:from|with|by|through|on|off) (?:the )?(?:camera |sensor )?"
         rf"(?P<v>{IDENTIFIER}){_END}",
     ),
     ("CreateMapMarker", "label"): (
         rf"\blabel(?:led)?(?: as| is|:|,)? {_NAME}{_CLAUSE}",
-        rf"\b(?:pin|mark)(?:ning|ing)? (?:the |this |that |its )(?:spot|place|position|point|location)(?: on the map)? as {_NAME}{_CLAUSE}",
+        (
+            r"\b(?:pin|mark)(?:ning|ing)? (?:the |this |that |its"
+            rf" )(?:spot|place|position|point|location)(?: on the map)? as {_NAME}{_CLAUSE}"
+        ),
         rf"(?:marker|pin) (?:named|called|labelled) {_NAME}(?:{_CLAUSE}|(?= and {_VERB}\b))",
     ),
-    ("RegisterObservation", "observation"): (rf"\bregister(?:ing)? {_NAME} as (?:the|an) observation\b",),
+    ("RegisterObservation", "observation"): (
+        rf"\bregister(?:ing)? {_NAME} as (?:the|an) observation\b",
+    ),
     ("GetSeabedDepth", "sensor_id"): (
         rf"depths?(?: under the (?:vehicle|boat|keel))? (?:from|by|with|using|off) {_SENSOR}",
         rf"with {_NAME} as (?:the )?depth sensor\b",
     ),
-    ("GetHorizonAngle", "sensor_id"): (rf"(?:horizon (?:tilt|angle)|tilt of the horizon|its tilt)(?: with| from| by| off| using) {_SENSOR}",),
+    ("GetHorizonAngle", "sensor_id"): (
+        (
+            r"(?:horizon (?:tilt|angle)|tilt of the horizon|its tilt)(?: with| from| by| off|"
+            rf" using) {_SENSOR}"
+        ),
+    ),
 }
 """What stands before a value, by skill and parameter, and ends it."""
-_KIND_BEFORE = re.compile(rf"^(?:camera|sensor|stream|cloud|region|object|target|frame|roi|feature|type|sounder|sonde) (?={IDENTIFIER}$)", re.IGNORECASE)
+_KIND_BEFORE = re.compile(
+    r"^(?:camera|sensor|stream|cloud|region|object|target|frame|roi|feature|type|sounder|sonde)"
+    rf" (?={IDENTIFIER}$)",
+    re.IGNORECASE,
+)
 """A word for the kind before an identifier is no part of it."""
 _NO_NAME = re.compile(
     r"(?:camera|cameras|sensor|stream|region|roi|surface|frame|picture|image|way|target|feature|object|view|light|vessel|boat|position|place|spot|log|boat's)"
     r"|(?:marker|contact|roi|region|target|vessel|ship|sensor|camera|stream|cloud|object|feature|type|sounder|sonde|file) .*|"
-    r"beginning|end|start|middle|rest|x \d.*|.*[- ]named\b.*|position fix|\d+(?:\.\d+)?(?: ?(?:s|sec\w*|min\w*|m|met\w+)\b.*)?",
+    r"beginning|end|start|middle|rest|x \d.*|.*[- ]named\b.*|position fix|\d+(?:\.\d+)?(?:"
+    r" ?(?:s|sec\w*|min\w*|m|met\w+)\b.*)?",
     re.IGNORECASE,
 )
 """What is the word for a kind, or may or may not have one before its name."""
 _LIKEWISE = re.compile(
-    r"\bthe same (?:from|for|of|with|on|in)\b|\bsame again\b|\bthe same thing\b|\brather\b|, no\b|\bin (?:leg |part )?one, |"
+    r"\bthe same (?:from|for|of|with|on|in)\b|\bsame again\b|\bthe same thing\b|\brather\b|,"
+    r" no\b|\bin (?:leg |part )?one, |"
     r"\b(?:last|first|second) of (?:the|these|them|those)\b",
     re.IGNORECASE,
 )
 _NEAR = 20
 """Characters beside a value's words within which the skill is not spoken of once more."""
-_VISUAL = re.compile(r"\bcent(?:re|er)\w*|\b(?:frame|picture|view|image|visual\w*)\b", re.IGNORECASE)
+_VISUAL = re.compile(
+    r"\bcent(?:re|er)\w*|\b(?:frame|picture|view|image|visual\w*)\b", re.IGNORECASE
+)
 """Words for the movement that keeps a target in the picture."""
 
 
-def read_described_values(text: str, spoken: Collection[str], vocabulary: Vocabulary) -> dict[tuple[str, str], frozenset[str]]:
-    """By skill and parameter what its value is one of, where every sentence that speaks of the skill says it plainly."""
+def read_described_values(
+    text: str, spoken: Collection[str], vocabulary: Vocabulary
+) -> dict[tuple[str, str], frozenset[str]]:
+    """By skill and parameter what its value is one of, where every sentence that speaks of the
+    skill says it plainly.
+    """
     if len(text) > LONGEST or DOUBT.search(text) or SEVERAL.search(text):
         return {}
     if _LIKEWISE.search(text):
         return {}
     said: dict[str, dict[str, list[re.Match[str]]]] = {}
     for (name, parameter), patterns in _PATTERNS.items():
-        if name in spoken and name in vocabulary.skill and parameter in {item.name for item in vocabulary.skill[name].parameters}:
+        if (
+            name in spoken
+            and name in vocabulary.skill
+            and parameter in {item.name for item in vocabulary.skill[name].parameters}
+        ):
             matches = [match for pattern in patterns for match in _compiled(pattern).finditer(text)]
             if matches:
                 said.setdefault(name, {})[parameter] = matches
     return {
         (name, parameter): frozenset(values)
         for name, having in said.items()
-        if not _spoken_elsewhere(text, name, [match for matches in having.values() for match in matches])
+        if not _spoken_elsewhere(
+            text, name, [match for matches in having.values() for match in matches]
+        )
         for parameter, matches in having.items()
         if len(matches) >= (mentions(text, name) or 1)
         and (values := _values(matches))
@@ -157,7 +223,10 @@ def _spoken_elsewhere(text: str, name: str, matches: Sequence[re.Match[str]]) ->
     """Whether words for a skill stand apart from those that its values were read at."""
     pattern = _VISUAL if name == "VisualStationKeep" else words_for(name)
     spans = [(match.start() - _NEAR, match.end() + _NEAR) for match in matches]
-    return any(not any(start <= word.start() < end for start, end in spans) for word in pattern.finditer(text.lower()))
+    return any(
+        not any(start <= word.start() < end for start, end in spans)
+        for word in pattern.finditer(text.lower())
+    )
 
 
 @functools.cache

@@ -1,4 +1,6 @@
-"""The fences that an input states as lists of corners: "inside (0, 0), (60, 0), (60, 40) and (0, 40)"."""
+"""The fences that an input states as lists of corners: "inside (0, 0), (60, 0), (60, 40) and (0,
+40)".
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,14 @@ def fences(text: str) -> Iterator[list[Position]]:
         else:
             runs.append([match])
     for number, run in enumerate(runs):
-        begins = max(text.rfind(". ", 0, run[0].start()) + 1, runs[number - 1][-1].end() if number else 0)
-        if len(run) >= LEAST_CORNERS and (_FENCED.search(text[begins : run[0].start()]) or FENCE_BEHIND.match(text[run[-1].end() :])):
-            corners = [tuple(signed(part) for part in _NUMBER.findall(match.group())) for match in run]
+        begins = max(
+            text.rfind(". ", 0, run[0].start()) + 1, runs[number - 1][-1].end() if number else 0
+        )
+        if len(run) >= LEAST_CORNERS and (
+            _FENCED.search(text[begins : run[0].start()])
+            or FENCE_BEHIND.match(text[run[-1].end() :])
+        ):
+            corners = [
+                tuple(signed(part) for part in _NUMBER.findall(match.group())) for match in run
+            ]
             yield [metres.get(corner, corner) for corner in corners if len(corner) == 2]

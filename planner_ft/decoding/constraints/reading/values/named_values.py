@@ -1,7 +1,9 @@
-"""Text values that an input names by their kind: "sensor deck_cam", "the region 'top left'", "labelled kelp bed.".
+"""Text values that an input names by their kind: "sensor deck_cam", "the region 'top left'",
+"labelled kelp bed.".
 
-The kinds are the names of the parameters without their endings: `stream_id` is said "stream", `cloud_data` "cloud". What follows such a word is the value
-where it stands in quotation marks, looks like an identifier, or closes the clause.
+The kinds are the names of the parameters without their endings: `stream_id` is said "stream",
+`cloud_data` "cloud". What follows such a word is the value where it stands in quotation marks,
+looks like an identifier, or closes the clause.
 """
 
 from __future__ import annotations
@@ -26,21 +28,29 @@ _FUNCTION_WORDS = re.compile(
 CLOSING_KINDS = frozenset({"label", "tag", "type"})
 """Kinds that a few words may follow up to the end of the clause."""
 UNTOLD_KINDS = frozenset({"target"})
-"""Kinds whose word names other things too, as "object" does where something is the target of another skill."""
+"""Kinds whose word names other things too, as "object" does where something is the target of
+another skill.
+"""
 DOUBT = re.compile(
-    r"\b(?:instead|rather than|scratch|scrap|correction|misread|no wait|I mean|make that|not|never|don't|neither|wrong|belay|sorry|should read|disregard)\b",
+    r"\b(?:instead|rather than|scratch|scrap|correction|misread|no wait|I mean|make"
+    r" that|not|never|don't|neither|wrong|belay|sorry|should read|disregard)\b",
     re.IGNORECASE,
 )
 SEVERAL = re.compile(
     r"\b(?:change|swap) (?:it|that|this|them)\b|\bwith it on\b|"
-    r"\bfirst\b.*\b(?:second|other|last|next|latter)\b|\bformer\b.*\blatter\b|\brespectively\b|\bthe other\b",
+    r"\bfirst\b.*\b(?:second|other|last|next|latter)\b|\bformer\b.*\blatter\b|\brespectively\b|\bthe"
+    r" other\b",
     re.IGNORECASE | re.DOTALL,
 )
 """Words for several steps or values, each of which may have its own."""
 
 
-def read_named_values(text: str, spoken: Collection[str], vocabulary: Vocabulary) -> dict[tuple[str, str], frozenset[str]]:
-    """By skill and parameter what its value is one of; nothing where several skills that are spoken of have such a parameter, or one is twice."""
+def read_named_values(
+    text: str, spoken: Collection[str], vocabulary: Vocabulary
+) -> dict[tuple[str, str], frozenset[str]]:
+    """By skill and parameter what its value is one of; nothing where several skills that are spoken
+    of have such a parameter, or one is twice.
+    """
     if len(text) > LONGEST or DOUBT.search(text) or SEVERAL.search(text):
         return {}
     owners: dict[str, list[tuple[Skill, Parameter]]] = {}
@@ -52,8 +62,14 @@ def read_named_values(text: str, spoken: Collection[str], vocabulary: Vocabulary
     found = {}
     for name, having in owners.items():
         kind, owner = _ENDING.sub("", name), having[0][0].name
-        untold = kind in UNTOLD_KINDS or (kind == "object" and "target_id" in owners) or (kind == "region" and "roi" in owners)
-        values = None if untold or len(having) > 1 or mentions(text, owner) > 1 else _values(text, kind)
+        untold = (
+            kind in UNTOLD_KINDS
+            or (kind == "object" and "target_id" in owners)
+            or (kind == "region" and "roi" in owners)
+        )
+        values = (
+            None if untold or len(having) > 1 or mentions(text, owner) > 1 else _values(text, kind)
+        )
         if values:
             found[owner, name] = values
     return found

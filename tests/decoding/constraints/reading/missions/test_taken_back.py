@@ -9,7 +9,10 @@ from planner_ft.decoding.constraints.reading.missions.homeward import home_meant
 from planner_ft.decoding.constraints.reading.missions.others import places_of_others
 from planner_ft.decoding.constraints.reading.missions.renewed import outdated, read_spacing
 from planner_ft.decoding.constraints.reading.missions.sections import read_sections
-from planner_ft.decoding.constraints.reading.missions.taken_back import dropped_titles, places_taken_back
+from planner_ft.decoding.constraints.reading.missions.taken_back import (
+    dropped_titles,
+    places_taken_back,
+)
 
 HOME = (0.0, 0.0)
 
@@ -17,10 +20,25 @@ HOME = (0.0, 0.0)
 @pytest.mark.parametrize(
     ("command", "dropped"),
     [
-        ("Find the tender and orbit it at 9 m. Scratch the orbit, fog is coming: hold beside it for a minute.", ["PerformOrbit"]),
+        (
+            (
+                "Find the tender and orbit it at 9 m. Scratch the orbit, fog is coming: hold beside"
+                " it for a minute."
+            ),
+            ["PerformOrbit"],
+        ),
         ("Panorama from [4, 40], then a report. Forget the report.", ["AutoGenerateReportSummary"]),
-        ("Look for the skiff and film its bow. She lies at [40, 9] as we hear, so drop the search.", ["SearchAndDetect"]),
-        ("A sensor check, then survey the cone at [3, 30]. The sensor check is cancelled.", ["Diagnostics"]),
+        (
+            (
+                "Look for the skiff and film its bow. She lies at [40, 9] as we hear, so drop the"
+                " search."
+            ),
+            ["SearchAndDetect"],
+        ),
+        (
+            "A sensor check, then survey the cone at [3, 30]. The sensor check is cancelled.",
+            ["Diagnostics"],
+        ),
         ("Circle the cone at [3, 30]. Don't forget the report.", []),
         ("Go to [41, 6], skip the post-mission report.", ["AutoGenerateReportSummary"]),
         ("Circle the cone at [3, 30] and the can at [9, 80]. At [9, 80] skip the circling.", []),
@@ -35,8 +53,14 @@ def test_tasks_that_are_taken_back(command: str, dropped: list[str]) -> None:
 @pytest.mark.parametrize(
     ("command", "places"),
     [
-        ("Survey the buoys at [1, 20], [1, 40] and [1, 60], but leave out the middle one.", [(1, 40)]),
-        ("Hold a minute at each of [1, 20], [1, 40] and [1, 60], all but the northernmost one.", [(1, 60)]),
+        (
+            "Survey the buoys at [1, 20], [1, 40] and [1, 60], but leave out the middle one.",
+            [(1, 40)],
+        ),
+        (
+            "Hold a minute at each of [1, 20], [1, 40] and [1, 60], all but the northernmost one.",
+            [(1, 60)],
+        ),
         ("Survey [1, 20], [1, 40] and [1, 60] at 9 m except the last, which needs 12 m.", []),
         ("Dock at [5, 2]. That berth is occupied, so use [9, -4].", [(5, 2)]),
         ("Dock at [5, 2]. That berth is small, so come in slowly from [9, -4].", []),
@@ -60,9 +84,18 @@ def test_places_that_are_taken_back(command: str, places: list[tuple[float, floa
 @pytest.mark.parametrize(
     ("command", "places"),
     [
-        ("Skua holds at [8, 8] all day and Plover docks at [9, 1], none of your business. Film the lamp at [30, 4].", [(8, 8), (9, 1)]),
+        (
+            (
+                "Skua holds at [8, 8] all day and Plover docks at [9, 1], none of your business."
+                " Film the lamp at [30, 4]."
+            ),
+            [(8, 8), (9, 1)],
+        ),
         ("Skua is surveying the box at [8, 8]. You take the one at [40, 8].", [(8, 8)]),
-        ("The other boat is working at [8, 8], which is not your concern. Drift at [40, 8].", [(8, 8)]),
+        (
+            "The other boat is working at [8, 8], which is not your concern. Drift at [40, 8].",
+            [(8, 8)],
+        ),
         ("Skua lies at [8, 8]. Circle her at 20 m.", []),
         ("Hold at [8, 8], no report for you to write.", []),
     ],
@@ -81,7 +114,10 @@ def test_places_of_others(command: str, places: list[tuple[float, float]]) -> No
         ("Hold at [9, 90] for ten minutes. Make it twelve minutes.", {600}),
         ("Readings every 20 seconds at [9, 90]. Correction: every 40 seconds.", {20}),
         ("Hold at [9, 90] for ten minutes. Make it twelve minutes. No, ten was right.", set()),
-        ("Film the bow for 50 seconds at [9, 90]. Correction on the film: 35 seconds, not 50.", {50}),
+        (
+            "Film the bow for 50 seconds at [9, 90]. Correction on the film: 35 seconds, not 50.",
+            {50},
+        ),
         ("Hold for ten minutes at [9, 90] and for twelve minutes at [9, 99].", set()),
     ],
 )
@@ -103,17 +139,34 @@ def test_spacing(command: str, spacing: float | None) -> None:
 
 
 def test_sections_have_values_of_their_own() -> None:
-    apart = read_sections("Mole 1, at [8, 0]: a 40 m pass of the west side, 6 m off. Mole 2, at [90, 0]: the east side, 25 m, 9 m off.")
+    apart = read_sections(
+        "Mole 1, at [8, 0]: a 40 m pass of the west side, 6 m off. Mole 2, at [90, 0]: the east"
+        " side, 25 m, 9 m off."
+    )
     assert apart == {(8, 0): {"m": frozenset({40, 6})}, (90, 0): {"m": frozenset({25, 9})}}
-    assert read_sections("Mole 1, at [8, 0]: a 40 m pass, 6 m off. Mole 2, at [90, 0]: the same.") == {}
-    assert read_sections("Keep 6 m off. Mole 1, at [8, 0]: a 40 m pass. Mole 2, at [90, 0]: a 20 m pass.") == {}
+    assert (
+        read_sections("Mole 1, at [8, 0]: a 40 m pass, 6 m off. Mole 2, at [90, 0]: the same.")
+        == {}
+    )
+    assert (
+        read_sections(
+            "Keep 6 m off. Mole 1, at [8, 0]: a 40 m pass. Mole 2, at [90, 0]: a 20 m pass."
+        )
+        == {}
+    )
 
 
 def test_whether_home_is_spoken_of() -> None:
     assert not home_meant("Hold at [9, 90] for a minute, then film the mast.")
-    assert home_meant("hld at [9, 90] thn cum hoam") and home_meant("Hold at [9, 90], then head back.")
+    assert home_meant("hld at [9, 90] thn cum hoam") and home_meant(
+        "Hold at [9, 90], then head back."
+    )
 
 
 def test_a_sentence_about_the_weather_is_no_search() -> None:
-    assert read_told("Wind 200 at 9 knots, barometer 1011. Panorama from [4, 40], 6 sectors.").placed
-    assert not read_told("Wind 200 at 9 knots, find the tender. Panorama from [4, 40], 6 sectors.").placed
+    assert read_told(
+        "Wind 200 at 9 knots, barometer 1011. Panorama from [4, 40], 6 sectors."
+    ).placed
+    assert not read_told(
+        "Wind 200 at 9 knots, find the tender. Panorama from [4, 40], 6 sectors."
+    ).placed

@@ -1,4 +1,6 @@
-"""Corners, axes and sizes of grids as task inputs word them, and where on the way something else is done."""
+"""Corners, axes and sizes of grids as task inputs word them, and where on the way something else is
+done.
+"""
 
 from __future__ import annotations
 
@@ -27,14 +29,38 @@ def ground(task: str, prompt: str, parameters: dict[str, Any]) -> Ground:
     ("prompt", "lanes"),
     [
         ("Run the grid. Depth from the bow sounder.", ("south-west", "y")),
-        ("First lane along the north side, starting at its east end, then southward lane by lane.", ("north-east", "x")),
-        ("Begin at the north-east corner heading west and work your way south.", ("north-east", "x")),
+        (
+            (
+                "First lane along the north side, starting at its east end, then southward lane by"
+                " lane."
+            ),
+            ("north-east", "x"),
+        ),
+        (
+            "Begin at the north-east corner heading west and work your way south.",
+            ("north-east", "x"),
+        ),
         ("From the south-east corner, stepping west.", ("south-east", "y")),
-        ("North-south lanes, the first one on the eastern edge, run from north to south.", ("north-east", "y")),
-        ("Lanes east-west, starting from the north side and working southwards.", ("north-west", "x")),
-        ("East-west lanes, each one further north than the one before; enter at the south-east corner.", ("south-east", "x")),
+        (
+            "North-south lanes, the first one on the eastern edge, run from north to south.",
+            ("north-east", "y"),
+        ),
+        (
+            "Lanes east-west, starting from the north side and working southwards.",
+            ("north-west", "x"),
+        ),
+        (
+            (
+                "East-west lanes, each one further north than the one before; enter at the"
+                " south-east corner."
+            ),
+            ("south-east", "x"),
+        ),
         ("Take the easternmost lane first, southbound.", ("north-east", "y")),
-        ("Lanes east-west rather than north-south, from the north-west corner.", ("north-west", "x")),
+        (
+            "Lanes east-west rather than north-south, from the north-west corner.",
+            ("north-west", "x"),
+        ),
         ("North-south lanes, from east to west.", ("south-east", "y")),
         ("Lanes along the long side, from the south-west corner.", ("south-west", "y")),
         ("When the last lane is done hold for a minute.", ("south-west", "y")),
@@ -65,15 +91,35 @@ def test_sizes_are_written_out(prompt: str, written: str) -> None:
 @pytest.mark.parametrize(
     ("prompt", "path"),
     [
-        ("Mud survey: centre [-20, 70], width 30, length 60, lines every 15 m. Once the last one is finished hold for a minute.", ("south-west", "y")),
-        ("[-20, 70] in the middle, 30 m in x, 60 m in y, transects parallel to the x axis every 15 m, from the north-east corner.", ("north-east", "x")),
-        ("Grid of 30 x 60 about [-20, 70], lane spacing 15, north-west corner first, stepping east.", ("north-west", "y")),
+        (
+            (
+                "Mud survey: centre [-20, 70], width 30, length 60, lines every 15 m. Once the last"
+                " one is finished hold for a minute."
+            ),
+            ("south-west", "y"),
+        ),
+        (
+            (
+                "[-20, 70] in the middle, 30 m in x, 60 m in y, transects parallel to the x axis"
+                " every 15 m, from the north-east corner."
+            ),
+            ("north-east", "x"),
+        ),
+        (
+            (
+                "Grid of 30 x 60 about [-20, 70], lane spacing 15, north-west corner first,"
+                " stepping east."
+            ),
+            ("north-west", "y"),
+        ),
     ],
 )
 def test_a_grid_that_leaves_no_choice(prompt: str, path: tuple[g.Corner, g.Axis]) -> None:
     facts = ground("BathymetryGridSurvey", prompt, BOX)
     lanes = g.lawnmower((-20, 70), 30, 60, 15, *path)
-    assert all(facts.following(tuple(lanes[:place])) == [point] for place, point in enumerate(lanes))
+    assert all(
+        facts.following(tuple(lanes[:place])) == [point] for place, point in enumerate(lanes)
+    )
 
 
 @pytest.mark.parametrize(
@@ -94,11 +140,38 @@ def test_where_something_else_is_done(prompt: str, halts: set[str] | None) -> No
 
 
 def test_a_hold_comes_where_it_is_asked_for_and_nowhere_else() -> None:
-    facts = ground("SurveyTarget", "Square round the pile at [4, 6], 10 m off. Hold 15 s at each corner and fit a cylinder to the point cloud.", SQUARE)
+    facts = ground(
+        "SurveyTarget",
+        "Square round the pile at [4, 6], 10 m off. Hold 15 s at each corner and fit a cylinder to"
+        " the point cloud.",
+        SQUARE,
+    )
     path = tuple(g.survey_square((4, 6), 10))
-    assert [facts.halts_here(path[:done]) for done in range(9)] == [False, False, True, False, True, False, True, False, True]
-    facts = ground("BathymetryGridSurvey", "The planned grid. When it is finished hold for two minutes.", BOX)
+    assert [facts.halts_here(path[:done]) for done in range(9)] == [
+        False,
+        False,
+        True,
+        False,
+        True,
+        False,
+        True,
+        False,
+        True,
+    ]
+    facts = ground(
+        "BathymetryGridSurvey", "The planned grid. When it is finished hold for two minutes.", BOX
+    )
     lanes = tuple(g.lawnmower((-20, 70), 30, 60, 15))
-    assert [facts.halts_here(lanes[:done]) for done in range(len(lanes) + 1)] == [False] * len(lanes) + [True]
-    assert halts_at(frozenset({"lanes"}), lanes, 2) is True and halts_at(frozenset({"lanes"}), lanes, 3) is False
-    assert ground("SurveyTarget", "Square round the target. Hold for a minute.", SQUARE).halts_here(path[:3]) is None
+    assert [facts.halts_here(lanes[:done]) for done in range(len(lanes) + 1)] == [False] * len(
+        lanes
+    ) + [True]
+    assert (
+        halts_at(frozenset({"lanes"}), lanes, 2) is True
+        and halts_at(frozenset({"lanes"}), lanes, 3) is False
+    )
+    assert (
+        ground("SurveyTarget", "Square round the target. Hold for a minute.", SQUARE).halts_here(
+            path[:3]
+        )
+        is None
+    )

@@ -29,15 +29,51 @@ def record(prompt: str, **parameters: Any) -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("prompt", "path"),
     [
-        ("The pipe leaves [5, 5], goes 40 m on 200, bends and runs a further 25 m on 250. Follow it to the end.", legs((5, 5), (200, 40), (250, 25))),
-        ("You are lying at [5, 5]. Go 80 m on 045 and from there 30 m due south.", legs((5, 5), (45, 80), (180, 30))[1:]),
-        ("From home steer 270 for 50 m, then 000 for 20 m, then straight back home.", [(-50, 0), (-50, 20), (0, 0)]),
-        ("From the start: 60 m on a course of 100, then another 30 m on 190. Bow locked.", legs((40, -20), (100, 60), (190, 30))),
-        ("Dog-leg from [0, 0]: 70 m on 060, then alter course to 120 for 70 m. Detect rafts on both legs.", legs((0, 0), (60, 70), (120, 70))),
-        ("Start at [1, 2], run 10 m east, 20 m north and 10 m west.", [(1, 2), (11, 2), (11, 22), (1, 22)]),
-        ("The cable begins at [0, 0], runs 30 m on 090 and 40 m on 000. Follow it there and back.", [(0, 0), (30, 0), (30, 40), (30, 0), (0, 0)]),
-        ("The cable begins at [0, 0], runs 30 m on 090 and 40 m on 000. Do it from the far end.", [(30, 40), (30, 0), (0, 0)]),
-        ("The pipe goes from [0, 0] 50 m on 090. Take it in reverse and finish at [0, 0].", [(50, 0), (0, 0)]),
+        (
+            (
+                "The pipe leaves [5, 5], goes 40 m on 200, bends and runs a further 25 m on 250."
+                " Follow it to the end."
+            ),
+            legs((5, 5), (200, 40), (250, 25)),
+        ),
+        (
+            "You are lying at [5, 5]. Go 80 m on 045 and from there 30 m due south.",
+            legs((5, 5), (45, 80), (180, 30))[1:],
+        ),
+        (
+            "From home steer 270 for 50 m, then 000 for 20 m, then straight back home.",
+            [(-50, 0), (-50, 20), (0, 0)],
+        ),
+        (
+            "From the start: 60 m on a course of 100, then another 30 m on 190. Bow locked.",
+            legs((40, -20), (100, 60), (190, 30)),
+        ),
+        (
+            (
+                "Dog-leg from [0, 0]: 70 m on 060, then alter course to 120 for 70 m. Detect rafts"
+                " on both legs."
+            ),
+            legs((0, 0), (60, 70), (120, 70)),
+        ),
+        (
+            "Start at [1, 2], run 10 m east, 20 m north and 10 m west.",
+            [(1, 2), (11, 2), (11, 22), (1, 22)],
+        ),
+        (
+            (
+                "The cable begins at [0, 0], runs 30 m on 090 and 40 m on 000. Follow it there and"
+                " back."
+            ),
+            [(0, 0), (30, 0), (30, 40), (30, 0), (0, 0)],
+        ),
+        (
+            "The cable begins at [0, 0], runs 30 m on 090 and 40 m on 000. Do it from the far end.",
+            [(30, 40), (30, 0), (0, 0)],
+        ),
+        (
+            "The pipe goes from [0, 0] 50 m on 090. Take it in reverse and finish at [0, 0].",
+            [(50, 0), (0, 0)],
+        ),
     ],
 )
 def test_legs_follow_one_another(prompt: str, path: Points) -> None:
@@ -68,9 +104,18 @@ def test_what_is_not_clear_is_not_read(prompt: str) -> None:
         ("Run the planned track from the far end back to the start, sonar on.", [LAST, FIRST]),
         ("Follow the cable backwards, from its end to its start.", [LAST, FIRST]),
         ("Follow the cable to its end and back to the start again.", [FIRST, LAST, FIRST]),
-        ("Follow the cable from the start with waypoints 30 m apart, both ends counted.", legs((40, -20), (120, 30), (120, 30), (120, 30))),
-        ("The planned track, a stop at 45 m intervals, first and last one at the ends of it.", legs((40, -20), (120, 45), (120, 45))),
-        ("Begin at [40, -20], course south, 60 m long, one waypoint every 20 m.", [(40, -20), (40, -40), (40, -60), (40, -80)]),
+        (
+            "Follow the cable from the start with waypoints 30 m apart, both ends counted.",
+            legs((40, -20), (120, 30), (120, 30), (120, 30)),
+        ),
+        (
+            "The planned track, a stop at 45 m intervals, first and last one at the ends of it.",
+            legs((40, -20), (120, 45), (120, 45)),
+        ),
+        (
+            "Begin at [40, -20], course south, 60 m long, one waypoint every 20 m.",
+            [(40, -20), (40, -40), (40, -60), (40, -80)],
+        ),
     ],
 )
 def test_tracks_are_run_as_the_prompt_says(prompt: str, path: Points) -> None:

@@ -15,7 +15,10 @@ from planner_ft.vocabulary import load_vocabulary
     ("prompt", "text"),
     [
         ("Go to a point 1.5 km west and 2,000 ft north of home.", "Go to a point (-1500, 609.6)."),
-        ("Head a tenth of a nautical mile due south of home, slowly.", "Head to (0, -185.2), slowly."),
+        (
+            "Head a tenth of a nautical mile due south of home, slowly.",
+            "Head to (0, -185.2), slowly.",
+        ),
         ("Go to the spot 300 m north of home and 50 m east of it.", "Go to the spot (50, 300)."),
         ("The raft is 30 m east of home: go there.", "The raft : go to (30, 0)."),
         ("Go 30 m east of the buoy at (4, 5).", "Go 30 m east of the buoy at (4, 5)."),
@@ -39,7 +42,10 @@ def test_a_place_off_home_is_no_way_home() -> None:
     [
         ("GO TO (4, 5) STOP HOLD 30 S STOP NO REPLY STOP", "go to (4, 5). hold 30 s. no reply."),
         ("DRIVE TO 10 E 20 S STOP STORE CAM_2 PICTURE", "drive to 10 E 20 S. store CAM_2 picture"),
-        ("GO TO A = [1, 2], B = [3, 4] AND THEN STOP FOR 20 SECONDS", "go to A = [1, 2], B = [3, 4] and then stop for 20 seconds"),
+        (
+            "GO TO A = [1, 2], B = [3, 4] AND THEN STOP FOR 20 SECONDS",
+            "go to A = [1, 2], B = [3, 4] and then stop for 20 seconds",
+        ),
         ("Go to A and STOP there", "Go to A and STOP there"),
     ],
 )
@@ -51,4 +57,6 @@ def test_units() -> None:
     assert stated_numbers("Drift for 3 h 10 min.", "s") == {11400}
     assert 60 in stated_numbers("Drift for 2 hours and one minute.", "s")
     assert 33.75 in stated_numbers("Turn three points to port.", "deg")
-    assert any(value == pytest.approx(18.288) for value in stated_numbers("Keep ten fathoms off.", "m"))
+    assert any(
+        value == pytest.approx(18.288) for value in stated_numbers("Keep ten fathoms off.", "m")
+    )

@@ -41,7 +41,10 @@ def test_what_is_about_something_else_is_taken_out(aside: str) -> None:
         ("Hold for a minute for the divers.", "hold for T60"),
         ("Hold for a minute while we bring the line ashore.", "hold for T60"),
         ("Hold for a minute until the pilot waves.", "hold for T60"),
-        ("Tug outbound, I say again tug outbound. Hold for a minute.", "tug outbound. hold for T60"),
+        (
+            "Tug outbound, I say again tug outbound. Hold for a minute.",
+            "tug outbound. hold for T60",
+        ),
     ],
 )
 def test_courtesies_and_purposes_are_taken_out(prompt: str, rest: str) -> None:
@@ -66,5 +69,11 @@ def test_what_may_be_an_order_stays(order: str) -> None:
 
 
 def test_times_of_day() -> None:
-    assert without_clock_times("Ferry at 09:15, lost since 1840.") == "Ferry at clocktime, lost since clocktime."
-    assert without_clock_times("Turn to 090, then go to [1840, 5].") == "Turn to 090, then go to [1840, 5]."
+    assert (
+        without_clock_times("Ferry at 09:15, lost since 1840.")
+        == "Ferry at clocktime, lost since clocktime."
+    )
+    assert (
+        without_clock_times("Turn to 090, then go to [1840, 5].")
+        == "Turn to 090, then go to [1840, 5]."
+    )

@@ -31,22 +31,46 @@ def nudges(*degrees: float) -> tuple[tuple[str, float], ...]:
     ("prompt", "degrees"),
     [
         ("Turn to north, east, south and west, a still at each heading.", (0, 90, 180, 270)),
-        ("Bearings 80, 100, 120 in that order, hot point over 60 degrees on every one.", (80, 100, 120)),
+        (
+            "Bearings 80, 100, 120 in that order, hot point over 60 degrees on every one.",
+            (80, 100, 120),
+        ),
         ("Face N, E, S, W in turn.", (0, 90, 180, 270)),
         ("Turn to 0, 120 and 240 degrees. After each turn hold for 10 s.", (0, 120, 240)),
         ("Come to zero nine zero and wait. Then one eight zero and wait likewise.", (90, 180)),
         ("Swing the bow south-south-east.", (157.5,)),
         ("Come to bearing two four zero, I say again two four zero.", (240,)),
-        ("Look in six directions, sixty degrees apart, going clockwise from north.", (0, 60, 120, 180, 240, 300)),
-        ("Four headings, 90 degrees apart, the first one east and the others anticlockwise from there.", (90, 0, 270, 180)),
-        ("Turn through four evenly spaced headings, starting at east, anticlockwise.", (90, 0, 270, 180)),
-        ("Turn from 300 through north to 060 clockwise, in steps of 30 degrees.", (300, 330, 0, 30, 60)),
+        (
+            "Look in six directions, sixty degrees apart, going clockwise from north.",
+            (0, 60, 120, 180, 240, 300),
+        ),
+        (
+            (
+                "Four headings, 90 degrees apart, the first one east and the others anticlockwise"
+                " from there."
+            ),
+            (90, 0, 270, 180),
+        ),
+        (
+            "Turn through four evenly spaced headings, starting at east, anticlockwise.",
+            (90, 0, 270, 180),
+        ),
+        (
+            "Turn from 300 through north to 060 clockwise, in steps of 30 degrees.",
+            (300, 330, 0, 30, 60),
+        ),
         ("270, 180, 090: turn to each, a still every time.", (270, 180, 90)),
         ("Go to (3, 4), then turn to 200 and check the sector at 45 degrees.", (200,)),
         ("Turn to 090. Slices only while facing 090.", (90,)),
-        ("Turn to the four cardinal points, anticlockwise and beginning with west.", (270, 180, 90, 0)),
+        (
+            "Turn to the four cardinal points, anticlockwise and beginning with west.",
+            (270, 180, 90, 0),
+        ),
         ("Look in all four cardinal directions clockwise from north.", (0, 90, 180, 270)),
-        ("Turn to each of the eight compass points clockwise from east.", (90, 135, 180, 225, 270, 315, 0, 45)),
+        (
+            "Turn to each of the eight compass points clockwise from east.",
+            (90, 135, 180, 225, 270, 315, 0, 45),
+        ),
     ],
 )
 def test_headings_are_read_in_order(prompt: str, degrees: tuple[float, ...]) -> None:
@@ -63,31 +87,66 @@ def test_headings_are_read_in_order(prompt: str, degrees: tuple[float, ...]) -> 
         ("Three nudges of 20 degrees to starboard.", (20, 20, 20)),
         ("Quarter turn to port, then half a turn to starboard.", (-90, 180)),
         ("Swing the bow three points to port.", (-33.75,)),
-        ("Two points to starboard on the spot (a point being 11.25 degrees), then one point to port.", (22.5, -11.25)),
+        (
+            (
+                "Two points to starboard on the spot (a point being 11.25 degrees), then one point"
+                " to port."
+            ),
+            (22.5, -11.25),
+        ),
         ("Pan 40 degrees to the left and back again by the same angle.", (-40, 40)),
         ("Nudge 5 degrees to port and as much to starboard.", (-5, 5)),
         ("Turn all the way round, anticlockwise, in 4 equal steps.", (-90, -90, -90, -90)),
         ("Adjust the heading by -75 degrees.", (-75,)),
         ("Turn 45° cw. Turn 45° ccw.", (45, -45)),
-        ("Nudge the bow 15 degrees to port, then arc 90 degrees to starboard at a radius of 20 m.", (-15,)),
+        (
+            (
+                "Nudge the bow 15 degrees to port, then arc 90 degrees to starboard at a radius of"
+                " 20 m."
+            ),
+            (-15,),
+        ),
         ("Pan to port across 90 degrees in three equal parts.", (-30, -30, -30)),
         ("Rotate by 60 degrees to starboard in two equal steps.", (30, 30)),
-        ("Once all the way round, clockwise, in four quarter turns, and after every quarter turn wait until she is steady.", (90, 90, 90, 90)),
+        (
+            (
+                "Once all the way round, clockwise, in four quarter turns, and after every quarter"
+                " turn wait until she is steady."
+            ),
+            (90, 90, 90, 90),
+        ),
         ("Make three quarter turns to port.", (-90, -90, -90)),
         ("Turn 20 to port, 40 across to starboard, 20 back to port.", (-20, 40, -20)),
         ("hodl 5 s, rotaet 10 degres to prot", (-10,)),
     ],
 )
-def test_angles_to_turn_by_are_read_with_their_side(prompt: str, degrees: tuple[float, ...]) -> None:
+def test_angles_to_turn_by_are_read_with_their_side(
+    prompt: str, degrees: tuple[float, ...]
+) -> None:
     assert turns(prompt) == nudges(*degrees)
 
 
 def test_the_task_s_own_values_stand_for_the_words_that_refer_to_them() -> None:
-    covered = "Face 210 first, then come to port 40 degrees at a time until the scan width has been covered."
-    assert turns(covered, "ThermalHotspotLocalizer", scan_width_degrees=120) == (*headings(210), *nudges(-40, -40, -40))
-    assert turns("Turn to 100 degrees, then pan clockwise by the scan width.", scan_width_degrees=120) == (*headings(100), *nudges(120))
-    assert turns("Go to the start and turn to the given heading.", "SubseaCableTrack", start=[0, 0], heading=250) == headings(250)
-    assert turns("All round in the planned number of sectors, clockwise from south.", sectors=4) == headings(180, 270, 0, 90)
+    covered = (
+        "Face 210 first, then come to port 40 degrees at a time until the scan width has been"
+        " covered."
+    )
+    assert turns(covered, "ThermalHotspotLocalizer", scan_width_degrees=120) == (
+        *headings(210),
+        *nudges(-40, -40, -40),
+    )
+    assert turns(
+        "Turn to 100 degrees, then pan clockwise by the scan width.", scan_width_degrees=120
+    ) == (*headings(100), *nudges(120))
+    assert turns(
+        "Go to the start and turn to the given heading.",
+        "SubseaCableTrack",
+        start=[0, 0],
+        heading=250,
+    ) == headings(250)
+    assert turns(
+        "All round in the planned number of sectors, clockwise from south.", sectors=4
+    ) == headings(180, 270, 0, 90)
 
 
 @pytest.mark.parametrize(
@@ -128,10 +187,17 @@ def test_sampled_labels_are_met() -> None:
     for record in itertools.islice(sample_tasks(VOCABULARY, 77, None, "train"), 300):
         found = read_turns(record, VOCABULARY)
         steps = [step["navigation_skill"] for step in record["expected"]["skill_sequence"]]
-        wanted = [(step["name"], next(iter(step["parameters"].values()))) for step in steps if step["name"] in (ROTATE, NUDGE)]
+        wanted = [
+            (step["name"], next(iter(step["parameters"].values())))
+            for step in steps
+            if step["name"] in (ROTATE, NUDGE)
+        ]
         if found is not None:
             read += 1
-            right += len(found) == len(wanted) and all(one[0] == two[0] and abs(one[1] - two[1]) < 0.01 for one, two in zip(found, wanted, strict=True))
+            right += len(found) == len(wanted) and all(
+                one[0] == two[0] and abs(one[1] - two[1]) < 0.01
+                for one, two in zip(found, wanted, strict=True)
+            )
     assert read > 120
     assert right >= read - 1
 

@@ -1,4 +1,6 @@
-"""Which filter and perception skills the words of a task input can ask for, and which they ask for beyond doubt."""
+"""Which filter and perception skills the words of a task input can ask for, and which they ask for
+beyond doubt.
+"""
 
 from __future__ import annotations
 
@@ -18,21 +20,35 @@ VOCABULARY = load_vocabulary()
 def expected_skills(record: dict[str, Any]) -> set[str]:
     """The filter and perception skills of a record's plan."""
     steps = record["expected"]["skill_sequence"]
-    return {skill["name"] for step in steps for key in ("filter_skills", "perception_skills") for skill in step[key]}
+    return {
+        skill["name"]
+        for step in steps
+        for key in ("filter_skills", "perception_skills")
+        for skill in step[key]
+    }
 
 
 @pytest.mark.parametrize(
     ("text", "skills"),
     [
         ("LIDAR PROFILE STOP", {"LogLidarSlice"}),
-        ("Proceed to the target position, wait until she is steady, then turn to due south.", set()),
+        (
+            "Proceed to the target position, wait until she is steady, then turn to due south.",
+            set(),
+        ),
         ("Hold for ninety seconds within 5 m.", set()),
         ("pos fix and env log every stop pls", {"GetGPSLocation", "LogEnvironmentState"}),
         ("hold station, get teh depht off the keel soudner", {"GetSeabedDepth"}),
         ("Detect the cable on the sonar in both steps.", {"DetectSonarFeature"}),
-        ("Keep buoys out of it: have the detector look for swimmers, and the sonar for wrecks.", {"DetectObjects", "DetectSonarFeature"}),
+        (
+            "Keep buoys out of it: have the detector look for swimmers, and the sonar for wrecks.",
+            {"DetectObjects", "DetectSonarFeature"},
+        ),
         ("A still with its position at all eight points.", {"CaptureGeoSnapshot"}),
-        ("Depth with a position fix on every lane, bow locked.", {"GetSeabedDepth", "GetGPSLocation", "LockHeading"}),
+        (
+            "Depth with a position fix on every lane, bow locked.",
+            {"GetSeabedDepth", "GetGPSLocation", "LockHeading"},
+        ),
         ("Nothing within fifty yards of us on the way.", {"ObstacleAvoidance"}),
         ("Drift, but stay inside the polygon.", {"BoundaryEnforcement"}),
         ("Minimum LiDAR distance at bearing 90.", {"GetSectorDistance"}),
@@ -42,9 +58,17 @@ def expected_skills(record: dict[str, Any]) -> set[str]:
         ("Save the last thirty seconds of video from the buffer.", {"BufferLoopCapture"}),
         (
             "Run a sensor health check.",
-            {"CheckLensClearness", "GetHorizonAngle", "GetImageQualityMetrics", "VerifyGeotagQuality"},
+            {
+                "CheckLensClearness",
+                "GetHorizonAngle",
+                "GetImageQualityMetrics",
+                "VerifyGeotagQuality",
+            },
         ),
-        ("Check the lens and the horizon: a health check.", {"CheckLensClearness", "GetHorizonAngle"}),
+        (
+            "Check the lens and the horizon: a health check.",
+            {"CheckLensClearness", "GetHorizonAngle"},
+        ),
     ],
 )
 def test_what_a_text_speaks_of(text: str, skills: set[str]) -> None:
@@ -97,8 +121,14 @@ def test_another_vehicle_has_no_evidence() -> None:
 @pytest.mark.parametrize(
     ("text", "skills"),
     [
-        ("Hold with the heading locked and a clearance of 10 m.", {"LockHeading", "ObstacleAvoidance"}),
-        ("Take a GPS fix. Check the image quality of cam1.", {"GetGPSLocation", "GetImageQualityMetrics"}),
+        (
+            "Hold with the heading locked and a clearance of 10 m.",
+            {"LockHeading", "ObstacleAvoidance"},
+        ),
+        (
+            "Take a GPS fix. Check the image quality of cam1.",
+            {"GetGPSLocation", "GetImageQualityMetrics"},
+        ),
         ("Hold position. No need to check the image quality.", set()),
         ("Take soundings. Never mind the image quality.", set()),
         ("Image quality of cam1, GPS fix. That was done already.", set()),
@@ -183,16 +213,28 @@ def test_fences(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "skill"),
     [
-        ("Go to (4, 4). Tell me if there is any wreck on the sonar, nothing else.", "DetectSonarFeature"),
+        (
+            "Go to (4, 4). Tell me if there is any wreck on the sonar, nothing else.",
+            "DetectSonarFeature",
+        ),
         ("How deep it is on all but the first leg, please.", "GetSeabedDepth"),
         ("Hold 40 s with persistent tracking of ferry-2.", "TrackObjects"),
         ("Turn to 90 with the text in the upper half read, not in the hold.", "OCRScanning"),
         ("Let nothing come closer than 6 m.", "ObstacleAvoidance"),
-        ("Pass it 9 m off, from end to end, and save the lidar sweep as a 2D profile.", "LogLidarSlice"),
+        (
+            "Pass it 9 m off, from end to end, and save the lidar sweep as a 2D profile.",
+            "LogLidarSlice",
+        ),
         ("Run down it with the bow locked.", "LockHeading"),
         ("Take a fix in the drifts, nothing in the holds.", "GetGPSLocation"),
         ("Wait until she is steady and rate the usability of the frame.", "GetImageQualityMetrics"),
-        ("Go to (4, 4) with a margin of 12 m, then to (9, 9), where the margin is no longer needed.", "ObstacleAvoidance"),
+        (
+            (
+                "Go to (4, 4) with a margin of 12 m, then to (9, 9), where the margin is no longer"
+                " needed."
+            ),
+            "ObstacleAvoidance",
+        ),
         ("HOLD TWO MINUTES STOP LOG ENVIRONMENT STOP NO REPLY", "LogEnvironmentState"),
     ],
 )
@@ -213,7 +255,9 @@ def test_what_is_ruled_out_or_meant_otherwise_is_not_required(text: str, skill: 
 
 
 def test_what_one_need_not_bother_with_is_not_spoken_of() -> None:
-    assert "ObstacleAvoidance" not in (spoken_of("Engines off, float 5 min. Don't bother with a margin.", VOCABULARY) or ())
+    assert "ObstacleAvoidance" not in (
+        spoken_of("Engines off, float 5 min. Don't bother with a margin.", VOCABULARY) or ()
+    )
 
 
 def test_what_others_do_is_not_required() -> None:
@@ -224,11 +268,27 @@ def test_what_others_do_is_not_required() -> None:
     ("text", "skill", "spoken"),
     [
         ("Sun is right on the lens. Nudge 10 degrees to port.", "CheckLensClearness", False),
-        ("The low sun shines straight into the camera lens, so turn to 120.", "CheckLensClearness", False),
-        ("Sun on the lens again; check the lens while you hold for a minute.", "CheckLensClearness", True),
-        ("The harbour people now want a longer drift. Float for ten minutes.", "DetectObjects", False),
+        (
+            "The low sun shines straight into the camera lens, so turn to 120.",
+            "CheckLensClearness",
+            False,
+        ),
+        (
+            "Sun on the lens again; check the lens while you hold for a minute.",
+            "CheckLensClearness",
+            True,
+        ),
+        (
+            "The harbour people now want a longer drift. Float for ten minutes.",
+            "DetectObjects",
+            False,
+        ),
         ("Divers need the depth. Hold for a minute and take soundings.", "DetectObjects", False),
-        ("The crew ask for a watch on swimmers. Look out for swimmers while holding.", "DetectObjects", True),
+        (
+            "The crew ask for a watch on swimmers. Look out for swimmers while holding.",
+            "DetectObjects",
+            True,
+        ),
         ("Hold for a minute and detect divers.", "DetectObjects", True),
     ],
 )

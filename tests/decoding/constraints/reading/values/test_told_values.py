@@ -14,7 +14,12 @@ from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.reading.paths.itinerary import without_fences
 from planner_ft.decoding.constraints.reading.values.clearances import clearances, margins_only
 from planner_ft.decoding.constraints.reading.values.fences import fences
-from planner_ft.decoding.constraints.reading.values.told_values import CLEARANCE, FENCE, Told, read_told_values
+from planner_ft.decoding.constraints.reading.values.told_values import (
+    CLEARANCE,
+    FENCE,
+    Told,
+    read_told_values,
+)
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import load_vocabulary
 
@@ -39,9 +44,27 @@ def test_a_length_is_a_clearance_by_the_words_beside_it(text: str, values: set[f
 @pytest.mark.parametrize(
     ("text", "values"),
     [
-        ("One arc turn to port, thirty yards radius, with sixty feet of clearance on everything.", {18.288}),
-        ("An arc to starboard, radius 25 m, margin 6 m, and another one of 40 m with a margin of 6 m.", set()),
-        ("Two arcs, radius 25 m, safety margin 6 m; the outer one has a radius of 40 m and a margin of 12 m.", {6, 12}),
+        (
+            (
+                "One arc turn to port, thirty yards radius, with sixty feet of clearance on"
+                " everything."
+            ),
+            {18.288},
+        ),
+        (
+            (
+                "An arc to starboard, radius 25 m, margin 6 m, and another one of 40 m with a"
+                " margin of 6 m."
+            ),
+            set(),
+        ),
+        (
+            (
+                "Two arcs, radius 25 m, safety margin 6 m; the outer one has a radius of 40 m and a"
+                " margin of 12 m."
+            ),
+            {6, 12},
+        ),
         ("Hold within 6 m.", set()),
     ],
 )
@@ -65,15 +88,26 @@ def test_where_no_length_certainly_is_one_none_is_told(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "corners"),
     [
-        ("Go to (5, 5). Fence (0, 0), (9, 0), (9, 9) and (0, 9).", [[(0, 0), (9, 0), (9, 9), (0, 9)]]),
-        ("Stay inside [[1, 2], [30, 2], [30, 40]], then go to (7, 7).", [[(1, 2), (30, 2), (30, 40)]]),
-        ("Polygon of corners, in kilometres: (0, 0), (0.2, 0), (0.2, -0.1).", [[(0, 0), (200, 0), (200, -100)]]),
+        (
+            "Go to (5, 5). Fence (0, 0), (9, 0), (9, 9) and (0, 9).",
+            [[(0, 0), (9, 0), (9, 9), (0, 9)]],
+        ),
+        (
+            "Stay inside [[1, 2], [30, 2], [30, 40]], then go to (7, 7).",
+            [[(1, 2), (30, 2), (30, 40)]],
+        ),
+        (
+            "Polygon of corners, in kilometres: (0, 0), (0.2, 0), (0.2, -0.1).",
+            [[(0, 0), (200, 0), (200, -100)]],
+        ),
         ("Turn to 40 and let (1, 1), (8, 1), (8, 8) be your limits.", [[(1, 1), (8, 1), (8, 8)]]),
         ("Visit (0, 0), (9, 0), (9, 9) in turn.", []),
         ("The box from (0, 0) to (40, 20).", []),
     ],
 )
-def test_a_fence_is_a_list_of_corners_behind_words_for_one(text: str, corners: list[list[tuple[float, float]]]) -> None:
+def test_a_fence_is_a_list_of_corners_behind_words_for_one(
+    text: str, corners: list[list[tuple[float, float]]]
+) -> None:
     assert list(fences(text)) == corners
 
 
@@ -87,11 +121,17 @@ def test_a_fence_is_a_list_of_corners_behind_words_for_one(text: str, corners: l
 )
 def test_corners_before_the_word_for_a_fence_are_no_waypoints(text: str) -> None:
     assert not re.search(r"\d", without_fences(text).replace("40", ""))
-    assert re.search("9, 9", without_fences("Visit (0, 0), (9, 0), (9, 9) and hold within your limits."))
+    assert re.search(
+        "9, 9", without_fences("Visit (0, 0), (9, 0), (9, 9) and hold within your limits.")
+    )
 
 
 def told(record: dict[str, Any]) -> Told:
-    return read_told_values(read(record["prompt"], VOCABULARY), read_companions(record, VOCABULARY).mentioned, VOCABULARY)
+    return read_told_values(
+        read(record["prompt"], VOCABULARY),
+        read_companions(record, VOCABULARY).mentioned,
+        VOCABULARY,
+    )
 
 
 def test_what_is_told_has_the_labels() -> None:
@@ -102,7 +142,10 @@ def test_what_is_told_has_the_labels() -> None:
         for step in record["expected"]["skill_sequence"]:
             for skill in step["filter_skills"]:
                 for name, written in skill["parameters"].items():
-                    if (skill["name"], name) in values and (skill["name"], name) in (CLEARANCE, FENCE):
+                    if (skill["name"], name) in values and (skill["name"], name) in (
+                        CLEARANCE,
+                        FENCE,
+                    ):
                         agrees = compact_json(written) in values[skill["name"], name]
                         right, wrong = right + agrees, wrong + (not agrees)
     assert right >= 20
@@ -110,5 +153,9 @@ def test_what_is_told_has_the_labels() -> None:
 
 
 def test_what_is_told_of_a_skill_itself_is_written() -> None:
-    record = {"prompt": "Geotagged still, note rung 4 loose, by camera mast_1, 6 m clear of obstacles.", "task": "Transit", "parameters": {}}
+    record = {
+        "prompt": "Geotagged still, note rung 4 loose, by camera mast_1, 6 m clear of obstacles.",
+        "task": "Transit",
+        "parameters": {},
+    }
     assert told(record).needed == {("CaptureGeoSnapshot", "note"), CLEARANCE}
