@@ -1,0 +1,103 @@
+"""The packages of planner_ft import in one direction, and scoring and data need no torch."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import planner_ft
+
+ROOT = Path(planner_ft.__file__).parent
+ORDER = (
+    "support vocabulary facts data candidates prompts training decoding planning document review"
+    " exporters"
+).split()
+ALLOWED = {package: set(ORDER[:place]) for place, package in enumerate(ORDER)} | {
+    "benchmark": set(ORDER[: ORDER.index("planning") + 1]),
+    "report": {*ORDER[: ORDER.index("planning") + 1], "benchmark"},
+    "model_export": set(ORDER[: ORDER.index("decoding") + 1]),
+    "pretraining": set(ORDER[: ORDER.index("training") + 1]),
+    "cli": {*ORDER, "benchmark", "report", "model_export", "pretraining"},
+}
+"""What each package may import of the others."""
+
+EXCEPTIONS = {("decoding", "document"), ("document", "benchmark"), ("planning", "benchmark")}
+"""Imports against the direction that are still there: this set must shrink to nothing."""
+
+HEAVY = {"torch", "transformers", "peft", "bitsandbytes", "accelerate"}
+LIGHT = ("support", "vocabulary", "facts", "data", "benchmark.metrics", "benchmark.scoring")
+
+
+def imported(nodes: list[ast.AST], deep: bool) -> Iterator[str]:
+    """Names of imported modules, and of what is imported from them; `deep` also inside functions."""
+    for node in nodes:
+        if isinstance(node, ast.ImportFrom) and node.module:
+            yield node.module
+            yield from (f"{node.module}.{item.name}" for item in node.names)
+        elif isinstance(node, ast.Import):
+            yield from (item.name for item in node.names)
+        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+            if deep or isinstance(node, ast.ClassDef):
+                yield from imported(list(node.body), deep)
+        elif deep or not (isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test)):
+            yield from imported(list(ast.iter_child_nodes(node)), deep)
+
+
+@cache
+def imports(deep: bool) -> dict[str, set[str]]:
+    """Imported names of every module of planner_ft, both by their full dotted names."""
+    found = {}
+    for path in sorted(ROOT.rglob("*.py")):
+        parts = path.relative_to(ROOT.parent).with_suffix("").parts
+        name = ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+        found[name] = set(imported(list(ast.parse(path.read_text("utf-8")).body), deep))
+    return found
+
+
+def packages(names: set[str], of: str) -> set[str]:
+    """Other packages of planner_ft among the imported names."""
+    return {
+        name.split(".")[1]
+        for name in names
+        if name.startswith("planner_ft.") and (ROOT / name.split(".")[1]).is_dir()
+    } - {of}
+
+
+def test_imports_go_one_way() -> None:
+    wrong = {
+        (module.split(".")[1], other): module
+        for module, names in imports(deep=True).items()
+        if module.count(".") >= 1 and (ROOT / module.split(".")[1]).is_dir()
+        for other in packages(names, module.split(".")[1])
+        if other not in ALLOWED[module.split(".")[1]]
+    }
+    assert not {pair: module for pair, module in wrong.items() if pair not in EXCEPTIONS}
+    assert EXCEPTIONS <= set(wrong), "an exception is no longer needed: take it out of EXCEPTIONS"
+
+
+def test_every_package_has_its_place() -> None:
+    folders = {path.parent.name for path in ROOT.glob("*/__init__.py")}
+    assert folders <= set(ALLOWED)
+
+
+@pytest.mark.parametrize("part", LIGHT)
+def test_scoring_and_data_import_no_torch(part: str) -> None:
+    modules = imports(deep=False)
+    ready = [
+        name
+        for name in modules
+        if name == f"planner_ft.{part}" or name.startswith(f"planner_ft.{part}.")
+    ]
+    seen = set(ready)
+    while ready:
+        module = ready.pop()
+        heavy = {name.split(".")[0] for name in modules[module]} & HEAVY
+        assert not heavy, f"{module} imports {', '.join(sorted(heavy))}"
+        for name in modules[module] & set(modules):
+            if name not in seen:
+                seen.add(name)
+                ready.append(name)
