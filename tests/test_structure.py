@@ -12,10 +12,20 @@ import pytest
 import planner_ft
 
 ROOT = Path(planner_ft.__file__).parent
-ORDER = (
-    "support vocabulary facts data candidates prompts training decoding planning document review"
-    " exporters"
-).split()
+ORDER = [
+    "support",
+    "vocabulary",
+    "facts",
+    "data",
+    "candidates",
+    "prompts",
+    "training",
+    "decoding",
+    "planning",
+    "document",
+    "review",
+    "exporters",
+]
 ALLOWED = {package: set(ORDER[:place]) for place, package in enumerate(ORDER)} | {
     "benchmark": set(ORDER[: ORDER.index("planning") + 1]),
     "report": {*ORDER[: ORDER.index("planning") + 1], "benchmark"},
@@ -76,7 +86,7 @@ def test_imports_go_one_way() -> None:
         if other not in ALLOWED[module.split(".")[1]]
     }
     assert not {pair: module for pair, module in wrong.items() if pair not in EXCEPTIONS}
-    assert EXCEPTIONS <= set(wrong), "an exception is no longer needed: take it out of EXCEPTIONS"
+    assert set(wrong) >= EXCEPTIONS, "an exception is no longer needed: take it out of EXCEPTIONS"
 
 
 def test_every_package_has_its_place() -> None:
