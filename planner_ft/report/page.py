@@ -12,10 +12,11 @@ from planner_ft.report.answers import index, parts, script_json
 from planner_ft.report.charts import Bars, Chart, Dots, Lines, Matrix
 from planner_ft.report.contents import Section, Sentence
 from planner_ft.report.figures import chart_rows
+from planner_ft.report.html_table import html_table
 from planner_ft.report.markup import Markup, join, tag
 from planner_ft.report.runs import TestSet
 from planner_ft.report.svg import both_widths, draw
-from planner_ft.report.tables import Cell, Table, TableRow, html_table
+from planner_ft.report.tables import Cell, Table, TableRow
 
 ASSETS = Path(__file__).parent / "assets"
 HEATS = 6

@@ -1,33 +1,56 @@
-"""Tables once, written as HTML, Markdown, CSV and LaTeX."""
+"""One table model with writers for Markdown, CSV, LaTeX and the terminal.
+
+The benchmark's tables, comparisons and suites, the report's page and the model cards are all made of
+it. Imports nothing else of the package.
+"""
 
 from __future__ import annotations
 
 import csv
 import io
-import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Any, Literal
 
-from planner_ft.benchmark.layout import NOTHING
-from planner_ft.benchmark.tables import TEX
-from planner_ft.report.markup import Markup, join, tag
+if TYPE_CHECKING:
+    from rich.table import Table as RichTable
 
-RowKind = Literal["measured", "published", "baseline"]
+RowKind = Literal["measured", "published", "baseline", "section"]
+Bounds = tuple[float | None, float | None, float | None]
+
+NOTHING = "–"
+LONGEST_CELL = 80
+"""Characters of a cell in Markdown: names come from models."""
+TEX = {
+    "▲": "$\\blacktriangle$",
+    "▼": "$\\blacktriangledown$",
+    "≈": "$\\approx$",
+    "·": "$\\cdot$",
+    "★": "$\\star$",
+    "↑": "$\\uparrow$",
+    "↓": "$\\downarrow$",
+    "<": "$<$",
+    ">": "$>$",
+    "–": "--",
+    "\\": "\\textbackslash{}",
+    "~": "\\textasciitilde{}",
+    "^": "\\textasciicircum{}",
+    **{character: f"\\{character}" for character in "&%$#_{}"},
+}
 
 
 @dataclass(frozen=True)
 class Cell:
-    """A figure as text, with its interval and a mark that says whether a difference is real. `heat`
-    (0 to 6) shades it.
+    """A figure as text, its interval, and a mark that says whether a difference is real.
 
-    `bounds` are (value, low, high) as numbers, for machines.
+    `bounds` are (value, low, high) as numbers for CSV; `heat` (0 to 6) shades the cell.
     """
 
     text: str
     interval: str = ""
     mark: str = ""
     heat: int | None = None
-    bounds: tuple[float | None, float | None, float | None] | None = None
+    bounds: Bounds | None = None
 
     def plain(self) -> str:
         """Everything in one line."""
@@ -36,17 +59,18 @@ class Cell:
 
 @dataclass(frozen=True)
 class TableRow:
-    """A row with its heading."""
+    """A row with its heading. A row of kind "section" is a heading over the rows that follow."""
 
     heading: str
-    cells: tuple[Cell, ...]
+    cells: tuple[Cell, ...] = ()
     kind: RowKind = "measured"
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table with a file name, a title that says what it holds, and a caption that says how to
-    read it.
+    """A table with a file name, a title, and a caption that says how to read it.
+
+    `columns` are the headings behind `corner`; the first `texts` of them hold words and stand left.
     """
 
     name: str
@@ -55,123 +79,96 @@ class Table:
     corner: str
     columns: tuple[str, ...]
     rows: tuple[TableRow, ...]
+    texts: int = 0
 
 
-def html_table(table: Table, *, title: bool = True) -> Markup:
-    """A table under its title; wider than the screen it scrolls by itself, also by keyboard."""
-    label = f"{table.name}-caption"
-    head = tag(
-        "tr",
-        tag("th", table.corner, scope="col"),
-        [tag("th", _breakable(column), scope="col") for column in table.columns],
-    )
-    body = [
-        tag(
-            "tr",
-            tag("th", _breakable(row.heading), scope="row"),
-            [_html_cell(cell) for cell in row.cells],
-            class_=row.kind if row.kind != "measured" else None,
-        )
-        for row in table.rows
-    ]
-    above = (
-        tag("div", tag("strong", table.title), " ", table.caption, class_="above")
-        if title
-        else None
-    )
-    inner = tag(
-        "table",
-        tag("caption", table.title, id=label, class_="unseen"),
-        tag("thead", head),
-        tag("tbody", body),
-    )
-    return join(
-        [
-            above,
-            tag("div", inner, class_="scroll", tabindex=0, role="region", aria_labelledby=label),
-        ]
-    )
+def row(heading: str, *cells: Cell | str, kind: RowKind = "measured") -> TableRow:
+    """A row of cells, plain texts being cells without interval and mark."""
+    made = tuple(Cell(cell) if isinstance(cell, str) else cell for cell in cells)
+    return TableRow(heading, made, kind)
 
 
-def _html_cell(cell: Cell) -> Markup:
-    parts = [
-        cell.text,
-        tag("span", cell.mark, class_="sign") if cell.mark else None,
-        tag("span", cell.interval, class_="interval") if cell.interval else None,
-    ]
-    return tag(
-        "td",
-        join([part for part in parts if part is not None]),
-        class_=f"heat h{cell.heat}" if cell.heat is not None else None,
-    )
+def figure(
+    value: float | None,
+    low: float | None = None,
+    high: float | None = None,
+    *,
+    scale: float = 1,
+    decimals: int = 2,
+    mark: str = "",
+    sign: bool = False,
+) -> Cell:
+    """A figure in the unit of its column (`scale` times the value) with its interval in brackets."""
 
+    def text(number: float | None) -> str:
+        plus = "+" if sign else ""
+        return NOTHING if number is None else f"{number * scale:{plus}.{decimals}f}"
 
-def _breakable(label: str) -> Markup:
-    """Names in camel case may break where a capital stands."""
-    pieces = re.split(r"(?<=[a-z])(?=[A-Z][a-z])", label)
-    return join(
-        [
-            piece if index == 0 else join([Markup("<wbr>"), piece])
-            for index, piece in enumerate(pieces)
-        ]
-    )
+    shown = value is not None and (low is not None or high is not None)
+    scaled = [None if number is None else number * scale for number in (value, low, high)]
+    interval = f"[{text(low)}, {text(high)}]" if shown else ""
+    return Cell(text(value), interval, mark, bounds=(scaled[0], scaled[1], scaled[2]))
 
 
 def markdown_table(table: Table) -> str:
-    """A Markdown table under its title."""
-    lines = [
-        f"**{table.title}** {table.caption}".strip(),
-        "",
-        f"| {table.corner} | {' | '.join(_md(column) for column in table.columns)} |",
-    ]
-    lines.append("|---|" + "---:|" * len(table.columns))
-    for row in table.rows:
-        heading = f"*{_md(row.heading)}*" if row.kind != "measured" else _md(row.heading)
-        lines.append(f"| {heading} | {' | '.join(_md(cell.plain()) for cell in row.cells)} |")
+    """The table under its title and caption, as far as it has them."""
+    above = f"**{table.title}** {table.caption}".strip() if table.title else table.caption
+    lines = [*([above, ""] if above else []), _line((table.corner, *table.columns))]
+    right = len(table.columns) - table.texts
+    lines.append("|---|" + "---|" * table.texts + "---:|" * right)
+    for one in table.rows:
+        if one.kind == "section":
+            lines.append(_line([f"**{_md(one.heading)}**", *[""] * len(table.columns)]))
+            continue
+        heading = _md(one.heading)
+        shown = f"*{heading}*" if one.kind != "measured" and heading else heading
+        lines.append(_line([shown, *(_md(cell.plain()) for cell in one.cells)]))
     return "\n".join(lines) + "\n"
 
 
-def _md(value: str) -> str:
-    return value.replace("|", "\\|").replace("\n", " ")
+def _line(cells: Iterable[str]) -> str:
+    return "| " + " | ".join(cells) + " |"
+
+
+def _md(text: str) -> str:
+    """A text on one line that cannot end its cell."""
+    text = " ".join(text.split())
+    shown = text if len(text) <= LONGEST_CELL else f"{text[:LONGEST_CELL]}…"
+    return shown.replace("|", "\\|")
+
+
+def csv_text(rows: Iterable[Sequence[Any]]) -> str:
+    """Lines of comma-separated values; None is an empty field."""
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerows(rows)
+    return stream.getvalue()
 
 
 def csv_table(table: Table) -> str:
     """Comma-separated values: per column the figure, and its bounds and mark where any row has
-    them.
+    them. A section's heading stands in a column of its own before its rows.
     """
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    parts = [
-        _parts([row.cells[index] for row in table.rows]) for index in range(len(table.columns))
-    ]
-    writer.writerow(
-        [
-            table.corner,
-            "kind",
-            *(
-                f"{column}{part}"
-                for column, of_column in zip(table.columns, parts, strict=True)
-                for part in of_column
-            ),
-        ]
-    )
-    for row in table.rows:
-        values = [
-            _csv_value(cell, part)
-            for cell, of_column in zip(row.cells, parts, strict=True)
-            for part in of_column
-        ]
-        writer.writerow([row.heading, row.kind, *values])
-    return stream.getvalue()
+    body = [one for one in table.rows if one.kind != "section"]
+    parts = [_parts([one.cells[index] for one in body]) for index in range(len(table.columns))]
+    columns = list(zip(table.columns, parts, strict=True))
+    sections = ["section"] if len(body) < len(table.rows) else []
+    head = [f"{name}{part}" for name, of_column in columns for part in of_column]
+    lines: list[list[str]] = [[*sections, table.corner, "kind", *head]]
+    section: list[str] = []
+    for one in table.rows:
+        if one.kind == "section":
+            section = [one.heading]
+            continue
+        cells = zip(one.cells, parts, strict=True)
+        values = [_csv_value(cell, part) for cell, of_column in cells for part in of_column]
+        lines.append([*section, one.heading, one.kind, *values])
+    return csv_text(lines)
 
 
 def _parts(cells: list[Cell]) -> list[str]:
-    bounds = (
-        ["_low", "_high"]
-        if any(cell.bounds and cell.bounds[1] is not None for cell in cells)
-        else []
-    )
-    return ["", *bounds, *(["_mark"] if any(cell.mark for cell in cells) else [])]
+    bounded = any(cell.bounds and cell.bounds[1] is not None for cell in cells)
+    marked = any(cell.mark for cell in cells)
+    return ["", *(["_low", "_high"] if bounded else []), *(["_mark"] if marked else [])]
 
 
 def _csv_value(cell: Cell, part: str) -> str:
@@ -185,43 +182,55 @@ def _csv_value(cell: Cell, part: str) -> str:
 
 def latex_table(table: Table) -> str:
     """A tabular for booktabs."""
+    width = 1 + len(table.columns)
     lines = [
-        f"% {table.title}. Needs \\usepackage{{booktabs}}.",
-        f"\\begin{{tabular}}{{l{'r' * len(table.columns)}}}",
+        f"% {table.title}. Needs \\usepackage{{booktabs, amssymb}}.".replace("% . ", "% "),
+        f"\\begin{{tabular}}{{{'l' * (1 + table.texts)}{'r' * (width - 1 - table.texts)}}}",
         "\\toprule",
+        " & ".join(tex_text(name) for name in (table.corner, *table.columns)) + " \\\\",
     ]
-    lines += [
-        " & ".join(_tex(column) for column in (table.corner, *table.columns)) + " \\\\",
-        "\\midrule",
-    ]
-    for row in table.rows:
-        heading = (
-            f"\\textit{{{_tex(row.heading)}}}" if row.kind != "measured" else _tex(row.heading)
-        )
-        lines.append(" & ".join([heading, *(_tex_cell(cell) for cell in row.cells)]) + " \\\\")
+    if not table.rows or table.rows[0].kind != "section":
+        lines.append("\\midrule")
+    for one in table.rows:
+        heading = tex_text(one.heading)
+        if one.kind == "section":
+            lines += ["\\midrule", f"\\multicolumn{{{width}}}{{l}}{{\\textit{{{heading}}}}} \\\\"]
+            continue
+        shown = f"\\textit{{{heading}}}" if one.kind != "measured" and heading else heading
+        lines.append(" & ".join([shown, *(_tex_cell(cell) for cell in one.cells)]) + " \\\\")
     return "\n".join([*lines, "\\bottomrule", "\\end{tabular}", ""])
 
 
-MARKS = {
-    "▲": "\\blacktriangle",
-    "▼": "\\blacktriangledown",
-    "≈": "\\approx",
-    "·": "\\cdot",
-    "★": "\\star",
-}
+def tex_text(text: str) -> str:
+    """A text with the characters that LaTeX reads escaped."""
+    return "".join(TEX.get(character, character) for character in text)
 
 
 def _tex_cell(cell: Cell) -> str:
-    marks = "".join(f" ${MARKS[mark]}$" if mark in MARKS else _tex(mark) for mark in cell.mark)
-    text = "".join(
-        f"${MARKS[letter]}$" if letter in MARKS else _tex(letter) for letter in cell.text
-    )
-    return (
-        text.replace("–", "--")
-        + (f" {{\\scriptsize {_tex(cell.interval)}}}" if cell.interval else "")
-        + marks
-    )
+    interval = f" {{\\scriptsize {tex_text(cell.interval)}}}" if cell.interval else ""
+    mark = f" {tex_text(cell.mark)}" if cell.mark else ""
+    return f"{tex_text(cell.text)}{interval}{mark}"
 
 
-def _tex(value: str) -> str:
-    return "".join(TEX.get(character, character) for character in value)
+def terminal_table(table: Table) -> RichTable:
+    """A table for a rich console: intervals below their figures, published and baseline rows dim."""
+    from rich.box import SIMPLE_HEAD
+    from rich.table import Table as RichTable
+    from rich.text import Text
+
+    shown = RichTable(box=SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
+    shown.add_column(table.corner, overflow="fold")
+    for index, name in enumerate(table.columns):
+        left = index < table.texts
+        shown.add_column(name, justify="left" if left else "right", no_wrap=not left)
+    for one in table.rows:
+        style = {"section": "bold", "published": "dim", "baseline": "italic"}.get(one.kind)
+        cells = [
+            Text.assemble(
+                f"{cell.text} {cell.mark}".strip(),
+                *([("\n" + cell.interval, "dim")] if cell.interval else []),
+            )
+            for cell in one.cells
+        ]
+        shown.add_row(Text(one.heading), *cells, style=style)
+    return shown

@@ -6,8 +6,10 @@ import csv
 import io
 
 import pytest
+from rich.console import Console
 
 from planner_ft.report.charts import Bar, Bars, number, ticks
+from planner_ft.report.html_table import html_table
 from planner_ft.report.markup import Markup, tag
 from planner_ft.report.svg import NARROW, WIDE, bars
 from planner_ft.report.tables import (
@@ -15,9 +17,11 @@ from planner_ft.report.tables import (
     Table,
     TableRow,
     csv_table,
-    html_table,
+    figure,
     latex_table,
     markdown_table,
+    row,
+    terminal_table,
 )
 
 TABLE = Table(
@@ -113,3 +117,26 @@ def test_bars_are_as_long_as_their_values_and_labels_are_escaped(width: int) -> 
     assert lengths[1] == pytest.approx(2 * lengths[0], abs=0.02)
     assert "&lt;one&gt;" in text
     assert "<one>" not in text
+
+
+def test_sections_head_the_rows_that_follow_in_every_form() -> None:
+    rows = (row("Data", kind="section"), row("ours", "lora", figure(0.5, 0.25, 0.75, scale=100)))
+    table = Table("s", "", "", "Model", ("Configuration", "F1 (%)"), rows, texts=1)
+    assert "| **Data** |  |  |" in markdown_table(table).splitlines()
+    assert "\\multicolumn{3}{l}{\\textit{Data}} \\\\" in latex_table(table)
+    assert list(csv.DictReader(io.StringIO(csv_table(table)))) == [
+        {
+            "section": "Data",
+            "Model": "ours",
+            "kind": "measured",
+            "Configuration": "lora",
+            "F1 (%)": "50",
+            "F1 (%)_low": "25",
+            "F1 (%)_high": "75",
+        }
+    ]
+    console = Console(width=60, file=io.StringIO(), record=True)
+    console.print(terminal_table(table))
+    shown = console.export_text()
+    assert "50.00" in shown
+    assert "[25.00, 75.00]" in shown
