@@ -1,6 +1,4 @@
-"""Adapter folders: where they lie, what is recorded about the base they belong to, and the checks
-before one is loaded.
-"""
+"""Adapter folders: where they lie, the record that ties one to its base, the checks at loading."""
 
 from __future__ import annotations
 
@@ -9,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import planner_ft
-from planner_ft.candidates.location import PICKLED, check_safetensors, weights_sha256
+from planner_ft.candidates.location import check_safetensors, safe_weights, weights_sha256
 from planner_ft.candidates.registry import Candidate, Dimensions
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
@@ -22,13 +20,12 @@ ADAPTERS = Path("adapters")
 PACKAGE = Path(planner_ft.__file__).resolve().parent
 SHIPPED = Path("candidates") / "shipped_adapters"
 """Where a wheel carries the embedded candidate's (tool.hatch.build.targets.wheel.force-include)."""
+LAYERS = ("q_proj", "k_proj", "v_proj", "o_proj", "gate_proj", "up_proj", "down_proj")
 
 
 @dataclass(frozen=True)
 class AdapterInfo:
-    """What an adapter folder says about itself; fields are None where it has no manifest of
-    ours.
-    """
+    """The contents of an adapter folder; fields are None where it has no manifest of ours."""
 
     folder: Path
     rank: int
@@ -45,30 +42,23 @@ def adapter_folder(candidate: Candidate, level: Level, root: Path = ADAPTERS) ->
 def find_adapter(
     candidate: Candidate, level: Level, vocabulary: Vocabulary | None = None
 ) -> Path | None:
-    """The adapter that a candidate has without one being named: in ./adapters, else in the checkout
-    that we run from, else in the package.
+    """A candidate's adapter in ./adapters, else in our checkout, else in the package, or None.
 
-    None where there is none. With `vocabulary`, an adapter that was trained with another one is
-    passed over.
+    With `vocabulary`, an adapter that was trained with another one is passed over.
     """
     checkout = PACKAGE.parent if (PACKAGE.parent / "pyproject.toml").is_file() else None
     for root in (ADAPTERS, *([checkout / ADAPTERS] if checkout else []), PACKAGE / SHIPPED):
         folder = adapter_folder(candidate, level, root)
-        if (folder / CONFIG).is_file() and (
-            vocabulary is None or _trained_with(folder, vocabulary)
-        ):
+        if not (folder / CONFIG).is_file():
+            continue
+        trained_with = _manifest(folder).get("vocabulary", {}).get("sha256")
+        if vocabulary is None or trained_with in (None, vocabulary.sha256):
             return folder
     return None
 
 
-def _trained_with(folder: Path, vocabulary: Vocabulary) -> bool:
-    return _manifest(folder).get("vocabulary", {}).get("sha256") in (None, vocabulary.sha256)
-
-
 def adapter_record(candidate: Candidate, level: Level, vocabulary: Vocabulary) -> dict[str, Any]:
-    """The manifest fields that tie an adapter to its base, level and vocabulary; `check_adapter`
-    reads them.
-    """
+    """The manifest fields that `check_adapter` compares: base, level and vocabulary."""
     return {
         "base": {
             "name": candidate.name,
@@ -84,11 +74,8 @@ def adapter_record(candidate: Candidate, level: Level, vocabulary: Vocabulary) -
 
 def candidate_revision(candidate: Candidate) -> str | None:
     """The commit of a model in the hub cache, else the revision that was asked for."""
-    return (
-        candidate.folder.name
-        if candidate.folder and candidate.source == "hub cache"
-        else candidate.revision
-    )
+    cached = candidate.folder and candidate.source == "hub cache"
+    return candidate.folder.name if candidate.folder and cached else candidate.revision
 
 
 def check_adapter(
@@ -98,10 +85,10 @@ def check_adapter(
     level: Level | None = None,
     vocabulary: Vocabulary | None = None,
 ) -> AdapterInfo:
-    """Check that a PEFT adapter folder is complete, safe and made for this candidate (and level and
-    vocabulary, if given).
+    """Check that a PEFT adapter folder is complete, safe and made for this candidate.
 
-    Raises PlannerError in one sentence. Reads no weights but their shapes.
+    Compares level and vocabulary too where they are given. Reads no weights but their shapes.
+    Raises PlannerError in one sentence.
     """
     folder = Path(folder)
     if not folder.is_dir():
@@ -109,26 +96,32 @@ def check_adapter(
             f"{folder}: no such adapter folder; train one with `plannerft train --candidate"
             f" {candidate.name}`"
         )
-    config = _config(folder)
-    shapes = check_safetensors(_weights(folder))
-    manifest = _manifest(folder)
+    config, manifest = _config(folder), _manifest(folder)
+    shapes = check_safetensors(safe_weights(folder, WEIGHTS))
     base, trained_with = manifest.get("base", {}), manifest.get("vocabulary", {})
     if base:
         _check_base(folder, base, candidate)
     else:
         _check_reference(folder, config.get("base_model_name_or_path"), candidate)
     _check_shapes(folder, shapes, candidate.dimensions)
-    info = AdapterInfo(
-        folder, int(config["r"]), manifest.get("level"), base.get("name"), trained_with.get("name")
-    )
-    if level and info.level not in (None, level):
+    its_level = manifest.get("level")
+    if level and its_level not in (None, level):
         raise PlannerError(
-            f"{folder}: this is an adapter of the {info.level} level, not of the {level} level;"
-            f" give --level {info.level} or another --adapter"
+            f"{folder}: this is an adapter of the {its_level} level, not of the {level} level;"
+            f" give --level {its_level} or another --adapter"
         )
-    if vocabulary and trained_with:
-        _check_vocabulary(folder, trained_with, vocabulary)
-    return info
+    if vocabulary and trained_with and trained_with.get("sha256") != vocabulary.sha256:
+        name = trained_with.get("name")
+        other = f"the vocabulary {name}, not {vocabulary.name}"
+        if name == vocabulary.name:
+            other = f"another version of the vocabulary {name}"
+        raise PlannerError(
+            f"{folder}: this adapter was trained with {other}; give that one with --vocabulary, or"
+            " train again"
+        )
+    return AdapterInfo(
+        folder, int(config["r"]), its_level, base.get("name"), trained_with.get("name")
+    )
 
 
 def _manifest(folder: Path) -> dict[str, Any]:
@@ -136,14 +129,14 @@ def _manifest(folder: Path) -> dict[str, Any]:
     if not (folder / MANIFEST).is_file():
         return {}
     manifest = read_json(folder / MANIFEST)
-    if not isinstance(manifest, dict) or not all(
+    if isinstance(manifest, dict) and all(
         isinstance(manifest.get(key, {}), dict) for key in ("base", "vocabulary")
     ):
-        raise PlannerError(
-            f"{folder / MANIFEST}: no manifest of an adapter; restore it, or remove it to load the"
-            " folder as a plain PEFT adapter"
-        )
-    return manifest
+        return manifest
+    raise PlannerError(
+        f"{folder / MANIFEST}: no manifest of an adapter; restore it, or remove it to load the"
+        " folder as a plain PEFT adapter"
+    )
 
 
 def _config(folder: Path) -> dict[str, Any]:
@@ -153,34 +146,19 @@ def _config(folder: Path) -> dict[str, Any]:
         )
     config = read_json(folder / CONFIG)
     if (
-        not isinstance(config, dict)
-        or config.get("peft_type") != "LORA"
-        or not isinstance(config.get("r"), int)
+        isinstance(config, dict)
+        and config.get("peft_type") == "LORA"
+        and isinstance(config.get("r"), int)
     ):
-        raise PlannerError(
-            f"{folder / CONFIG}: peft_type LORA and a whole number r are expected; this is no LoRA"
-            " adapter"
-        )
-    return config
-
-
-def _weights(folder: Path) -> Path:
-    if (folder / WEIGHTS).is_file():
-        return folder / WEIGHTS
-    pickled = sorted(path.name for pattern in PICKLED for path in folder.glob(pattern))
-    if pickled:
-        raise PlannerError(
-            f"{folder / pickled[0]}: pickled weights are never loaded because they can run code;"
-            " save the adapter as safetensors"
-        )
+        return config
     raise PlannerError(
-        f"{folder}: no {WEIGHTS}; the training that writes it has not finished, or the folder is"
-        " another one"
+        f"{folder / CONFIG}: peft_type LORA and a whole number r are expected; this is no LoRA"
+        " adapter"
     )
 
 
 def _check_base(folder: Path, base: dict[str, Any], candidate: Candidate) -> None:
-    """Compare the base that our manifest records."""
+    """Compare the base in our manifest."""
     trained = f"{base.get('name')}{' (stand-in)' if base.get('standin') else ''}"
     here = f"{candidate.name}{' (stand-in)' if candidate.is_standin else ''}"
     if trained != here:
@@ -188,10 +166,8 @@ def _check_base(folder: Path, base: dict[str, Any], candidate: Candidate) -> Non
             f"{folder}: this adapter was trained on {trained} and does not fit {here}; give"
             f" --candidate {base.get('name')} or another --adapter"
         )
-    if candidate.folder and base.get("weights_sha256") not in (
-        None,
-        weights_sha256(candidate.folder),
-    ):
+    recorded = base.get("weights_sha256")
+    if candidate.folder and recorded not in (None, weights_sha256(candidate.folder)):
         raise PlannerError(
             f"{folder}: this adapter was trained on other weights of {candidate.name} than those in"
             f" {candidate.folder}; train it again"
@@ -202,22 +178,11 @@ def _check_reference(folder: Path, reference: str | None, candidate: Candidate) 
     """Compare the base that a plain PEFT adapter names: a hub id or a path."""
     if not reference:
         return
-    known = {
-        text.lower()
-        for text in (
-            candidate.name,
-            candidate.repo,
-            candidate.repo and candidate.repo.split("/")[-1],
-            str(candidate.folder),
-        )
-        if text
-    }
-    in_cache = (candidate.repo or "\0").replace("/", "--").lower()
-    if (
-        reference.lower() not in known
-        and Path(reference).name.lower() not in known
-        and f"models--{in_cache}/" not in reference.lower()
-    ):
+    repo = candidate.repo or ""
+    names = (candidate.name, repo, repo.split("/")[-1], str(candidate.folder))
+    known = {name.lower() for name in names if name}
+    cached = repo and f"models--{repo.replace('/', '--')}/".lower() in reference.lower()
+    if not cached and not known & {reference.lower(), Path(reference).name.lower()}:
         raise PlannerError(
             f"{folder}: this adapter was trained on {reference}, not on {candidate.name}; give that"
             " base with --candidate, or another --adapter"
@@ -230,12 +195,9 @@ def _check_shapes(
     """Every LoRA pair must fit the layer that it is named after."""
     if not any(".lora_A." in name for name in shapes):
         raise PlannerError(f"{folder / WEIGHTS}: holds no LoRA matrices; this is no LoRA adapter")
-    if dimensions is None:
-        return
-    names = ("q_proj", "k_proj", "v_proj", "o_proj", "gate_proj", "up_proj", "down_proj")
-    for name, shape in shapes.items():
-        layer = next((index for index, part in enumerate(names) if f".{part}.lora_" in name), None)
-        if layer is None:
+    for name, shape in shapes.items() if dimensions else ():
+        layer = next((index for index, part in enumerate(LAYERS) if f".{part}.lora_" in name), None)
+        if layer is None or dimensions is None:
             continue
         rows, columns = dimensions.linear_shapes[layer]
         fits = shape[-1] == rows if ".lora_A." in name else shape[0] == columns
@@ -245,18 +207,3 @@ def _check_shapes(
                 f"{folder / WEIGHTS}: {name} of shape {list(shape)} does not fit the base model;"
                 " the adapter belongs to another base"
             )
-
-
-def _check_vocabulary(folder: Path, recorded: dict[str, Any], vocabulary: Vocabulary) -> None:
-    if recorded.get("sha256") == vocabulary.sha256:
-        return
-    same = recorded.get("name") == vocabulary.name
-    other = (
-        f"another version of the vocabulary {vocabulary.name}"
-        if same
-        else f"the vocabulary {recorded.get('name')}, not {vocabulary.name}"
-    )
-    raise PlannerError(
-        f"{folder}: this adapter was trained with {other}; give that one with --vocabulary, or"
-        " train again"
-    )

@@ -1,4 +1,4 @@
-"""What `plannerft doctor` finds out about this machine and installation."""
+"""The findings of `plannerft doctor`: versions, devices, 4-bit layers (tried), disk, candidates."""
 
 from __future__ import annotations
 
@@ -8,47 +8,65 @@ import platform
 import shutil
 import sys
 import tempfile
+import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import planner_ft
-from planner_ft.candidates.libraries import quiet_libraries
 from planner_ft.candidates.listing import describe
+from planner_ft.candidates.loading import compute_dtype, quiet_libraries, resolve_device
 from planner_ft.candidates.location import MODELS_VARIABLE, hub_cache
+from planner_ft.candidates.packing import set_packing
 from planner_ft.candidates.registry import all_candidates
 from planner_ft.support.manifest import hardware, library_versions, source_commit
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.schema import stale_schemas
 
+if TYPE_CHECKING:
+    import torch
+
 GIB = 2**30
 LITTLE_DISK_GIB = 5
 VARIABLES = (
-    "HF_HUB_OFFLINE",
-    "TRANSFORMERS_OFFLINE",
-    "HF_HOME",
-    "HF_HUB_CACHE",
-    MODELS_VARIABLE,
-    "CUDA_VISIBLE_DEVICES",
-    "PYTORCH_CUDA_ALLOC_CONF",
-    "OMP_NUM_THREADS",
-    "TOKENIZERS_PARALLELISM",
-)
+    "HF_HUB_OFFLINE TRANSFORMERS_OFFLINE HF_HOME HF_HUB_CACHE CUDA_VISIBLE_DEVICES"
+    f" {MODELS_VARIABLE} PYTORCH_CUDA_ALLOC_CONF OMP_NUM_THREADS TOKENIZERS_PARALLELISM"
+).split()
 """Environment variables that change what the program does. None of them holds a secret."""
+
+SIZE = 256
+WEIGHT_ERROR = 0.15
+"""NF4 of normal weights is off by 0.09 (relative norm, measured); more means a broken kernel."""
+GRADIENT_ERROR = 0.02
+"""Against the same layer dequantised; bfloat16 arithmetic accounts for 0.004."""
 
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """Findings by section (JSON values), and what to look into, one sentence each."""
+    """Findings by section (JSON values), and warnings, one sentence each."""
 
     sections: dict[str, dict[str, Any]]
     warnings: list[str]
 
 
-def diagnose() -> Diagnosis:
-    """Look at versions, devices, 4-bit support, disk, environment, vocabulary and candidates.
-    Raises nothing.
+@dataclass(frozen=True)
+class FourBitProbe:
+    """A 4-bit layer tried on a device. Errors are relative norms; `problem` is None if all is well.
+
+    `packs`: layers pack for decoding (AVX512-BF16 CPUs).
     """
+
+    device: str
+    dtype: str
+    weight_error: float | None = None
+    gradient_error: float | None = None
+    packs: bool = False
+    seconds: float = 0.0
+    problem: str | None = None
+
+
+def diagnose() -> Diagnosis:
+    """Look at versions, devices, 4-bit support, disk, environment, vocabulary and candidates."""
     warnings: list[str] = []
     sections = {
         "planner_ft": _installation(),
@@ -71,23 +89,17 @@ def _private(value: Any) -> Any:
         return {key: _private(item) for key, item in value.items()}
     if isinstance(value, list):
         return [_private(item) for item in value]
-    return (
-        value.replace(home + os.sep, "~" + os.sep)
-        if isinstance(value, str) and home != os.sep
-        else value
-    )
+    if isinstance(value, str) and home != os.sep:
+        return value.replace(home + os.sep, "~" + os.sep)
+    return value
 
 
 def _installation() -> dict[str, Any]:
     commit = source_commit()
-    source = (
-        f"{commit['commit'][:12]}{', with uncommitted changes' if commit['dirty'] else ''}"
-        if commit["commit"]
-        else "installed package"
-    )
+    changed = ", with uncommitted changes" if commit["dirty"] else ""
     return {
         "version": planner_ft.__version__,
-        "source": source,
+        "source": f"{commit['commit'][:12]}{changed}" if commit["commit"] else "installed package",
         "folder": str(Path(planner_ft.__file__).parent),
         "python": sys.version.split()[0],
     }
@@ -109,8 +121,7 @@ def _libraries(warnings: list[str]) -> dict[str, Any]:
 def _machine() -> dict[str, Any]:
     import psutil
 
-    found = hardware()
-    memory = psutil.virtual_memory()
+    found, memory = hardware(), psutil.virtual_memory()
     return {
         "platform": found["platform"],
         "processor": _processor() or found["processor"],
@@ -121,20 +132,16 @@ def _machine() -> dict[str, Any]:
 
 
 def _processor() -> str:
-    """The processor's name, which platform.processor() does not tell on Linux."""
+    """The processor's name, which platform.processor() lacks on Linux."""
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
     except OSError:
         return platform.processor()
-    return next(
-        (line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), ""
-    )
+    return next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), "")
 
 
 def _devices(warnings: list[str]) -> dict[str, Any]:
     import torch
-
-    from planner_ft.candidates.loading import compute_dtype, resolve_device
 
     chosen = resolve_device("auto")
     found: dict[str, Any] = {
@@ -145,16 +152,14 @@ def _devices(warnings: list[str]) -> dict[str, Any]:
         "compute dtype": str(compute_dtype(chosen)).removeprefix("torch."),
     }
     for index in range(torch.cuda.device_count()):
-        properties = torch.cuda.get_device_properties(index)
-        free, total = torch.cuda.mem_get_info(index)
-        capability = f"{properties.major}.{properties.minor}"
+        device = torch.cuda.get_device_properties(index)
+        free, total = (size / GIB for size in torch.cuda.mem_get_info(index))
         found[f"cuda:{index}"] = (
-            f"{properties.name}, capability {capability}, {free / GIB:.1f} of {total / GIB:.1f} GiB"
-            " free"
+            f"{device.name}, capability {device.major}.{device.minor}, {free:.1f} of"
+            f" {total:.1f} GiB free"
         )
-    if not torch.cuda.is_available() and (
-        shutil.which("nvidia-smi") or Path("/proc/driver/nvidia").exists()
-    ):
+    driver = shutil.which("nvidia-smi") or Path("/proc/driver/nvidia").exists()
+    if driver and not torch.cuda.is_available():
         warnings.append(
             f"there is an NVIDIA driver, but torch {torch.__version__} finds no CUDA device;"
             " install a CUDA build of torch (https://pytorch.org/get-started)"
@@ -165,15 +170,12 @@ def _devices(warnings: list[str]) -> dict[str, Any]:
 def _four_bit(warnings: list[str]) -> dict[str, Any]:
     import torch
 
-    from planner_ft.candidates.probe import probe_four_bit
-
-    quiet_libraries()
     found: dict[str, Any] = {}
     for device in ["cpu", *(f"cuda:{index}" for index in range(torch.cuda.device_count()))]:
         probe = probe_four_bit(device)
+        values = asdict(probe).items()
         found[device] = {
-            name: round(value, 4) if isinstance(value, float) else value
-            for name, value in asdict(probe).items()
+            name: round(value, 4) if isinstance(value, float) else value for name, value in values
         }
         if probe.problem:
             warnings.append(
@@ -183,12 +185,55 @@ def _four_bit(warnings: list[str]) -> dict[str, Any]:
     return found
 
 
+def probe_four_bit(device: str = "auto") -> FourBitProbe:
+    """Quantise a layer to NF4, multiply with it and take a gradient through it."""
+    target = resolve_device(device)
+    dtype = compute_dtype(target)
+    names = (str(target), str(dtype).removeprefix("torch."))
+    begun = time.perf_counter()
+    try:
+        quiet_libraries()
+        weight, gradient, packs = _try_layer(target, dtype)
+    except Exception as error:  # anything that goes wrong in a native library is the finding
+        problem = f"{type(error).__name__}: {error}".splitlines()[0][:300]
+        return FourBitProbe(*names, problem=problem)
+    right = weight < WEIGHT_ERROR and gradient < GRADIENT_ERROR
+    wrong = f"wrong results: error {weight:.3f} of the product, {gradient:.3f} of the gradient"
+    seconds = time.perf_counter() - begun
+    return FourBitProbe(*names, weight, gradient, packs, seconds, None if right else wrong)
+
+
+def _try_layer(device: torch.device, dtype: torch.dtype) -> tuple[float, float, bool]:
+    """Relative errors of product and gradient, and whether the layer may pack."""
+    import torch
+    from bitsandbytes.functional import dequantize_4bit
+    from bitsandbytes.nn import Linear4bit
+
+    def relative(value: torch.Tensor, reference: torch.Tensor) -> float:
+        norm = torch.linalg.vector_norm
+        return float(norm(value - reference) / norm(reference))
+
+    generator = torch.Generator().manual_seed(0)
+    weight = torch.randn(SIZE, SIZE, generator=generator) / SIZE**0.5
+    layer = Linear4bit(
+        SIZE, SIZE, bias=False, compute_dtype=dtype, compress_statistics=True, quant_type="nf4"
+    )
+    layer.load_state_dict({"weight": weight.to(dtype)})
+    layer = layer.to(device)
+    packs = set_packing(layer, allowed=True) > 0
+    set_packing(layer, allowed=False)
+    x = torch.randn(8, SIZE, generator=generator).to(device=device, dtype=dtype).requires_grad_()
+    product = layer(x)
+    (gradient,) = torch.autograd.grad(product.float().square().sum(), x)
+    dense = dequantize_4bit(layer.weight.data, layer.weight.quant_state).to(dtype)
+    expected = 2 * product.detach().float() @ dense.float()
+    exact = x.detach().float() @ weight.to(device).T
+    return relative(product.detach().float(), exact), relative(gradient.float(), expected), packs
+
+
 def _disk(warnings: list[str]) -> dict[str, Any]:
-    places = {
-        "working folder": Path.cwd(),
-        "hub cache": hub_cache(),
-        "temporary": Path(tempfile.gettempdir()),
-    }
+    temporary = Path(tempfile.gettempdir())
+    places = {"working folder": Path.cwd(), "hub cache": hub_cache(), "temporary": temporary}
     found = {}
     for name, path in places.items():
         existing = next(folder for folder in (path, *path.parents) if folder.exists())
@@ -205,17 +250,14 @@ def _disk(warnings: list[str]) -> dict[str, Any]:
 def _vocabulary(warnings: list[str]) -> dict[str, Any]:
     vocabulary = load_vocabulary()
     schemas = Path(planner_ft.__file__).resolve().parent.parent / "schemas"
-    stale = stale_schemas(schemas, vocabulary) if schemas.is_dir() else []
-    if stale:
-        warnings.append(
-            f"stale or missing schemas: {', '.join(stale)}; run `plannerft vocabulary --schemas"
-            " schemas`"
-        )
-    state = (
-        ("stale: " + ", ".join(stale) if stale else "current")
-        if schemas.is_dir()
-        else "not in this installation"
-    )
+    state = "not in this installation"
+    if schemas.is_dir():
+        stale = ", ".join(stale_schemas(schemas, vocabulary))
+        state = f"stale: {stale}" if stale else "current"
+        if stale:
+            warnings.append(
+                f"stale or missing schemas: {stale}; run `plannerft vocabulary --schemas schemas`"
+            )
     return {
         "name": vocabulary.name,
         "tasks": len(vocabulary.tasks),
@@ -227,15 +269,10 @@ def _vocabulary(warnings: list[str]) -> dict[str, Any]:
 
 def _candidates(warnings: list[str]) -> dict[str, Any]:
     found = {}
-    for description in map(describe, all_candidates()):
-        where = (
-            f"{description['source']}: {description['folder']}"
-            if description["folder"]
-            else "not here"
-        )
-        found[description["row"]] = where
-        if description["problem"]:
-            warnings.append(f"{description['name']}: {description['problem']}")
-        elif not description["here"] and description["repo"] is None:
-            warnings.append(f"{description['name']} is not here: {description['get']}")
+    for row in map(describe, all_candidates()):
+        found[row["row"]] = f"{row['source']}: {row['folder']}" if row["folder"] else "not here"
+        if row["problem"]:
+            warnings.append(f"{row['name']}: {row['problem']}")
+        elif not row["here"] and row["repo"] is None:
+            warnings.append(f"{row['name']} is not here: {row['get']}")
     return found

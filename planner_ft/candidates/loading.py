@@ -1,5 +1,4 @@
-"""Loading a candidate: tokenizer and model, 4-bit or 16-bit, on CPU or CUDA, with or without an
-adapter.
+"""Loading a candidate: tokenizer and model, 4-bit or 16-bit, with or without adapters.
 
 Only local safetensors files are read, no remote code runs and nothing is downloaded.
 """
@@ -7,12 +6,13 @@ Only local safetensors files are read, no remote code runs and nothing is downlo
 from __future__ import annotations
 
 import contextlib
+import logging
+import warnings
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.candidates.adapters import check_adapter
-from planner_ft.candidates.libraries import quiet_bars, quiet_libraries
 from planner_ft.candidates.location import MODELS_VARIABLE, check_folder, read_config
 from planner_ft.candidates.packing import linear_4bit, set_packing
 from planner_ft.candidates.registry import Candidate, Quantization
@@ -307,3 +307,28 @@ def out_of_memory(candidate: Candidate, device: torch.device) -> str:
 
 def _one_line(error: BaseException) -> str:
     return (" ".join(str(error).split()) or type(error).__name__)[:200]
+
+
+def quiet_libraries() -> None:
+    """Silence notices of bitsandbytes and PEFT. Call it before anything imports peft."""
+    # It warns that an optional package, with kernels from the hub, is not installed.
+    logging.getLogger("bitsandbytes.backends.cpu.ops").setLevel(logging.ERROR)
+    # PEFT asks transformers for an attribute by its former name; a user can do nothing about it.
+    warnings.filterwarnings(
+        "ignore", message=".*is_gradient_checkpointing.*", category=FutureWarning
+    )
+
+
+@contextlib.contextmanager
+def quiet_bars() -> Iterator[None]:
+    """Let transformers draw no progress bars in the block."""
+    from transformers.utils import logging as bars
+
+    if not bars.is_progress_bar_enabled():
+        yield
+        return
+    bars.disable_progress_bar()
+    try:
+        yield
+    finally:
+        bars.enable_progress_bar()

@@ -1,4 +1,5 @@
 """Where a candidate's files lie on this machine, and whether they are complete and safe to load.
+
 Never downloads.
 """
 
@@ -16,9 +17,7 @@ from planner_ft.support.files import read_json, sha256_file, sha256_text
 Source = Literal["models folder", "package", "hub cache", "path"]
 
 MODELS_VARIABLE = "PLANNERFT_MODELS"
-"""Environment variable: a folder with a sub-folder per candidate name, which comes before every
-other place.
-"""
+"""Environment variable: a folder with a sub-folder per candidate, searched before other places."""
 PACKAGE = Path(__file__).parent
 PICKLED = ("*.bin", "*.pt", "*.pth", "*.ckpt", "*.pkl", "*.pickle")
 TOKENIZER_FILES = ("tokenizer.json", "tokenizer.model", "vocab.json")
@@ -27,9 +26,7 @@ TOKENIZER_FILES = ("tokenizer.json", "tokenizer.model", "vocab.json")
 def find_folder(
     name: str, repo: str | None, revision: str | None
 ) -> tuple[Path | None, Source | None]:
-    """The folder of a candidate and what kind of place it is: the models folder, the package, or
-    the hub cache.
-    """
+    """The folder of a candidate and the kind of place: models folder, package or hub cache."""
     models = os.environ.get(MODELS_VARIABLE)
     if models and (Path(models).expanduser() / name / "config.json").is_file():
         return (Path(models).expanduser() / name).resolve(), "models folder"
@@ -41,9 +38,10 @@ def find_folder(
 
 
 def cached_snapshot(repo: str, revision: str | None) -> Path | None:
-    """The folder of a repository's snapshot in the hub cache (HF_HUB_CACHE, HF_HOME), or None."""
-    # The cache's documented layout is read directly: importing huggingface_hub would cost every
-    # command half a second.
+    """The folder of a repository's snapshot in the hub cache (HF_HUB_CACHE, HF_HOME), or None.
+
+    Reads the cache's documented layout: importing huggingface_hub would cost half a second.
+    """
     base = hub_cache() / f"models--{repo.replace('/', '--')}"
     reference = base / "refs" / (revision or "main")
     commit = reference.read_text().strip() if reference.is_file() else revision
@@ -53,19 +51,14 @@ def cached_snapshot(repo: str, revision: str | None) -> Path | None:
 
 def hub_cache() -> Path:
     """The hub's cache folder, found from the environment as huggingface_hub does."""
-    home = Path(
-        os.environ.get("HF_HOME")
-        or Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache") / "huggingface"
-    )
-    return Path(
-        os.environ.get("HF_HUB_CACHE") or os.environ.get("HUGGINGFACE_HUB_CACHE") or home / "hub"
-    ).expanduser()
+    variable = os.environ.get
+    home = variable("HF_HOME") or Path(variable("XDG_CACHE_HOME") or "~/.cache") / "huggingface"
+    named = variable("HF_HUB_CACHE") or variable("HUGGINGFACE_HUB_CACHE")
+    return Path(named or Path(home) / "hub").expanduser()
 
 
 def read_config(folder: Path, name: str = "config.json") -> dict[str, Any]:
-    """A JSON file of a model folder as a dictionary, empty where it is missing or not JSON (checked
-    when loading).
-    """
+    """A JSON object of a model folder; empty where it is missing or broken (checked at loading)."""
     try:
         value = json.loads((folder / name).read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -74,20 +67,16 @@ def read_config(folder: Path, name: str = "config.json") -> dict[str, Any]:
 
 
 def check_folder(folder: Path) -> None:
-    """Raise PlannerError, in one sentence, when a model folder is incomplete, corrupt or not safe
-    to load.
-    """
+    """Raise PlannerError when a model folder is incomplete, corrupt or not safe to load."""
     if not (folder / "config.json").is_file():
         raise PlannerError(
             f"{folder}: no config.json; a candidate is a folder in the transformers format"
         )
     config = read_json(folder / "config.json")
-    architectures = config.get("architectures") if isinstance(config, dict) else None
-    if not isinstance(architectures, list) or not any(
-        str(name).endswith("ForCausalLM") for name in architectures
-    ):
+    names = config.get("architectures") if isinstance(config, dict) else None
+    if not isinstance(names, list) or not any(str(name).endswith("ForCausalLM") for name in names):
         raise PlannerError(
-            f"{folder}/config.json: architectures is {architectures}; a causal language model"
+            f"{folder}/config.json: architectures is {names}; a causal language model"
             " (...ForCausalLM) is needed"
         )
     if not any((folder / name).is_file() for name in TOKENIZER_FILES):
@@ -99,37 +88,38 @@ def check_folder(folder: Path) -> None:
 
 
 def weight_files(folder: Path) -> list[Path]:
-    """The safetensors files of a model folder. Raises PlannerError when there are none, or a shard
-    is missing.
-    """
+    """The safetensors files of a model folder. Raises PlannerError when one is missing."""
     index = folder / "model.safetensors.index.json"
-    if index.is_file():
-        shards = sorted(set(read_json(index).get("weight_map", {}).values()))
-        missing = [name for name in shards if not (folder / name).is_file()]
-        if missing or not shards:
-            raise PlannerError(
-                f"{folder}: {len(missing)} of {len(shards)} weight files are missing"
-                f" ({', '.join(missing[:2])} ...); finish the download"
-            )
-        return [folder / name for name in shards]
-    if (folder / "model.safetensors").is_file():
-        return [folder / "model.safetensors"]
-    pickled = sorted(path.name for pattern in PICKLED for path in folder.glob(pattern))
+    if not index.is_file():
+        return [safe_weights(folder, "model.safetensors")]
+    shards = sorted(set(read_json(index).get("weight_map", {}).values()))
+    missing = [name for name in shards if not (folder / name).is_file()]
+    if missing or not shards:
+        raise PlannerError(
+            f"{folder}: {len(missing)} of {len(shards)} weight files are missing"
+            f" ({', '.join(missing[:2])} ...); finish the download"
+        )
+    return [folder / name for name in shards]
+
+
+def safe_weights(folder: Path, name: str) -> Path:
+    """A safetensors file of a folder. Raises PlannerError where it is missing or only pickled."""
+    if (folder / name).is_file():
+        return folder / name
+    pickled = sorted(path for pattern in PICKLED for path in folder.glob(pattern))
     if pickled:
         raise PlannerError(
-            f"{folder}: only pickled weights ({pickled[0]}), which are never loaded because they"
-            " can run code; get the safetensors version"
+            f"{folder}: only pickled weights ({pickled[0].name}), which are never loaded because"
+            f" they can run code; get or save them as {name}"
         )
     raise PlannerError(
-        f"{folder}: no model.safetensors; finish the download, or give the folder that holds the"
-        " weights"
+        f"{folder}: no {name}; finish the download or training that writes it, or give the folder"
+        " that holds the weights"
     )
 
 
 def check_safetensors(path: Path) -> dict[str, tuple[int, ...]]:
-    """Shapes by tensor name. Raises PlannerError when the file is truncated or no safetensors
-    file.
-    """
+    """Shapes by tensor name. Raises PlannerError for a truncated or other file."""
     from safetensors import SafetensorError, safe_open
 
     try:
@@ -147,14 +137,13 @@ def weights_sha256(folder: Path) -> str:
 
     Files of the hub cache are links to blobs that are named by their SHA-256; only others are read.
     """
-    lines = []
-    for path in [folder / "config.json", *weight_files(folder)]:
+
+    def digest(path: Path) -> str:
         blob, status = path.resolve().name, path.stat()
-        lines.append(
-            f"{path.name}"
-            f" {blob if len(blob) == 64 else _digest(path, status.st_size, status.st_mtime_ns)}"
-        )
-    return sha256_text("\n".join(lines))
+        return blob if len(blob) == 64 else _digest(path, status.st_size, status.st_mtime_ns)
+
+    files = [folder / "config.json", *weight_files(folder)]
+    return sha256_text("\n".join(f"{path.name} {digest(path)}" for path in files))
 
 
 @functools.lru_cache(maxsize=64)

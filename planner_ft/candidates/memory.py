@@ -1,37 +1,34 @@
 """Estimated memory to train an adapter and to generate, in bytes, from a model's dimensions.
 
 Sources: NF4 with double quantisation stores 4 + 8/64 + 32/(64*256) = 4.127 bits a weight (Dettmers
-et al., "QLoRA", 2023, section 3). Adam keeps two float32 moments a trainable weight. What a block
-keeps for the backward pass was counted with autograd's saved-tensor hooks on a 4-bit Llama and
-Qwen2 with adapters (see `block_activations`); a test repeats it. The estimates are for one GPU and
-leave out fragmentation; the preflight of a training run and `bench` report what was used.
+et al., "QLoRA", 2023, section 3). Adam keeps two float32 moments a trainable weight. The tensors
+that a block keeps for the backward pass were counted with autograd's saved-tensor hooks on a 4-bit
+Llama and Qwen2 with adapters; a test repeats it. The estimates are for one GPU without
+fragmentation; training and `bench` report the memory that they used.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import astuple, dataclass
+from typing import Any
 
-from planner_ft.candidates.registry import Dimensions, Quantization
+from planner_ft.candidates.registry import Candidate, Dimensions, Quantization
 
 GIB = 2**30
 RUNTIME = GIB // 2
-"""What a CUDA context with cuBLAS and bitsandbytes workspaces takes (measured values lie between
-0.3 and 0.6 GiB).
-"""
+"""A CUDA context with cuBLAS and bitsandbytes workspaces (measured: 0.3 to 0.6 GiB)."""
 NF4_BITS = 4 + 8 / 64 + 32 / (64 * 256)
 TRAIN_GPU_GIB, BOARD_GPU_GIB = 12, 6
 """The published reference hardware: training on 12 GB, inference on board on 6 GB."""
 TRAIN_TOKENS, INFER_TOKENS = 1024, 2048
-"""Assumed lengths: a training sample without the vocabulary; a prompt with the vocabulary and its
-answer.
-"""
+"""Assumed lengths: a training sample without the vocabulary; prompt with vocabulary and answer."""
 RANK = 16
 """The larger of the published LoRA ranks."""
 
 
 @dataclass(frozen=True)
 class MemoryEstimate:
-    """Bytes by what takes them. What a use does not need is 0."""
+    """Bytes by purpose; 0 where a use does not need it."""
 
     weights: int
     """Linear layers (4-bit or 16-bit), embeddings, output head, norms."""
@@ -40,17 +37,17 @@ class MemoryEstimate:
     optimizer: int
     """Gradients and Adam's moments of the LoRA matrices, float32."""
     activations: int
-    """What the backward pass needs, or the prefill's widest layer."""
+    """Values kept for the backward pass, or the prefill's widest layer."""
     cache: int
     """Keys and values of the context, 16-bit."""
     logits: int
-    """The output layer's values and, in training, what the loss makes of them."""
+    """The output layer's values, in training with the loss's intermediate values."""
     workspace: int
     """The largest layer in 16 bits, while it is dequantised, and the CUDA runtime."""
 
     @property
     def total(self) -> int:
-        return sum(int(getattr(self, item.name)) for item in fields(self))
+        return sum(astuple(self))
 
     def fits(self, gib: float) -> bool:
         """Whether the total stays within a GPU of `gib` GiB."""
@@ -58,36 +55,27 @@ class MemoryEstimate:
 
 
 def stored_weights(dimensions: Dimensions, quantization: Quantization = "nf4") -> int:
-    """Bytes of the model's weights as they lie in memory; what is not a block's linear layer takes
-    16 bits.
-    """
+    """Bytes of the weights in memory; all but the blocks' linear layers take 16 bits."""
     linear = dimensions.linear_parameters * (NF4_BITS if quantization == "nf4" else 16) / 8
     return round(linear) + 2 * dimensions.other_parameters
 
 
 def adapter_parameters(dimensions: Dimensions, rank: int = RANK) -> int:
-    """Weights of LoRA pairs on every linear layer of every block: rank * (in + out) each (Hu et
-    al., 2021).
-    """
-    return (
-        dimensions.layers * rank * sum(rows + columns for rows, columns in dimensions.linear_shapes)
-    )
+    """Weights of LoRA pairs on every linear layer: rank * (in + out) each (Hu et al., 2021)."""
+    return dimensions.layers * rank * sum(map(sum, dimensions.linear_shapes))
 
 
 def block_activations(dimensions: Dimensions, rank: int = RANK, *, dropout: bool = False) -> int:
-    """Bytes a token that one block keeps for the backward pass, with LoRA on its seven linear
-    layers.
+    """Bytes a token that a block keeps for the backward pass, with LoRA on its seven linear layers.
 
     The two norms keep their input in float32 (8 hidden). Every LoRA pair keeps its input in float32
     (4 in) and its inner value (4 rank); with dropout also a mask (1 in). Attention keeps query,
     key, value and output, the gated MLP three values of its width, all in 16 bits.
     """
     inputs = sum(rows for rows, _ in dimensions.linear_shapes)
-    query, key = dimensions.heads * dimensions.head_dim, dimensions.kv_heads * dimensions.head_dim
+    heads = (dimensions.heads + dimensions.kv_heads) * dimensions.head_dim
     pairs = (5 if dropout else 4) * inputs + 4 * rank * len(dimensions.linear_shapes)
-    return (
-        8 * dimensions.hidden + pairs + 2 * (2 * query + 2 * key) + 2 * 3 * dimensions.intermediate
-    )
+    return 8 * dimensions.hidden + pairs + 4 * heads + 6 * dimensions.intermediate
 
 
 def training_memory(
@@ -103,16 +91,12 @@ def training_memory(
     """Memory to train an adapter with Adam on `batch` samples of `tokens` tokens.
 
     With gradient checkpointing a block keeps its 16-bit input alone and one block at a time is
-    computed again. Of the logits there are at the peak: 16-bit values, float32 log-softmax, and the
-    gradient of both: 12 bytes each.
+    computed again. The logits take 12 bytes each at the peak: 16-bit values, float32 log-softmax,
+    and the gradient of both.
     """
     trained = adapter_parameters(dimensions, rank)
-    block = block_activations(dimensions, rank, dropout=dropout)
-    kept = (
-        dimensions.layers * 2 * dimensions.hidden + block
-        if checkpointing
-        else dimensions.layers * block
-    )
+    block, layers = block_activations(dimensions, rank, dropout=dropout), dimensions.layers
+    kept = layers * 2 * dimensions.hidden + block if checkpointing else layers * block
     return MemoryEstimate(
         weights=stored_weights(dimensions, quantization),
         adapter=4 * trained,
@@ -132,22 +116,15 @@ def inference_memory(
     tokens: int = INFER_TOKENS,
     batch: int = 1,
 ) -> MemoryEstimate:
-    """Memory to generate with one adapter, `tokens` of prompt and answer together in each of
-    `batch` sequences.
-    """
-    widest = 2 * (2 * dimensions.intermediate + 2 * dimensions.hidden)
+    """Memory to generate with one adapter; `tokens` count prompt and answer of a sequence."""
+    widest = 4 * (dimensions.intermediate + dimensions.hidden)
+    keys = dimensions.layers * dimensions.kv_heads * dimensions.head_dim
     return MemoryEstimate(
         weights=stored_weights(dimensions, quantization),
         adapter=4 * adapter_parameters(dimensions, rank),
         optimizer=0,
         activations=batch * tokens * widest,
-        cache=2
-        * 2
-        * batch
-        * tokens
-        * dimensions.layers
-        * dimensions.kv_heads
-        * dimensions.head_dim,
+        cache=4 * batch * tokens * keys,
         logits=4 * batch * dimensions.vocabulary,
         workspace=_workspace(dimensions, quantization),
     )
@@ -156,3 +133,26 @@ def inference_memory(
 def _workspace(dimensions: Dimensions, quantization: Quantization) -> int:
     largest = max(rows * columns for rows, columns in dimensions.linear_shapes)
     return RUNTIME + (2 * largest if quantization == "nf4" else 0)
+
+
+def memory_summary(candidate: Candidate) -> dict[str, Any] | None:
+    """GiB to train and to generate, and whether they fit the reference GPUs; None: unknown."""
+    dimensions = candidate.dimensions
+    if dimensions is None:
+        return None
+    rank = max([RANK, *(settings.rank or 0 for settings in candidate.adapter.values())])
+    train = training_memory(dimensions, rank=rank)
+    saving = training_memory(dimensions, rank=rank, checkpointing=True)
+    infer = inference_memory(dimensions, rank=rank)
+
+    def trains(gib: int) -> str:
+        return "yes" if train.fits(gib) else "checkpointing" if saving.fits(gib) else "no"
+
+    gpus = (BOARD_GPU_GIB, TRAIN_GPU_GIB)
+    return {
+        "train_gib": round(train.total / GIB, 2),
+        "train_checkpointing_gib": round(saving.total / GIB, 2),
+        "infer_gib": round(infer.total / GIB, 2),
+        "train_fits": {f"{gib} GB": trains(gib) for gib in gpus},
+        "infer_fits": {f"{gib} GB": "yes" if infer.fits(gib) else "no" for gib in gpus},
+    }

@@ -1,6 +1,4 @@
-"""The registry of candidates: the published ones, the embedded one, and any local folder or hub
-id.
-"""
+"""The registry of candidates: the published ones, the embedded one, any local folder or hub id."""
 
 from __future__ import annotations
 
@@ -24,19 +22,14 @@ Quantization = Literal["nf4", "none"]
 REGISTRY = Path(__file__).parent / "registry.toml"
 HUB_ID = re.compile(r"(?P<repo>[A-Za-z0-9][\w.-]*/[A-Za-z0-9][\w.-]*)(@(?P<revision>[\w./-]+))?")
 STANDIN_KEY = "planner_ft_standin"
-"""In the config.json of a stand-in: true, so that no result made with one passes for the real
-candidate's.
-"""
-
+"""Marks the config.json of a stand-in, so that its results never pass for the real candidate's."""
 VOCABULARY_KEY = "planner_ft_vocabulary"
 """In the config.json of an exported model: the bundled vocabulary that it has learned."""
 
 
 @dataclass(frozen=True)
 class Dimensions:
-    """The sizes of a decoder-only transformer with grouped-query attention and a gated MLP, as in
-    its config.json.
-    """
+    """Sizes of a decoder-only transformer with grouped-query attention and a gated MLP."""
 
     hidden: int
     intermediate: int
@@ -52,11 +45,10 @@ class Dimensions:
 
     @classmethod
     def from_config(cls, config: dict[str, Any]) -> Dimensions | None:
-        """The dimensions in a config.json, or None when it is of an architecture that has no such
-        fields.
-        """
+        """The dimensions in a config.json; None for architectures without these fields."""
         try:
             heads, hidden = int(config["num_attention_heads"]), int(config["hidden_size"])
+            bias = config.get("attention_bias", config.get("model_type") == "qwen2")
             return cls(
                 hidden=hidden,
                 intermediate=int(config["intermediate_size"]),
@@ -67,39 +59,27 @@ class Dimensions:
                 vocabulary=int(config["vocab_size"]),
                 tied=bool(config.get("tie_word_embeddings", False)),
                 context=int(config["max_position_embeddings"]),
-                attention_bias=bool(
-                    config.get("attention_bias", config.get("model_type") == "qwen2")
-                ),
+                attention_bias=bool(bias),
             )
         except (KeyError, TypeError, ValueError, ZeroDivisionError):
             return None
 
     @property
     def linear_shapes(self) -> tuple[tuple[int, int], ...]:
-        """(in, out) of the seven linear layers of one block: query, key, value, output, gate, up,
-        down.
-        """
+        """(in, out) of a block's linear layers: query, key, value, output, gate, up, down."""
         query, key = self.heads * self.head_dim, self.kv_heads * self.head_dim
-        return (
-            (self.hidden, query),
-            (self.hidden, key),
-            (self.hidden, key),
-            (query, self.hidden),
-            (self.hidden, self.intermediate),
-            (self.hidden, self.intermediate),
-            (self.intermediate, self.hidden),
-        )
+        wide = (self.hidden, self.intermediate)
+        attention = ((self.hidden, query), (self.hidden, key), (self.hidden, key))
+        return (*attention, (query, self.hidden), wide, wide, wide[::-1])
 
     @property
     def linear_parameters(self) -> int:
-        """Weights of the blocks' linear layers: what 4-bit quantisation stores in 4 bits."""
+        """Weights of the blocks' linear layers, which 4-bit quantisation stores in 4 bits."""
         return self.layers * sum(rows * columns for rows, columns in self.linear_shapes)
 
     @property
     def other_parameters(self) -> int:
-        """Weights that stay in 16 bits: embeddings, output head where it is not tied, norms and
-        biases.
-        """
+        """Weights that stay in 16 bits: embeddings, an untied output head, norms, biases."""
         biases = (self.heads + 2 * self.kv_heads) * self.head_dim if self.attention_bias else 0
         embeddings = self.vocabulary * self.hidden * (1 if self.tied else 2)
         return embeddings + self.layers * (2 * self.hidden + biases) + self.hidden
@@ -111,7 +91,7 @@ class Dimensions:
 
 @dataclass(frozen=True)
 class AdapterDefaults:
-    """Adapter settings of one level that differ from the published ones; None where they do not."""
+    """Adapter settings of one level that differ from the published ones; None: as published."""
 
     rank: int | None = None
     alpha: int | None = None
@@ -124,11 +104,10 @@ class AdapterDefaults:
 
 @dataclass(frozen=True)
 class Candidate:
-    """A language model that can be prompted, fine-tuned and benchmarked, and where on this machine
-    it lies.
+    """A language model that can be prompted, fine-tuned and benchmarked.
 
-    `folder` is None when it is not here. `vocabulary` names the vocabulary that it was pretrained
-    on.
+    `folder` is where it lies on this machine, None when it is not here. `vocabulary` names the
+    vocabulary that it was pretrained on.
     """
 
     name: str
@@ -147,14 +126,12 @@ class Candidate:
 
     @property
     def parameters(self) -> int | None:
-        """Number of weights, or None while neither the registry nor a config.json tells the
-        dimensions.
-        """
+        """Number of weights; None where neither the registry nor a config.json has dimensions."""
         return self.dimensions.parameters if self.dimensions else None
 
     @property
     def row_name(self) -> str:
-        """Its name in tables: the published one, and marked when the weights are a stand-in's."""
+        """Its name in tables: the published one, marked when the weights are a stand-in's."""
         return f"{self.published or self.name}{' (stand-in)' if self.is_standin else ''}"
 
     @property
@@ -164,32 +141,24 @@ class Candidate:
 
     @property
     def reference(self) -> str:
-        """What plain transformers and PEFT load it by: the hub id of a model from the hub, else its
-        folder, from here where it lies below.
-        """
+        """The hub id or folder (relative to here where it lies below) that plain PEFT loads."""
         if self.repo and self.source in (None, "hub cache"):
             return self.repo
+        if self.folder is None:
+            return self.name
         here = Path.cwd()
-        return (
-            self.name
-            if self.folder is None
-            else str(
-                self.folder.relative_to(here) if self.folder.is_relative_to(here) else self.folder
-            )
-        )
+        below = self.folder.is_relative_to(here)
+        return str(self.folder.relative_to(here) if below else self.folder)
 
     def adapter_defaults(self, level: Level) -> AdapterDefaults:
         """Its deviations from the published adapter settings at `level`."""
         return self.adapter.get(level, AdapterDefaults())
 
     def knows(self, vocabulary: Vocabulary) -> bool:
-        """Whether it was pretrained on exactly this vocabulary and so need not be told it in the
-        prompt.
-        """
-        return (
-            self.vocabulary == vocabulary.name
-            and load_vocabulary(self.vocabulary).sha256 == vocabulary.sha256
-        )
+        """Whether it was pretrained on exactly this vocabulary, so that no prompt needs to list it."""
+        if self.vocabulary != vocabulary.name:
+            return False
+        return load_vocabulary(self.vocabulary).sha256 == vocabulary.sha256
 
 
 def all_candidates() -> list[Candidate]:
@@ -200,14 +169,13 @@ def all_candidates() -> list[Candidate]:
 def resolve_candidate(name_or_path: str | Path) -> Candidate:
     """The candidate of a registered name, hub id ("org/name", "org/name@revision") or local folder.
 
-    Resolving loads nothing and succeeds for models that are not on this machine (`folder` is then
-    None). Raises PlannerError for a name that is none of these.
+    Loads nothing, and succeeds for models that are not on this machine (`folder` is None then).
+    Raises PlannerError for a name that is none of these.
     """
     text = str(name_or_path).strip()
     for candidate in _registered():
-        if text.lower() in {
-            name.lower() for name in (candidate.name, candidate.published, candidate.repo) if name
-        }:
+        names = (candidate.name, candidate.published, candidate.repo)
+        if text.lower() in {name.lower() for name in names if name}:
             return _locate(candidate)
     path = Path(text).expanduser()
     if text and path.is_dir():
@@ -223,17 +191,14 @@ def resolve_candidate(name_or_path: str | Path) -> Candidate:
 
 
 def _unknown(text: str) -> str:
-    names = [candidate.name for candidate in _registered()]
-    by_lower = {name.lower(): name for name in names}
+    by_lower = {candidate.name.lower(): candidate.name for candidate in _registered()}
     close = [
         by_lower[name]
         for name in difflib.get_close_matches(text.lower(), by_lower, n=3, cutoff=0.5)
     ]
-    hint = f"did you mean {' or '.join(close)}?" if close else f"there are {', '.join(names)}"
-    return (
-        f"unknown candidate {text!r}: {hint} A local folder (./folder) or a hub id (org/name)"
-        " works, too"
-    )
+    there_are = f"there are {', '.join(by_lower.values())}"
+    hint = f"did you mean {' or '.join(close)}?" if close else there_are
+    return f"unknown candidate {text!r}: {hint} A local folder (./folder) or a hub id works, too"
 
 
 @functools.cache
@@ -245,65 +210,48 @@ def _entry(entry: dict[str, Any]) -> Candidate:
     values = dict(entry)
     if "dimensions" in values:
         values["dimensions"] = Dimensions(**values["dimensions"])
-    values["adapter"] = {
-        level: AdapterDefaults(**settings) for level, settings in values.get("adapter", {}).items()
-    }
+    levels = values.get("adapter", {}).items()
+    values["adapter"] = {level: AdapterDefaults(**settings) for level, settings in levels}
     return Candidate(**values)
 
 
 def _locate(candidate: Candidate) -> Candidate:
-    """The candidate with the folder it lies in; what the config.json there says overrules the
-    registry.
-    """
+    """The candidate with its folder; the config.json there overrules the registry."""
     folder, source = find_folder(candidate.name, candidate.repo, candidate.revision)
-    if folder is None:
-        return candidate
+    return candidate if folder is None else _at(candidate, folder, source)
+
+
+def _at(candidate: Candidate, folder: Path, source: Source | None) -> Candidate:
     config = read_config(folder)
-    dimensions = Dimensions.from_config(config) or candidate.dimensions
     return replace(
         candidate,
         folder=folder,
         source=source,
         chat=_chat(folder),
-        dimensions=dimensions,
+        dimensions=Dimensions.from_config(config) or candidate.dimensions,
         is_standin=bool(config.get(STANDIN_KEY)),
     )
 
 
 def _from_folder(folder: Path) -> Candidate:
-    config = read_config(folder)
-    return Candidate(
-        name=folder.name,
-        chat=_chat(folder),
-        vocabulary=config.get(VOCABULARY_KEY),
-        dimensions=Dimensions.from_config(config),
-        folder=folder,
-        source="path",
-        is_standin=bool(config.get(STANDIN_KEY)),
-    )
+    vocabulary = read_config(folder).get(VOCABULARY_KEY)
+    return _at(Candidate(name=folder.name, vocabulary=vocabulary), folder, "path")
 
 
 def _from_hub(repo: str, revision: str | None) -> Candidate:
-    for candidate in _registered():
-        if candidate.repo and candidate.repo.lower() == repo.lower():
-            return _locate(replace(candidate, revision=revision))
-    return _locate(Candidate(name=repo, repo=repo, revision=revision))
+    known = (one for one in _registered() if one.repo and one.repo.lower() == repo.lower())
+    return _locate(replace(next(known, Candidate(name=repo, repo=repo)), revision=revision))
 
 
 def _chat(folder: Path) -> Chat:
-    """The kind of chat template in a folder, told by its marks."""
+    """The kind of chat template in a folder, by its markers."""
     template = folder / "chat_template.jinja"
-    text = (
-        read_text(template)
-        if template.is_file()
-        else str(read_config(folder, "tokenizer_config.json").get("chat_template") or "")
-    )
+    if template.is_file():
+        text = read_text(template)
+    else:
+        text = str(read_config(folder, "tokenizer_config.json").get("chat_template") or "")
     if not text:
         return "plain"
-    return (
-        "llama3"
-        if "<|start_header_id|>" in text
-        else "chatml"
-        if "<|im_start|>" in text
-        else "other"
-    )
+    if "<|start_header_id|>" in text:
+        return "llama3"
+    return "chatml" if "<|im_start|>" in text else "other"

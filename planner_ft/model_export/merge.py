@@ -7,8 +7,12 @@ from typing import Any
 
 from planner_ft.candidates import Candidate
 from planner_ft.candidates.adapters import check_adapter
-from planner_ft.candidates.libraries import quiet_bars, quiet_libraries
-from planner_ft.candidates.loading import load_tokenizer, require_folder
+from planner_ft.candidates.loading import (
+    load_tokenizer,
+    quiet_bars,
+    quiet_libraries,
+    require_folder,
+)
 from planner_ft.candidates.registry import VOCABULARY_KEY
 from planner_ft.prompts.render import TODAY
 from planner_ft.support.errors import PlannerError

@@ -11,7 +11,7 @@ import typer
 from typer.testing import CliRunner
 
 from planner_ft.candidates import diagnosis
-from planner_ft.candidates.probe import FourBitProbe, probe_four_bit
+from planner_ft.candidates.diagnosis import FourBitProbe, probe_four_bit
 from planner_ft.cli.candidates import candidates
 from planner_ft.cli.doctor import doctor
 
@@ -92,7 +92,7 @@ def test_doctor_lists_what_is_wrong_and_hides_the_home_folder(
 ) -> None:
     monkeypatch.setenv("HF_HOME", str(Path.home() / "models"))
     monkeypatch.setattr(
-        "planner_ft.candidates.probe.probe_four_bit",
+        "planner_ft.candidates.diagnosis.probe_four_bit",
         lambda device: FourBitProbe(device, "float32", problem="no kernel"),
     )
     monkeypatch.setattr(diagnosis, "LITTLE_DISK_GIB", 1e9)
