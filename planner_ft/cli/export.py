@@ -225,11 +225,11 @@ def _export_plan(
 ) -> None:
     from planner_ft.exporters.geodesy import parse_origin
     from planner_ft.exporters.losses import loss_lines, loss_summary
-    from planner_ft.exporters.run import HandoverSettings, hand_over
+    from planner_ft.exporters.run import PlanExportSettings, export_plan
 
     place = parse_origin(origin) if origin is not None else None
-    for one in hand_over(
-        HandoverSettings(plan, tuple(formats), place, out, log, draft, vocabulary, overwrite)
+    for one in export_plan(
+        PlanExportSettings(plan, tuple(formats), place, out, log, draft, vocabulary, overwrite)
     ):
         typer.echo(f"{one.file}: {loss_summary(one.account)} (report: {one.report})")
         for line in loss_lines(one.account):

@@ -1,11 +1,17 @@
 """An approved plan in the formats that vehicles read.
 
-`run.hand_over` does it: `formats` says what a format is and which there are, `ledger` keeps account
-of what a file holds, `geodesy` turns local metres into latitude and longitude, and a module per
-format writes it.
+`run.export_plan` does it; `formats` says what a format is, `ledger` keeps account of what a file
+holds, and a module per format writes it. `tables.toml` holds the reasons of losses.
 """
 
-from planner_ft.exporters.formats import DRAFT, Format, Handover, Written, format_names, load_format
+from planner_ft.exporters.formats import (
+    DRAFT,
+    Format,
+    PlanExport,
+    Written,
+    format_names,
+    load_format,
+)
 from planner_ft.exporters.geodesy import Origin, parse_origin
 from planner_ft.exporters.ledger import Account, Ledger, Loss
 
@@ -13,10 +19,10 @@ __all__ = [
     "DRAFT",
     "Account",
     "Format",
-    "Handover",
     "Ledger",
     "Loss",
     "Origin",
+    "PlanExport",
     "Written",
     "format_names",
     "load_format",

@@ -1,77 +1,33 @@
-"""The nodes that a behaviour tree of a vocabulary is made of: its skills, its tasks, and five that
-every plan needs.
+"""The nodes of behaviour trees, and names and values as BehaviorTree.CPP 4 reads them.
 
-Whoever runs a tree implements them: `TreeNodesModel` in the file lists each with its ports, their
-types and what they mean (https://www.behaviortree.dev/docs/learn-the-basics/xml_format).
+A vocabulary's nodes are its skills, its tasks, and four that every plan needs. Whoever runs a tree
+implements them: `TreeNodesModel` in the file lists each with its ports. Sources: the library's
+rules for names (https://github.com/BehaviorTree/BehaviorTree.CPP, docs/name_validation_rules.md)
+and for lists in ports, whose entries are set apart by ";"
+(https://www.behaviortree.dev/docs/tutorial-basics/tutorial_03_generic_ports).
 """
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Literal
+import json
+import re
+import unicodedata
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Any
 from xml.etree import ElementTree
 
-from planner_ft.exporters.bt_values import PORT_TYPES, RESERVED, plain_name, plain_names
+from planner_ft.exporters.formats import TABLES
+from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import Parameter, Skill, Task
 
-BUILT_IN = frozenset(
-    [
-        "AlwaysFailure",
-        "AlwaysSuccess",
-        "AsyncFallback",
-        "AsyncSequence",
-        "Delay",
-        "Fallback",
-        "ForceFailure",
-        "ForceSuccess",
-        "IfThenElse",
-        "Inverter",
-        "KeepRunningUntilFailure",
-        "LoopBool",
-        "LoopDouble",
-        "LoopInt",
-        "LoopString",
-        "Parallel",
-        "ParallelAll",
-        "Precondition",
-        "ReactiveFallback",
-        "ReactiveSequence",
-        "Repeat",
-        "RetryUntilSuccessful",
-        "RunOnce",
-        "Script",
-        "ScriptCondition",
-        "Sequence",
-        "SequenceStar",
-        "SequenceWithMemory",
-        "SetBlackboard",
-        "SkipUnlessUpdated",
-        "Sleep",
-        "SubTree",
-        "Switch2",
-        "Switch3",
-        "Switch4",
-        "Switch5",
-        "Switch6",
-        "Timeout",
-        "TryCatch",
-        "UnsetBlackboard",
-        "WaitValueUpdate",
-        "WasEntryUpdated",
-        "WhileDoElse",
-        "Action",
-        "BehaviorTree",
-        "Condition",
-        "Control",
-        "Decorator",
-        "Root",
-        "root",
-    ]
-)
-"""Names that BehaviorTree.CPP 4.10 registers itself, or reads as something else."""
+TABLE: dict[str, Any] = TABLES["bt"]
+RESERVED = frozenset({"name", "ID"})
+"""Attributes that mean something to the library; others that it reserves begin with "_"."""
+UNREADABLE = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ufffe\uffff\ud800-\udfff]")
 
 
 @dataclass(frozen=True)
@@ -86,48 +42,22 @@ class Port:
 
 @dataclass(frozen=True)
 class Node:
-    """A leaf of a tree. `ports` by what they stand for: a parameter's name, and "output" for what a
-    skill gives.
-    """
+    """A leaf of a tree. `ports` by a parameter's name, and "output" for the result of a skill."""
 
     id: str
     description: str
-    ports: Mapping[str, Port] = field(default_factory=dict)
-    kind: Literal["Action", "Condition"] = "Action"
+    ports: Mapping[str, Port]
+    kind: str = "Action"
 
 
-def _text(name: str, description: str) -> dict[str, Port]:
-    return {name: Port(name, "std::string", description)}
+def _fixed(name: str, entry: Mapping[str, Any]) -> Node:
+    ports = {key: Port(key, *port) for key, port in entry["ports"].items()}
+    ports |= {key: Port(key, *port, output=True) for key, port in entry.get("outputs", {}).items()}
+    return Node(name, entry["description"], ports, entry.get("kind", "Action"))
 
 
-STOP = Node(
-    "StopCondition",
-    "SUCCESS when what the text says holds, else FAILURE; it is asked after the step's movement"
-    " began",
-    _text("text", "when the step ends"),
-    "Condition",
-)
-HANDLE = Node(
-    "HandleFailure",
-    "SUCCESS when the step failed in this way and the vehicle recovered, so that the mission goes"
-    " on; else FAILURE",
-    _text("mode", "the way to fail"),
-)
-REPORT = Node(
-    "ReportOutput",
-    "reports what the step was to give and no skill of it gives by itself",
-    _text("text", "what is reported"),
-)
-LOCATE = Node(
-    "LocatePlace",
-    "writes the position of a place that the search before it found; where none was, it asks;"
-    " FAILURE when the place stays unknown",
-    {
-        **_text("place", "name of the place"),
-        "position": Port("position", "", "local metres, x;y", output=True),
-    },
-)
-OWN = (STOP, HANDLE, REPORT, LOCATE)
+FIXED = {name: _fixed(name, entry) for name, entry in TABLE["nodes"].items()}
+"""The nodes that every plan needs: StopCondition, HandleFailure, ReportOutput, LocatePlace."""
 
 
 @dataclass(frozen=True)
@@ -142,29 +72,25 @@ class Nodes:
     @property
     def all(self) -> tuple[Node, ...]:
         """Every node that whoever runs a tree implements."""
-        return (*self.skills.values(), *self.tasks.values(), *OWN)
+        return (*self.skills.values(), *self.tasks.values(), *FIXED.values())
 
 
 @functools.lru_cache(maxsize=16)
 def nodes_of(vocabulary: Vocabulary) -> Nodes:
     """The nodes of a vocabulary."""
-    taken = {*BUILT_IN, *(node.id for node in OWN)}
+    taken = {*TABLE["built_in"].split(), *FIXED}
     skills = plain_names([skill.name for skill in vocabulary.skills], taken)
-    tasks = plain_names(
-        [f"Plan{task.title}" for task in vocabulary.tasks], {*taken, *skills.values()}
-    )
+    titles = [f"Plan{task.title}" for task in vocabulary.tasks]
+    tasks = plain_names(titles, {*taken, *skills.values()})
+    on_board = "plans the skills of this task on board and runs them: "
     return Nodes(
         {
-            skill.name: Node(skills[skill.name], skill.description, _ports(skill))
-            for skill in vocabulary.skills
+            one.name: Node(skills[one.name], one.description, _ports(one))
+            for one in vocabulary.skills
         },
         {
-            task.title: Node(
-                tasks[f"Plan{task.title}"],
-                f"plans the skills of this task on board and runs them: {task.description}",
-                _ports(task),
-            )
-            for task in vocabulary.tasks
+            one.title: Node(tasks[f"Plan{one.title}"], on_board + one.description, _ports(one))
+            for one in vocabulary.tasks
         },
     )
 
@@ -176,9 +102,8 @@ def model_element(nodes: Nodes) -> ElementTree.Element:
         element = ElementTree.SubElement(model, node.kind, ID=node.id)
         for port in node.ports.values():
             attributes = {"name": port.name, **({"type": port.type} if port.type else {})}
-            ElementTree.SubElement(
-                element, "output_port" if port.output else "input_port", attributes
-            ).text = port.description
+            tag = "output_port" if port.output else "input_port"
+            ElementTree.SubElement(element, tag, attributes).text = port.description
         ElementTree.SubElement(element, "description").text = node.description
     return model
 
@@ -186,30 +111,85 @@ def model_element(nodes: Nodes) -> ElementTree.Element:
 def _ports(owner: Skill | Task) -> dict[str, Port]:
     names = plain_names([*owner.by_name, "task_prompt"], RESERVED)
     ports = {
-        parameter.name: Port(
-            names[parameter.name], PORT_TYPES[parameter.type], _described(parameter)
-        )
-        for parameter in owner.parameters
+        one.name: Port(names[one.name], TABLE["port_types"][one.type], _described(one))
+        for one in owner.parameters
     }
     if isinstance(owner, Task):
-        return {
-            **ports,
-            "task_prompt": Port(
-                names["task_prompt"], "std::string", "the whole intent of the task"
-            ),
-        }
+        prompt = Port(names["task_prompt"], "std::string", "the whole intent of the task")
+        return {**ports, "task_prompt": prompt}
     if owner.output:
         # An observation is given, and an observation comes out: two ports.
         taken = {*RESERVED, *names.values()}
-        name = plain_name(
-            f"{owner.output}_out" if plain_name(owner.output) in taken else owner.output, taken
-        )
-        ports["output"] = Port(name, "", f"what the skill gives: {owner.output}", output=True)
+        name = owner.output + ("_out" if plain_name(owner.output) in taken else "")
+        words = f"what the skill gives: {owner.output}"
+        ports["output"] = Port(plain_name(name, taken), "", words, output=True)
     return ports
 
 
 def _described(parameter: Parameter) -> str:
-    layout = {"position": "x;y", "polygon": "x;y;x;y ...", "texts": "entries set apart by ;"}.get(
-        parameter.type
-    )
-    return ", ".join(part for part in (parameter.description, parameter.unit, layout) if part)
+    parts = (parameter.description, parameter.unit, TABLE["layouts"].get(parameter.type))
+    return ", ".join(part for part in parts if part)
+
+
+# ------------------------------------------------------------ names and values
+
+
+def plain_name(text: str, taken: Iterable[str] = ()) -> str:
+    """A name for a node, a tree, a port or a blackboard entry: ASCII letters, digits and "_", a
+    letter first, none of `taken`.
+    """
+    ascii_only = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode()
+    name = re.sub(r"[^A-Za-z0-9_]+", "_", ascii_only).strip("_") or "unnamed"
+    name = name if name[0].isalpha() else f"n_{name}"
+    others = set(taken)
+    candidates = (name, *(f"{name}_{number}" for number in range(2, len(others) + 3)))
+    return next(candidate for candidate in candidates if candidate not in others)
+
+
+def plain_names(texts: Iterable[str], taken: Iterable[str] = ()) -> dict[str, str]:
+    """Per text a name that no other text and none of `taken` has."""
+    names: dict[str, str] = {}
+    for text in texts:
+        names.setdefault(text, plain_name(text, (*taken, *names.values())))
+    return names
+
+
+def printable(text: str) -> str:
+    """Text without the control characters that XML has no place for."""
+    return UNREADABLE.sub("\ufffd", text)
+
+
+def readable(text: str) -> tuple[str, str]:
+    """(the text as an attribute can hold it, how that differs from the plan's; "" where it does
+    not).
+    """
+    clean = printable(text)
+    inner = clean.strip(" ")
+    if len(inner) > 2 and inner[0] == "{" and inner[-1] == "}":
+        return f"({inner[1:-1]})", TABLE["pointer"]
+    if clean == "=":  # the blackboard entry of the port's own name
+        return "(=)", TABLE["pointer"]
+    return clean, TABLE["unreadable"] if clean != text else ""
+
+
+def attribute(value: Any) -> tuple[str, str]:
+    """(a parameter's value as an attribute's text, how that differs from the value; "" where it
+    does not).
+    """
+    if isinstance(value, str):
+        return readable(value)
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return _number(value), ""
+    if not isinstance(value, list):
+        return readable(compact_json(value))
+    if all(isinstance(item, str) for item in value):
+        if any(";" in item or item.startswith("json:") for item in value):
+            return readable("json:" + json.dumps(value, ensure_ascii=False))
+        return readable(";".join(value))
+    rows = [item if isinstance(item, list) else [item] for item in value]
+    return ";".join(_number(number) for row in rows for number in row), ""
+
+
+def _number(value: float) -> str:
+    """Decimal digits without an exponent, of exactly this value."""
+    return f"{Decimal(repr(value)):f}"

@@ -9,9 +9,11 @@ A format of a lab's own is an entry point of the group "planner_ft.formats" that
 from __future__ import annotations
 
 import functools
+import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.metadata import EntryPoint, entry_points
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.exporters.geodesy import Origin
@@ -24,17 +26,20 @@ if TYPE_CHECKING:
 
 GROUP = "planner_ft.formats"
 BUNDLED = {
-    "qgc": "planner_ft.exporters.qgc:FORMAT",
-    "waypoints": "planner_ft.exporters.waypoints:FORMAT",
+    "qgc": "planner_ft.exporters.mavlink:QGC",
+    "waypoints": "planner_ft.exporters.mavlink:WAYPOINTS",
     "geojson": "planner_ft.exporters.geojson:FORMAT",
     "bt": "planner_ft.exporters.bt:FORMAT",
     "moos": "planner_ft.exporters.moos:FORMAT",
 }
 DRAFT = "DRAFT - NOT APPROVED"
+TABLES: dict[str, Any] = tomllib.loads(
+    Path(__file__).with_name("tables.toml").read_text(encoding="utf-8")
+)
 
 
 @dataclass(frozen=True)
-class Handover:
+class PlanExport:
     """A plan on its way to a vehicle.
 
     `origin` is where [0, 0] lies, None where the format does not need it and it was not given.
@@ -54,7 +59,7 @@ class Handover:
 
     @property
     def mark(self) -> str:
-        """What the file is to say about its approval: who gave it, or DRAFT."""
+        """The file's words about its approval: who gave it, or DRAFT."""
         return self.approval or DRAFT
 
     @functools.cached_property
@@ -66,39 +71,35 @@ class Handover:
 
     @functools.cached_property
     def blocked(self) -> tuple[int, str] | None:
-        """(index from 0 of the first task that waits for a place or for its skills, why), None
-        where none does.
+        """(index from 0 of the first task that waits for a place or for its skills, why), or None.
 
         A format that cannot wait carries no task from here on. A task that says its movement
         without skills (a transit) waits for none.
         """
         for index, task in enumerate(self.document["tasks"]):
-            if task.get("waits_for"):
-                return (
-                    index,
-                    (
-                        f'{task["id"]} waits for "{task["waits_for"]}", and the format cannot wait:'
-                        " plan again when it is located"
-                    ),
-                )
-            if task["skill_sequence"] is None and task["id"] in self.track.open:
-                return (
-                    index,
-                    (
-                        f"{task['id']} has no skills, and the format cannot go on without its"
-                        " movement: plan its skills first"
-                    ),
-                )
+            name, place = task["id"], task.get("waits_for")
+            if place:
+                why = f'{name} waits for "{place}", and the format cannot wait'
+                return index, f"{why}: plan again when it is located"
+            if task["skill_sequence"] is None and name in self.track.open:
+                why = f"{name} has no skills, and the format cannot go on without its movement"
+                return index, f"{why}: plan its skills first"
         return None
 
     @property
     def ready(self) -> int:
-        """How many tasks, from the first, a format that cannot wait for a place carries."""
+        """Tasks, from the first, that a format that cannot wait for a place carries."""
         return self.blocked[0] if self.blocked else len(self.document["tasks"])
 
     def ledger(self) -> Ledger:
         """A new account of this plan."""
         return Ledger(self.document)
+
+    def lose_blocked(self, ledger: Ledger) -> None:
+        """Enter the tasks from the first blocked one on as lost."""
+        if self.blocked:
+            for index in range(self.ready, len(self.document["tasks"])):
+                ledger.lose("tasks", index, why=self.blocked[1])
 
 
 @dataclass(frozen=True)
@@ -111,44 +112,40 @@ class Written:
 
 @dataclass(frozen=True)
 class Format:
-    """A way to hand a plan over.
+    """A file format for approved plans.
 
     `extension` begins with a dot. `write` may raise PlannerError for a plan that the format cannot
-    take at all. `Handover.origin` is never None for a format that `needs_origin`.
+    take at all. `PlanExport.origin` is never None for a format that `needs_origin`.
     """
 
     name: str
     extension: str
     description: str
     needs_origin: bool
-    write: Callable[[Handover], Written]
+    write: Callable[[PlanExport], Written]
 
 
 def format_names() -> list[str]:
-    """The formats that can be asked for: those of the package, then those that entry points add."""
-    return [*BUNDLED, *(name for name in _added() if name not in BUNDLED)]
+    """The bundled formats, then those that entry points add."""
+    return list(dict.fromkeys([*BUNDLED, *_added()]))
 
 
 def load_format(name: str) -> Format:
-    """A format by its name. Raises PlannerError when there is none, or when one that a package adds
-    cannot be loaded.
-    """
+    """A format by its name. Raises PlannerError when there is none or it cannot be loaded."""
     bundled = BUNDLED.get(name)
     entry = EntryPoint(name, bundled, GROUP) if bundled else _added().get(name)
     if entry is None:
         raise PlannerError(f"--format {name}: must be one of {', '.join(format_names())}, or all")
+    about = f"--format {name}: {entry.value}"
     try:
         loaded = entry.load()
     except (ImportError, AttributeError) as error:
         raise PlannerError(
-            f"--format {name}: {entry.value} cannot be loaded ({error}); install what it needs, or"
-            " the package that adds it anew"
+            f"{about} cannot be loaded ({error}); install what it needs, or the package that adds"
+            " it anew"
         ) from error
     if not isinstance(loaded, Format):
-        raise PlannerError(
-            f"--format {name}: {entry.value} is no planner_ft.exporters.Format; ask whoever"
-            " wrote it"
-        )
+        raise PlannerError(f"{about} is no planner_ft.exporters.Format; ask whoever wrote it")
     return loaded
 
 

@@ -19,9 +19,7 @@ if TYPE_CHECKING:
     from pyproj import Geod
 
 NEAREST_POLE = 89.0
-"""Degrees of latitude beyond which no origin is taken: at a pole there is no north for the local
-frame's y axis.
-"""
+"""Degrees of latitude beyond which there is no useful north for the local frame's y axis."""
 
 
 @functools.cache
@@ -33,49 +31,39 @@ def _wgs84() -> Geod:
 
 @dataclass(frozen=True)
 class Origin:
-    """Where the local frame's [0, 0] lies: degrees on WGS 84, latitude positive north, longitude
-    positive east.
-    """
+    """Where the local frame's [0, 0] lies: degrees on WGS 84, north and east positive."""
 
     latitude: float
     longitude: float
 
     def __post_init__(self) -> None:
         """Raise PlannerError for degrees out of range and for a place at a pole."""
-        said = f"--origin {self.latitude:g},{self.longitude:g}"
-        if not (
-            math.isfinite(self.latitude)
-            and math.isfinite(self.longitude)
-            and abs(self.longitude) <= 180
-            and abs(self.latitude) <= 90
-        ):
-            swapped = abs(self.latitude) <= 180 and abs(self.longitude) <= 90
+        given = f"--origin {self.latitude:g},{self.longitude:g}"
+        north, east = abs(self.latitude), abs(self.longitude)
+        if not (north <= 90 and east <= 180):  # also where one is no number
+            swapped = north <= 180 and east <= 90
             hint = "; the two may stand in the wrong order: latitude comes first" if swapped else ""
             raise PlannerError(
-                f"{said}: a latitude lies between -90 and 90 degrees, a longitude between -180 and"
+                f"{given}: a latitude lies between -90 and 90 degrees, a longitude between -180 and"
                 f" 180{hint}"
             )
-        if abs(self.latitude) > NEAREST_POLE:
+        if north > NEAREST_POLE:
             raise PlannerError(
-                f"{said}: too near a pole, where the local frame has no north; latitudes up to"
+                f"{given}: too near a pole, where the local frame has no north; latitudes up to"
                 f" {NEAREST_POLE:g} degrees can be used"
             )
 
     def to_geographic(self, x: float, y: float) -> tuple[float, float]:
-        """(latitude, longitude) in degrees of the place `x` metres east and `y` metres north of the
-        origin.
-        """
-        longitude, latitude, _back = _wgs84().fwd(
-            self.longitude, self.latitude, math.degrees(math.atan2(x, y)), math.hypot(x, y)
-        )
+        """(latitude, longitude) in degrees, `x` metres east and `y` metres north of the origin."""
+        azimuth, distance = math.degrees(math.atan2(x, y)), math.hypot(x, y)
+        longitude, latitude, _back = _wgs84().fwd(self.longitude, self.latitude, azimuth, distance)
         return float(latitude), float(longitude)
 
     def to_local(self, latitude: float, longitude: float) -> tuple[float, float]:
         """(x, y) in metres east and north of the origin. The inverse of `to_geographic`."""
         azimuth, _back, distance = _wgs84().inv(self.longitude, self.latitude, longitude, latitude)
-        return distance * math.sin(math.radians(azimuth)), distance * math.cos(
-            math.radians(azimuth)
-        )
+        angle = math.radians(azimuth)
+        return distance * math.sin(angle), distance * math.cos(angle)
 
 
 def parse_origin(text: str) -> Origin:

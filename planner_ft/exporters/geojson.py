@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.document.track import Circle, Leg, Point
-from planner_ft.exporters.formats import Format, Handover, Written
+from planner_ft.exporters.formats import Format, PlanExport, Written
 from planner_ft.exporters.geodesy import Origin
 from planner_ft.support.files import indented_json
 
@@ -22,25 +22,12 @@ if TYPE_CHECKING:
 
 Feature = dict[str, Any]
 PLAN_KEYS = (
-    "command",
-    "vehicle",
-    "assumptions",
-    "constraints",
-    "open_places",
-    "located",
-    "problems",
-    "warnings",
+    *("command", "vehicle", "assumptions", "constraints", "open_places", "located"),
+    *("problems", "warnings"),
 )
 TASK_KEYS = (
-    "title",
-    "parameters",
-    "task_prompt",
-    "skill_sequence",
-    "waits_for",
-    "stale",
-    "located",
-    "assumptions",
-    "problems",
+    *("title", "parameters", "task_prompt", "skill_sequence", "waits_for", "stale", "located"),
+    *("assumptions", "problems"),
 )
 CORNERS = 72
 """Of a circle."""
@@ -50,121 +37,88 @@ LAWNMOWER = "lawnmower"
 """The pattern of a task that covers an area (see the vocabulary's definition)."""
 
 
-def write(handover: Handover) -> Written:
+def write(plan: PlanExport) -> Written:
     """A FeatureCollection. Nothing is lost: all that the plan says stands in properties."""
-    ledger = handover.ledger()
+    ledger = plan.ledger()
     for path in ledger.items:
         ledger.carry(*path)
-    features = list(_Drawing(handover).features())
-    return Written(
-        indented_json({"type": "FeatureCollection", "name": handover.name, "features": features}),
-        ledger.close(),
-    )
+    assert plan.origin is not None
+    features = list(_Drawing(plan, plan.origin).features())
+    collection = {"type": "FeatureCollection", "name": plan.name, "features": features}
+    return Written(indented_json(collection), ledger.close())
 
 
 class _Drawing:
     """The features of one plan."""
 
-    def __init__(self, handover: Handover) -> None:
-        assert handover.origin is not None
-        self.handover, self.document, self.track = handover, handover.document, handover.track
-        self.origin: Origin = handover.origin
+    def __init__(self, plan: PlanExport, origin: Origin) -> None:
+        self.plan, self.document, self.origin = plan, plan.document, origin
 
     def features(self) -> Iterator[Feature]:
-        """The plan, then its tasks with their waypoints, then what lies around."""
+        """The plan, then its tasks with their waypoints, then the surroundings."""
+        track = self.plan.track
         yield self._plan()
         for number, task in enumerate(self.document["tasks"], start=1):
-            legs = [leg for leg in self._legs.get(task["id"], ()) if leg.points]
+            legs = [leg for leg in track.legs if leg.task == task["id"] and leg.points]
             yield self._task(number, task, legs)
             yield from map(self._waypoint, legs)
             yield from self._grid(task, legs)
-        for target in self.track.targets:
-            points = [] if target.position is None else [target.position]
-            yield self._feature(
-                "target",
-                points,
-                name=target.name,
-                task=target.task,
-                located=target.position is not None,
-            )
-        for boundary in self.track.boundaries:
-            yield self._feature(
-                "boundary", boundary.polygon, ring=True, task=boundary.task, step=boundary.step + 1
-            )
+        for target in track.targets:
+            known = target.position is not None
+            points = [target.position] if target.position else []
+            words = {"name": target.name, "task": target.task, "located": known}
+            yield self._feature("target", points, **words)
+        for boundary in track.boundaries:
+            words = {"task": boundary.task, "step": boundary.step + 1}
+            yield self._feature("boundary", boundary.polygon, ring=True, **words)
         if self.document["vehicle"]["area"]:
             yield self._feature("area", self.document["vehicle"]["area"], ring=True)
-        for circle in self.track.circles:
-            yield self._feature(
-                "stand-off",
-                _corners(circle),
-                ring=True,
-                task=circle.task,
-                center=list(circle.center),
-                radius=circle.radius,
-                arc=circle.arc,
-            )
-
-    @property
-    def _legs(self) -> dict[str, list[Leg]]:
-        legs: dict[str, list[Leg]] = {}
-        for leg in self.track.legs:
-            legs.setdefault(leg.task, []).append(leg)
-        return legs
+        for circle in track.circles:
+            words = {"task": circle.task, "center": list(circle.center)}
+            words |= {"radius": circle.radius, "arc": circle.arc}
+            yield self._feature("stand-off", _corners(circle), ring=True, **words)
 
     def _plan(self) -> Feature:
-        origin = {"latitude": self.origin.latitude, "longitude": self.origin.longitude}
-        said = {key: self.document[key] for key in PLAN_KEYS if key in self.document}
-        told = {
-            "name": self.handover.name,
-            "approval": self.handover.mark,
+        words = {
+            "name": self.plan.name,
+            "approval": self.plan.mark,
             "digest": self.document["digest"],
             "vocabulary": self.document["vocabulary"]["name"],
+            "origin": {"latitude": self.origin.latitude, "longitude": self.origin.longitude},
         }
-        return self._feature("plan", [], **told, origin=origin, **said)
+        words |= {key: self.document[key] for key in PLAN_KEYS if key in self.document}
+        return self._feature("plan", [], **words)
 
     def _task(self, number: int, task: dict[str, Any], legs: Sequence[Leg]) -> Feature:
         points: list[Point] = []
         for leg in legs:
             points += leg.points if leg.points[:1] != tuple(points[-1:]) else leg.points[1:]
-        said = {key: task[key] for key in TASK_KEYS if key in task}
-        return self._feature("task", points, task=task["id"], number=number, **said)
+        words = {key: task[key] for key in TASK_KEYS if key in task}
+        return self._feature("task", points, task=task["id"], number=number, **words)
 
     def _waypoint(self, leg: Leg) -> Feature:
-        return self._feature(
-            "waypoint",
-            [leg.points[-1]],
-            task=leg.task,
-            step=leg.step + 1,
-            skill=leg.skill,
-            motion=leg.kind,
-            metres=leg.metres,
-            seconds=leg.seconds,
-        )
+        words = {"task": leg.task, "step": leg.step + 1, "skill": leg.skill, "motion": leg.kind}
+        words |= {"metres": leg.metres, "seconds": leg.seconds}
+        return self._feature("waypoint", [leg.points[-1]], **words)
 
     def _grid(self, task: dict[str, Any], legs: Sequence[Leg]) -> Iterator[Feature]:
         """The area that the lanes of a survey span."""
         import shapely
 
-        known = self.handover.vocabulary.task.get(task["title"])
-        hull = shapely.MultiPoint([leg.points[-1] for leg in legs if leg.kind == "go"]).convex_hull
-        if (
-            known
-            and known.pattern == LAWNMOWER
-            and isinstance(hull, shapely.Polygon)
-            and not hull.is_empty
-        ):
-            yield self._feature("grid", hull.exterior.coords[:-1], ring=True, task=task["id"])
+        known = self.plan.vocabulary.task.get(task["title"])
+        if known and known.pattern == LAWNMOWER:
+            ends = [leg.points[-1] for leg in legs if leg.kind == "go"]
+            hull = shapely.MultiPoint(ends).convex_hull
+            if isinstance(hull, shapely.Polygon) and not hull.is_empty:
+                yield self._feature("grid", hull.exterior.coords[:-1], ring=True, task=task["id"])
 
     def _feature(
-        self, kind: str, points: Sequence[Sequence[float]], *, ring: bool = False, **properties: Any
+        self, kind: str, points: Sequence[Sequence[float]], *, ring: bool = False, **words: Any
     ) -> Feature:
         local = [list(point) for point in points]
         geometry = _geometry([self._place(x, y) for x, y in local], ring) if local else None
-        return {
-            "type": "Feature",
-            "geometry": geometry,
-            "properties": {"kind": kind, **properties, "local": local},
-        }
+        properties = {"kind": kind, **words, "local": local}
+        return {"type": "Feature", "geometry": geometry, "properties": properties}
 
     def _place(self, x: float, y: float) -> tuple[float, float]:
         """Longitude and latitude; the longitude goes on beyond 180 degrees, as the way does."""
@@ -185,16 +139,13 @@ def _geometry(places: list[tuple[float, float]], ring: bool) -> dict[str, Any]:
     else:
         shape = shapely.LineString(places)
     west, _south, east, _north = shape.bounds
-    told: dict[str, Any] = shapely.geometry.mapping(
-        shape if west >= -180 and east <= 180 else _cut(shape)
-    )
-    return told
+    inside = west >= -180 and east <= 180
+    found: dict[str, Any] = shapely.geometry.mapping(shape if inside else _cut(shape))
+    return found
 
 
 def _cut(shape: BaseGeometry) -> BaseGeometry:
-    """A geometry whose longitudes go beyond 180 degrees as its parts on either side, all within
-    -180 and 180.
-    """
+    """A geometry whose longitudes go beyond 180 degrees as its parts within -180 and 180."""
     import shapely
     from shapely.affinity import translate
 
@@ -203,27 +154,19 @@ def _cut(shape: BaseGeometry) -> BaseGeometry:
     for turn in (-1, 0, 1):
         window = shapely.box(360 * turn - 180, -90, 360 * turn + 180, 90)
         pieces = shapely.get_parts(translate(whole.intersection(window), -360 * turn))
-        parts += [
-            piece for piece in pieces if piece.geom_type == shape.geom_type and not piece.is_empty
-        ]
+        same = [piece for piece in pieces if piece.geom_type == shape.geom_type]
+        parts += [piece for piece in same if not piece.is_empty]
     if not parts:
         # A polygon without an inside.
         return translate(shape, -360 * round(shape.bounds[0] / 360))
-    several = {
-        "Point": shapely.MultiPoint,
-        "LineString": shapely.MultiLineString,
-        "Polygon": shapely.MultiPolygon,
-    }[shape.geom_type]
+    several = getattr(shapely, f"Multi{shape.geom_type}")
     return shapely.orient_polygons(parts[0] if len(parts) == 1 else several(parts))
 
 
 def _corners(circle: Circle) -> list[Point]:
-    x, y = circle.center
+    (x, y), radius = circle.center, circle.radius
     angles = [2 * math.pi * index / CORNERS for index in range(CORNERS)]
-    return [
-        (x + circle.radius * math.cos(angle), y + circle.radius * math.sin(angle))
-        for angle in angles
-    ]
+    return [(x + radius * math.cos(angle), y + radius * math.sin(angle)) for angle in angles]
 
 
 FORMAT = Format("geojson", ".geojson", "GeoJSON for maps", needs_origin=True, write=write)

@@ -16,24 +16,21 @@ source (Rover/mode_auto.cpp):
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from planner_ft.document.track import Leg, Point, bearing
-from planner_ft.exporters.formats import Handover
+from planner_ft.exporters.formats import TABLES, PlanExport
 from planner_ft.exporters.geodesy import Origin
 from planner_ft.exporters.ledger import Ledger, Path
 from planner_ft.support.errors import PlannerError
-from planner_ft.vocabulary.motion import Motion
 
-NAV_WAYPOINT, NAV_LOITER_UNLIM, NAV_LOITER_TIME, DO_CHANGE_SPEED, NAV_SET_YAW_SPEED = (
-    16,
-    17,
-    19,
-    178,
-    213,
-)
+NAV_WAYPOINT = 16
+NAV_LOITER_UNLIM = 17
+NAV_LOITER_TIME = 19
+DO_CHANGE_SPEED = 178
+NAV_SET_YAW_SPEED = 213
 """MAV_CMD values (https://mavlink.io/en/messages/common.html#mav_commands)."""
 FRAME_GLOBAL, FRAME_MISSION, FRAME_RELATIVE_ALTITUDE = 0, 2, 3
 """MAV_FRAME values."""
@@ -42,38 +39,12 @@ SURFACE_BOAT, QUADROTOR = 11, 2
 LONGEST_HOLD = 32767
 WIDEST_TURN = 120.0
 """Degrees that one item turns at most: the vehicle takes the shorter way."""
+REASONS, BY_MOTION = TABLES["mission"]["reasons"], TABLES["mission"]["motion"]
+WORDS: str = TABLES["mission"]["words"]
 
-WORDS = "a mission holds no words"
-REASONS = {
-    "perception_skills": (
-        "a mission runs no perception or data skills: run them beside the autopilot"
-    ),
-    "stop_conditions": "the autopilot ends a command by its own criteria",
-    "failure_modes": "the autopilot has failsafes of its own, and none per command",
-    "expected_outputs": WORDS,
-    "navigation_skill": "the autopilot's command has no place for it",
-    "filter_skills": "the autopilot has no such command",
-    "parameters": "a mission is written from the skills, not from the task's own values",
-    "vehicle": "it is a setting of the autopilot",
-}
-BY_MOTION = {
-    "clearance": (
-        "the distance from obstacles is a setting of the autopilot (AVOID_MARGIN), not of a mission"
-    ),
-    "heading": "the autopilot keeps the bow on its way",
-    "drift": (
-        "the autopilot has no command that lets the vehicle drift: it goes on with the next step"
-    ),
-    "wait": "the autopilot cannot tell when the vehicle is steady, and no time is stated",
-    "turn-to": "its heading is not stated",
-    "turn-by": (
-        "its angle or the heading before it is not known, and the autopilot turns to headings"
-    ),
-    "arc": (
-        "its radius or its angle is not stated, so that nobody knows where it ends: state both and"
-        " plan again"
-    ),
-}
+Carried = tuple[tuple[str, ...], str] | None
+"""The roles of a skill's parameters that its items hold, and in which form; None: no item."""
+Polygon = tuple[tuple[float, float], ...]
 
 
 @dataclass(frozen=True)
@@ -89,48 +60,44 @@ class MissionItem:
     altitude: float = 0.0
     frame: int = FRAME_MISSION
 
+    @property
+    def values(self) -> list[float]:
+        """All seven parameters."""
+        return [*self.parameters, self.latitude, self.longitude, self.altitude]
+
 
 @dataclass(frozen=True)
 class Mission:
-    """The items of a plan, the polygons that fence it in as (latitude, longitude), and the account,
-    still open.
+    """The items of a plan, the polygons that fence it in and its home as (latitude, longitude), and
+    the account, still open.
 
     `vehicle_type` is a MAV_TYPE: a surface boat, or a quadrotor for a vocabulary whose vehicle has
     altitudes.
     """
 
     items: tuple[MissionItem, ...]
-    fences: tuple[tuple[tuple[float, float], ...], ...]
+    fences: tuple[Polygon, ...]
+    home: tuple[float, float]
     vehicle_type: int
     ledger: Ledger
 
 
-def build_mission(handover: Handover, *, fences: bool) -> Mission:
+def build_mission(plan: PlanExport, *, fences: bool) -> Mission:
     """The mission of a plan, up to the first task that waits. Raises PlannerError where no item is
     left.
     """
-    writer = _Writer(handover)
-    for index in range(handover.ready):
+    writer = _Writer(plan)
+    for index in range(plan.ready):
         writer.write_task(index)
     if not writer.items:
-        why = (
-            handover.blocked[1]
-            if handover.blocked
-            else "it has no movement that a mission can hold"
-        )
+        no_item = "it has no movement that a mission can hold"
+        why = plan.blocked[1] if plan.blocked else no_item
         raise PlannerError(f"nothing of the plan can be written as a mission: {why}")
     polygons = writer.write_fences() if fences else ()
-    if handover.blocked:
-        for index in range(handover.ready, len(handover.document["tasks"])):
-            writer.ledger.lose("tasks", index, why=handover.blocked[1])
-    return Mission(
-        tuple(writer.items), polygons, QUADROTOR if writer.flies else SURFACE_BOAT, writer.ledger
-    )
-
-
-def coordinate(degrees: float) -> float:
-    """Degrees to nine places: a tenth of a millimetre."""
-    return round(degrees, 9)
+    plan.lose_blocked(writer.ledger)
+    vehicle = QUADROTOR if writer.flies else SURFACE_BOAT
+    home = writer.place(*plan.vocabulary.home)
+    return Mission(tuple(writer.items), polygons, home, vehicle, writer.ledger)
 
 
 class _Writer:
@@ -138,50 +105,46 @@ class _Writer:
     is not known.
     """
 
-    def __init__(self, handover: Handover) -> None:
-        assert handover.origin is not None
-        self.document, self.motion, self.vocabulary = (
-            handover.document,
-            handover.vocabulary.motion,
-            handover.vocabulary,
-        )
-        self.origin: Origin = handover.origin
-        self.ready = handover.ready
-        self.flies = any(
-            motion.kind == "go" and "altitude" in motion.parameters
-            for motion in self.motion.skills.values()
-        )
-        self.legs = {(leg.task, leg.step): leg for leg in handover.track.legs}
+    def __init__(self, plan: PlanExport) -> None:
+        assert plan.origin is not None
+        self.origin: Origin = plan.origin
+        self.vocabulary, self.motions = plan.vocabulary, plan.vocabulary.motion
+        self.vehicle = plan.document["vehicle"]
+        self.tasks = plan.document["tasks"][: plan.ready]
+        moves = [motion for motion in self.motions.skills.values() if motion.kind == "go"]
+        self.flies = any("altitude" in motion.parameters for motion in moves)
+        self.legs = {(leg.task, leg.step): leg for leg in plan.track.legs}
         self.items: list[MissionItem] = []
-        self.way: list[Point] = [handover.vocabulary.home]
+        self.way: list[Point] = [plan.vocabulary.home]
         self.heading: float | None = None
-        self.speed = self.document["vehicle"]["cruise_speed"]
-        self.ledger = handover.ledger()
+        self.speed = self.vehicle["cruise_speed"]
+        self.ledger = plan.ledger()
         for path in self.ledger.items:
-            self.ledger.lose(
-                *path, why=next((REASONS[key] for key in path if key in REASONS), WORDS)
-            )
+            why = next((REASONS[key] for key in path if key in REASONS), WORDS)
+            self.ledger.lose(*path, why=why)
+
+    def place(self, x: float, y: float) -> tuple[float, float]:
+        """(latitude, longitude) to nine places of degrees: a tenth of a millimetre."""
+        latitude, longitude = self.origin.to_geographic(x, y)
+        return round(latitude, 9), round(longitude, 9)
 
     def write_task(self, index: int) -> None:
         """Write the steps of a task; a task without skills goes where its parameters say."""
-        task, at = self.document["tasks"][index], ("tasks", index)
+        task, at = self.tasks[index], ("tasks", index)
         first = len(self.way)
         self._change_speed(task, at)
         for number, step in enumerate(task["skill_sequence"] or ()):
-            self._write_step(
-                (*at, "skill_sequence", number), step, self.legs.get((task["id"], number))
-            )
+            leg = self.legs.get((task["id"], number))
+            self._write_step((*at, "skill_sequence", number), step, leg)
         if task["skill_sequence"] is None:
             self._go(self.legs[task["id"], 0])
         known = self.vocabulary.task.get(task["title"])
-        place = known.position_parameter if known else None
-        if place and any(
-            math.dist(task["parameters"].get(place, (math.inf, 0)), point) < 0.01
-            for point in self.way[first:]
-        ):
-            self.ledger.carry(*at, "parameters", place)
+        name = known.position_parameter if known else None
+        goal = task["parameters"].get(name) if name else None
+        if name and goal and any(math.dist(goal, point) < 0.01 for point in self.way[first:]):
+            self.ledger.carry(*at, "parameters", name)
 
-    def write_fences(self) -> tuple[tuple[tuple[float, float], ...], ...]:
+    def write_fences(self) -> tuple[Polygon, ...]:
         """The boundaries and the vehicle's area that hold the whole mission; others cannot be
         fences.
         """
@@ -194,50 +157,32 @@ class _Writer:
             if not polygon.is_valid:
                 self.ledger.lose(*path, why="its sides cross, and a fence's may not")
             elif not polygon.covers(way):
-                self.ledger.lose(
-                    *path,
-                    why="a fence holds for the whole mission, and the mission leaves this one",
-                )
+                why = "a fence holds for the whole mission, and the mission leaves this one"
+                self.ledger.lose(*path, why=why)
             else:
                 self.ledger.carry(*path, form="as an inclusion fence of the whole mission")
-                fences[
-                    tuple(shapely.orient_polygons(polygon, exterior_cw=True).exterior.coords)[:-1]
-                ] = None
-        return tuple(tuple(self._place(*corner) for corner in corners) for corners in fences)
+                ring = shapely.orient_polygons(polygon, exterior_cw=True).exterior
+                fences[tuple(ring.coords)[:-1]] = None
+        return tuple(tuple(self.place(*corner) for corner in corners) for corners in fences)
 
-    def _boundaries(self) -> list[tuple[Path, Sequence[Point]]]:
-        area = self.document["vehicle"]["area"]
-        found: list[tuple[Path, Sequence[Point]]] = [(("vehicle", "area"), area)] if area else []
-        for index, task in enumerate(self.document["tasks"][: self.ready]):
+    def _boundaries(self) -> Iterator[tuple[Path, Sequence[Point]]]:
+        if self.vehicle["area"]:
+            yield ("vehicle", "area"), self.vehicle["area"]
+        for index, task in enumerate(self.tasks):
             for number, step in enumerate(task["skill_sequence"] or ()):
                 for place, skill in enumerate(step["filter_skills"]):
-                    motion = self.motion.of(skill["name"])
+                    motion = self.motions.of(skill["name"])
                     corners = motion.value("polygon", skill["parameters"]) if motion else None
                     if corners:
-                        found.append(
-                            (
-                                ("tasks", index, "skill_sequence", number, "filter_skills", place),
-                                corners,
-                            )
-                        )
-        return found
+                        at = ("tasks", index, "skill_sequence", number, "filter_skills", place)
+                        yield at, corners
 
     def _change_speed(self, task: dict[str, Any], at: Path) -> None:
         """Write the speed that a task states; a task that states none goes at the vehicle's own."""
         known = self.vocabulary.task.get(task["title"])
-        name = (
-            next(
-                (
-                    item.name
-                    for item in known.parameters
-                    if item.unit == "m/s" and task["parameters"].get(item.name)
-                ),
-                None,
-            )
-            if known
-            else None
-        )
-        speed = task["parameters"][name] if name else self.document["vehicle"]["cruise_speed"]
+        named = [one.name for one in (known.parameters if known else ()) if one.unit == "m/s"]
+        name = next((name for name in named if task["parameters"].get(name)), None)
+        speed = task["parameters"][name] if name else self.vehicle["cruise_speed"]
         if speed != self.speed:
             self.items += [MissionItem(DO_CHANGE_SPEED, (1, speed, -1, 0))] * 2
             self.speed = speed
@@ -246,90 +191,78 @@ class _Writer:
 
     def _write_step(self, at: Path, step: dict[str, Any], leg: Leg | None) -> None:
         for place, skill in enumerate(step["filter_skills"]):
-            motion = self.motion.of(skill["name"])
+            motion = self.motions.of(skill["name"])
             if motion and motion.kind in BY_MOTION:
                 self.ledger.lose(*at, "filter_skills", place, why=BY_MOTION[motion.kind])
         skill, at = step["navigation_skill"], (*at, "navigation_skill")
-        motion = self.motion.of(skill["name"])
+        motion = self.motions.of(skill["name"])
         if motion is None:
             return
-        given = skill["parameters"]
-        write = {
-            "go": self._step_go,
-            "arc": self._step_arc,
-            "hold": self._step_hold,
-            "wait": self._step_hold,
-        }.get(motion.kind, self._step_turn)
         if motion.kind in BY_MOTION:
             self.ledger.lose(*at, why=BY_MOTION[motion.kind])
-        if leg is not None and motion.kind != "drift":
-            write(at, motion, given, leg)
+        if leg is None or motion.kind == "drift":
+            return
+        write = {"go": self._move, "arc": self._arc, "hold": self._hold, "wait": self._wait}
+        given = {role: motion.value(role, skill["parameters"]) for role in motion.parameters}
+        if self.flies and motion.kind in ("turn-to", "turn-by"):
+            self.ledger.lose(*at, why="an ArduPilot multicopter turns only beside a movement")
+            return
+        carried = write.get(motion.kind, self._turn)(given, leg)
+        if carried:
+            roles, form = carried
+            self.ledger.carry(*at, "name", form=form)
+            for name in (motion.parameters.get(role) for role in roles):
+                if name in skill["parameters"]:
+                    self.ledger.carry(*at, "parameters", name, form=form)
 
-    def _step_go(self, at: Path, motion: Motion, given: dict[str, Any], leg: Leg) -> None:
-        self._go(leg, float(motion.value("altitude", given) or 0))
-        self._carry(at, motion, given, ("x", "y", "altitude"))
-        heading = motion.value("heading", given)
-        if heading is not None and not self.flies:
-            self._turn_to(heading)
-            self._carry(at, motion, given, ("heading",))
+    def _move(self, given: Mapping[str, Any], leg: Leg) -> Carried:
+        self._go(leg, float(given.get("altitude") or 0))
+        heading = given.get("heading")
+        if heading is None or self.flies:
+            return ("x", "y", "altitude"), ""
+        self._turn_to(heading)
+        return ("x", "y", "altitude", "heading"), ""
 
-    def _step_arc(self, at: Path, motion: Motion, given: dict[str, Any], leg: Leg) -> None:
+    def _arc(self, given: Mapping[str, Any], leg: Leg) -> Carried:
         for point in leg.points[1:]:
             self._waypoint(point)
         self.heading = bearing(*leg.points[-2:])
-        own = (
-            ""
-            if motion.value("angle", given) is not None
-            else (
-                f"; the plan says no angle, {self.document['vehicle']['orbit_angle']:g} degrees are"
-                " the vehicle's own"
-            )
-        )
-        self._carry(
-            at,
-            motion,
-            given,
-            ("radius", "angle"),
-            f"as {len(leg.points) - 1} waypoints along the arc{own}",
-        )
+        form = f"as {len(leg.points) - 1} waypoints along the arc"
+        if given.get("angle") is None:
+            own = f"{self.vehicle['orbit_angle']:g} degrees are the vehicle's own"
+            form += f"; the plan says no angle, {own}"
+        return ("radius", "angle"), form
 
-    def _step_hold(self, at: Path, motion: Motion, given: dict[str, Any], leg: Leg) -> None:
-        """Hold where the step begins (degrees of 0: where the vehicle is)."""
-        seconds, place = (
-            motion.value("time", given),
-            (self._place(*leg.points[0]) if leg.points else (0.0, 0.0)),
-        )
-        if seconds is not None:
-            whole = math.ceil(seconds)
-            for start in range(0, max(whole, 1), LONGEST_HOLD):
-                self._at(NAV_LOITER_TIME, place, min(whole - start, LONGEST_HOLD))
-            self._carry(
-                at,
-                motion,
-                given,
-                ("time",),
-                f"as {whole} whole seconds" if whole != seconds else "",
-            )
-        elif motion.kind == "hold":
-            self._at(NAV_LOITER_UNLIM, place)
-            self._carry(at, motion, given, (), "without an end: the operator sends the vehicle on")
+    def _hold(self, given: Mapping[str, Any], leg: Leg) -> Carried:
+        if given.get("time") is not None:
+            return self._wait(given, leg)
+        self._at(NAV_LOITER_UNLIM, self._start(leg))
+        return (), "without an end: the operator sends the vehicle on"
 
-    def _step_turn(self, at: Path, motion: Motion, given: dict[str, Any], _leg: Leg) -> None:
-        if self.flies:
-            self.ledger.lose(*at, why="an ArduPilot multicopter turns only beside a movement")
-        elif motion.kind == "turn-to" and motion.value("heading", given) is not None:
-            self._turn_to(motion.value("heading", given))
-            self._carry(at, motion, given, ("heading",))
-        elif (
-            motion.kind == "turn-by"
-            and motion.value("angle", given) is not None
-            and self.heading is not None
-        ):
-            angle, start = float(motion.value("angle", given)), self.heading
-            count = max(1, math.ceil(abs(angle) / WIDEST_TURN))
-            for part in range(1, count + 1):
-                self._turn_to(start + angle * part / count)
-            self._carry(at, motion, given, ("angle",), "as the headings that the plan expects")
+    def _wait(self, given: Mapping[str, Any], leg: Leg) -> Carried:
+        seconds = given.get("time")
+        if seconds is None:
+            return None
+        whole = math.ceil(seconds)
+        for start in range(0, max(whole, 1), LONGEST_HOLD):
+            self._at(NAV_LOITER_TIME, self._start(leg), min(whole - start, LONGEST_HOLD))
+        return ("time",), f"as {whole} whole seconds" if whole != seconds else ""
+
+    def _start(self, leg: Leg) -> tuple[float, float]:
+        """The place where a step begins; degrees of 0 mean where the vehicle is."""
+        return self.place(*leg.points[0]) if leg.points else (0.0, 0.0)
+
+    def _turn(self, given: Mapping[str, Any], _leg: Leg) -> Carried:
+        heading, angle, start = given.get("heading"), given.get("angle"), self.heading
+        if heading is not None:
+            self._turn_to(heading)
+            return ("heading",), ""
+        if angle is None or start is None:
+            return None
+        count = max(1, math.ceil(abs(float(angle)) / WIDEST_TURN))
+        for part in range(1, count + 1):
+            self._turn_to(start + float(angle) * part / count)
+        return ("angle",), "as the headings that the plan expects"
 
     def _turn_to(self, heading: float) -> None:
         self.heading = heading % 360
@@ -342,28 +275,12 @@ class _Writer:
 
     def _waypoint(self, point: Point, altitude: float = 0.0) -> None:
         self.way.append(point)
-        self._at(NAV_WAYPOINT, self._place(*point), altitude=altitude)
+        self._at(NAV_WAYPOINT, self.place(*point), altitude=altitude)
 
     def _at(
         self, command: int, place: tuple[float, float], first: float = 0, altitude: float = 0.0
     ) -> None:
+        parameters = (first, 0, 0, 0)
         self.items.append(
-            MissionItem(command, (first, 0, 0, 0), *place, altitude, FRAME_RELATIVE_ALTITUDE)
+            MissionItem(command, parameters, *place, altitude, FRAME_RELATIVE_ALTITUDE)
         )
-
-    def _carry(
-        self,
-        at: Path,
-        motion: Motion,
-        given: dict[str, Any],
-        roles: tuple[str, ...],
-        form: str = "",
-    ) -> None:
-        self.ledger.carry(*at, "name", form=form)
-        for name in (motion.parameters.get(role) for role in roles):
-            if name in given:
-                self.ledger.carry(*at, "parameters", name, form=form)
-
-    def _place(self, x: float, y: float) -> tuple[float, float]:
-        latitude, longitude = self.origin.to_geographic(x, y)
-        return coordinate(latitude), coordinate(longitude)

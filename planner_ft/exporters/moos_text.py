@@ -12,48 +12,29 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 WIDTH = 160
 POINTS_PER_LINE = 20
 LONGEST_LINE = 4000
-CHANGED = "characters that the helm reads as its own were replaced"
 CONTROL = re.compile("[\x00-\x1f\x7f\x85\u2028\u2029\ud800-\udfff]+")
 MACRO = re.compile(r"([$%])(?=[\[({])")
 
 Point = tuple[float, float]
+Settings = Sequence[tuple[str, str]]
+"""Keys and values in order; a key may stand there several times."""
 
 
-@dataclass(frozen=True)
-class Behaviour:
-    """A behaviour: its kind, such as BHV_Waypoint, its name, and its settings in order; a key may
-    stand there several times.
+def block(kind: str, name: str, settings: Settings) -> list[str]:
+    """The lines of a behaviour, such as BHV_Waypoint. Lines longer than the helm reads are broken;
+    the helm joins the parts again.
     """
-
-    kind: str
-    name: str
-    settings: Sequence[tuple[str, str]]
-
-    def lines(self) -> list[str]:
-        """The block in the file."""
-        return [
-            f"Behavior = {self.kind}",
-            "{",
-            *(
-                _continued(f"  {key} = {value}")
-                for key, value in (("name", self.name), *self.settings)
-            ),
-            "}",
-        ]
-
-
-def _continued(line: str) -> str:
-    """A line, broken where it would be longer than the helm reads; the helm joins the parts
-    again.
-    """
-    return "\\\n".join(
-        line[start : start + LONGEST_LINE] for start in range(0, len(line), LONGEST_LINE)
-    )
+    lines = [f"  {key} = {value}" for key, value in (("name", name), *settings)]
+    starts = [range(0, len(line), LONGEST_LINE) for line in lines]
+    parts = [
+        "\\\n".join(line[start : start + LONGEST_LINE] for start in found)
+        for line, found in zip(lines, starts, strict=True)
+    ]
+    return [f"Behavior = {kind}", "{", *parts, "}"]
 
 
 def words(text: str) -> str:
@@ -78,9 +59,8 @@ def is_changed(text: str) -> bool:
 
 def comment(text: str) -> list[str]:
     """Text as comment lines."""
-    return [
-        f"// {line}" for line in textwrap.wrap(words(text), WIDTH - 3, break_on_hyphens=False)
-    ] or ["//"]
+    lines = textwrap.wrap(words(text), WIDTH - 3, break_on_hyphens=False)
+    return [f"// {line}" for line in lines] or ["//"]
 
 
 def number(value: float) -> str:
@@ -91,16 +71,12 @@ def number(value: float) -> str:
 
 def points(corners: Iterable[Point]) -> str:
     """Points as "x,y : x,y", broken into lines that the helm joins again."""
-    told = [f"{number(x)},{number(y)}" for x, y in corners]
-    parts = [
-        " : ".join(told[start : start + POINTS_PER_LINE])
-        for start in range(0, len(told), POINTS_PER_LINE)
-    ]
-    return " : \\\n    ".join(parts)
+    found = [f"{number(x)},{number(y)}" for x, y in corners]
+    starts = range(0, len(found), POINTS_PER_LINE)
+    return " : \\\n    ".join(" : ".join(found[one : one + POINTS_PER_LINE]) for one in starts)
 
 
 def variable(name: str) -> str:
     """A MOOS variable for a skill: "DetectObjects" is SKILL_DETECT_OBJECTS."""
-    return "SKILL_" + re.sub(
-        r"[^A-Z0-9]+", "_", re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).upper()
-    ).strip("_")
+    snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).upper()
+    return "SKILL_" + re.sub(r"[^A-Z0-9]+", "_", snake).strip("_")

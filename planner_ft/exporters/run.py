@@ -1,6 +1,4 @@
-"""Handing a plan over: read it, look up its approval, write the file and the report of what it does
-not hold.
-"""
+"""Exporting a plan: read it, look up its approval, write the file and the report of its losses."""
 
 from __future__ import annotations
 
@@ -8,7 +6,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from planner_ft.document import read_document
-from planner_ft.exporters.formats import DRAFT, Format, Handover, Written, format_names, load_format
+from planner_ft.exporters.formats import (
+    DRAFT,
+    Format,
+    PlanExport,
+    Written,
+    format_names,
+    load_format,
+)
 from planner_ft.exporters.geodesy import Origin
 from planner_ft.exporters.ledger import Account
 from planner_ft.exporters.losses import loss_report
@@ -16,18 +21,18 @@ from planner_ft.review.log import log_beside
 from planner_ft.review.verify import approval_of
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import write_text
-from planner_ft.vocabulary import Vocabulary, load_vocabulary
+from planner_ft.vocabulary import load_vocabulary
 
 ALL = "all"
 REPORT = ".losses.md"
 
 
 @dataclass(frozen=True)
-class HandoverSettings:
+class PlanExportSettings:
     """The plan file, the formats by name ("all": every one), and where [0, 0] lies.
 
     `out` is the file of a single format, by default the plan's name with the format's extension.
-    `log` is the approval log, by default the one beside the plan; `draft` hands a plan over that is
+    `log` is the approval log, by default the one beside the plan; `draft` exports a plan that is
     not approved, and marks it. `vocabulary` is the file of a vocabulary that is not bundled.
     """
 
@@ -42,7 +47,7 @@ class HandoverSettings:
 
 
 @dataclass(frozen=True)
-class HandedOver:
+class ExportedPlan:
     """A file that was written, the report beside it, and the account of what the file holds."""
 
     format: Format
@@ -51,7 +56,7 @@ class HandedOver:
     account: Account
 
 
-def hand_over(settings: HandoverSettings) -> list[HandedOver]:
+def export_plan(settings: PlanExportSettings) -> list[ExportedPlan]:
     """Write an approved plan in every format that was asked for, each with its report; all are made
     before any is written.
 
@@ -59,28 +64,24 @@ def hand_over(settings: HandoverSettings) -> list[HandedOver]:
     cannot take.
     """
     formats = _formats(settings)
-    vocabulary = load_vocabulary(settings.vocabulary) if settings.vocabulary else None
-    handover = _handover(settings, vocabulary)
-    files = [_file(settings, chosen, draft=handover.approval is None) for chosen in formats]
-    made = [_write(chosen, handover) for chosen in formats]
+    plan = _plan(settings)
+    files = [_file(settings, chosen, draft=plan.approval is None) for chosen in formats]
+    made = [_write(chosen, plan) for chosen in formats]
     done = []
     for chosen, file, written in zip(formats, files, made, strict=True):
         report = file.with_name(file.name + REPORT)
         write_text(file, written.text)
-        write_text(report, loss_report(handover, chosen, file.name, written.account))
-        done.append(HandedOver(chosen, file, report, written.account))
+        write_text(report, loss_report(plan, chosen, file.name, written.account))
+        done.append(ExportedPlan(chosen, file, report, written.account))
     return done
 
 
-def _formats(settings: HandoverSettings) -> list[Format]:
-    names = dict.fromkeys(
-        name for given in settings.formats for name in (format_names() if given == ALL else [given])
-    )
+def _formats(settings: PlanExportSettings) -> list[Format]:
+    known = format_names()
+    names = [name for given in settings.formats for name in (known if given == ALL else [given])]
     if not names:
-        raise PlannerError(
-            f"--format: say for which vehicle; there is {', '.join(format_names())}, or all"
-        )
-    formats = [load_format(name) for name in names]
+        raise PlannerError(f"--format: say for which vehicle; there is {', '.join(known)}, or all")
+    formats = [load_format(name) for name in dict.fromkeys(names)]
     if settings.out is not None and len(formats) > 1:
         raise PlannerError(
             f"--out {settings.out}: names one file, and {len(formats)} formats are asked for; leave"
@@ -95,30 +96,27 @@ def _formats(settings: HandoverSettings) -> list[Format]:
     return formats
 
 
-def _handover(settings: HandoverSettings, vocabulary: Vocabulary | None) -> Handover:
+def _plan(settings: PlanExportSettings) -> PlanExport:
+    vocabulary = load_vocabulary(settings.vocabulary) if settings.vocabulary else None
     document = read_document(settings.plan, vocabulary)
     approval = approval_of(document, settings.log or log_beside(settings.plan))
-    if approval.status != "approved" and not settings.draft:
+    approved = approval.status == "approved"
+    if not approved and not settings.draft:
         raise PlannerError(
             f"{settings.plan}: {approval.text}; approve it with `plannerft review {settings.plan}`,"
             f" or give --draft for a file that is marked {DRAFT}"
         )
-    told = f"{approval.text}; digest {approval.digest}" if approval.status == "approved" else None
-    return Handover(
-        document,
-        vocabulary or load_vocabulary(document["vocabulary"]["name"]),
-        settings.origin,
-        told,
-    )
+    vocabulary = vocabulary or load_vocabulary(document["vocabulary"]["name"])
+    words = f"{approval.text}; digest {approval.digest}" if approved else None
+    return PlanExport(document, vocabulary, settings.origin, words)
 
 
-def _file(settings: HandoverSettings, chosen: Format, *, draft: bool) -> Path:
-    """Where a format goes. A draft's own name says so, too: some ground stations show no more of a
-    mission than that.
+def _file(settings: PlanExportSettings, chosen: Format, *, draft: bool) -> Path:
+    """The path of a format's file. A draft's own name says so, too: some ground stations show no
+    more of a mission than that.
     """
-    file = settings.out or settings.plan.with_name(
-        f"{settings.plan.stem}{'.DRAFT' if draft else ''}{chosen.extension}"
-    )
+    name = f"{settings.plan.stem}{'.DRAFT' if draft else ''}{chosen.extension}"
+    file = settings.out or settings.plan.with_name(name)
     if file.resolve() == settings.plan.resolve():
         raise PlannerError(f"--out {file}: is the plan itself; give another file")
     for path in (file, file.with_name(file.name + REPORT)):
@@ -131,8 +129,8 @@ def _file(settings: HandoverSettings, chosen: Format, *, draft: bool) -> Path:
     return file
 
 
-def _write(chosen: Format, handover: Handover) -> Written:
+def _write(chosen: Format, plan: PlanExport) -> Written:
     try:
-        return chosen.write(handover)
+        return chosen.write(plan)
     except PlannerError as error:
         raise PlannerError(f"--format {chosen.name}: {error}") from error

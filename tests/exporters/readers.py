@@ -1,4 +1,4 @@
-"""Reading hand-over files back, with the readers of others where there are any."""
+"""Reading export files back, with the readers of others where there are any."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from lxml import etree
 
-from planner_ft.exporters import DRAFT, Handover, load_format
+from planner_ft.exporters import DRAFT, PlanExport, load_format
 
 from .bt_reader import Runner, numbers, read
 from .plans import BUOY, DRONE, MAST, USV, document, documents, step, task
@@ -30,7 +30,7 @@ ONE_STEP = [task("SearchAndDetect", {"target_description": "buoy"}, [SEARCH])]
 def tree(
     plan: dict[str, Any], vocabulary: Any = USV, approval: str | None = "approved by Ada"
 ) -> Any:
-    return read(load_format("bt").write(Handover(plan, vocabulary, None, approval)).text)
+    return read(load_format("bt").write(PlanExport(plan, vocabulary, None, approval)).text)
 
 
 def run(answers: dict[str, Any], tasks: list[dict[str, Any]] = ONE_STEP) -> tuple[str, list[str]]:
@@ -57,8 +57,8 @@ def test_every_skill_comes_back_with_its_parameters(vocabulary: Any) -> None:
     @settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
     @given(documents(vocabulary))
     def check(plan: dict[str, Any]) -> None:
-        handover = Handover(plan, vocabulary)
-        written = load_format("bt").write(handover)
+        plan_export = PlanExport(plan, vocabulary)
+        written = load_format("bt").write(plan_export)
         trees = {found.get("ID"): found for found in read(written.text).findall("BehaviorTree")}
         for index, entry in enumerate(plan["tasks"]):
             found = [
@@ -136,7 +136,7 @@ def test_the_words_of_conditions_failures_and_prompts_are_attributes() -> None:
 
 def test_a_text_in_braces_is_no_blackboard_entry() -> None:
     written = load_format("bt").write(
-        Handover(
+        PlanExport(
             document(
                 [task("Diagnostics", {}, [step("StationKeep", stop_conditions=["{x}", "="])])]
             ),
@@ -237,7 +237,7 @@ def test_a_stop_condition_is_asked_after_its_movement_began() -> None:
 
 
 def test_a_search_puts_an_open_place_on_the_blackboard() -> None:
-    written = load_format("bt").write(Handover(document(BUOY), USV))
+    written = load_format("bt").write(PlanExport(document(BUOY), USV))
     root = read(written.text)
     trees = {found.get("ID"): found for found in root.findall("BehaviorTree")}
     locate = trees["t1_SearchAndDetect"].find(".//LocatePlace")

@@ -11,8 +11,8 @@ from hypothesis import HealthCheck, given, settings
 from planner_ft.exporters import (
     DRAFT,
     Format,
-    Handover,
     Origin,
+    PlanExport,
     Written,
     format_names,
     formats,
@@ -28,7 +28,7 @@ OURS = Format(
     ".txt",
     "for our own vehicle",
     needs_origin=False,
-    write=lambda handover: Written(handover.name, handover.ledger().close()),
+    write=lambda plan_export: Written(plan_export.name, plan_export.ledger().close()),
 )
 NOT_OURS = "no format"
 
@@ -66,16 +66,16 @@ def test_a_format_that_cannot_be_used_says_why(name: str, said: str) -> None:
 
 def test_a_draft_is_called_one() -> None:
     plan = document(MAST)
-    assert Handover(plan, USV).name.startswith(DRAFT) and Handover(plan, USV).mark == DRAFT
-    approved = Handover(plan, USV, approval="approved by Ada")
+    assert PlanExport(plan, USV).name.startswith(DRAFT) and PlanExport(plan, USV).mark == DRAFT
+    approved = PlanExport(plan, USV, approval="approved by Ada")
     assert DRAFT not in approved.name and approved.mark == "approved by Ada"
 
 
 def test_what_waits_for_a_place_blocks_the_rest() -> None:
-    handover = Handover(document(BUOY), USV)
-    assert handover.ready == 1
-    assert handover.blocked is not None and 't2 waits for "green buoy"' in handover.blocked[1]
-    assert Handover(document(MAST), USV).blocked is None
+    plan_export = PlanExport(document(BUOY), USV)
+    assert plan_export.ready == 1
+    assert plan_export.blocked is not None and 't2 waits for "green buoy"' in plan_export.blocked[1]
+    assert PlanExport(document(MAST), USV).blocked is None
 
 
 def test_a_task_without_skills_blocks_the_rest_unless_its_parameters_say_the_movement() -> None:
@@ -83,8 +83,8 @@ def test_a_task_without_skills_blocks_the_rest_unless_its_parameters_say_the_mov
         task("Transit", {"target_position": [5, 5]}, None),
         task("KeepStation", {"duration": 5}, None),
     )
-    assert Handover(document([transit, transit]), USV).blocked is None
-    assert Handover(document([transit, hold, transit]), USV).ready == 1
+    assert PlanExport(document([transit, transit]), USV).blocked is None
+    assert PlanExport(document([transit, hold, transit]), USV).ready == 1
 
 
 def test_a_step_of_unknown_movement_blocks_nothing() -> None:
@@ -93,7 +93,7 @@ def test_a_step_of_unknown_movement_blocks_nothing() -> None:
         {},
         [step("ArcTurn", {"delta_yaw": 40}), step("GoToXY", {"x": 5, "y": 5})],
     )
-    assert Handover(document([arc]), USV).blocked is None
+    assert PlanExport(document([arc]), USV).blocked is None
 
 
 @pytest.mark.parametrize("vocabulary", [USV, DRONE], ids=lambda vocabulary: vocabulary.name)
@@ -102,13 +102,13 @@ def test_nothing_is_dropped_silently(name: str, vocabulary: Any) -> None:
     @settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.too_slow])
     @given(documents(vocabulary))
     def check(plan: dict[str, Any]) -> None:
-        handover = Handover(plan, vocabulary, Origin(59.9, 10.7))
+        plan_export = PlanExport(plan, vocabulary, Origin(59.9, 10.7))
         try:
-            account = load_format(name).write(handover).account
+            account = load_format(name).write(plan_export).account
         except PlannerError as error:
             assert "nothing of the plan can be written" in str(error)
             return
-        said = set(handover.ledger().items)
+        said = set(plan_export.ledger().items)
         assert (
             account.carried | account.lost_paths == said
             and not account.carried & account.lost_paths
@@ -122,9 +122,9 @@ def test_nothing_is_dropped_silently(name: str, vocabulary: Any) -> None:
 @pytest.mark.parametrize("name", formats.BUNDLED)
 def test_a_file_says_that_it_is_a_draft_and_who_approved_it(name: str) -> None:
     chosen, plan = load_format(name), document(MAST)
-    draft = chosen.write(Handover(plan, USV, Origin(59.9, 10.7))).text
+    draft = chosen.write(PlanExport(plan, USV, Origin(59.9, 10.7))).text
     approved = chosen.write(
-        Handover(plan, USV, Origin(59.9, 10.7), approval="approved by Ada at noon (record 7)")
+        PlanExport(plan, USV, Origin(59.9, 10.7), approval="approved by Ada at noon (record 7)")
     ).text
     assert DRAFT in draft and DRAFT not in approved
     assert "approved by Ada" in approved or name == "waypoints"
@@ -133,4 +133,4 @@ def test_a_file_says_that_it_is_a_draft_and_who_approved_it(name: str) -> None:
 @pytest.mark.parametrize("name", formats.BUNDLED)
 def test_500_tasks(name: str) -> None:
     plan = document([*MAST * 125])
-    assert len(load_format(name).write(Handover(plan, USV, Origin(59.9, 10.7))).text) > 50_000
+    assert len(load_format(name).write(PlanExport(plan, USV, Origin(59.9, 10.7))).text) > 50_000

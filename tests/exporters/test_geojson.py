@@ -11,7 +11,7 @@ import shapely
 from hypothesis import HealthCheck, given, settings
 from shapely.geometry import shape
 
-from planner_ft.exporters import DRAFT, Handover, Origin, load_format
+from planner_ft.exporters import DRAFT, Origin, PlanExport, load_format
 
 from .plans import BUOY, DRONE, MAST, USV, document, documents, origins, step, task
 
@@ -24,7 +24,7 @@ def features(
     vocabulary: Any = USV,
     approval: str | None = None,
 ) -> list[dict[str, Any]]:
-    text = load_format("geojson").write(Handover(plan, vocabulary, origin, approval)).text
+    text = load_format("geojson").write(PlanExport(plan, vocabulary, origin, approval)).text
     geojson_pydantic.FeatureCollection.model_validate_json(text)
     found: list[dict[str, Any]] = json.loads(text)["features"]
     return found

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from pymavlink.dialects.v20 import ardupilotmega
 
-from planner_ft.exporters import Handover, Origin, load_format
+from planner_ft.exporters import Origin, PlanExport, load_format
 
 from .plans import BUOY, DRONE, MAST, USV, document, step, task
 from .readers import plan_items
@@ -55,11 +55,11 @@ def importer() -> Iterator[Any]:
 def test_mavsdk_imports_both_files_with_the_same_items(
     tasks: list[dict[str, Any]], vocabulary: Any, importer: Any
 ) -> None:
-    handover = Handover(document(tasks, vocabulary), vocabulary, Origin(-33.9, 151.2))
-    text = load_format("qgc").write(handover).text
+    plan_export = PlanExport(document(tasks, vocabulary), vocabulary, Origin(-33.9, 151.2))
+    text = load_format("qgc").write(plan_export).text
     from_plan = importer.import_qgroundcontrol_mission_from_string(text)
     from_text = importer.import_mission_planner_mission_from_string(
-        load_format("waypoints").write(handover).text
+        load_format("waypoints").write(plan_export).text
     )
     # MAVSDK puts home before the items; the text mission brings its own, too.
     read = [_told(item) for item in from_plan.mission_items[1:]]

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 
-from planner_ft.exporters import Handover, Origin, mission
+from planner_ft.exporters import Origin, PlanExport, mission
 from planner_ft.exporters.mission import Mission, build_mission
 from planner_ft.support.errors import PlannerError
 
@@ -23,7 +23,7 @@ SQUARE = [[-5, -5], [15, -5], [15, 5], [-5, 5]]
 
 def written(tasks: list[dict[str, Any]], vocabulary: Any = USV, area: Any = None) -> Mission:
     return build_mission(
-        Handover(document(tasks, vocabulary, area=area), vocabulary, ORIGIN), fences=True
+        PlanExport(document(tasks, vocabulary, area=area), vocabulary, ORIGIN), fences=True
     )
 
 
@@ -236,7 +236,7 @@ def test_what_is_said_to_be_carried_is_in_the_items(vocabulary: Any) -> None:
     @given(documents(vocabulary), origins())
     def check(plan: dict[str, Any], origin: Origin) -> None:
         try:
-            made = build_mission(Handover(plan, vocabulary, origin), fences=True)
+            made = build_mission(PlanExport(plan, vocabulary, origin), fences=True)
         except PlannerError:
             assume(False)
         account = made.ledger.close()

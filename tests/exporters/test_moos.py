@@ -10,7 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from planner_ft.exporters import DRAFT, Handover, Origin, load_format
+from planner_ft.exporters import DRAFT, Origin, PlanExport, load_format
 
 from .moos_reader import Behaviour, File, Helm, read
 from .plans import BUOY, DRONE, MAST, USV, document, documents, step, task
@@ -40,7 +40,7 @@ HARM = [
 
 def written(tasks: list[dict[str, Any]], **more: Any) -> tuple[str, Any]:
     done = load_format("moos").write(
-        Handover(document(tasks, **more), USV, None, "approved by Ada")
+        PlanExport(document(tasks, **more), USV, None, "approved by Ada")
     )
     return done.text, done.account
 
@@ -60,11 +60,11 @@ def test_every_waypoint_comes_back_to_the_millimetre(vocabulary: Any) -> None:
     @settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
     @given(documents(vocabulary))
     def check(plan: dict[str, Any]) -> None:
-        handover = Handover(plan, vocabulary)
+        plan_export = PlanExport(plan, vocabulary)
         behaviours = {
-            one.name: one for one in read(load_format("moos").write(handover).text).moving()
+            one.name: one for one in read(load_format("moos").write(plan_export).text).moving()
         }
-        for entry in plan["tasks"][: handover.ready]:
+        for entry in plan["tasks"][: plan_export.ready]:
             for number, one in enumerate(entry["skill_sequence"] or (), start=1):
                 skill, motion = (
                     one["navigation_skill"],
@@ -84,7 +84,7 @@ def test_the_helm_goes_through_all_movements_in_the_plans_order(vocabulary: Any)
     @settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
     @given(documents(vocabulary))
     def check(plan: dict[str, Any]) -> None:
-        found = read(load_format("moos").write(Handover(plan, vocabulary)).text)
+        found = read(load_format("moos").write(PlanExport(plan, vocabulary)).text)
         helm = Helm(found)
         went = [name for name in helm.run() if not name.startswith("SKILL_")]
         assert went == [one.name for one in found.moving() if one.kind != "BHV_ConstantSpeed"]
@@ -320,12 +320,12 @@ def test_a_radius_of_nothing_leaves_the_helms_own() -> None:
 
 
 def test_the_origin_is_named_for_the_moos_file() -> None:
-    text = load_format("moos").write(Handover(document(MAST), USV, Origin(59.9, -10.75))).text
+    text = load_format("moos").write(PlanExport(document(MAST), USV, Origin(59.9, -10.75))).text
     assert "// in the .moos file: LatOrigin = 59.90000000, LongOrigin = -10.75000000\n" in text
 
 
 def test_a_draft_says_so_in_a_variable() -> None:
-    text = load_format("moos").write(Handover(document(MAST), USV)).text
+    text = load_format("moos").write(PlanExport(document(MAST), USV)).text
     assert read(text).variables["MISSION_NAME"].startswith(DRAFT)
     assert text.startswith(f"// {DRAFT}")
 

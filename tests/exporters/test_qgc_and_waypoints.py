@@ -10,8 +10,8 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from planner_ft.exporters import DRAFT, Handover, Origin, load_format
-from planner_ft.exporters.waypoints import HEADER
+from planner_ft.exporters import DRAFT, Origin, PlanExport, load_format
+from planner_ft.exporters.mavlink import HEADER
 
 from .plans import DRONE, MAST, USV, document, origins, step, task
 from .readers import command, load_waypoints, local_waypoints, plan_items
@@ -28,7 +28,7 @@ def text(
     vocabulary: Any = USV,
     approval: str | None = "approved by Ada",
 ) -> str:
-    return load_format(name).write(Handover(plan, vocabulary, origin, approval)).text
+    return load_format(name).write(PlanExport(plan, vocabulary, origin, approval)).text
 
 
 @settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
@@ -107,7 +107,7 @@ def test_the_plan_file_says_vehicle_home_speed_and_approval() -> None:
 
 
 def test_what_the_autopilot_cannot_do_is_told_task_by_task() -> None:
-    account = load_format("qgc").write(Handover(document(MAST), USV, ORIGIN)).account
+    account = load_format("qgc").write(PlanExport(document(MAST), USV, ORIGIN)).account
     told = {(loss.task, what): loss.why for loss in account.lost for what in loss.what.split("; ")}
     assert "AVOID_MARGIN" in told["t1", "ObstacleAvoidance min_distance = 5 (step 1)"]
     assert "run them beside the autopilot" in told["t2", "SetStreamRecording (step 1)"]

@@ -11,7 +11,7 @@ import pytest
 from planner_ft.cli import main
 from planner_ft.document import read_document, write_document
 from planner_ft.exporters import DRAFT, Origin
-from planner_ft.exporters.run import HandoverSettings, hand_over
+from planner_ft.exporters.run import PlanExportSettings, export_plan
 from planner_ft.review import approve, log_beside, reject
 from planner_ft.support.errors import PlannerError
 
@@ -37,7 +37,7 @@ def run(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
 
 
 def test_an_approved_plan_is_written_with_its_report(plan: Path) -> None:
-    done = hand_over(HandoverSettings(plan, ("qgc", "geojson"), ORIGIN))
+    done = export_plan(PlanExportSettings(plan, ("qgc", "geojson"), ORIGIN))
     assert [one.file.name for one in done] == ["plan.plan", "plan.geojson"]
     written = json.loads(done[0].file.read_text(encoding="utf-8"))
     assert written["planner_ft"]["approval"].startswith("approved by Ada at ")
@@ -57,7 +57,7 @@ def test_a_plan_without_approval_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "plan.json"
     write_document(path, built(MAST))
     with pytest.raises(PlannerError, match=r"not approved.*plannerft review"):
-        hand_over(HandoverSettings(path, ("qgc",), ORIGIN))
+        export_plan(PlanExportSettings(path, ("qgc",), ORIGIN))
     assert [file.name for file in tmp_path.iterdir()] == ["plan.json"]
 
 
@@ -65,26 +65,28 @@ def test_an_altered_or_rejected_plan_is_refused(plan: Path) -> None:
     approved = plan.read_text(encoding="utf-8")
     plan.write_text(approved.replace('"radius": 25', '"radius": 5'), encoding="utf-8")
     with pytest.raises(PlannerError, match="altered"):
-        hand_over(HandoverSettings(plan, ("qgc",), ORIGIN))
+        export_plan(PlanExportSettings(plan, ("qgc",), ORIGIN))
     plan.write_text(approved, encoding="utf-8")
     reject(read_document(plan), log_beside(plan), "Bo", "too close")
     with pytest.raises(PlannerError, match=r"rejected by Bo.*too close"):
-        hand_over(HandoverSettings(plan, ("qgc",), ORIGIN))
+        export_plan(PlanExportSettings(plan, ("qgc",), ORIGIN))
 
 
 def test_the_log_may_lie_elsewhere(plan: Path, tmp_path: Path) -> None:
     with pytest.raises(PlannerError, match="not approved"):
-        hand_over(HandoverSettings(plan, ("qgc",), ORIGIN, log=tmp_path / "other.jsonl"))
+        export_plan(PlanExportSettings(plan, ("qgc",), ORIGIN, log=tmp_path / "other.jsonl"))
     approve(read_document(plan), tmp_path / "other.jsonl", "Cleo", ["all"])
-    (done,) = hand_over(HandoverSettings(plan, ("geojson",), ORIGIN, log=tmp_path / "other.jsonl"))
+    (done,) = export_plan(
+        PlanExportSettings(plan, ("geojson",), ORIGIN, log=tmp_path / "other.jsonl")
+    )
     assert "approved by Cleo" in done.file.read_text(encoding="utf-8")
 
 
 def test_a_draft_is_marked_in_its_name_in_itself_and_in_its_report(tmp_path: Path) -> None:
     path = tmp_path / "plan.json"
     write_document(path, built(MAST))
-    for done in hand_over(
-        HandoverSettings(path, ("qgc", "waypoints", "geojson"), ORIGIN, draft=True)
+    for done in export_plan(
+        PlanExportSettings(path, ("qgc", "waypoints", "geojson"), ORIGIN, draft=True)
     ):
         assert done.file.name.startswith("plan.DRAFT.")
         assert DRAFT in done.file.read_text(encoding="utf-8") and DRAFT in done.report.read_text(
@@ -93,13 +95,13 @@ def test_a_draft_is_marked_in_its_name_in_itself_and_in_its_report(tmp_path: Pat
 
 
 def test_nothing_is_overwritten_unless_told(plan: Path) -> None:
-    (done,) = hand_over(HandoverSettings(plan, ("waypoints",), ORIGIN))
+    (done,) = export_plan(PlanExportSettings(plan, ("waypoints",), ORIGIN))
     with pytest.raises(PlannerError, match="exists; give --overwrite"):
-        hand_over(HandoverSettings(plan, ("waypoints",), ORIGIN))
+        export_plan(PlanExportSettings(plan, ("waypoints",), ORIGIN))
     done.file.unlink()
     with pytest.raises(PlannerError, match=r"losses\.md: exists"):
-        hand_over(HandoverSettings(plan, ("waypoints",), ORIGIN))
-    (again,) = hand_over(HandoverSettings(plan, ("waypoints",), ORIGIN, overwrite=True))
+        export_plan(PlanExportSettings(plan, ("waypoints",), ORIGIN))
+    (again,) = export_plan(PlanExportSettings(plan, ("waypoints",), ORIGIN, overwrite=True))
     assert again.file.is_file()
 
 
@@ -107,7 +109,7 @@ def test_when_one_format_cannot_take_the_plan_none_is_written(tmp_path: Path) ->
     path = tmp_path / "plan.json"
     write_document(path, built(BUOY[1:]))
     with pytest.raises(PlannerError, match="--format qgc: nothing of the plan can be written"):
-        hand_over(HandoverSettings(path, ("geojson", "qgc"), ORIGIN, draft=True))
+        export_plan(PlanExportSettings(path, ("geojson", "qgc"), ORIGIN, draft=True))
     assert [file.name for file in tmp_path.iterdir()] == ["plan.json"]
 
 
@@ -127,7 +129,7 @@ def test_every_format_at_once_for_another_vehicle(tmp_path: Path) -> None:
         ),
     )
     approve(read_document(path), log_beside(path), "Ada", ["all"])
-    done = hand_over(HandoverSettings(path, ("all",), ORIGIN))
+    done = export_plan(PlanExportSettings(path, ("all",), ORIGIN))
     assert {one.format.name for one in done} >= {"qgc", "waypoints", "geojson", "bt", "moos"}
 
 
@@ -231,7 +233,7 @@ def test_text_of_a_command_cannot_shape_the_report(tmp_path: Path) -> None:
         [step("StationKeep", {"time": 5})],
     )
     write_document(path, built([odd]))
-    (done,) = hand_over(HandoverSettings(path, ("qgc",), ORIGIN, draft=True))
+    (done,) = export_plan(PlanExportSettings(path, ("qgc",), ORIGIN, draft=True))
     report = done.report.read_text(encoding="utf-8")
     assert "\x1b" not in report and "a \\| b\\\\n\\# c \\\\x1b\\[31m\\<b\\>" in report
     assert all(line.count(" | ") == 2 for line in report.splitlines() if line.startswith("| t1"))
