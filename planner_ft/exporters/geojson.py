@@ -66,7 +66,7 @@ class _Drawing:
         for target in track.targets:
             known = target.position is not None
             points = [target.position] if target.position else []
-            words = {"name": target.name, "task": target.task, "located": known}
+            words: Feature = {"name": target.name, "task": target.task, "located": known}
             yield self._feature("target", points, **words)
         for boundary in track.boundaries:
             words = {"task": boundary.task, "step": boundary.step + 1}
@@ -97,7 +97,7 @@ class _Drawing:
         return self._feature("task", points, task=task["id"], number=number, **words)
 
     def _waypoint(self, leg: Leg) -> Feature:
-        words = {"task": leg.task, "step": leg.step + 1, "skill": leg.skill, "motion": leg.kind}
+        words: Feature = {"task": leg.task, "step": leg.step + 1, "skill": leg.skill, "motion": leg.kind}
         words |= {"metres": leg.metres, "seconds": leg.seconds}
         return self._feature("waypoint", [leg.points[-1]], **words)
 

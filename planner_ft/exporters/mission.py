@@ -211,7 +211,7 @@ class _Writer:
         if carried:
             roles, form = carried
             self.ledger.carry(*at, "name", form=form)
-            for name in (motion.parameters.get(role) for role in roles):
+            for name in (motion.parameters.get(role, "") for role in roles):
                 if name in skill["parameters"]:
                     self.ledger.carry(*at, "parameters", name, form=form)
 
