@@ -97,7 +97,12 @@ class _Drawing:
         return self._feature("task", points, task=task["id"], number=number, **words)
 
     def _waypoint(self, leg: Leg) -> Feature:
-        words: Feature = {"task": leg.task, "step": leg.step + 1, "skill": leg.skill, "motion": leg.kind}
+        words: Feature = {
+            "task": leg.task,
+            "step": leg.step + 1,
+            "skill": leg.skill,
+            "motion": leg.kind,
+        }
         words |= {"metres": leg.metres, "seconds": leg.seconds}
         return self._feature("waypoint", [leg.points[-1]], **words)
 
