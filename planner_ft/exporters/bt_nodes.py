@@ -52,7 +52,9 @@ class Node:
 
 def _fixed(name: str, entry: Mapping[str, Any]) -> Node:
     ports = {key: Port(key, *port) for key, port in entry["ports"].items()}
-    ports |= {key: Port(key, port[0], port[1], True) for key, port in entry.get("outputs", {}).items()}
+    ports |= {
+        key: Port(key, port[0], port[1], True) for key, port in entry.get("outputs", {}).items()
+    }
     return Node(name, entry["description"], ports, entry.get("kind", "Action"))
 
 
