@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, get_args, get_origin
 
 import typer
 
-from planner_ft.training.settings import FIELDS, PANELS, TYPES, default_text
+from planner_ft.training.settings import ABOUT, FIELDS, PANELS, TYPES, default_text
 
 RUN = "Data and output"
 
@@ -38,9 +38,9 @@ def _with_settings(function: Callable[..., None]) -> Callable[..., None]:
 
 
 def _option(name: str) -> Any:
-    item, annotation = FIELDS[name], TYPES[name]
+    annotation = TYPES[name]
     default = default_text(name)
-    help_text = item.metadata["help"] + (f" Default: {default}." if default else "")
+    help_text = ABOUT[name]["help"] + (f" Default: {default}." if default else "")
     kind: Any = (
         str
         if get_origin(annotation) is Literal
@@ -52,7 +52,7 @@ def _option(name: str) -> Any:
         f"{flag}/--no-{flag[2:]}" if kind is bool else flag,
         help=help_text,
         metavar=metavar,
-        rich_help_panel=PANELS[item.metadata["panel"]],
+        rich_help_panel=PANELS[ABOUT[name]["panel"]],
         show_default=False,
     )
     return Annotated[kind | None, option]

@@ -17,13 +17,19 @@ from planner_ft.candidates.memory import MemoryEstimate, adapter_parameters, tra
 from planner_ft.prompts import end_of_turn_ids
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.resources import memory_size
-from planner_ft.training.augment import augmented
-from planner_ft.training.corrections import with_corrections
 from planner_ft.training.model import LOGIT_VALUES, memory_levers, uses_gradient_checkpointing
 from planner_ft.training.output import folder_problems, nearest_folder, writable_problem
 from planner_ft.training.report import tracker_problems
 from planner_ft.training.request import TrainRequest
-from planner_ft.training.samples import Sample, Split, read_split, render_split, shortened
+from planner_ft.training.samples import (
+    Sample,
+    Split,
+    augmented,
+    read_split,
+    render_split,
+    shortened,
+    with_corrections,
+)
 
 if TYPE_CHECKING:
     import torch

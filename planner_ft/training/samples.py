@@ -1,17 +1,16 @@
-"""Training and validation samples: read, checked against form and vocabulary, rendered into ids and
-completion mask.
-"""
+"""Training and validation samples: read, checked, enlarged, rendered into ids and mask."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+import itertools
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.prompts import Rendered, render_sample
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import iterate_jsonl, sha256_file
+from planner_ft.support.files import compact_json, iterate_jsonl, sha256_file, sha256_text
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, plan_problems
 
@@ -20,11 +19,13 @@ if TYPE_CHECKING:
 
 SHOWN = 5
 """Problems of one kind that are listed; the others are counted."""
+AUGMENT_SEED = 7_000_000
+"""Far from the seeds of `gen-data`: no synthetic data set of a small seed has the same samples."""
 
 
 @dataclass(frozen=True)
 class Record:
-    """A dataset record and the line it stands on."""
+    """A dataset record and its line."""
 
     line: int
     value: dict[str, Any]
@@ -67,12 +68,19 @@ class Split:
     def longest(self) -> int:
         return max((sample.length for sample in self.samples), default=0)
 
+    def with_records(self, values: Iterable[dict[str, Any]], sha256: str) -> Split:
+        """The split with more records behind its own."""
+        last = max((record.line for record in self.records), default=0)
+        added = [Record(last + number, value) for number, value in enumerate(values, start=1)]
+        return replace(self, sha256=sha256, records=[*self.records, *added])
+
 
 def read_split(
     path: Path, level: Level, vocabulary: Vocabulary, problems: list[str], limit: int | None = None
 ) -> Split | None:
-    """Read a JSONL file, at most `limit` records. Adds everything wrong to `problems`; None when it
-    cannot be read at all.
+    """Read a JSONL file, at most `limit` records; None when it cannot be read at all.
+
+    Everything wrong with it is added to `problems`.
     """
     if not path.is_file():
         problems.append(
@@ -86,12 +94,14 @@ def read_split(
     try:
         for line, value, problem in iterate_jsonl(path):
             problem = problem or record_problem(value, level, vocabulary)
+            if problem is None and value is not None:
+                first = seen.setdefault(value["id"], line)
+                if first == line:
+                    records.append(Record(line, value))
+                else:
+                    problem = f"id {value['id']!r} stands in line {first} already"
             if problem:
                 found.append(f"{path}:{line}: {problem}")
-            elif (first := seen.setdefault(value["id"], line)) != line:  # type: ignore[index]
-                found.append(f"{path}:{line}: id {value['id']!r} stands in line {first} already")  # type: ignore[index]
-            else:
-                records.append(Record(line, value))  # type: ignore[arg-type]
             if limit is not None and len(records) >= limit:
                 break
     except PlannerError as error:
@@ -104,7 +114,7 @@ def read_split(
 
 
 def record_problem(value: Any, level: Level, vocabulary: Vocabulary) -> str | None:
-    """What keeps a record from being trained on, or None."""
+    """The reason why a record cannot be trained on, or None."""
     if not isinstance(value, dict):
         return f"a JSON object is expected, not {type(value).__name__}"
     for key in ("id", "prompt", *(("task",) if level == "task" else ())):
@@ -116,6 +126,57 @@ def record_problem(value: Any, level: Level, vocabulary: Vocabulary) -> str | No
         return "expected (the plan) is missing"
     found = plan_problems(level, value["expected"], vocabulary, strict=True)
     return "expected: " + "; ".join(found) if found else None
+
+
+def with_corrections(
+    split: Split, path: Path, level: Level, vocabulary: Vocabulary, problems: list[str]
+) -> Split:
+    """The split with the records of `path`, as `plannerft review --harvest` writes them, behind.
+
+    Its digest covers them. Everything wrong with the file is added to `problems`.
+    """
+    corrections = read_split(path, level, vocabulary, problems)
+    if corrections is None:
+        return split
+    known = {record.id for record in split.records}
+    problems += [
+        f"{path}:{record.line}: id {record.id!r} stands in {split.path} already"
+        for record in corrections.records
+        if record.id in known
+    ]
+    values = (record.value for record in corrections.records)
+    return split.with_records(values, sha256_text(split.sha256 + corrections.sha256))
+
+
+def augmented(split: Split, level: Level, vocabulary: Vocabulary, seed: int, count: int) -> Split:
+    """The split with `count` synthetic records behind its own; its digest covers them."""
+    made = list(synthetic_records(level, vocabulary, seed, count))
+    digest = sha256_text(split.sha256 + "".join(compact_json(record) for record in made))
+    return split.with_records(({**one, "id": f"augment-{one['id']}"} for one in made), digest)
+
+
+def synthetic_records(
+    level: Level, vocabulary: Vocabulary, seed: int, count: int
+) -> Iterator[dict[str, Any]]:
+    """`count` records of the level's generator, which holds no curated and no test sample.
+
+    Raises PlannerError for a vocabulary without templates.
+    """
+    if level == "task":
+        from planner_ft.data.task.sampler import sample_tasks
+
+        yield from sample_tasks(vocabulary, AUGMENT_SEED + seed, count, "train")
+        return
+    from planner_ft.data.mission.synthetic import sample_missions
+
+    for record in itertools.islice(sample_missions(AUGMENT_SEED + seed), count):
+        for task in record["expected"]["tasks"]:
+            if task["title"] not in vocabulary.task:
+                raise PlannerError(
+                    f"--augment: the generator of commands plans {task['title']}, which the"
+                    f" vocabulary {vocabulary.name} does not have; leave it out"
+                )
+        yield record
 
 
 def render_split(
@@ -130,16 +191,12 @@ def render_split(
     """The split with its samples rendered; `tick` is called after each."""
     samples = []
     for record in split.records:
-        samples.append(
-            Sample(
-                record.id,
-                render_sample(
-                    level, record.value, tokenizer, vocabulary, with_vocabulary=with_vocabulary
-                ),
-            )
+        rendered = render_sample(
+            level, record.value, tokenizer, vocabulary, with_vocabulary=with_vocabulary
         )
+        samples.append(Sample(record.id, rendered))
         tick()
-    return Split(split.path, split.sha256, split.records, samples)
+    return replace(split, samples=samples)
 
 
 def shortened(problems: Iterable[str], shown: int = SHOWN) -> list[str]:

@@ -1,13 +1,16 @@
-"""Training settings: what can be set, what is published, and where each value of a run came
-from.
+"""Training settings: defaults, published values, and the source of each value of a run.
+
+settings.toml has the flag text and bounds of every setting.
 """
 
 from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Iterable
-from dataclasses import MISSING, Field, asdict, dataclass, field, fields
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import MISSING, Field, asdict, dataclass, fields
+from pathlib import Path
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 from planner_ft.vocabulary.plans import Level
@@ -17,189 +20,55 @@ Optimizer = Literal["adamw", "adamw-8bit", "paged-adamw-8bit"]
 Checkpointing = Literal["auto", "on", "off"]
 Quantization = Literal["nf4", "none"]
 
+_SHARED = {"learning_rate": 2e-4, "batch_size": 1, "quantization": "nf4"}
 PUBLISHED: dict[Level, dict[str, Any]] = {
-    "mission": {
-        "rank": 16,
-        "epochs": 5,
-        "learning_rate": 2e-4,
-        "batch_size": 1,
-        "quantization": "nf4",
-    },
-    "task": {"rank": 8, "epochs": 2, "learning_rate": 2e-4, "batch_size": 1, "quantization": "nf4"},
+    "mission": {"rank": 16, "epochs": 5, **_SHARED},
+    "task": {"rank": 8, "epochs": 2, **_SHARED},
 }
-"""The settings of the published study. What it leaves open has our defaults, in the fields
-below.
-"""
-
+"""The settings of the published study. The rest has our defaults, in the fields below."""
 PANELS = {
     "published": "Published settings",
     "adapter": "Adapter",
     "optimisation": "Optimisation",
     "run": "Run",
 }
-
-
-def _about(
-    panel: str,
-    text: str,
-    *,
-    low: float | None = None,
-    high: float | None = None,
-    above: float | None = None,
-) -> dict[str, Any]:
-    """A field's help text and bounds: `low` <= value <= `high`, value > `above`."""
-    return {"panel": panel, "help": text, "low": low, "high": high, "above": above}
+ABOUT = tomllib.loads((Path(__file__).parent / "settings.toml").read_text(encoding="utf-8"))
 
 
 @dataclass(frozen=True)
 class TrainSettings:
-    """Everything that can be set about a training run. The `run` panel does not change what is
-    learned.
-    """
+    """Everything that can be set about a training run; settings.toml describes each field."""
 
-    epochs: int = field(
-        default=5,
-        metadata=_about("published", "Passes over the training split (mission 5, task 2).", low=1),
-    )
-    rank: int = field(
-        default=16, metadata=_about("published", "LoRA rank (mission 16, task 8).", low=1)
-    )
-    learning_rate: float = field(
-        default=2e-4, metadata=_about("published", "Peak learning rate (2e-4).", above=0, high=1)
-    )
-    batch_size: int = field(
-        default=1,
-        metadata=_about("published", "Samples that go through the model together (1).", low=1),
-    )
-    quantization: Quantization = field(
-        default="nf4",
-        metadata=_about(
-            "published",
-            "How the base model's linear layers are stored: nf4 (4-bit) or none (16-bit).",
-        ),
-    )
+    epochs: int = 5
+    rank: int = 16
+    learning_rate: float = 2e-4
+    batch_size: int = 1
+    quantization: Quantization = "nf4"
 
-    alpha: int | None = field(
-        default=None,
-        metadata=_about(
-            "adapter",
-            "LoRA alpha; the adapter is scaled by alpha/rank. Default: twice the rank.",
-            low=1,
-        ),
-    )
-    dropout: float = field(
-        default=0.05, metadata=_about("adapter", "Dropout on the adapter's input.", low=0, high=0.9)
-    )
-    target_modules: str = field(
-        default="all-linear",
-        metadata=_about(
-            "adapter",
-            "Layers that get an adapter: all-linear, or names with commas (q_proj,v_proj).",
-        ),
-    )
-    max_length: int = field(
-        default=4096,
-        metadata=_about(
-            "adapter", "Longest sample in tokens; a longer one is an error, never cut.", low=16
-        ),
-    )
+    alpha: int | None = None
+    dropout: float = 0.05
+    target_modules: str = "all-linear"
+    max_length: int = 4096
 
-    gradient_accumulation: int = field(
-        default=1, metadata=_about("optimisation", "Batches per optimiser step.", low=1)
-    )
-    schedule: Schedule = field(
-        default="cosine",
-        metadata=_about(
-            "optimisation",
-            "Learning rate after the warm-up: cosine or linear to zero, or constant.",
-        ),
-    )
-    warmup: float = field(
-        default=0.03,
-        metadata=_about(
-            "optimisation",
-            "Share of all steps over which the learning rate rises from zero.",
-            low=0,
-            high=1,
-        ),
-    )
-    weight_decay: float = field(
-        default=0.0,
-        metadata=_about("optimisation", "AdamW's weight decay on the adapter.", low=0, high=1),
-    )
-    gradient_clip: float = field(
-        default=1.0, metadata=_about("optimisation", "Largest gradient norm.", above=0)
-    )
-    optimizer: Optimizer = field(
-        default="adamw",
-        metadata=_about(
-            "optimisation", "adamw, or with 8-bit moments: adamw-8bit, paged-adamw-8bit (CUDA)."
-        ),
-    )
-    gradient_checkpointing: Checkpointing = field(
-        default="auto",
-        metadata=_about(
-            "optimisation",
-            "Compute activations again in the backward pass to save memory: on, off, or auto (on"
-            " from 500 million parameters).",
-        ),
-    )
-    seed: int = field(
-        default=0,
-        metadata=_about(
-            "optimisation",
-            "Seed of adapter weights, dropout and sample order.",
-            low=0,
-            high=2**31 - 1,
-        ),
-    )
-    max_samples: int | None = field(
-        default=None,
-        metadata=_about("optimisation", "Train on the first N samples of the file only.", low=1),
-    )
-    augment: int = field(
-        default=0,
-        metadata=_about(
-            "optimisation", "Add N synthetic samples of this level to the training split.", low=0
-        ),
-    )
-    max_steps: int | None = field(
-        default=None,
-        metadata=_about(
-            "optimisation", "Stop after N optimiser steps; the schedule ends there, too.", low=1
-        ),
-    )
+    gradient_accumulation: int = 1
+    schedule: Schedule = "cosine"
+    warmup: float = 0.03
+    weight_decay: float = 0.0
+    gradient_clip: float = 1.0
+    optimizer: Optimizer = "adamw"
+    gradient_checkpointing: Checkpointing = "auto"
+    seed: int = 0
+    max_samples: int | None = None
+    augment: int = 0
+    max_steps: int | None = None
 
-    device: str = field(default="auto", metadata=_about("run", "auto, cpu, cuda or cuda:N."))
-    threads: int | None = field(
-        default=None,
-        metadata=_about(
-            "run",
-            "CPU threads. Default: 1 for models below 50 million parameters, else all cores.",
-            low=1,
-        ),
-    )
-    checkpoint_minutes: float = field(
-        default=5.0,
-        metadata=_about(
-            "run", "Minutes between checkpoints; epoch ends and Ctrl-C make one as well.", above=0
-        ),
-    )
-    checkpoint_steps: int | None = field(
-        default=None, metadata=_about("run", "Also a checkpoint every N optimiser steps.", low=1)
-    )
-    keep_checkpoints: bool = field(
-        default=False,
-        metadata=_about("run", "Keep the checkpoints folder when training has finished."),
-    )
-    log_every: int = field(
-        default=10,
-        metadata=_about("run", "Without a terminal: one line of progress every N steps.", low=1),
-    )
-    report_to: str = field(
-        default="none",
-        metadata=_about("run", "Experiment trackers, with commas: tensorboard, wandb, mlflow, ..."),
-    )
+    device: str = "auto"
+    threads: int | None = None
+    checkpoint_minutes: float = 5.0
+    checkpoint_steps: int | None = None
+    keep_checkpoints: bool = False
+    log_every: int = 10
+    report_to: str = "none"
 
     @property
     def lora_alpha(self) -> int:
@@ -209,30 +78,18 @@ class TrainSettings:
     @property
     def trackers(self) -> list[str]:
         """Names in `report_to`."""
-        return (
-            []
-            if self.report_to in ("", "none")
-            else [name.strip() for name in self.report_to.split(",") if name.strip()]
-        )
+        return [] if self.report_to == "none" else _names(self.report_to)
 
     @property
     def targets(self) -> str | list[str]:
         """`target_modules` as PEFT takes it."""
-        return (
-            self.target_modules
-            if self.target_modules == "all-linear"
-            else [name.strip() for name in self.target_modules.split(",")]
-        )
+        text = self.target_modules
+        return text if text == "all-linear" else [name.strip() for name in text.split(",")]
 
     def learned(self) -> dict[str, Any]:
-        """The settings that the learned weights depend on: a run may be resumed with other values
-        of the rest.
-        """
-        return {
-            name: value
-            for name, value in self.as_dict().items()
-            if FIELDS[name].metadata["panel"] != "run"
-        }
+        """The settings that the learned weights depend on; a resumed run may change the others."""
+        values = self.as_dict().items()
+        return {name: value for name, value in values if ABOUT[name]["panel"] != "run"}
 
     def as_dict(self) -> dict[str, Any]:
         return {**asdict(self), "alpha": self.lora_alpha}
@@ -242,11 +99,13 @@ FIELDS: dict[str, Field[Any]] = {item.name: item for item in fields(TrainSetting
 TYPES: dict[str, Any] = get_type_hints(TrainSettings)
 
 
+def _names(text: str) -> list[str]:
+    return [name.strip() for name in text.split(",") if name.strip()]
+
+
 @dataclass(frozen=True)
 class Source:
-    """Values from one place. `style` writes a setting as the user wrote it there, for error
-    messages.
-    """
+    """Values from one place; `style` names a setting as the user wrote it there, for errors."""
 
     label: str
     values: dict[str, Any]
@@ -258,9 +117,7 @@ class Source:
 
 @dataclass(frozen=True)
 class Resolved:
-    """Settings with the label of the source that each value came from ("published", "default",
-    "flag", ...).
-    """
+    """Settings with the source of each value ("published", "default", "flag", ...)."""
 
     settings: TrainSettings
     origin: dict[str, str]
@@ -276,10 +133,9 @@ class Resolved:
 
 
 def resolve_settings(level: Level, sources: Iterable[Source]) -> tuple[Resolved | None, list[str]]:
-    """Settings from `sources`, first one first, then the published ones, then our defaults; and
-    every problem found.
+    """Settings from `sources`, the first one first, then published ones, then our defaults.
 
-    A value of None counts as not given. The result is None when there are problems.
+    A value of None counts as not given. Returns (None, every problem) where there are problems.
     """
     values: dict[str, Any] = {}
     origin: dict[str, str] = {}
@@ -291,8 +147,8 @@ def resolve_settings(level: Level, sources: Iterable[Source]) -> tuple[Resolved 
                 hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(FIELDS)}"
                 problems.append(f"{source.style(name)} is no setting; {hint}")
             elif value is not None and name not in values:
-                converted, problem = check_value(name, value)
-                values[name], origin[name] = converted, source.label
+                values[name], problem = check_value(name, value)
+                origin[name] = source.label
                 if problem:
                     problems.append(f"{source.style(name)} = {value!r}: {problem}")
     if problems:
@@ -301,42 +157,37 @@ def resolve_settings(level: Level, sources: Iterable[Source]) -> tuple[Resolved 
 
 
 def check_value(name: str, value: Any) -> tuple[Any, str | None]:
-    """The value in the field's type, and what is wrong with it or None."""
+    """The value in the field's type, and the problem with it or None."""
     annotation = TYPES[name]
     if get_origin(annotation) is Literal:
         choices = get_args(annotation)
         return value, None if value in choices else f"must be one of {', '.join(choices)}"
     kind = next((item for item in get_args(annotation) if item is not type(None)), annotation)
     if kind in (bool, str):
-        return value, (
-            None
-            if isinstance(value, kind)
-            else f"must be {'true or false' if kind is bool else 'text'}"
-        )
+        wanted = "true or false" if kind is bool else "text"
+        return value, None if isinstance(value, kind) else f"must be {wanted}"
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
         return value, "must be a number"
     if kind is int and value != int(value):
         return value, "must be a whole number"
-    return kind(value), _bounds_problem(value, FIELDS[name].metadata)
+    return kind(value), _bounds_problem(value, ABOUT[name])
 
 
-def _bounds_problem(value: float, bounds: Any) -> str | None:
-    if bounds["low"] is not None and value < bounds["low"]:
+def _bounds_problem(value: float, bounds: Mapping[str, Any]) -> str | None:
+    if "low" in bounds and value < bounds["low"]:
         return f"must be at least {bounds['low']:g}"
-    if bounds["above"] is not None and value <= bounds["above"]:
+    if "above" in bounds and value <= bounds["above"]:
         return f"must be greater than {bounds['above']:g}"
-    if bounds["high"] is not None and value > bounds["high"]:
+    if "high" in bounds and value > bounds["high"]:
         return f"must be at most {bounds['high']:g}"
     return None
 
 
 def default_text(name: str) -> str | None:
-    """The default of a setting as help texts show it, or None where the text says it."""
-    item = FIELDS[name]
-    if (
-        item.metadata["panel"] == "published"
-        or item.default in (None, MISSING)
-        or isinstance(item.default, bool)
-    ):
+    """The default of a setting as help texts show it; None where the text has it already."""
+    default = FIELDS[name].default
+    if ABOUT[name]["panel"] == "published" or default in (None, MISSING):
         return None
-    return f"{item.default:g}" if isinstance(item.default, float) else str(item.default)
+    if isinstance(default, bool):
+        return None
+    return f"{default:g}" if isinstance(default, float) else str(default)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from planner_ft.training.augment import augmented
 from planner_ft.training.preflight import Prepared, run_preflight
-from planner_ft.training.samples import Record, Split
+from planner_ft.training.samples import Record, Split, augmented
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems
 

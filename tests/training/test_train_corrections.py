@@ -6,9 +6,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from planner_ft.training.corrections import with_corrections
 from planner_ft.training.preflight import Prepared, run_preflight
-from planner_ft.training.samples import Split, read_split
+from planner_ft.training.samples import Split, read_split, with_corrections
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()

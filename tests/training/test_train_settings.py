@@ -8,9 +8,15 @@ from pathlib import Path
 import pytest
 
 from planner_ft.support.errors import PlannerError
-from planner_ft.training.recipe import BUNDLED, bundled_recipes
-from planner_ft.training.request import build_request
-from planner_ft.training.settings import FIELDS, PUBLISHED, Source, TrainSettings, resolve_settings
+from planner_ft.training.request import BUNDLED, build_request, bundled_recipes
+from planner_ft.training.settings import (
+    ABOUT,
+    FIELDS,
+    PUBLISHED,
+    Source,
+    TrainSettings,
+    resolve_settings,
+)
 
 
 def resolved(*sources: Source, level: str = "mission"):
@@ -132,7 +138,7 @@ def test_a_bundled_recipe_runs_by_its_first_line_and_says_every_setting(name):
     assert first == f"# plannerft train --recipe {name}"
     request = build_request({}, {}, recipe=name)
     for setting in FIELDS:
-        if FIELDS[setting].metadata["panel"] != "run" and setting not in (
+        if ABOUT[setting]["panel"] != "run" and setting not in (
             "max_samples",
             "max_steps",
             "augment",
