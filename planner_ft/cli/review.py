@@ -205,30 +205,23 @@ def _review(
     acknowledged: list[str],
     reason: str | None,
 ) -> None:
-    from planner_ft.review.session import converse, decide, terminal
-    from planner_ft.review.session import show as show_plan
+    from planner_ft.review.terminal import Conversation, terminal
     from planner_ft.support.errors import PlannerError
 
     if approve and reason is not None:
         raise PlannerError("--approve and --reject exclude each other; leave one of them out")
-    console = terminal()
+    reviewer = Conversation(desk, terminal())
     if adopt or edits or approve or reason is not None:
-        decide(
-            desk,
-            console,
-            adopt=adopt,
-            edits=edits,
-            approve=approve,
-            acknowledged=acknowledged,
-            reason=reason,
+        reviewer.decide(
+            adopt=adopt, edits=edits, approve=approve, acknowledged=acknowledged, reason=reason
         )
     elif acknowledged:
         raise PlannerError("--acknowledge goes with --approve; give both")
     elif show or not (sys.stdin.isatty() and sys.stdout.isatty()):
-        show_plan(desk, console)
+        reviewer.show()
     else:
         try:
-            converse(desk, console, input)
+            reviewer.converse()
         except KeyboardInterrupt:
             typer.echo("\ninterrupted; every edit and every decision that was confirmed is saved")
             raise typer.Exit(130) from None
@@ -242,7 +235,7 @@ def _serve(
     device: str,
     given: dict[str, Any],
 ) -> None:
-    from planner_ft.review.task_agent import planning_of
+    from planner_ft.review.desk import planning_of
     from planner_ft.review.web import WebSettings, serve
     from planner_ft.support.errors import PlannerError
 

@@ -50,8 +50,8 @@ def verify(
 def _verify_plan(plan: Path, log: Path | None, json: bool, vocabulary: str | None) -> None:
     from planner_ft.document import read_document
     from planner_ft.review.log import existing_log, log_beside
+    from planner_ft.review.terminal import approval_text
     from planner_ft.review.verify import approval_of
-    from planner_ft.review.view import approval_lines
     from planner_ft.support.files import indented_json
     from planner_ft.vocabulary import load_vocabulary
 
@@ -60,7 +60,7 @@ def _verify_plan(plan: Path, log: Path | None, json: bool, vocabulary: str | Non
     if json:
         typer.echo(indented_json({"plan": str(plan), **approval.as_json()}), nl=False)
     else:
-        typer.echo("\n".join(line.text for line in approval_lines(approval)))
+        typer.echo("\n".join(approval_text(approval)))
     raise typer.Exit(0 if approval.status == "approved" else 1)
 
 

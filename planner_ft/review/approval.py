@@ -1,7 +1,7 @@
 """A person's decision about a plan: approving and rejecting it, in the log.
 
-The log says who a reviewer is by the name that was given. It notices what was changed afterwards;
-it does not prove who decided.
+The log names a reviewer as he named himself. It notices later changes; it does not prove who
+decided.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ LONGEST_NAME, LONGEST_REASON = 200, 2000
 """Characters."""
 ALL = "all"
 """Acknowledges every warning."""
+USED = ("candidate", "configuration", "adapter")
 
 
 class UnacknowledgedError(PlannerError):
@@ -54,8 +55,8 @@ def approve(
             " the command again"
         )
     _check_acknowledged(document, acknowledged)
-    told = [{"id": warning["id"], "text": warning["text"]} for warning in document["warnings"]]
-    return append(log, _decision("approved", document, reviewer, reason, told))
+    warnings = [{"id": warning["id"], "text": warning["text"]} for warning in document["warnings"]]
+    return append(log, _decision("approved", document, reviewer, reason, warnings))
 
 
 def reject(document: PlanDocument, log: Path, reviewer: str, reason: str) -> Appended:
@@ -76,6 +77,12 @@ def _decision(
     acknowledged: list[dict[str, str]],
 ) -> dict[str, Any]:
     digest = document_digest(document)
+    agents = document.get("manifest", {}).get("agents", {})
+    # Per agent: candidate, configuration, and the manifest's hashes of weights and adapter.
+    models = {
+        agent: {**{key: use[key] for key in USED if key in use}, **agents.get(agent, {})}
+        for agent, use in document.get("usage", {}).items()
+    }
     return {
         "event": event,
         "reviewer": reviewer.strip(),
@@ -84,22 +91,7 @@ def _decision(
         "plan": {**document, "digest": digest},
         "acknowledged": acknowledged,
         "differences": [difference.as_json() for difference in differences(document)],
-        "models": _models(document),
-    }
-
-
-def _models(document: PlanDocument) -> dict[str, Any]:
-    """Per agent what gave its answers: the manifest's record of candidate, configuration and the
-    hashes of weights and adapter.
-    """
-    agents = document.get("manifest", {}).get("agents", {})
-    return {agent: {**use, **agents.get(agent, {})} for agent, use in _uses(document).items()}
-
-
-def _uses(document: PlanDocument) -> dict[str, dict[str, Any]]:
-    return {
-        agent: {key: use[key] for key in ("candidate", "configuration", "adapter") if key in use}
-        for agent, use in document.get("usage", {}).items()
+        "models": models,
     }
 
 

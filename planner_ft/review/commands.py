@@ -29,18 +29,13 @@ HELP = (
     ("insert 2 Transit target_position=[0,0] prompt=TEXT", "put a new task at place 2"),
     (
         "skills 2",
-        (
-            "ask the Task Agent again; without a number for every task whose skills are missing or"
-            " were planned before an edit"
-        ),
+        "ask the Task Agent again; without a number for every task whose skills are missing or"
+        " were planned before an edit",
     ),
     ("undo", "take the last edit back"),
 )
-"""What can be typed, and what it does."""
-PROMPT = "prompt"
-VALUE = re.compile(r"(?P<path>\d+(?:\.[\w#]+)+)\s*=\s*(?P<value>.*)", re.DOTALL)
-WORD = re.compile(r"(?P<word>[a-z]+)(?:\s+(?P<rest>.*))?", re.DOTALL | re.IGNORECASE)
-INSERT = re.compile(r"(?P<at>\d+)\s+(?P<title>\w+)(?P<given>(?:\s.*)?)", re.DOTALL)
+"""Examples of edits, with their effect."""
+VALUE = re.compile(r"(\d+(?:\.[\w#]+)+)\s*=\s*(.*)", re.DOTALL)
 
 
 def parse_edit(text: str, document: PlanDocument, vocabulary: Vocabulary) -> Edit:
@@ -52,16 +47,14 @@ def parse_edit(text: str, document: PlanDocument, vocabulary: Vocabulary) -> Edi
     text = text.strip()
     assigned = VALUE.fullmatch(text)
     if assigned:
-        return _assignment(
-            assigned["path"].split("."), assigned["value"].strip(), document, vocabulary
-        )
-    said = WORD.fullmatch(text)
-    word = said["word"].lower() if said else ""
-    if said is None or word not in WORDS:
+        return _assignment(assigned[1].split("."), assigned[2].strip(), document, vocabulary)
+    word, *rest = text.split(maxsplit=1) or [""]
+    parse = WORDS.get(word.lower())
+    if parse is None:
         raise PlannerError(
-            f"{text!r}: is no edit; there is {', '.join(example for example, _what in HELP)}"
+            f"{text!r}: is no edit; there is {', '.join(example for example, _effect in HELP)}"
         )
-    return WORDS[word]((said["rest"] or "").strip(), document, vocabulary)
+    return parse("".join(rest), document, vocabulary)
 
 
 # ---------------------------------------------------------------- NUMBER.NAME=VALUE
@@ -70,32 +63,22 @@ def parse_edit(text: str, document: PlanDocument, vocabulary: Vocabulary) -> Edi
 def _assignment(
     path: list[str], value: str, document: PlanDocument, vocabulary: Vocabulary
 ) -> Edit:
-    task = _task(path[0], document)
+    task, name = _task(path[0], document), path[-1]
     if len(path) == 2:
-        known = vocabulary.task[task["title"]].by_name
-        return {
-            "kind": "parameter",
-            "task": task["id"],
-            "name": path[1],
-            "value": _value(value, _parameter(path[1], task["title"], known)),
-        }
-    step = _number(path[1])
-    if step is None or len(path) > 4:
-        raise PlannerError(
-            f"{'.'.join(path)}: expected TASK.PARAMETER, TASK.STEP.PARAMETER or"
-            " TASK.STEP.SKILL.PARAMETER, such as 2.1.GoToXY.x"
-        )
-    role, index, skill = _skill(task, step, path[2] if len(path) == 4 else None)
-    parameter = _parameter(path[-1], skill, vocabulary.skill[skill].by_name)
-    return {
-        "kind": "skill",
-        "task": task["id"],
-        "step": step - 1,
-        "role": role,
-        "index": index,
-        "name": path[-1],
-        "value": _value(value, parameter),
-    }
+        title = task["title"]
+        parameter = _parameter(name, title, vocabulary.task[title].by_name)
+        edit = {"kind": "parameter", "task": task["id"]}
+    else:
+        step = _number(path[1])
+        if step is None or len(path) > 4:
+            raise PlannerError(
+                f"{'.'.join(path)}: expected TASK.PARAMETER, TASK.STEP.PARAMETER or"
+                " TASK.STEP.SKILL.PARAMETER, such as 2.1.GoToXY.x"
+            )
+        role, index, skill = _skill(task, step, path[2] if len(path) == 4 else None)
+        parameter = _parameter(name, skill, vocabulary.skill[skill].by_name)
+        edit = {"kind": "skill", "task": task["id"], "step": step - 1, "role": role, "index": index}
+    return {**edit, "name": name, "value": _value(value, parameter)}
 
 
 def _skill(task: dict[str, Any], step: int, name: str | None) -> tuple[str, int, str]:
@@ -126,8 +109,8 @@ def _parameter(name: str, owner: str, known: Mapping[str, Parameter]) -> Paramet
 
 
 def _value(text: str, parameter: Parameter) -> Any:
-    """What was typed as a value of the parameter's type; None for nothing. Whether it is in range
-    is checked when the edit is applied.
+    """A typed value as one of the parameter's type; None for nothing. Its range is checked when the
+    edit is applied.
     """
     if not text:
         return None
@@ -135,18 +118,11 @@ def _value(text: str, parameter: Parameter) -> Any:
         return [item.strip() for item in text.split(",")]
     if parameter.type == "position" and not text.startswith("["):
         text = f"[{text.strip('()')}]"
-    value = _read(text)
-    if parameter.type == "text" and not isinstance(value, str):
-        return text
-    return value
-
-
-def _read(text: str) -> Any:
-    """JSON, where it is any, else the text itself."""
     try:
-        return json.loads(text, parse_constant=str)
+        value = json.loads(text, parse_constant=str)
     except (ValueError, RecursionError):
         return text
+    return text if parameter.type == "text" and not isinstance(value, str) else value
 
 
 # ---------------------------------------------------------------- WORD ...
@@ -185,46 +161,41 @@ def _prompt(rest: str, document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
 
 
 def _insert(rest: str, _document: PlanDocument, vocabulary: Vocabulary) -> Edit:
-    said = INSERT.fullmatch(rest)
-    at = _number(said["at"]) if said else None
-    if said is None or at is None:
+    place, title, given = [*rest.split(maxsplit=2), "", "", ""][:3]
+    at = _number(place)
+    if at is None or not title:
         raise PlannerError(
             f"insert {rest}: expected a place, a task and its parameters, such as insert 2 Transit"
             " target_position=[0,0]"
         )
-    if said["title"] not in vocabulary.task:
+    if title not in vocabulary.task:
         raise PlannerError(
-            f"{said['title']}: is no task of this vehicle; there is {', '.join(vocabulary.task)}"
+            f"{title}: is no task of this vehicle; there is {', '.join(vocabulary.task)}"
         )
-    known = vocabulary.task[said["title"]].by_name
-    names = "|".join(map(re.escape, (*known, PROMPT)))
-    before, *found = re.split(rf"\s({names})\s*=", said["given"])
+    known = vocabulary.task[title].by_name
+    names = (*known, "prompt")
+    before, *found = re.split(rf"(?:^|\s)({'|'.join(map(re.escape, names))})\s*=", given)
     if before.strip():
         raise PlannerError(
-            f"insert {rest}: {before.strip()!r} is no parameter of {said['title']}; there is"
-            f" {', '.join((*known, PROMPT))}"
+            f"insert {rest}: {before.strip()!r} is no parameter of {title}; there is"
+            f" {', '.join(names)}"
         )
-    given = dict(zip(found[::2], map(str.strip, found[1::2]), strict=True))
-    prompt = given.pop(PROMPT, "")
-    parameters = {name: _value(value, known[name]) for name, value in given.items()}
-    return {
-        "kind": "insert",
-        "at": at - 1,
-        "title": said["title"],
-        "parameters": parameters,
-        "task_prompt": prompt,
-    }
+    values = dict(zip(found[::2], map(str.strip, found[1::2]), strict=True))
+    prompt = values.pop("prompt", "")
+    parameters = {name: _value(value, known[name]) for name, value in values.items()}
+    inserted = {"title": title, "parameters": parameters, "task_prompt": prompt}
+    return {"kind": "insert", "at": at - 1, **inserted}
 
 
 def _ask(rest: str, document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
     if rest:
         return {"kind": "ask", "tasks": [_task(rest, document)["id"]]}
     waiting = [
-        task
+        task["id"]
         for task in document["tasks"]
         if "waits_for" not in task and (task["skill_sequence"] is None or task.get("stale"))
     ]
-    return {"kind": "ask", "tasks": [task["id"] for task in waiting]}
+    return {"kind": "ask", "tasks": waiting}
 
 
 def _undo(rest: str, _document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
@@ -237,7 +208,7 @@ WORDS: dict[str, Callable[[str, PlanDocument, Vocabulary], Edit]] = {
     "remove": _remove,
     "move": _move,
     "locate": _locate,
-    PROMPT: _prompt,
+    "prompt": _prompt,
     "insert": _insert,
     "skills": _ask,
     "undo": _undo,
@@ -248,10 +219,8 @@ def _task(number: str, document: PlanDocument) -> dict[str, Any]:
     tasks: list[dict[str, Any]] = document["tasks"]
     place = _number(number)
     if place is None or not 1 <= place <= len(tasks):
-        raise PlannerError(
-            f"task {number or '?'}: the plan has"
-            f" {f'tasks 1 to {len(tasks)}' if tasks else 'no tasks'}"
-        )
+        there = f"tasks 1 to {len(tasks)}" if tasks else "no tasks"
+        raise PlannerError(f"task {number or '?'}: the plan has {there}")
     return tasks[place - 1]
 
 

@@ -1,5 +1,5 @@
-"""One plan in review: the file, its document, and what a reviewer does with them. Every change is
-saved before it is shown.
+"""One plan in review: the file, its document, and a reviewer's actions. Every change is saved
+before it is shown.
 """
 
 from __future__ import annotations
@@ -20,15 +20,17 @@ from planner_ft.document import (
 )
 from planner_ft.document.differences import Difference, compare
 from planner_ft.document.files import vocabulary_of
+from planner_ft.planning.planner import Planner
 from planner_ft.planning.result import Answer
+from planner_ft.planning.settings import DEFAULT_CANDIDATE, PlanSettings
 from planner_ft.review.approval import approve, reject
 from planner_ft.review.commands import parse_edit
 from planner_ft.review.log import Appended, log_beside
 from planner_ft.review.store import save, unchanged
-from planner_ft.review.task_agent import TaskAgent, settings_of
 from planner_ft.review.verify import Approval, approval_of
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
+from planner_ft.vocabulary.definition import DEFAULT
 
 Ask = Callable[[Mapping[str, Any]], Answer]
 """Asks the Task Agent for the skills of a task of a document; PlannerError where there is no
@@ -52,17 +54,12 @@ class Desk:
         self.document = read_document(self.path, self.vocabulary)
         self._content = document_digest(self.document)
 
-    @property
-    def altered(self) -> bool:
-        """Whether somebody changed the file by hand."""
-        return altered(self.document)
-
     def approval(self) -> Approval:
-        """What the log says about the plan as it is."""
+        """The decision in the log about the plan as it is."""
         return approval_of(self.document, self.log)
 
     def edit(self, text: str) -> list[Difference]:
-        """Make the edit that `text` asks for, save it, and say what is different. Raises
+        """Make the edit that `text` asks for, save it, and return the differences. Raises
         PlannerError; the plan is then as it was.
         """
         edit = parse_edit(text, self.document, self.vocabulary)
@@ -79,15 +76,16 @@ class Desk:
         """Take over what was changed by hand, as an edit. Raises PlannerError where nothing was, or
         what was is not valid.
         """
-        if not self.altered:
+        if not altered(self.document):
             raise PlannerError(f"{self.path}: was not altered by hand; leave --adopt out")
         self._save(adopt(self.document, self.vocabulary, self.by))
 
-    def approve(self, name: str, acknowledged: Collection[str], reason: str = "") -> Appended:
+    def approve(self, name: str, acknowledged: Collection[str]) -> Appended:
         """Approve the plan as it is in the file. Raises PlannerError, also when its warnings were
         worked out anew and are others now.
         """
-        fresh = self.document if self.altered else revise(self.document, self.vocabulary)
+        is_altered = altered(self.document)
+        fresh = self.document if is_altered else revise(self.document, self.vocabulary)
         if document_digest(fresh) != self._content:
             self._save(fresh)
             raise PlannerError(
@@ -95,7 +93,7 @@ class Desk:
                 " the file; look at them, then approve"
             )
         with unchanged(self.path, self._content):
-            return approve(self.document, self.log, name, acknowledged, reason)
+            return approve(self.document, self.log, name, acknowledged)
 
     def reject(self, name: str, reason: str) -> Appended:
         """Reject the plan as it is in the file. Raises PlannerError."""
@@ -116,17 +114,23 @@ class Desk:
                     f"skills of {task['title']}: the Task Agent's answer is not valid"
                     f" ({'; '.join(answer.problems[:2])}); edit the task and ask again"
                 )
-            edit = {
-                "kind": "skills",
-                "task": name,
-                "skill_sequence": answer.plan["skill_sequence"],
-                "assumptions": list(answer.notes),
-            }
+            edit = skills_edit(name, answer.plan, answer)
             self._save(apply(self.document, edit, self.vocabulary, self.by))
 
     def _save(self, document: PlanDocument) -> None:
         self.document = save(self.path, document, self._content)
         self._content = document_digest(self.document)
+
+
+def skills_edit(task: str, plan: Mapping[str, Any], answer: Answer) -> dict[str, Any]:
+    """The edit that gives a task (by id) the skills of a valid answer."""
+    skills = plan["skill_sequence"]
+    return {
+        "kind": "skills",
+        "task": task,
+        "skill_sequence": skills,
+        "assumptions": list(answer.notes),
+    }
 
 
 def open_desk(
@@ -138,17 +142,57 @@ def open_desk(
     device: str = "auto",
 ) -> Desk:
     """The desk of a plan in a file: by default with the log beside it, the bundled vocabulary that
-    it names, and the Task Agent that planned it.
+    it names, and the Task Agent that planned it, loaded at the first question.
 
     Raises PlannerError for a plan that cannot be read.
     """
+    document, known = read_plan(path, vocabulary)
+    settings = settings_of(document, known, candidate, device)
+    agents: list[Planner] = []
+
+    def ask(task: Mapping[str, Any]) -> Answer:
+        if not agents:
+            agents.append(Planner(settings))
+        return agents[0].skills(task)
+
+    return Desk(path, log or log_beside(path), known, ask, by)
+
+
+def read_plan(path: Path, vocabulary: str | None) -> tuple[PlanDocument, Vocabulary]:
+    """A plan with its vocabulary: the named one, else the bundled one that the plan names. Raises
+    PlannerError.
+    """
     known = load_vocabulary(vocabulary) if vocabulary else None
     document = read_document(path, known)
-    known = known or vocabulary_of(document, path)
-    return Desk(
-        path,
-        log or log_beside(path),
-        known,
-        TaskAgent(settings_of(document, known, candidate, device)),
-        by,
-    )
+    return document, known or vocabulary_of(document, path)
+
+
+def settings_of(
+    document: PlanDocument,
+    vocabulary: Vocabulary,
+    candidate: str | None = None,
+    device: str = "auto",
+) -> PlanSettings:
+    """The settings under which a document was planned; of another candidate, the defaults."""
+    agents = {} if candidate else document["manifest"].get("agents", {})
+    named: dict[str, Any] = {}
+    for level, made in agents.items():
+        adapter = made.get("adapter")
+        named[f"{level}_candidate"] = made["candidate"]
+        named[f"{level}_configuration"] = made.get("configuration")
+        # An adapter that lies elsewhere now is looked for as `plannerft plan` does.
+        named[f"{level}_adapter"] = adapter if adapter and Path(adapter).is_dir() else None
+    source = vocabulary.source
+    return PlanSettings(candidate or DEFAULT_CANDIDATE, vocabulary=source, device=device, **named)
+
+
+def planning_of(
+    plan: Path | None, vocabulary: str | None, candidate: str | None, device: str
+) -> PlanSettings:
+    """The settings for planning beside a plan in a file: those under which it was planned; without
+    a file the defaults. Raises PlannerError.
+    """
+    if plan is not None:
+        return settings_of(*read_plan(plan, vocabulary), candidate, device)
+    named = vocabulary or DEFAULT
+    return PlanSettings(candidate or DEFAULT_CANDIDATE, vocabulary=named, device=device)

@@ -1,13 +1,12 @@
 """Training samples from reviewed plans: the command with the plan that a person corrected and
 approved.
 
-Only what the labelling rules allow becomes a sample, and nothing that validation, test or challenge
-holds already; everything else is left out with the reason.
+A sample obeys the labelling rules and is no near duplicate of validation, test or challenge; every
+other plan is left out with the reason.
 """
 
 from __future__ import annotations
 
-import functools
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -23,34 +22,34 @@ from planner_ft.data.validation import canonical_record, record_problems
 from planner_ft.data.words import says
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.grounded import TOO_LONG
-from planner_ft.document import PlanDocument, read_document
+from planner_ft.document import PlanDocument
 from planner_ft.document.differences import compare
-from planner_ft.document.files import vocabulary_of
 from planner_ft.planning.agents import CUT_NOTE
 from planner_ft.planning.planner import new_file
+from planner_ft.review.desk import read_plan
 from planner_ft.review.log import existing_log, log_beside
 from planner_ft.review.verify import Approval, approval_of
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl, sha256_text, write_text
-from planner_ft.vocabulary import Vocabulary, load_vocabulary
+from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import TASK_KEYS
 
 HELD_OUT = ("validation", "test", "challenge")
 """Files of the curated set that no sample may come near to."""
-LOCATED = "located"
+PROVENANCE = ("digest", "sequence", "reviewer", "time")
 
 HeldOut = dict[str, list[dict[str, Any]]]
 """Records by the name of their file."""
 
 
 class LeftOutError(PlannerError):
-    """Why a plan gives no sample."""
+    """The reason why a plan gives no sample."""
 
 
 @dataclass(frozen=True)
 class Harvest:
-    """Samples by the plan that each is from, why the other plans gave none, and where the samples
-    were written.
+    """Samples by the plan that each is from, why the other plans gave none, and the file of the
+    samples.
     """
 
     samples: dict[Path, dict[str, Any]]
@@ -58,7 +57,7 @@ class Harvest:
     out: Path
 
     def lines(self) -> Iterator[str]:
-        """What came of each plan, for people."""
+        """The result for each plan, for people."""
         for path, sample in self.samples.items():
             yield f"{path}: {sample['id']}: {'; '.join(sample['provenance']['corrected'])}"
         yield from (f"{path}: left out: {reason}" for path, reason in self.left_out.items())
@@ -77,7 +76,8 @@ def harvest_files(
     overwrite: bool = False,
     vocabulary: str | None = None,
 ) -> Harvest:
-    """Write the samples of the plans to `out`; `log` is by default that beside each plan.
+    """Write the samples of the plans to `out`; `log` is by default that beside each plan. Of
+    several plans of one command the last approval counts.
 
     Raises PlannerError without plans or `out`, for a file that is there already, a broken log, and
     where no plan gives a sample.
@@ -88,95 +88,71 @@ def harvest_files(
             " corrections.jsonl"
         )
     new_file(out, overwrite=overwrite)
-    known = load_vocabulary(vocabulary) if vocabulary else None
-    held_out, found, left_out = (
-        held_out_records(),
-        dict[Path, tuple[dict[str, Any], Vocabulary]](),
-        dict[Path, str](),
-    )
+    held_out, left_out = held_out_records(), dict[Path, str]()
+    samples, lines = dict[Path, dict[str, Any]](), dict[Path, str]()
     for path in plans:
+        document, known = read_plan(path, vocabulary)
+        approval = approval_of(document, existing_log(log) if log else log_beside(path))
         try:
-            document = read_document(path, known)
-            definition = known or vocabulary_of(document, path)
-            found[path] = (
-                _sample_of(
-                    document, existing_log(log) if log else log_beside(path), held_out, definition
-                ),
-                definition,
-            )
+            samples[path] = sample(document, approval, held_out, known)
+            lines[path] = canonical_record("mission", samples[path], known)
         except LeftOutError as error:
             left_out[path] = str(error)
-    _leave_out_older(found, left_out)
-    if not found:
+    for path, later in _superseded(samples).items():
+        left_out[path] = f"a plan of the same command was approved later: {later}"
+        del samples[path]
+    if not samples:
         reasons = "; ".join(f"{path}: {reason}" for path, reason in left_out.items())
         raise PlannerError(f"no plan gives a sample ({reasons}); correct and approve one first")
-    write_text(
-        out,
-        "".join(
-            f"{canonical_record('mission', sample, definition)}\n"
-            for sample, definition in found.values()
-        ),
-    )
-    return Harvest({path: sample for path, (sample, _definition) in found.items()}, left_out, out)
+    write_text(out, "".join(f"{lines[path]}\n" for path in samples))
+    return Harvest(samples, left_out, out)
 
 
 def held_out_records() -> HeldOut:
     """The curated records that no sample may come near to. Raises PlannerError where the curated
     set is not there.
     """
-    folder = find_source()
-    return {
-        name: read_jsonl(folder / f"{name}.jsonl")
-        for name in HELD_OUT
-        if (folder / f"{name}.jsonl").is_file()
-    }
-
-
-def _sample_of(
-    document: PlanDocument, log: Path, held_out: HeldOut, vocabulary: Vocabulary
-) -> dict[str, Any]:
-    approval = approval_of(document, log)
-    if approval.status != "approved":
-        raise LeftOutError(approval.text)
-    return sample(document, approval, held_out, vocabulary)
+    files = [find_source() / f"{name}.jsonl" for name in HELD_OUT]
+    return {file.stem: read_jsonl(file) for file in files if file.is_file()}
 
 
 def sample(
     document: PlanDocument, approval: Approval, held_out: HeldOut, vocabulary: Vocabulary
 ) -> dict[str, Any]:
-    """The mission sample of an approved document. Raises LeftOutError that says why there is
-    none.
+    """The mission sample of an approved document. Raises LeftOutError with the reason where there
+    is none.
     """
+    if approval.status != "approved":
+        raise LeftOutError(approval.text)
+    command = document["command"]
     reviewed, proposed = (
-        _commanded(plan["tasks"], document["command"], vocabulary)
+        [_as_commanded(task, command, vocabulary) for task in plan["tasks"]]
         for plan in (document, document["proposed"])
     )
-    corrected = [
-        found.text
-        for found in compare({"tasks": proposed, LOCATED: {}}, {"tasks": reviewed, LOCATED: {}})
-        if found.kind != "skills"
-    ]
+    found = compare({"tasks": proposed, "located": {}}, {"tasks": reviewed, "located": {}})
+    corrected = [difference.text for difference in found if difference.kind != "skills"]
     if not corrected:
         raise LeftOutError(
             "the tasks are as the model proposed them, so there is nothing to learn from"
         )
-    provenance = {key: getattr(approval, key) for key in ("digest", "sequence", "reviewer", "time")}
+    provenance = {key: getattr(approval, key) for key in PROVENANCE}
     record = {
         "id": f"harvest-{approval.digest[:16]}",
-        "family": f"harvest-{sha256_text(document['command'])[:16]}",
-        "prompt": document["command"],
+        "family": f"harvest-{sha256_text(command)[:16]}",
+        "prompt": command,
         "expected": _expected(document, reviewed, vocabulary),
         "provenance": {**provenance, "corrected": corrected},
     }
-    problems = record_problems("mission", record, vocabulary) or list(
-        completeness_problems("mission", record, vocabulary)
+    problems = (
+        record_problems("mission", record, vocabulary)
+        or list(completeness_problems("mission", record, vocabulary))
+        or list(text_problems(record, _texts_of(proposed)))
     )
-    problems = problems or list(text_problems(record, _texts_of(proposed)))
     if problems:
         more = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
         raise LeftOutError(f"it breaks a labelling rule: {problems[0]}{more}")
     for name, records in held_out.items():
-        if (near := near_duplicate(document["command"], records)) is not None:
+        if (near := near_duplicate(command, records)) is not None:
             raise LeftOutError(
                 f"the command is a near duplicate of {near} in the {name} set, which nothing is"
                 " trained on"
@@ -185,38 +161,33 @@ def sample(
 
 
 def text_problems(record: dict[str, Any], proposed: Sequence[str]) -> Iterator[str]:
-    """Texts of a sample that speak of what is not in it: of a text value that was `proposed` and
-    taken out, or in words that nobody knows.
+    """Texts of a sample that speak of something else than the sample: of a text value that was
+    `proposed` and taken out, or in words that neither the command nor the lexicon has.
 
     A reviewer reads values before sentences, and a small model misspells names in sentences that it
     spelt rightly in a value.
     """
-    expected = record["expected"]
-    values = _texts_of(expected["tasks"])
-    said = " ".join([record["prompt"], *values])
-    # What the command itself names may be spoken of, unless it is a part of another name.
+    expected, prompt = record["expected"], record["prompt"]
+    values = sorted(_texts_of(expected["tasks"]), key=len, reverse=True)
+    known = " ".join([prompt, *values])
+    # The command's own names may be spoken of, unless one is a part of another name.
     gone = [
         name
         for name in dict.fromkeys(proposed)
-        if name not in values
-        and (name not in record["prompt"] or any(name in value for value in values))
+        if name not in values and (name not in prompt or any(name in value for value in values))
     ]
-    for text in [
-        *(task["task_prompt"] for task in expected["tasks"]),
-        *expected["assumptions"],
-        *expected["constraints"],
-    ]:
+    prompts = [task["task_prompt"] for task in expected["tasks"]]
+    for text in [*prompts, *expected["assumptions"], *expected["constraints"]]:
         unknown = [
             word
-            for word in says(said, text, misspelt=False)
+            for word in says(known, text, misspelt=False)
             if len(word) > 1 and not all(map(is_known, re.findall(r"[^\W\d_]+", word)))
         ]
         if unknown:
             yield f"{text!r} has a word that neither the command nor the lexicon has: {unknown[0]}"
-        # A value that stays may have the other one's words in it.
-        rest = functools.reduce(
-            lambda left, value: left.replace(value, ""), sorted(values, key=len, reverse=True), text
-        )
+        rest = text
+        for value in values:  # a value that stays may have the other one's words in it
+            rest = rest.replace(value, "")
         yield from (
             f"{text!r} speaks of {name!r}, which was taken out" for name in gone if name in rest
         )
@@ -233,56 +204,46 @@ def _texts_of(tasks: Sequence[dict[str, Any]]) -> list[str]:
     ]
 
 
-def _commanded(
-    tasks: Sequence[dict[str, Any]], command: str, vocabulary: Vocabulary
-) -> list[dict[str, Any]]:
-    """The tasks as the command alone gives them: places that only the operator knew are open
-    again.
-    """
-    return [{**task, "parameters": _said(task, command, vocabulary)} for task in tasks]
-
-
-def _said(task: dict[str, Any], command: str, vocabulary: Vocabulary) -> dict[str, Any]:
-    unsaid = [
-        name
-        for name in task.get(LOCATED, {})
-        if not states_position(command, task["parameters"][name])
-    ]
-    return {**task["parameters"], **{name: list(vocabulary.unresolved) for name in unsaid}}
+def _as_commanded(task: dict[str, Any], command: str, vocabulary: Vocabulary) -> dict[str, Any]:
+    """The task as the command alone gives it: places that only the operator knew are open again."""
+    parameters = dict(task["parameters"])
+    for name in task.get("located", {}):
+        if not states_position(command, parameters[name]):
+            parameters[name] = list(vocabulary.unresolved)
+    return {**task, "parameters": parameters}
 
 
 def _expected(
     document: PlanDocument, tasks: Sequence[dict[str, Any]], vocabulary: Vocabulary
 ) -> dict[str, Any]:
-    """The mission plan. Assumptions are the model's; what the decoding noted about its own reading
-    of the command is none.
+    """The mission plan, with the model's assumptions; notes of the decoding about its own reading
+    of the command are none.
     """
     notes = {*read(document["command"], vocabulary).notes, TOO_LONG}
+    assumptions = [
+        text
+        for text in dict.fromkeys(document["assumptions"])
+        if text not in notes and not text.startswith(CUT_NOTE)
+    ]
     return {
         "tasks": [{key: task[key] for key in TASK_KEYS} for task in tasks],
-        "assumptions": [
-            text
-            for text in dict.fromkeys(document["assumptions"])
-            if text not in notes and not text.startswith(CUT_NOTE)
-        ],
+        "assumptions": assumptions,
         "constraints": list(dict.fromkeys(document["constraints"])),
     }
 
 
-def _leave_out_older(
-    found: dict[Path, tuple[dict[str, Any], Vocabulary]], left_out: dict[Path, str]
-) -> None:
-    """Keep one sample of a command: that of the last approval."""
+def _superseded(samples: dict[Path, dict[str, Any]]) -> dict[Path, Path]:
+    """Plans of a command that has a later approval, each with the plan of the next one."""
+
+    def approved(path: Path) -> tuple[str, int]:
+        made = samples[path]["provenance"]
+        return made["time"], made["sequence"]
+
     last: dict[str, Path] = {}
-    for path in sorted(
-        found,
-        key=lambda path: (
-            found[path][0]["provenance"]["time"],
-            found[path][0]["provenance"]["sequence"],
-        ),
-    ):
-        prompt = found[path][0]["prompt"]
-        if prompt in last:
-            left_out[last[prompt]] = f"a plan of the same command was approved later: {path}"
-            del found[last[prompt]]
-        last[prompt] = path
+    older = {}
+    for path in sorted(samples, key=approved):
+        command = samples[path]["prompt"]
+        if command in last:
+            older[last[command]] = path
+        last[command] = path
+    return older

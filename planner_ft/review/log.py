@@ -3,36 +3,22 @@ with the plan itself.
 
 Nothing in it is ever deleted or replaced. A record has "sequence", "time" (UTC), "event",
 "reviewer", "reason", "digest", "plan", "acknowledged", "differences", "models", "previous" and
-"hash"; `chain` says how one hangs on the other.
+"hash"; `chain` says how records hang together.
 """
 
 from __future__ import annotations
 
 import contextlib
 import os
-from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import NamedTuple
 
 from planner_ft.document.digest import canonical
-from planner_ft.review.chain import Chain, Head, Problem, Record, read_chain, sealed
-from planner_ft.review.lock import exclusive
+from planner_ft.review.chain import Chain, Head, Record, read_chain, sealed
+from planner_ft.review.store import exclusive
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import atomic_writer, compact_json, read_json, sha256_text
-
-__all__ = [
-    "LOG_NAME",
-    "Appended",
-    "Problem",
-    "Record",
-    "append",
-    "check_log",
-    "existing_log",
-    "head_file",
-    "log_beside",
-    "read_log",
-]
 
 LOG_NAME = "approvals.jsonl"
 
@@ -74,24 +60,23 @@ def append(log: Path, values: Record) -> Appended:
     be written.
     """
     with exclusive(log):
-        chain = _sound(log, check_log(log))
+        chain = _sound(log)
         set_aside = _set_aside(log, chain)
         if chain.records and _read_head(log) != chain.end:
             # Its writer was killed between the record and the head.
             _write_head(log, chain.end)
-        record = sealed(
-            {**values, "time": datetime.now(UTC).isoformat(timespec="seconds")}, chain.end
-        )
+        time = datetime.now(UTC).isoformat(timespec="seconds")
+        record = sealed({**values, "time": time}, chain.end)
         _write_line(log, canonical(record) + b"\n")
         _write_head(log, Head(record["sequence"], record["hash"]))
     return Appended(record, set_aside)
 
 
 def read_log(log: Path) -> tuple[Record, ...]:
-    """The records, first one first; none where there is no log yet. Raises PlannerError when the
+    """The records in their order; none where there is no log yet. Raises PlannerError when the
     chain is broken.
     """
-    return _sound(log, check_log(log)).records
+    return _sound(log).records
 
 
 def check_log(log: Path) -> Chain:
@@ -105,23 +90,21 @@ def check_log(log: Path) -> Chain:
             return read_chain(data, head)
 
 
-def _sound(log: Path, chain: Chain) -> Chain:
-    if chain.problems:
-        more = (
-            f" (and {len(chain.problems) - 1} more; plannerft verify --log {log} shows all)"
-            if len(chain.problems) > 1
-            else ""
-        )
-        raise PlannerError(f"{log}: {chain.problems[0].text}{more}; {way_out(log)}")
-    return chain
-
-
 def way_out(log: Path) -> str:
     """How to go on with a broken log."""
     return (
         f"put the log and {head_file(log).name} back from a copy, or move both aside to begin a new"
         " log, in which plans are approved anew"
     )
+
+
+def _sound(log: Path) -> Chain:
+    chain = check_log(log)
+    if chain.problems:
+        more = len(chain.problems) - 1
+        rest = f" (and {more} more; plannerft verify --log {log} shows all)" if more else ""
+        raise PlannerError(f"{log}: {chain.problems[0].text}{rest}; {way_out(log)}")
+    return chain
 
 
 def _read_bytes(log: Path) -> bytes:
@@ -139,21 +122,16 @@ def _read_head(log: Path) -> Head | None:
     path = head_file(log)
     if not path.exists():
         return None
-    value = read_json(path)
-    if (
-        not isinstance(value, dict)
-        or type(value.get("sequence")) is not int
-        or not isinstance(value.get("hash"), str)
-        or value["sequence"] < 0
-    ):
-        raise PlannerError(f"{path}: holds no sequence and hash; {way_out(log)}")
-    return Head(value["sequence"], value["hash"])
+    match read_json(path):
+        case {"sequence": int(sequence), "hash": str(digest)} if sequence >= 0:
+            return Head(sequence, digest)
+    raise PlannerError(f"{path}: holds no sequence and hash; {way_out(log)}")
 
 
 def _write_head(log: Path, head: Head) -> None:
     try:
         with atomic_writer(head_file(log)) as stream:
-            stream.write(compact_json(asdict(head)) + "\n")
+            stream.write(compact_json(head._asdict()) + "\n")
     except PlannerError as error:
         raise PlannerError(
             f"record {head.sequence} stands in {log}, but its head file does not know it yet:"
@@ -164,13 +142,10 @@ def _write_head(log: Path, head: Head) -> None:
 
 def _write_line(log: Path, line: bytes) -> None:
     try:
-        descriptor = os.open(log, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o666)
-        try:
+        with open(log, "ab", buffering=0) as stream:
             while line:
-                line = line[os.write(descriptor, line) :]
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)
+                line = line[stream.write(line) :]
+            os.fsync(stream.fileno())
     except OSError as error:
         raise PlannerError(
             f"{log}: nothing was recorded ({error.strerror}); free some space or give another --log"
@@ -195,9 +170,7 @@ def _set_aside(log: Path, chain: Chain) -> Path | None:
 
 
 def _sync_folder(log: Path) -> None:
-    """Have the folder's entries on the disk, too; a system that cannot (Windows) does so by
-    itself.
-    """
+    """Have the folder's entries on the disk, too; Windows cannot, and does so by itself."""
     with contextlib.suppress(OSError):
         descriptor = os.open(log.parent, os.O_RDONLY)
         try:

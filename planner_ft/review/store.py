@@ -1,5 +1,5 @@
-"""The plan's file, which several terminals and browsers may have open: nobody overwrites what
-somebody else wrote.
+"""Files that several terminals and browsers may have open: locks, and plans that nobody overwrites
+unseen.
 """
 
 from __future__ import annotations
@@ -8,8 +8,9 @@ import contextlib
 from collections.abc import Iterator
 from pathlib import Path
 
+from filelock import FileLock
+
 from planner_ft.document import PlanDocument, document_digest, write_document
-from planner_ft.review.lock import exclusive
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
 
@@ -19,11 +20,31 @@ class ChangedError(PlannerError):
 
 
 @contextlib.contextmanager
+def exclusive(path: Path) -> Iterator[None]:
+    """Hold the lock of `path` (the hidden file .NAME.lock beside it, which stays); waits while
+    another process or thread holds it. Not re-entrant.
+
+    Raises PlannerError when the lock file cannot be made.
+    """
+    lock = FileLock(path.with_name(f".{path.name}.lock"))
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        lock.acquire(poll_interval=0.01)
+    except OSError as error:
+        raise PlannerError(
+            f"{lock.lock_file}: cannot be made ({error.strerror}), so nothing is written to"
+            f" {path.name}; make the folder writable"
+        ) from None
+    try:
+        yield
+    finally:
+        lock.release()
+
+
+@contextlib.contextmanager
 def unchanged(path: Path, digest: str) -> Iterator[None]:
     """Hold the plan's lock while its file has the content of `digest` (`document_digest` of what
-    was read; the key `digest` may be wrong).
-
-    Raises ChangedError when it has another.
+    was read; the key `digest` may be wrong). Raises ChangedError when it has another.
     """
     with exclusive(path):
         value = read_json(path)

@@ -1,4 +1,4 @@
-"""Whether a plan is the one that was approved, and if not, what is different."""
+"""Whether a plan is the one that was approved, and if not, the differences."""
 
 from __future__ import annotations
 
@@ -9,14 +9,15 @@ from typing import Any, Literal
 
 from planner_ft.document import PlanDocument, document_digest
 from planner_ft.review.changes import Change, changes
-from planner_ft.review.log import Record, read_log
+from planner_ft.review.chain import Record
+from planner_ft.review.log import read_log
 
 Status = Literal["approved", "rejected", "altered", "unknown"]
 
 
 @dataclass(frozen=True)
 class Approval:
-    """What the log knows about a plan.
+    """The log's knowledge of a plan.
 
     `approved` and `rejected`: the last decision about exactly this plan. `altered`: another version
     of it was approved, and `changes` says what is different now, or the file is not what its digest
@@ -34,75 +35,53 @@ class Approval:
     changes: tuple[Change, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
-        return {**asdict(self), "changes": [change.as_json() for change in self.changes]}
+        return asdict(self)
 
 
 def approval_of(document: PlanDocument, log: Path) -> Approval:
     """What the log says about a plan as it is now. Raises PlannerError for a log that is broken or
     cannot be read.
     """
-    return approval_in(document, read_log(log), log)
-
-
-def approval_in(document: PlanDocument, records: Sequence[Record], log: Path) -> Approval:
-    """As `approval_of`, of records that were read from `log` already."""
-    digest = document_digest(document)
-    if document.get("digest") != digest:
-        return _altered(document, digest, _relative(document, records), log)
+    records, digest = read_log(log), document_digest(document)
+    intact = document.get("digest") == digest
     last = next((record for record in reversed(records) if record["digest"] == digest), None)
-    if last is not None:
+    if intact and last is not None:
         return _decided(last, digest)
-    other = _relative(document, records)
+    other = _earlier_approval(document, records)
     if other is not None:
-        return _altered(document, digest, other, log)
-    return Approval("unknown", f"not approved: {log} holds no decision about this plan", digest)
+        return _altered(document, digest, other)
+    if intact:
+        return Approval("unknown", f"not approved: {log} holds no decision about this plan", digest)
+    return Approval(
+        "altered",
+        f"altered by hand: the plan is not what its digest says, and {log} holds no approval of it",
+        digest,
+    )
 
 
 def _decided(record: Record, digest: str) -> Approval:
     status: Status = "approved" if record["event"] == "approved" else "rejected"
     why = f": {record['reason']}" if record["reason"] else ""
-    text = (
-        f"{status} by {record['reviewer']} at {record['time']} (record {record['sequence']}){why}"
-    )
-    return Approval(
-        status,
-        text,
-        digest,
-        record["sequence"],
-        record["reviewer"],
-        record["time"],
-        record["reason"],
-    )
+    who = f"{record['reviewer']} at {record['time']} (record {record['sequence']})"
+    return Approval(status, f"{status} by {who}{why}", digest, **_decision(record))
 
 
-def _altered(document: PlanDocument, digest: str, other: Record | None, log: Path) -> Approval:
-    if other is None:
-        return Approval(
-            "altered",
-            f"altered by hand: the plan is not what its digest says, and {log} holds no approval"
-            " of it",
-            digest,
-        )
+def _altered(document: PlanDocument, digest: str, other: Record) -> Approval:
     found = tuple(changes(other["plan"], document))
     text = (
         f"altered since {other['reviewer']} approved it at {other['time']} (record"
         f" {other['sequence']}): {len(found)} change{'s' if len(found) != 1 else ''}"
     )
-    return Approval(
-        "altered",
-        text,
-        digest,
-        other["sequence"],
-        other["reviewer"],
-        other["time"],
-        other["reason"],
-        found,
-    )
+    return Approval("altered", text, digest, **_decision(other), changes=found)
 
 
-def _relative(document: PlanDocument, records: Sequence[Record]) -> Record | None:
-    """The last approval of what this plan was: of its digest, else of the same proposal, else of
-    the same command in the same run.
+def _decision(record: Record) -> dict[str, Any]:
+    return {key: record[key] for key in ("sequence", "reviewer", "time", "reason")}
+
+
+def _earlier_approval(document: PlanDocument, records: Sequence[Record]) -> Record | None:
+    """The last approval of the same digest, else of the same proposal, else of the same command in
+    the same run.
 
     A command that is planned again makes another plan: nobody altered the first.
     """

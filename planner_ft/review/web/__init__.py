@@ -1,11 +1,11 @@
 """The review in the browser: `plannerft review --web`.
 
 `server` listens, `guard` keeps strangers out, `app` answers, `session` is the review itself, with
-the plan in `plan_file`, the agents in `planning` and what is told to open pages in `events`. The
+the plan in `plan_file`, the agents in `planning` and the news for open pages in `events`. The
 page's own files are in `page`.
 """
 
 from planner_ft.review.web.server import serve
-from planner_ft.review.web.settings import WebSettings
+from planner_ft.review.web.session import WebSettings
 
 __all__ = ["WebSettings", "serve"]

@@ -1,4 +1,6 @@
-"""The application: page, state, changes, events. What may come in at all is the guard's matter."""
+"""The application: page, state, changes, events. Which requests come in at all is the guard's
+matter.
+"""
 
 from __future__ import annotations
 
@@ -14,6 +16,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import (
+    FileResponse,
     JSONResponse,
     PlainTextResponse,
     RedirectResponse,
@@ -25,7 +28,7 @@ from starlette.types import ASGIApp, ExceptionHandler
 
 from planner_ft.review.approval import UnacknowledgedError
 from planner_ft.review.store import ChangedError
-from planner_ft.review.web.guard import ASK_THE_TERMINAL, LARGEST_BODY, Door, Guard, too_large
+from planner_ft.review.web.guard import ASK_THE_TERMINAL, LARGEST_BODY, TOO_LARGE, Door, Guard
 from planner_ft.review.web.planning import BusyError
 from planner_ft.review.web.session import Session
 from planner_ft.support.errors import PlannerError
@@ -39,11 +42,9 @@ TYPES = {
     ".png": "image/png",
     ".txt": "text/plain",
 }
-"""Files of the page that are served, by how their names end."""
+"""Files of the page that are served, by their suffix."""
 LOOK_EVERY = 1.0
-"""Seconds between looks at the disk for what others wrote."""
-
-Body = dict[str, Any]
+"""Seconds between looks at the disk for changes by others."""
 
 
 class Json(JSONResponse):
@@ -73,12 +74,9 @@ def web_app(session: Session, door: Door) -> ASGIApp:
         ClientDisconnect: _gone,
         Exception: _bug,
     }
-    app = Starlette(
-        routes=[*_page_routes(door), *_api_routes(session)],
-        exception_handlers=handlers,
-        lifespan=running,
-    )
-    # Outside of everything, so that also what goes wrong inside is answered with its headers.
+    routes = [*_page_routes(door), *_api_routes(session)]
+    app = Starlette(routes=routes, exception_handlers=handlers, lifespan=running)
+    # Outside of everything, so that also internal errors are answered with its headers.
     return Guard(app, door)
 
 
@@ -88,33 +86,27 @@ async def _look(session: Session) -> None:
         await run_in_threadpool(session.look)
 
 
-# ---------------------------------------------------------------- the page
-
-
 def _page_routes(door: Door) -> list[Route]:
     async def index(request: Request) -> Response:
         if door.keys.opens(request.query_params.get("token", "")):
             answer = RedirectResponse("/", 303)
-            answer.set_cookie(
-                door.cookie, door.keys.session, httponly=True, samesite="strict", path="/"
-            )
+            key = door.keys.session
+            answer.set_cookie(door.cookie, key, httponly=True, samesite="strict", path="/")
             return answer
         if not door.admits(request):
             return PlainTextResponse(ASK_THE_TERMINAL + "\n", 403)
-        return Response((PAGE / "index.html").read_bytes(), media_type="text/html")
+        return FileResponse(PAGE / "index.html", media_type="text/html")
 
     return [Route("/", index), Route("/static/{name:path}", _static)]
 
 
 async def _static(request: Request) -> Response:
-    # The name is looked up among the files that there are and never put into a path.
-    files = {
-        file.relative_to(PAGE).as_posix(): file for file in PAGE.rglob("*") if file.suffix in TYPES
-    }
+    # The name is looked up among the files and never put into a path.
+    files = {file.relative_to(PAGE).as_posix(): file for file in PAGE.rglob("*")}
     file = files.get(request.path_params["name"])
-    if file is None:
+    if file is None or file.suffix not in TYPES:
         raise HTTPException(404)
-    return Response(file.read_bytes(), media_type=TYPES[file.suffix])
+    return FileResponse(file, media_type=TYPES[file.suffix])
 
 
 # ---------------------------------------------------------------- the interface
@@ -127,59 +119,43 @@ def _api_routes(session: Session) -> list[Route]:
     async def events(_request: Request) -> Response:
         return StreamingResponse(session.events.listen(), media_type="text/event-stream")
 
-    def change(path: str, make: Callable[[Body], Any]) -> Route:
-        """What is asked for with POST: 200 with the state that it leads to, 202 when the agents are
-        at work on it.
+    def change(method: Callable[..., Any], *keys: str) -> Route:
+        """A method of the session, asked for with POST: 200 with the state that it leads to, 202
+        when the agents are at work on it.
         """
 
         async def answer(request: Request) -> Response:
             body = await _body(request)
+            values = [_field(body, key) for key in keys]
             try:
-                after = await run_in_threadpool(make, body)
+                after = await run_in_threadpool(method, *values)
             except ChangedError as error:
-                return Json(
-                    {"error": str(error), "state": await run_in_threadpool(session.state)}, 409
-                )
+                now = await run_in_threadpool(session.state)
+                return Json({"error": str(error), "state": now}, 409)
             return Json({}, 202) if after is None else Json(after)
 
-        return Route(path, answer, methods=["POST"])
+        return Route(f"/api/{method.__name__}", answer, methods=["POST"])
 
     return [
         Route("/api/state", state),
         Route("/api/events", events),
-        change("/api/plan", lambda body: session.plan(_text(body, "command"), _locations(body))),
-        change(
-            "/api/edit", lambda body: session.edit(_text(body, "revision"), _object(body, "edit"))
-        ),
-        change("/api/undo", lambda body: session.undo(_text(body, "revision"))),
-        change(
-            "/api/skills", lambda body: session.skills(_text(body, "revision"), _text(body, "task"))
-        ),
-        change(
-            "/api/approve",
-            lambda body: session.approve(
-                _text(body, "revision"), _text(body, "name"), _texts(body, "acknowledged")
-            ),
-        ),
-        change(
-            "/api/reject",
-            lambda body: session.reject(
-                _text(body, "revision"), _text(body, "name"), _text(body, "reason")
-            ),
-        ),
-        change("/api/open", lambda body: session.open(_text(body, "path"))),
+        change(session.plan, "command", "locate"),
+        change(session.edit, "revision", "edit"),
+        change(session.undo, "revision"),
+        change(session.skills, "revision", "task"),
+        change(session.approve, "revision", "name", "acknowledged"),
+        change(session.reject, "revision", "name", "reason"),
+        change(session.open, "path"),
     ]
 
 
-async def _body(request: Request) -> Body:
-    """The object that a request holds. Never more than LARGEST_BODY is kept of it, whatever its
-    length was said to be.
-    """
+async def _body(request: Request) -> dict[str, Any]:
+    """The object that a request holds, of at most LARGEST_BODY bytes, whatever its header says."""
     data = bytearray()
     async for part in request.stream():
         data += part
         if len(data) > LARGEST_BODY:
-            raise HTTPException(413, too_large())
+            raise HTTPException(413, TOO_LARGE)
     try:
         value, _line, problem = decode_json(data.decode())
     except UnicodeDecodeError:
@@ -189,36 +165,23 @@ async def _body(request: Request) -> Body:
     return value
 
 
-def _text(body: Body, key: str) -> str:
+def _field(body: dict[str, Any], key: str) -> Any:
+    """The value of a key, of the type that this key has. Raises PlannerError."""
     value = body.get(key)
-    if not isinstance(value, str):
-        raise PlannerError(f"{key} must be a text")
+    if key == "locate":
+        value = value or {}
+        fits = isinstance(value, dict) and all(map(_is_position, value.values()))
+        expected = "an object of names with positions [x, y] in metres east and north of home"
+    elif key == "edit":
+        fits, expected = isinstance(value, dict), "an object"
+    elif key == "acknowledged":
+        fits = isinstance(value, list) and all(isinstance(item, str) for item in value)
+        expected = "a list of texts"
+    else:
+        fits, expected = isinstance(value, str), "a text"
+    if not fits:
+        raise PlannerError(f"{key} must be {expected}")
     return value
-
-
-def _texts(body: Body, key: str) -> list[str]:
-    value = body.get(key)
-    if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
-        raise PlannerError(f"{key} must be a list of texts")
-    return value
-
-
-def _object(body: Body, key: str) -> Body:
-    value = body.get(key)
-    if not isinstance(value, dict):
-        raise PlannerError(f"{key} must be an object")
-    return value
-
-
-def _locations(body: Body) -> dict[str, tuple[float, float]]:
-    """The positions of places, by name."""
-    given = body.get("locate") or {}
-    if not isinstance(given, dict) or not all(_is_position(value) for value in given.values()):
-        raise PlannerError(
-            "locate must be an object of names with positions [x, y] in metres east and north of"
-            " home"
-        )
-    return {name: (value[0], value[1]) for name, value in given.items()}
 
 
 def _is_position(value: Any) -> bool:
@@ -229,7 +192,7 @@ def _is_position(value: Any) -> bool:
     )
 
 
-# ---------------------------------------------------------------- what goes wrong
+# ---------------------------------------------------------------- errors
 
 SENTENCES = {
     404: "There is nothing at this address.",
@@ -244,16 +207,9 @@ async def _http_problem(_request: Request, error: Exception) -> Response:
 
 async def _problem(_request: Request, error: Exception) -> Response:
     if isinstance(error, UnacknowledgedError):
-        return Json(
-            {
-                "error": (
-                    f"{len(error.missing)} warnings are not acknowledged; read each of them and"
-                    " acknowledge it."
-                ),
-                "missing": list(error.missing),
-            },
-            422,
-        )
+        count = f"{len(error.missing)} warnings are not acknowledged"
+        sentence = f"{count}; read each of them and acknowledge it."
+        return Json({"error": sentence, "missing": list(error.missing)}, 422)
     return Json({"error": str(error)}, 409 if isinstance(error, BusyError) else 422)
 
 
@@ -262,6 +218,5 @@ async def _gone(_request: Request, _error: Exception) -> Response:
 
 
 async def _bug(_request: Request, error: Exception) -> Response:
-    return Json(
-        {"error": f"The program made a mistake ({type(error).__name__}); nothing was changed."}, 500
-    )
+    name = type(error).__name__
+    return Json({"error": f"The program made a mistake ({name}); nothing was changed."}, 500)

@@ -1,4 +1,4 @@
-"""What happens, told to every page that is open, as server-sent events."""
+"""Events for every page that is open, as server-sent events."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ MOST_WAITING = 1000
 
 
 class Events:
-    """Told from any thread, heard in the server's loop. Whoever comes while a command is planned
-    hears first what was told of it.
+    """Sent from any thread, heard in the server's loop. A page that comes while a command is
+    planned hears first what is known of its plan.
     """
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._listeners: set[_Listener] = set()
+        self._pages: dict[asyncio.Queue[str | None], asyncio.AbstractEventLoop] = {}
         self._story: list[str] = []
         self._over = False
 
@@ -32,59 +32,48 @@ class Events:
         """Send an event to every page."""
         text = f"event: {kind}\ndata: {compact_json(data)}\n\n"
         with self._lock:
-            if self._over:
-                return
             if kind in ("tasks", "skills"):
                 self._story.append(text)
-            for listener in self._listeners:
-                listener.offer(text)
+            self._offer(text)
 
     def forget(self) -> None:
-        """What was told of the planning that is over is no news to anybody who comes from now
-        on.
-        """
+        """The planning is over: pages that come from now on hear nothing of it."""
         with self._lock:
             self._story.clear()
 
     def close(self) -> None:
         """End every connection, and those to come."""
         with self._lock:
+            self._offer(None)
             self._over = True
-            for listener in self._listeners:
-                listener.offer(None)
 
     async def listen(self) -> AsyncIterator[str]:
         """The events from now on, until the server ends or the page is too far behind."""
-        listener = _Listener(asyncio.get_running_loop())
+        queue: asyncio.Queue[str | None] = asyncio.Queue()
         with self._lock:
             if self._over:
                 return
-            for told in (": connected\n\n", *self._story):
-                listener.queue.put_nowait(told)
-            self._listeners.add(listener)
+            for text in (": connected\n\n", *self._story):
+                queue.put_nowait(text)
+            self._pages[queue] = asyncio.get_running_loop()
         try:
-            while (text := await listener.next()) is not None:
-                yield text
+            while (heard := await _next(queue)) is not None:
+                yield heard
         finally:
             with self._lock:
-                self._listeners.discard(listener)
+                del self._pages[queue]
+
+    def _offer(self, text: str | None) -> None:
+        """Put a text into every queue; None ends a connection."""
+        if not self._over:
+            for queue, loop in self._pages.items():
+                behind = queue.qsize() >= MOST_WAITING
+                loop.call_soon_threadsafe(queue.put_nowait, None if behind else text)
 
 
-class _Listener:
-    """One open page. `None` in the queue ends its connection."""
-
-    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
-        self.loop = loop
-        self.queue: asyncio.Queue[str | None] = asyncio.Queue()
-
-    def offer(self, text: str | None) -> None:
-        self.loop.call_soon_threadsafe(
-            self.queue.put_nowait, text if self.queue.qsize() < MOST_WAITING else None
-        )
-
-    async def next(self) -> str | None:
-        try:
-            async with asyncio.timeout(KEEP_ALIVE):
-                return await self.queue.get()
-        except TimeoutError:
-            return ": still here\n\n"
+async def _next(queue: asyncio.Queue[str | None]) -> str | None:
+    try:
+        async with asyncio.timeout(KEEP_ALIVE):
+            return await queue.get()
+    except TimeoutError:
+        return ": still here\n\n"

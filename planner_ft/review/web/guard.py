@@ -7,9 +7,9 @@ key keeps out the other users of the machine.
 
 from __future__ import annotations
 
+import contextlib
 import ipaddress
 import secrets
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from starlette.datastructures import MutableHeaders
@@ -19,6 +19,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 LARGEST_BODY = 256 * 1024
 """Bytes of a request's body at most."""
+TOO_LARGE = f"The request is larger than {LARGEST_BODY // 1024} kB; send less."
 HEADERS = {
     "Content-Security-Policy": (
         "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src"
@@ -30,7 +31,7 @@ HEADERS = {
     "Cross-Origin-Resource-Policy": "same-origin",
     "Cache-Control": "no-store",
 }
-"""What every answer says to the browser."""
+"""Headers of every answer."""
 ASK_THE_TERMINAL = (
     "This page needs the address that the terminal shows, with its key: open that one."
 )
@@ -47,23 +48,25 @@ class Keys:
 
     def is_session(self, key: str) -> bool:
         """Whether this is the session's key, compared in constant time."""
-        return secrets.compare_digest(key.encode(errors="replace"), self.session.encode())
+        return _same(key, self.session)
 
     def opens(self, key: str) -> bool:
         """Whether this key opens the session: its own, or the one that does so once and is then
         used up.
         """
-        if self.once is not None and secrets.compare_digest(
-            key.encode(errors="replace"), self.once.encode()
-        ):
+        if self.once is not None and _same(key, self.once):
             self.once = None
             return True
         return self.is_session(key)
 
 
+def _same(key: str, other: str) -> bool:
+    return secrets.compare_digest(key.encode(errors="replace"), other.encode())
+
+
 @dataclass(frozen=True)
 class Door:
-    """Where the server listens, and the keys to it."""
+    """Host and port of the server, and the keys to it."""
 
     host: str
     port: int
@@ -80,25 +83,26 @@ class Door:
         On a wildcard address any IP address does: a name could be anybody's, an address cannot be
         made to point elsewhere.
         """
-        named = {"127.0.0.1", "localhost", "[::1]", bracketed(self.host)}
         name, _colon, port = host.rpartition(":")
         if port != str(self.port):
             return False
-        return name in named or (is_wildcard(self.host) and _is_address(name.strip("[]")))
+        if name in ("127.0.0.1", "localhost", "[::1]", bracketed(self.host)):
+            return True
+        with contextlib.suppress(ValueError):
+            return is_wildcard(self.host) and bool(ipaddress.ip_address(name.strip("[]")))
+        return False
 
     def admits(self, request: Request) -> bool:
         """Whether a request has the session's key, in its cookie or as a bearer."""
-        return self.keys.is_session(request.cookies.get(self.cookie, "")) or is_bearer(
-            request, self
-        )
+        cookie = request.cookies.get(self.cookie, "")
+        return self.keys.is_session(cookie) or self.is_bearer(request)
 
-
-def is_bearer(request: Request, door: Door) -> bool:
-    """Whether a request has the session's key in its Authorization header: a program that was given
-    it, no page of another site.
-    """
-    scheme, _space, key = request.headers.get("authorization", "").partition(" ")
-    return scheme.lower() == "bearer" and door.keys.is_session(key)
+    def is_bearer(self, request: Request) -> bool:
+        """Whether a request has the session's key in its Authorization header: a program that was
+        given it, no page of another site.
+        """
+        scheme, _space, key = request.headers.get("authorization", "").partition(" ")
+        return scheme.lower() == "bearer" and self.keys.is_session(key)
 
 
 def bracketed(host: str) -> str:
@@ -111,15 +115,8 @@ def is_wildcard(host: str) -> bool:
     return host in ("0.0.0.0", "::", "")
 
 
-def _is_address(text: str) -> bool:
-    try:
-        return bool(ipaddress.ip_address(text))
-    except ValueError:
-        return False
-
-
 class Guard:
-    """Passes on only what may be, and adds the headers. Wraps the whole application."""
+    """ASGI middleware that passes on only admitted requests, and adds the headers."""
 
     def __init__(self, app: ASGIApp, door: Door) -> None:
         self.app, self.door = app, door
@@ -134,101 +131,48 @@ class Guard:
                 MutableHeaders(scope=message).update(HEADERS)
             await send(message)
 
-        refused = refusal(Request(scope), self.door)
-        await (refused or self.app)(scope, receive, with_headers)
+        answer: ASGIApp = self.app
+        if refused := refusal(request := Request(scope), self.door):
+            answer = _refused(*refused, is_api=_is_api(request))
+        await answer(scope, receive, with_headers)
 
 
-def refusal(request: Request, door: Door) -> Response | None:
-    """The answer to a request that may not be; None when it may."""
-    for check in CHECKS:
-        found = check(request, door)
-        if found is not None:
-            status, sentence = found
-            return (
-                JSONResponse({"error": sentence}, status)
-                if request.url.path.startswith("/api/")
-                else PlainTextResponse(sentence + "\n", status)
-            )
-    return None
-
-
-Check = Callable[[Request, Door], tuple[int, str] | None]
-
-
-def _method(request: Request, _door: Door) -> tuple[int, str] | None:
-    return (
-        None
-        if request.method in ("GET", "POST")
-        else (405, f"{request.method} is not used here; only GET and POST are.")
-    )
-
-
-def _host(request: Request, door: Door) -> tuple[int, str] | None:
-    hosts = request.headers.getlist("host")
-    return (
-        None
-        if len(hosts) == 1 and door.knows(hosts[0])
-        else (
+def refusal(request: Request, door: Door) -> tuple[int, str] | None:
+    """Status and sentence for a request that is not admitted; None for one that is."""
+    headers, is_change = request.headers, request.method == "POST"
+    if request.method not in ("GET", "POST"):
+        return 405, f"{request.method} is not used here; only GET and POST are."
+    hosts = headers.getlist("host")
+    if len(hosts) != 1 or not door.knows(hosts[0]):
+        return (
             403,
-            (
-                "This server does not answer under that name; open the address that the terminal"
-                " shows."
-            ),
+            "This server does not answer under that name; open the address that the terminal shows.",
         )
-    )
-
-
-def _site(request: Request, _door: Door) -> tuple[int, str] | None:
-    """What browsers say of the page that a request comes from; a person who follows a link to the
-    page itself is fine.
-    """
-    said = request.headers.get("sec-fetch-site")
-    allowed = ("same-origin",) if request.method == "POST" else ("same-origin", "none")
-    fine = said is None or said in allowed or not request.url.path.startswith("/api/")
-    return None if fine else (403, "This request comes from a page of another site.")
-
-
-def _session(request: Request, door: Door) -> tuple[int, str] | None:
-    return (
-        None
-        if not request.url.path.startswith("/api/") or door.admits(request)
-        else (403, ASK_THE_TERMINAL)
-    )
-
-
-def _origin(request: Request, door: Door) -> tuple[int, str] | None:
-    if request.method != "POST":
+    # A person may follow a link from anywhere to the page itself, not to the interface.
+    site = headers.get("sec-fetch-site", "same-origin")
+    if _is_api(request) and site != "same-origin" and (is_change or site != "none"):
+        return 403, "This request comes from a page of another site."
+    if _is_api(request) and not door.admits(request):
+        return 403, ASK_THE_TERMINAL
+    if not is_change:
         return None
-    origin = request.headers.get("origin")
-    same = (
-        is_bearer(request, door)
-        if origin is None
-        else origin == f"http://{request.headers['host']}"
-    )
-    return (
-        None
-        if same
-        else (403, "This request comes from a page of another site, or does not say from which.")
-    )
-
-
-def _body(request: Request, _door: Door) -> tuple[int, str] | None:
-    if request.method != "POST":
-        return None
-    if (
-        request.headers.get("content-type", "").partition(";")[0].strip().lower()
-        != "application/json"
-    ):
+    origin = headers.get("origin")
+    if origin != f"http://{hosts[0]}" and not (origin is None and door.is_bearer(request)):
+        return 403, "This request comes from a page of another site, or does not say from which."
+    kind = headers.get("content-type", "").partition(";")[0].strip().lower()
+    if kind != "application/json":
         return 415, "Only JSON is read here; send Content-Type: application/json."
-    length = request.headers.get("content-length", "0")
-    if not length.isascii() or not length.isdecimal() or int(length) > LARGEST_BODY:
-        return 413, too_large()
+    length = headers.get("content-length", "0")
+    if not (length.isascii() and length.isdecimal() and int(length) <= LARGEST_BODY):
+        return 413, TOO_LARGE
     return None
 
 
-def too_large() -> str:
-    """What is said of a body that is too large."""
-    return f"The request is larger than {LARGEST_BODY // 1024} kB; send less."
+def _is_api(request: Request) -> bool:
+    return request.url.path.startswith("/api/")
 
 
-CHECKS: tuple[Check, ...] = (_method, _host, _site, _session, _origin, _body)
+def _refused(status: int, sentence: str, *, is_api: bool) -> Response:
+    if is_api:
+        return JSONResponse({"error": sentence}, status)
+    return PlainTextResponse(sentence + "\n", status)

@@ -1,8 +1,7 @@
-"""The plan under review, on the disk: read anew whenever the file changed, written whole before a
-change is answered.
+"""The plan that is shown in the browser, on the disk: written whole before a change is answered.
 
 A change names the revision (the digest) that it was made for, which is compared with the file as
-the review in the terminal does: of two people who change one plan at a time the second is told.
+the review in the terminal does: of two people who change one plan at a time the second is refused.
 """
 
 from __future__ import annotations
@@ -11,6 +10,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
+from itertools import count
 from pathlib import Path
 from typing import NamedTuple
 
@@ -21,8 +21,7 @@ from planner_ft.document import (
     read_document,
     write_document,
 )
-from planner_ft.review.lock import exclusive
-from planner_ft.review.store import ChangedError, unchanged
+from planner_ft.review.store import ChangedError, exclusive, unchanged
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.document_schema import FORMAT
@@ -34,8 +33,8 @@ Signature = tuple[int, int, int]
 
 
 class Current(NamedTuple):
-    """A plan as it is on the disk; `revision` is the digest of what it holds, whatever it says
-    itself.
+    """A plan as it is on the disk; `revision` is the digest of its content, whatever the key
+    `digest` says.
     """
 
     path: Path
@@ -44,38 +43,28 @@ class Current(NamedTuple):
 
 
 class PlanFile:
-    """Which plan is shown, and its content. Safe to use from several threads."""
+    """Which plan is shown (`path`; None before the first), and its content. Safe to use from
+    several threads.
+    """
 
     def __init__(self, path: Path | None, folder: Path, vocabulary: Vocabulary) -> None:
-        self.folder, self.vocabulary = folder, vocabulary
-        self._path = path
+        self.path, self.folder, self.vocabulary = path, folder, vocabulary
         self._lock = threading.RLock()
-        self._read: tuple[Signature | None, Current] | None = None
-
-    @property
-    def path(self) -> Path | None:
-        """The file of the plan that is shown; None before the first."""
-        return self._path
 
     def signature(self) -> tuple[Path | None, Signature | None]:
-        """What is another when the plan on the disk is."""
-        path = self._path
+        """A value that changes with the plan on the disk."""
+        path = self.path
         return path, signature(path)
 
     def current(self) -> Current | None:
         """The plan as it is on the disk now; None before the first. Raises PlannerError when the
         file cannot be read.
         """
-        with self._lock:
-            path = self._path
-            if path is None:
-                return None
-            # Taken before the file is read: what is written meanwhile is read next time.
-            found = signature(path)
-            if self._read is None or self._read[0] != found or self._read[1].path != path:
-                document = read_document(path, self.vocabulary)
-                self._read = found, Current(path, document, document_digest(document))
-            return self._read[1]
+        path = self.path
+        if path is None:
+            return None
+        document = read_document(path, self.vocabulary)
+        return Current(path, document, document_digest(document))
 
     def plans(self) -> list[str]:
         """The names of the plans in the folder, newest first."""
@@ -94,25 +83,24 @@ class PlanFile:
             raise PlannerError(f"{name}: is no plan in {self.folder}; choose one that is listed")
         read_document(self.folder / name, self.vocabulary)
         with self._lock:
-            self._path = self.folder / name
+            self.path = self.folder / name
 
     def add(self, document: PlanDocument) -> Path:
         """Write a new plan into a file of its own, named by the time (UTC), and show it. Raises
         PlannerError when it cannot be written.
         """
         stem = f"plan-{datetime.now(UTC):%Y%m%d-%H%M%S}"
-        number = 1
-        while True:
+        for number in count(1):
             path = self.folder / f"{stem}{f'-{number}' if number > 1 else ''}.json"
             with self._lock, exclusive(path):
                 if not path.exists():
                     write_document(path, document)
-                    self._path = path
+                    self.path = path
                     return path
-            number += 1
+        raise AssertionError
 
     def change(self, revision: str, made: Callable[[PlanDocument], PlanDocument]) -> None:
-        """Replace the plan by what `made` makes of it; on the disk when this returns.
+        """Replace the plan by the result of `made`; on the disk when this returns.
 
         Raises ChangedError when the plan is not of that revision, PlannerError when the change
         cannot be made or written.
@@ -123,8 +111,7 @@ class PlanFile:
                     f"{now.path.name} was changed by hand; take the changes over with `plannerft"
                     f" review {now.path.name} --adopt` before you edit it"
                 )
-            written = write_document(now.path, made(now.document))
-            self._read = signature(now.path), Current(now.path, written, written["digest"])
+            write_document(now.path, made(now.document))
 
     @contextmanager
     def held(self, revision: str) -> Iterator[Current]:
@@ -132,16 +119,16 @@ class PlanFile:
         it is another.
         """
         with self._lock:
-            if self._path is None:
+            if self.path is None:
                 raise ChangedError("there is no plan yet; plan a command first")
-            with unchanged(self._path, revision):
+            with unchanged(self.path, revision):
                 now = self.current()
                 assert now is not None
                 yield now
 
 
 def signature(path: Path | None) -> Signature | None:
-    """What is another when a file is written anew; None where there is no file."""
+    """A value that changes when a file is written anew; None where there is no file."""
     try:
         stat = path.stat() if path else None
     except OSError:

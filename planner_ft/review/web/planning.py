@@ -25,18 +25,16 @@ class BusyError(PlannerError):
 
 
 class StoppedError(Exception):
-    """The server ends, and so does what the agents do."""
+    """The server ends, and so does the agents' work."""
 
 
 class Planning:
-    """`busy` is what the agents do now (None: nothing), `why` the sentence that says why they
-    cannot be asked.
+    """`busy` is the agents' work now (None: nothing), `why` the sentence that says why they cannot
+    be asked.
     """
 
     def __init__(self, settings: PlanSettings, events: Events, changed: Callable[[], None]) -> None:
-        """`changed` is called when the agents are loaded, or not, and when they have done what they
-        were asked.
-        """
+        """`changed` is called when the agents are loaded, or not, and when their work is done."""
         self.settings, self.events, self.changed = settings, events, changed
         self.busy: dict[str, Any] | None = None
         self.why: str | None = None
@@ -44,15 +42,15 @@ class Planning:
         self._lock = threading.Lock()
         self._work: queue.SimpleQueue[Work | None] = queue.SimpleQueue()
         self._stopping = threading.Event()
-        # A daemon: what the agents compute keeps nobody from ending the program.
+        # A daemon: the agents' work keeps nobody from ending the program.
         self._thread = threading.Thread(target=self._run, name="agents", daemon=True)
 
     def start(self) -> None:
-        """Begin to load the agents; what is asked of them meanwhile waits."""
+        """Begin to load the agents; requests to them wait meanwhile."""
         self._thread.start()
 
     def stop(self) -> None:
-        """End what the agents do as soon as they say something of it."""
+        """End the agents' work at its next sign of progress."""
         self._stopping.set()
         self._work.put(None)
 
@@ -68,30 +66,28 @@ class Planning:
             raise StoppedError
 
     def as_json(self) -> dict[str, Any]:
-        """What the page shows of the agents."""
-        agents = list(self._agents.values())
-        candidates = [agent.candidate.name for agent in agents] or [self.settings.candidate]
-        configurations = [agent.configuration.name for agent in agents] or [
-            self.settings.configuration or ""
-        ]
+        """The agents as the page shows them."""
+        agents, settings = list(self._agents.values()), self.settings
+        candidates = [agent.candidate.name for agent in agents] or [settings.candidate]
+        used = [agent.configuration.name for agent in agents] or [settings.configuration or ""]
         return {
             "available": self.why is None,
             "why": self.why,
             "candidate": " + ".join(dict.fromkeys(candidates)),
-            "configuration": " + ".join(dict.fromkeys(configurations)),
+            "configuration": " + ".join(dict.fromkeys(used)),
         }
 
     def ask(self, busy: dict[str, Any], work: Work) -> None:
-        """Have the agents do `work`, which tells of what comes out itself. Raises BusyError while
-        they are at work, PlannerError when there are none.
+        """Have the agents do `work`, which reports its result itself. Raises BusyError while they
+        are at work, PlannerError when there are none.
         """
         with self._lock:
             if self.why is not None:
                 raise PlannerError(self.why)
             if self.busy is not None:
+                label = self.busy["label"]
                 raise BusyError(
-                    f"the agents are at work already ({self.busy['label']}); wait until they are"
-                    " done"
+                    f"the agents are at work already ({label}); wait until they are done"
                 )
             self.busy = {"done": 0, "total": 0, **busy}
         self.events.tell("progress", self.busy)
@@ -144,7 +140,7 @@ class Planning:
 
 
 def sentence(error: Exception) -> str:
-    """What a person is told of an error."""
+    """An error in one sentence for people."""
     if isinstance(error, PlannerError):
         return str(error)
     first = (str(error).strip().splitlines() or ["no more is known"])[0]

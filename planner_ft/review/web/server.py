@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import errno
 import os
 import socket
 import sys
@@ -19,8 +20,7 @@ from planner_ft.document import read_document
 from planner_ft.document.vehicle import Vehicle
 from planner_ft.review.web.app import web_app
 from planner_ft.review.web.guard import Door, bracketed, is_wildcard
-from planner_ft.review.web.session import Session
-from planner_ft.review.web.settings import LOOPBACK, WebSettings
+from planner_ft.review.web.session import LOOPBACK, Session, WebSettings
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 
@@ -50,8 +50,8 @@ def serve(plan: Path | None, settings: WebSettings) -> None:
         except KeyboardInterrupt:
             print(_farewell(session), flush=True)
         if not session.planning.ended(GRACE / 2):
-            # What the agents compute cannot be stopped at once, and tearing their thread down would
-            # crash. All that counts is on the disk.
+            # The agents cannot be stopped at once, and tearing their thread down would crash.
+            # All that counts is on the disk.
             sys.stderr.flush()
             os._exit(0)
 
@@ -115,45 +115,28 @@ class _PromptProtocol(H11Protocol):
 
 def _listening(settings: WebSettings) -> socket.socket:
     """A socket on the address of the settings. Raises PlannerError."""
-    host = settings.host
+    host, port = settings.host, settings.port
     try:
-        family, kind, protocol, _name, address = socket.getaddrinfo(
-            host or None, settings.port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+        family, _kind, _protocol, _name, address = socket.getaddrinfo(
+            host or None, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
         )[0]
-        listener = socket.socket(family, kind, protocol)
-    except OSError as error:
+        dual = family == socket.AF_INET6 and socket.has_dualstack_ipv6()
+        return socket.create_server(address, family=family, dualstack_ipv6=dual)
+    except socket.gaierror as error:
+        problem = f"--host {host}: is no address of this machine ({error.strerror})"
+    except PermissionError:
         raise PlannerError(
-            f"--host {host}: is no address of this machine ({error.strerror}); leave the flag out"
-            f" for {LOOPBACK}"
+            f"--port {port}: this user may not listen there; give a port above 1023, or leave the"
+            " flag out for a free one"
         ) from None
-    try:
-        if os.name == "posix":
-            # The port is free again as soon as the last server ended. On Windows this would share
-            # it with another program.
-            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        listener.bind(address)
-        listener.listen()
     except OSError as error:
-        listener.close()
-        raise _not_listening(settings, error) from None
-    return listener
-
-
-def _not_listening(settings: WebSettings, error: OSError) -> PlannerError:
-    if isinstance(error, PermissionError):
-        return PlannerError(
-            f"--port {settings.port}: this user may not listen there; give a port above 1023, or"
-            " leave the flag out for a free one"
-        )
-    if settings.port and "in use" in str(error.strerror).lower():
-        return PlannerError(
-            f"--port {settings.port}: another program listens there; give another port, or leave"
-            " the flag out for a free one"
-        )
-    return PlannerError(
-        f"--host {settings.host}: cannot be listened on ({error.strerror}); leave the flag out for"
-        f" {LOOPBACK}"
-    )
+        if port and error.errno == errno.EADDRINUSE:
+            raise PlannerError(
+                f"--port {port}: another program listens there; give another port, or leave the"
+                " flag out for a free one"
+            ) from None
+        problem = f"--host {host}: cannot be listened on ({os.strerror(error.errno or 0)})"
+    raise PlannerError(f"{problem}; leave the flag out for {LOOPBACK}")
 
 
 def _say_where(settings: WebSettings, door: Door) -> None:
@@ -161,35 +144,24 @@ def _say_where(settings: WebSettings, door: Door) -> None:
     opens the page once.
     """
     if not settings.is_loopback:
-        warning = (
-            "others on the network can reach this page, and what it sends is not encrypted; who has"
-            " the address below can approve plans"
+        print(
+            f"--host {settings.host}: others on the network can reach this page, and what it sends"
+            " is not encrypted; who has the address below can approve plans",
+            file=sys.stderr,
         )
-        print(f"--host {settings.host}: {warning}", file=sys.stderr)
-    base = f"http://{bracketed(LOOPBACK if is_wildcard(settings.host) else settings.host)}:{door.port}/?token="
+    host = LOOPBACK if is_wildcard(settings.host) else settings.host
+    base = f"http://{bracketed(host)}:{door.port}/?token="
     print(f"Review at {base}{door.keys.session}\nCtrl-C ends it.", flush=True)
-    if settings.open_browser and _has_screen():
-        threading.Thread(
-            target=webbrowser.open, args=(f"{base}{door.keys.once}",), daemon=True
-        ).start()
-
-
-def _has_screen() -> bool:
-    """Whether a browser has somewhere to show a page: without one a text browser would take the
-    terminal.
-    """
-    return sys.platform in ("darwin", "win32") or bool(
-        os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
-    )
+    # Without a screen a text browser would take the terminal.
+    screen = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
+    if settings.open_browser and (screen or sys.platform in ("darwin", "win32")):
+        address = f"{base}{door.keys.once}"
+        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 
 
 def _farewell(session: Session) -> str:
-    """Where everything is, when it is over."""
-    path = session.file.path
-    saved = (
-        f"the plan is saved in {path}, decisions in {session.log}"
-        if path
-        else "there was no plan to save"
-    )
-    lost = f"; {session.planning.busy['what']} was not finished" if session.planning.busy else ""
-    return f"\nended: {saved}{lost}"
+    """Where plan and decisions are, and unfinished work."""
+    path, busy = session.file.path, session.planning.busy
+    saved = f"the plan is saved in {path}, decisions in {session.log}"
+    unfinished = f"; {busy['what']} was not finished" if busy else ""
+    return f"\nended: {saved if path else 'there was no plan to save'}{unfinished}"

@@ -1,11 +1,13 @@
-"""A review in the browser: the plan on the disk, the approval log, the agents, and what every page
-is told of them.
+"""A review in the browser: the plan on the disk, the approval log, the agents, and the events for
+every page.
 """
 
 from __future__ import annotations
 
+import ipaddress
 import threading
 from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,31 +17,64 @@ from planner_ft.document.vehicle import Vehicle
 from planner_ft.planning.locations import Position, is_open
 from planner_ft.planning.planner import SkillsKnown, TasksKnown, check_command
 from planner_ft.planning.result import Answer
-from planner_ft.review import approval_of, log_beside
-from planner_ft.review.desk import Desk
+from planner_ft.planning.settings import PlanSettings
+from planner_ft.review.desk import Desk, skills_edit
+from planner_ft.review.log import log_beside
+from planner_ft.review.verify import approval_of
 from planner_ft.review.web.events import Events
-from planner_ft.review.web.plan_file import Current, PlanFile, signature
+from planner_ft.review.web.plan_file import PlanFile, signature
 from planner_ft.review.web.planning import Planning
-from planner_ft.review.web.settings import WebSettings
-from planner_ft.review.web.vocabulary import vocabulary_json
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 
 if TYPE_CHECKING:
     from planner_ft.planning.planner import Planner
 
+LOOPBACK = "127.0.0.1"
+LAST_PORT = 65535
 LONGEST_COMMAND = 20_000
 """Characters."""
 EDITS = ("locate", "parameter", "prompt", "remove", "move", "insert", "skill")
-"""The kinds of edits that a page makes: not those that record what an agent answered or what was
-adopted.
-"""
+"""The kinds of edits that a page makes: not those that record an agent's answer or an adoption."""
+NO_PLAN = ("document", "path", "revision", "track")
 State = dict[str, Any]
 
 
+@dataclass(frozen=True)
+class WebSettings:
+    """Address of the page, files and agents behind it.
+
+    `port` 0 takes a free one. `log` is the approval log: beside the plan by default. `folder` is
+    where new plans are written: that of the plan by default, else the current one. `planning` says
+    which agents plan and which vehicle this is about.
+    """
+
+    host: str = LOOPBACK
+    port: int = 0
+    open_browser: bool = True
+    log: Path | None = None
+    folder: Path | None = None
+    planning: PlanSettings = field(default_factory=PlanSettings)
+
+    def __post_init__(self) -> None:
+        """Raise PlannerError for a port that does not exist."""
+        if not 0 <= self.port <= LAST_PORT:
+            raise PlannerError(
+                f"--port {self.port}: must lie between 0 (any free port) and {LAST_PORT}"
+            )
+
+    @property
+    def is_loopback(self) -> bool:
+        """Whether only programs on this machine can reach the page."""
+        try:
+            return self.host == "localhost" or ipaddress.ip_address(self.host).is_loopback
+        except ValueError:
+            return False
+
+
 class Session:
-    """What the pages see and do. Its methods raise PlannerError with the sentence that the page
-    shows, and may be called from any thread.
+    """State and actions of the pages. Its methods raise PlannerError with the sentence that the
+    page shows, and may be called from any thread.
     """
 
     def __init__(
@@ -59,15 +94,18 @@ class Session:
         self.planning = Planning(settings.planning, self.events, self.tell_state)
         self.log = settings.log or log_beside(folder / "any")
         self._lock = threading.Lock()
-        self._told: Any = self._signature()
+        self._known: Any = self._signature()
         self._shown: tuple[Any, State] = (None, {})
 
-    # ------------------------------------------------------------ what a page sees
-
     def state(self) -> State:
-        """Everything that a page shows. Raises PlannerError when the plan cannot be read."""
+        """Everything that a page shows; the part of plan and log is computed anew when one of them
+        changed. Raises PlannerError when the plan cannot be read.
+        """
+        now = self._signature()
+        if self._shown[0] != now:
+            self._shown = (now, self._plan_state())
         return {
-            **self._plan_state(),
+            **self._shown[1],
             "planner": self.planning.as_json(),
             "busy": self.planning.busy,
             "vocabulary": vocabulary_json(self.vocabulary),
@@ -75,22 +113,21 @@ class Session:
         }
 
     def look(self) -> None:
-        """Tell the pages when plan or log are not what they were told of: somebody else wrote
-        them.
-        """
-        now = self._signature()
-        with self._lock:
-            changed, self._told = now != self._told, now
-        if changed:
-            self._tell_state()
+        """Tell the pages when somebody else wrote plan or log."""
+        if self._signature() != self._known:
+            self.tell_state()
 
     def tell_state(self) -> None:
         """Tell the pages to ask for the state anew."""
         with self._lock:
-            self._told = self._signature()
-        self._tell_state()
+            self._known = self._signature()
+        try:
+            now = self.file.current()
+        except PlannerError:
+            now = None
+        self.events.tell("state", {"revision": now.revision if now else None})
 
-    # ------------------------------------------------------------ what a page does
+    # ------------------------------------------------------------ actions of a page
 
     def edit(self, revision: str, edit: dict[str, Any]) -> State:
         """Make one edit."""
@@ -132,9 +169,10 @@ class Session:
                 " planned; shorten it"
             )
         check_command(command)
+        places = {name: (x, y) for name, (x, y) in locations.items()}
 
         def work(planner: Planner) -> None:
-            planned = planner.plan(command, locations, self._watch)
+            planned = planner.plan(command, places, self._watch)
             self.file.add(build(planned, self.vocabulary, self.vehicle))
 
         self.planning.ask({"what": "planning", "label": "planning", "command": command}, work)
@@ -155,13 +193,7 @@ class Session:
                     f"task {task}: the Task Agent's answer is not valid ({answer.problems[0]}); the"
                     " task keeps the skills that it has"
                 )
-            edit = {
-                "kind": "skills",
-                "task": task,
-                "skill_sequence": answer.plan["skill_sequence"],
-                "assumptions": list(answer.notes),
-            }
-            self._take_skills(path, asked, edit)
+            self._take_skills(path, asked, skills_edit(task, answer.plan, answer))
 
         self.planning.ask({"what": "skills", "label": f"skills of task {task}"}, work)
 
@@ -192,24 +224,24 @@ class Session:
         self.file.change(now.revision, lambda document: apply(document, edit, self.vocabulary))
 
     def _watch(self, event: TasksKnown | SkillsKnown) -> None:
-        """Tell the pages of a plan that comes into being."""
+        """Show a plan to the pages while it comes into being."""
         self.planning.go_on()
-        if isinstance(event, TasksKnown):
-            tasks = [
-                {
-                    "id": f"t{number}",
-                    "title": task.title,
-                    "parameters": task.parameters,
-                    "task_prompt": task.task_prompt,
-                    "skill_sequence": None,
-                }
-                | ({"waits_for": task.waits_for} if task.waits_for else {})
-                for number, task in enumerate(event.tasks, start=1)
-            ]
-            self.events.tell("tasks", {"tasks": tasks})
-        else:
+        if isinstance(event, SkillsKnown):
             skills = event.answer.plan["skill_sequence"] if event.answer.plan is not None else None
             self.events.tell("skills", {"task": f"t{event.number}", "skill_sequence": skills})
+            return
+        tasks = [
+            {
+                "id": f"t{number}",
+                "title": task.title,
+                "parameters": task.parameters,
+                "task_prompt": task.task_prompt,
+                "skill_sequence": None,
+                **({"waits_for": task.waits_for} if task.waits_for else {}),
+            }
+            for number, task in enumerate(event.tasks, start=1)
+        ]
+        self.events.tell("tasks", {"tasks": tasks})
 
     def _changed(self) -> State:
         self.tell_state()
@@ -218,49 +250,45 @@ class Session:
     def _signature(self) -> Any:
         return self.file.signature(), signature(self.log)
 
-    def _tell_state(self) -> None:
-        try:
-            now = self.file.current()
-        except PlannerError:
-            now = None
-        self.events.tell("state", {"revision": now.revision if now else None})
-
     def _plan_state(self) -> State:
-        """The part of the state that follows from plan and log, computed anew when one of them
-        changed.
-        """
-        found = self._signature()
-        if self._shown[0] != found:
-            self._shown = (found, self._seen(self.file.current()))
-        return self._shown[1]
-
-    def _seen(self, now: Current | None) -> State:
+        now = self.file.current()
         if now is None:
-            return {
-                "document": None,
-                "path": None,
-                "revision": None,
-                "differences": [],
-                "track": None,
-                "approval": _undecided("there is no plan yet"),
-            }
+            approval = _undecided("there is no plan yet")
+            return {**dict.fromkeys(NO_PLAN), "differences": [], "approval": approval}
+        try:
+            approval = approval_of(now.document, self.log).as_json()
+        except PlannerError as error:
+            # A log that is broken keeps nobody from looking at the plan.
+            approval = _undecided(str(error))
         return {
             "document": now.document,
             "path": now.path.name,
             "revision": now.revision,
             "differences": [difference.as_json() for difference in differences(now.document)],
             "track": track(now.document, self.vocabulary).as_json(),
-            "approval": self._approval(now.document),
+            "approval": approval,
         }
 
-    def _approval(self, document: PlanDocument) -> dict[str, Any]:
-        """What the log says of the plan. A log that is broken keeps nobody from looking at the
-        plan.
-        """
-        try:
-            return approval_of(document, self.log).as_json()
-        except PlannerError as error:
-            return _undecided(str(error))
+
+def vocabulary_json(vocabulary: Vocabulary) -> dict[str, Any]:
+    """The vocabulary for the page: tasks and skills with their parameters, home, and the place that
+    stands for an unknown one.
+    """
+
+    def described(entry: Any, *keys: str) -> dict[str, Any]:
+        parameters = [asdict(parameter) for parameter in entry.parameters]
+        return {**{key: getattr(entry, key) for key in keys}, "parameters": parameters}
+
+    return {
+        "name": vocabulary.name,
+        "home": list(vocabulary.home),
+        "unresolved": list(vocabulary.unresolved),
+        "tasks": [described(task, "title", "category", "description") for task in vocabulary.tasks],
+        "skills": {
+            skill.name: described(skill, "category", "role", "description")
+            for skill in vocabulary.skills
+        },
+    }
 
 
 def _undecided(text: str) -> dict[str, Any]:

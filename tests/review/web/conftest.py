@@ -16,8 +16,7 @@ from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask
 from planner_ft.planning.settings import PlanSettings
 from planner_ft.review.web.app import web_app
 from planner_ft.review.web.guard import Door
-from planner_ft.review.web.session import Session
-from planner_ft.review.web.settings import WebSettings
+from planner_ft.review.web.session import Session, WebSettings
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import load_vocabulary
 from tests.planning.conftest import FIND_AND_ORBIT, SKILLS, known  # noqa: F401

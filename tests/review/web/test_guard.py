@@ -11,7 +11,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from planner_ft.review.web.guard import HEADERS, Door
-from planner_ft.review.web.settings import WebSettings
+from planner_ft.review.web.session import WebSettings
 from tests.review.web.conftest import PORT, REMOVE, state
 
 

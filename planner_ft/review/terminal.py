@@ -1,0 +1,264 @@
+"""Review in a terminal: the plan is shown, then the reviewer approves, rejects, edits or quits."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from typing import Any
+
+from rich.console import Console
+from rich.text import Text
+
+from planner_ft.document import PlanDocument, altered, differences
+from planner_ft.document.differences import Difference
+from planner_ft.document.track import track
+from planner_ft.document.tree import plain, task_tree
+from planner_ft.review.chart import chart
+from planner_ft.review.commands import HELP
+from planner_ft.review.desk import Desk
+from planner_ft.review.log import Appended
+from planner_ft.review.store import ChangedError
+from planner_ft.review.verify import Approval
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import compact_json
+from planner_ft.support.resources import clock
+from planner_ft.vocabulary import Vocabulary
+
+PROMPT = "approve, reject, an edit (help shows them), show or quit: "
+WIDEST = 120
+SHOWN_CHANGES = 40
+STYLES = {"approved": "bold green", "unknown": ""}
+
+Read = Callable[[str], str]
+Line = tuple[str, str]
+"""A text, and its style for rich."""
+
+
+def terminal() -> Console:
+    """A console that shows texts as they are: no markup, no emoji names, no colours that nobody
+    asked for.
+    """
+    return Console(markup=False, highlight=False, emoji=False, soft_wrap=True)
+
+
+# ---------------------------------------------------------------- what is shown
+
+
+def review_lines(
+    document: PlanDocument,
+    approval: Approval,
+    vocabulary: Vocabulary,
+    *,
+    columns: int = 78,
+    braille: bool = True,
+) -> Iterator[Line]:
+    """Everything about a plan, in the order in which a reviewer needs it."""
+    status, *changed = approval_text(approval)
+    yield status, STYLES.get(approval.status, "bold red")
+    yield from ((text, "") for text in changed)
+    if altered(document):
+        yield (
+            "the file was altered by hand: its content is not what its digest says; --adopt takes"
+            " the changes over as an edit",
+            "bold red",
+        )
+    yield from _warnings(document)
+    tasks = [task["id"] for task in document["tasks"]]
+    course = track(document, vocabulary)
+    sections: dict[str, Iterable[str]] = {
+        "Command": document["command"].splitlines(),
+        "Tasks": task_tree(document),
+        "Where values come from": _sources(document),
+        "Assumptions": (f" - {text}" for text in document["assumptions"]),
+        "Constraints": (f" - {text}" for text in document["constraints"]),
+        "Track": chart(course, tasks, vocabulary.home, columns=columns, braille=braille),
+        "Estimate": [_estimate(document)],
+        "Changed since the model proposed it": _items(differences(document)),
+    }
+    for heading, lines in sections.items():
+        if shown := list(lines):
+            yield from (("", ""), (heading, "bold"), *((line, "") for line in shown))
+
+
+def approval_text(approval: Approval) -> list[str]:
+    """The decision in the log, and the differences from what was approved, one a line."""
+    more = len(approval.changes) - SHOWN_CHANGES
+    rest = [f" - ... and {more} more; plannerft verify --json shows all"] if more > 0 else []
+    shown = [f" - {plain(change.text)}" for change in approval.changes[:SHOWN_CHANGES]]
+    return [approval.text, *shown, *rest]
+
+
+def _items(found: Iterable[Difference]) -> Iterator[str]:
+    return (f" - {difference.text}" for difference in found)
+
+
+def _warnings(document: PlanDocument) -> Iterator[Line]:
+    warnings = document["warnings"]
+    style = "bold yellow" if warnings else "bold"
+    yield from (("", ""), (_counted(document, "No"), style))
+    for warning in warnings:
+        yield f" - {warning['text']}  [{warning['id']}]", "yellow"
+    yield from ((f" ? {question}", "") for question in document["ontology"]["questions"])
+
+
+def _counted(document: PlanDocument, none: str) -> str:
+    count = len(document["warnings"])
+    return f"{count or none} warning{'s' if count != 1 else ''}"
+
+
+def _sources(document: PlanDocument) -> Iterator[str]:
+    for number, task in enumerate(document["tasks"], start=1):
+        for name, source in task["sources"].items():
+            if name in task["parameters"]:
+                value = compact_json(task["parameters"][name])
+                yield f"{number:2d} {name} = {value}: {_source(source, document['command'])}"
+
+
+def _source(source: dict[str, Any], command: str) -> str:
+    words = ", ".join(f'"{command[start:end]}"' for start, end in source.get("spans", ()))
+    parts = [part for part in (words, source.get("note", "")) if part]
+    return f"{source['kind']} ({'; '.join(parts)})" if parts else str(source["kind"])
+
+
+def _estimate(document: PlanDocument) -> str:
+    estimate, speed = document["estimate"], document["vehicle"]["cruise_speed"]
+    numbers = {task["id"]: number for number, task in enumerate(document["tasks"], start=1)}
+    unknown = [str(numbers.get(name, name)) for name in estimate["open"]]
+    plural = "s" if len(unknown) > 1 else ""
+    more = f", and what is not known of task{plural} {', '.join(unknown)}" if unknown else ""
+    time = clock(estimate["seconds"])
+    return f"{estimate['length']:.0f} m, {time} at a cruise speed of {speed:g} m/s{more}"
+
+
+# ---------------------------------------------------------------- what the reviewer does
+
+
+class Conversation:
+    """A reviewer at a desk: each action does its work and prints its result. Raises PlannerError
+    where an action is impossible.
+    """
+
+    def __init__(self, desk: Desk, console: Console, read: Read = input) -> None:
+        self.desk, self.console, self.read = desk, console, read
+
+    def show(self) -> None:
+        """The whole plan."""
+        desk, width = self.desk, min(self.console.width, WIDEST)
+        braille = (self.console.encoding or "").lower().startswith("utf")
+        for text, style in review_lines(
+            desk.document, desk.approval(), desk.vocabulary, columns=width, braille=braille
+        ):
+            self.say(text, style)
+
+    def decide(
+        self,
+        *,
+        adopt: bool,
+        edits: Sequence[str],
+        approve: bool,
+        acknowledged: Collection[str],
+        reason: str | None,
+    ) -> None:
+        """The actions of a command line, in this order: adopt, edits, approval or rejection."""
+        if adopt:
+            self.adopt()
+        for text in edits:
+            self.edit(text)
+        if approve:
+            self._decided(self.desk.approve(self.desk.by or "", acknowledged))
+        elif reason is not None:
+            self._decided(self.desk.reject(self.desk.by or "", reason))
+
+    def converse(self) -> None:
+        """Show the plan and do what the reviewer types, until a decision is recorded or they leave
+        (also by the end of the input).
+        """
+        self.show()
+        with contextlib.suppress(EOFError):
+            while not self._step():
+                pass
+
+    def edit(self, text: str) -> None:
+        """One edit, and the differences that it made."""
+        changed = self.desk.edit(text)
+        for line in _items(changed):
+            self.say(line, "cyan")
+        if not changed:
+            self.say("nothing is different")
+        self.say(f"saved; {_counted(self.desk.document, 'no')}")
+
+    def adopt(self) -> None:
+        """Changes by hand become an edit."""
+        self.desk.adopt()
+        for line in _items(differences(self.desk.document)):
+            self.say(line, "cyan")
+        count = _counted(self.desk.document, "no")
+        self.say(f"what was changed by hand is an edit of the plan now; saved; {count}")
+
+    def say(self, text: str, style: str = "") -> None:
+        """Print one line with its control characters spelt out."""
+        self.console.print(Text(plain(text), style))
+
+    def _step(self) -> bool:
+        """One line of the reviewer; whether it was the last one."""
+        text = self.read(PROMPT).strip()
+        try:
+            match text.lower():
+                case "":
+                    pass
+                case "approve" | "a":
+                    return self._approve()
+                case "reject" | "r":
+                    self._decided(self.desk.reject(self._name(), self.read("reason: ")))
+                    return True
+                case "quit" | "q":
+                    return True
+                case "show" | "s":
+                    self.show()
+                case "adopt":
+                    self.adopt()
+                case "edit" | "e" | "help" | "h" | "?":
+                    self._help()
+                case _:
+                    self.edit(text)
+        except ChangedError as error:
+            self.say(str(error), "bold red")
+            self.desk.read()
+            self.show()
+        except PlannerError as error:
+            self.say(str(error), "red")
+        return False
+
+    def _approve(self) -> bool:
+        warnings = self.desk.document["warnings"]
+        for number, warning in enumerate(warnings, start=1):
+            self.say(f"{number}/{len(warnings)} {warning['text']}", "yellow")
+            if self.read("acknowledged? y or n: ").strip().lower() not in ("y", "yes"):
+                self.say("not approved")
+                return False
+        acknowledged = [warning["id"] for warning in warnings]
+        self._decided(self.desk.approve(self._name(), acknowledged))
+        return True
+
+    def _name(self) -> str:
+        if not self.desk.by:
+            self.desk.by = self.read("your name: ").strip() or None
+        return self.desk.by or ""
+
+    def _decided(self, done: Appended) -> None:
+        """The record, and its place."""
+        record, log = done.record, self.desk.log
+        if done.set_aside is not None:
+            self.say(
+                f"{log}: its last line was never finished and so never confirmed; it was moved to"
+                f" {done.set_aside}",
+                "yellow",
+            )
+        style = "bold green" if record["event"] == "approved" else "bold red"
+        number = record["sequence"]
+        self.say(f"{record['event']} by {record['reviewer']}: record {number} of {log}", style)
+
+    def _help(self) -> None:
+        width = max(len(example) for example, _effect in HELP)
+        for example, effect in (*HELP, ("adopt", "take over what was changed in the file by hand")):
+            self.say(f"  {example:{width}}  {effect}")
