@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any, Literal
 
 from planner_ft.document import PlanDocument, document_digest
-from planner_ft.review.changes import Change, changes
 from planner_ft.review.chain import Record
+from planner_ft.review.changes import Change, changes
 from planner_ft.review.log import read_log
 
 Status = Literal["approved", "rejected", "altered", "unknown"]
