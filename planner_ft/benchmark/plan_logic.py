@@ -7,10 +7,11 @@ from typing import Any
 
 from planner_ft.benchmark.answer import Answer, Value
 from planner_ft.benchmark.metrics.abstention import right_refusal, wrong_refusal
-from planner_ft.benchmark.metrics.executability import Stop, executable
+from planner_ft.benchmark.metrics.executability import executable
 from planner_ft.benchmark.metrics.groundedness import Groundedness, groundedness
 from planner_ft.benchmark.metrics.slots import KINDS, Reached, slot_propagation
 from planner_ft.benchmark.metrics.source import source_of
+from planner_ft.vocabulary.replay import Stop
 
 
 @dataclass(frozen=True)

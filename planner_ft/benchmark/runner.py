@@ -12,7 +12,6 @@ from typing import Any
 
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.assembly import Measured, assemble
-from planner_ft.benchmark.outputs import parse_output
 from planner_ft.benchmark.plan import Job, Plan, make_plan
 from planner_ft.benchmark.planning_time import planning_key, planning_log, time_planning
 from planner_ft.benchmark.predictions import Line, RecordLog, latency_log, prediction_log
@@ -23,6 +22,7 @@ from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.sources import Answered, AnswerSource, open_source
 from planner_ft.support.manifest import build_manifest
+from planner_ft.vocabulary.outputs import parse_output
 
 Progress = Callable[[str, int, int], None]
 """Called with a label, queries done and queries in all of that part of the run."""

@@ -27,11 +27,11 @@ from planner_ft.benchmark.metrics import (
 from planner_ft.benchmark.metrics.alignment import Alignment
 from planner_ft.benchmark.metrics.exact_sequence import flat_sequence, name_sequence
 from planner_ft.benchmark.metrics.hallucination import UNPARSED_COUNTS
-from planner_ft.benchmark.outputs import parse_output
 from planner_ft.benchmark.plan_logic import plan_logic
 from planner_ft.benchmark.samples import Sample
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import ROLES
+from planner_ft.vocabulary.outputs import parse_output
 from planner_ft.vocabulary.plans import Level
 
 __all__ = ["METRICS", "SampleScore", "score_sample"]

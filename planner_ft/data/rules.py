@@ -18,7 +18,7 @@ from planner_ft.data.stated import states_number, states_position
 from planner_ft.data.words import says, words
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
 from planner_ft.vocabulary.plans import value_problem
-from planner_ft.vocabulary.progress import START
+from planner_ft.vocabulary.replay import START
 
 SEARCH_WORDS = re.compile(
     r"\b(?:f[iu]n?d(?:ing)?|fnd|look(?:s|ing)?|search\w*|locat\w*|spot|seek|detect|scout|hunt\w*|track"

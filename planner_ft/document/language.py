@@ -60,7 +60,7 @@ def language(vocabulary: Vocabulary) -> Language:
     file.
     """
     english = tomllib.loads(read_text(ENGLISH))
-    own = vocabulary.companion(ONTOLOGY)
+    own = vocabulary.beside(ONTOLOGY)
     problems = list(_problems(own, vocabulary))
     if problems:
         raise PlannerError(f"{vocabulary.name}{ONTOLOGY}: " + "; ".join(problems))

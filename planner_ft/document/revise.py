@@ -12,7 +12,7 @@ from planner_ft.document.places import places_of
 from planner_ft.document.sources import sources
 from planner_ft.document.warnings import warnings
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.document_schema import document_keys, task_keys
+from planner_ft.vocabulary.document_schema import TASK_KEYS, document_keys
 from planner_ft.vocabulary.plans import canonical_parameters
 
 
@@ -42,7 +42,7 @@ def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
     ordered = _ordered(revised, document_keys())
     return {
         **ordered,
-        "tasks": [_ordered(task, task_keys()) for task in tasks],
+        "tasks": [_ordered(task, TASK_KEYS) for task in tasks],
         "digest": document_digest({**ordered, "tasks": tasks}),
     }
 

@@ -59,7 +59,7 @@ def load_vehicle(path: Path | str | None, vocabulary: Vocabulary) -> Vehicle:
 
     Raises PlannerError that names the file and what is wrong.
     """
-    own = vocabulary.companion(VEHICLE)
+    own = vocabulary.beside(VEHICLE)
     if path is None:
         if not own:
             beside = f"{vocabulary.path.stem if vocabulary.path else vocabulary.name}{VEHICLE}"

@@ -6,12 +6,12 @@ import time
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.benchmark.outputs import parse_output
 from planner_ft.candidates.loading import resolve_device
 from planner_ft.planning.result import AgentUse, Answer
 from planner_ft.planning.settings import Agent
 from planner_ft.support.resources import peak_memory
 from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.outputs import parse_output
 from planner_ft.vocabulary.plans import Level, plan_problems
 
 if TYPE_CHECKING:

@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from planner_ft.benchmark.metrics.entries import Entry, plan_entries
-from planner_ft.benchmark.outputs import parse_output
 from planner_ft.report.differences import Difference, differences, entries_of, shown
 from planner_ft.report.runs import Record, System, TestSet
+from planner_ft.vocabulary.outputs import parse_output
 from planner_ft.vocabulary.plans import Level
 
 PART = 200

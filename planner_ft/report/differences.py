@@ -13,9 +13,9 @@ from planner_ft.benchmark.metrics.alignment import Alignment, Pair, align
 from planner_ft.benchmark.metrics.entries import Entry, plan_entries
 from planner_ft.benchmark.metrics.substitutions import substitutions
 from planner_ft.benchmark.metrics.values import known_parameters, values_agree
-from planner_ft.benchmark.outputs import parse_output
 from planner_ft.report.runs import System, TestSet
 from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.outputs import parse_output
 from planner_ft.vocabulary.plans import Level
 
 Mark = Literal["same", "changed", "moved", "missing", "extra", "substituted"]

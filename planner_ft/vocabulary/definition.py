@@ -1,25 +1,35 @@
-"""Loading and checking a vocabulary definition file."""
+"""A vehicle's tasks and skills, loaded from a definition file."""
 
 from __future__ import annotations
 
 import functools
 import tomllib
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text, sha256_text
-from planner_ft.vocabulary.logic import LOGIC, Logic, build_logic, logic_problems
-from planner_ft.vocabulary.motion import MOTION, Motions, build_motions, motion_problems
-from planner_ft.vocabulary.shape import ROLES, Arrival, Motion, ParameterType, Role, shape_problems
+from planner_ft.vocabulary.checks import (
+    ROLES,
+    Arrival,
+    Motion,
+    ParameterType,
+    Role,
+    logic_problems,
+    motion_problems,
+    reference_problems,
+    shape_problems,
+)
+from planner_ft.vocabulary.logic import LOGIC, Logic, build_logic
+from planner_ft.vocabulary.motion import MOTION, Motions, build_motions
 
 __all__ = [
     "BUNDLED",
     "DEFAULT",
     "ROLES",
     "Parameter",
+    "ParameterType",
     "Role",
     "Skill",
     "Task",
@@ -33,8 +43,8 @@ BUNDLED = Path(__file__).parent
 DEFAULT = "usv"
 PHRASES, VEHICLE, ONTOLOGY = ".phrases.toml", ".vehicle.toml", ".ontology.toml"
 UNHASHED = (LOGIC, MOTION, VEHICLE, ONTOLOGY)
-"""Companion files that no prompt, schema or grammar depends on: they are no part of what adapters
-were trained on.
+"""Files beside a definition that no prompt, schema or grammar depends on: they are no part of what
+adapters were trained on.
 """
 
 
@@ -51,8 +61,18 @@ class Parameter:
     description: str = ""
 
 
+class _Owner:
+    """A task or a skill, which has parameters."""
+
+    parameters: tuple[Parameter, ...]
+
+    @functools.cached_property
+    def by_name(self) -> dict[str, Parameter]:
+        return {parameter.name: parameter for parameter in self.parameters}
+
+
 @dataclass(frozen=True)
-class Task:
+class Task(_Owner):
     """A task title with its parameters, the movement it stands for and the skills that fit it, by
     role.
     """
@@ -67,20 +87,19 @@ class Task:
     require_any: tuple[str, ...] = ()
     skills: dict[Role, tuple[str, ...]] = field(default_factory=dict)
 
-    @functools.cached_property
-    def by_name(self) -> dict[str, Parameter]:
-        return {parameter.name: parameter for parameter in self.parameters}
-
     @property
     def position_parameter(self) -> str | None:
         """The parameter that says where the task takes place, if it has one."""
-        return next(
-            (parameter.name for parameter in self.parameters if parameter.type == "position"), None
-        )
+        return next((item.name for item in self.parameters if item.type == "position"), None)
+
+    @property
+    def docks(self) -> bool:
+        """Whether the task ends at a docking spot, which needs no search."""
+        return self.pattern == "approach"
 
 
 @dataclass(frozen=True)
-class Skill:
+class Skill(_Owner):
     """A skill with its parameters, the role it takes in a step and the strings a step with it
     reports.
     """
@@ -97,19 +116,10 @@ class Skill:
     output: str | None = None
 
     @functools.cached_property
-    def by_name(self) -> dict[str, Parameter]:
-        return {parameter.name: parameter for parameter in self.parameters}
-
-    @functools.cached_property
     def coordinates(self) -> tuple[Parameter, ...]:
-        """The parameters that say where the skill goes: x and y, in this order; none of one that
-        goes nowhere.
-        """
-        return (
-            tuple(item for item in self.parameters if item.required and item.type == "number")[:2]
-            if self.motion == "goto"
-            else ()
-        )
+        """x and y of a skill that goes somewhere, in this order; of any other none."""
+        needed = [item for item in self.parameters if item.required and item.type == "number"]
+        return tuple(needed[:2]) if self.motion == "goto" else ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,10 +127,10 @@ class Vocabulary:
     """A vehicle's tasks and skills. Positions are metres in the local frame. Two are the same only
     when they are one object.
 
-    `phrases` is the content of the companion file NAME.phrases.toml, from which the task sampler
-    words its prompts, `logic` that of NAME.logic.toml: what tasks give and need when a plan is
-    carried out, `motion` that of NAME.motion.toml: what skills do to the vehicle. `companion` reads
-    the others. `sha256` is the digest of the definition alone.
+    `phrases` is the content of NAME.phrases.toml, from which the task sampler words its prompts,
+    `logic` that of NAME.logic.toml: what tasks give and need when a plan is carried out, `motion`
+    that of NAME.motion.toml: what skills do to the vehicle. `beside` reads other such files.
+    `sha256` is the digest of the definition alone.
     """
 
     name: str
@@ -149,11 +159,11 @@ class Vocabulary:
         """Skills by name."""
         return {skill.name: skill for skill in self.skills}
 
-    def companion(self, ending: str) -> dict[str, Any]:
+    def beside(self, ending: str) -> dict[str, Any]:
         """The content of the file NAME + `ending` beside the definition; nothing where there is
         none. Raises PlannerError when it is not TOML.
         """
-        return _companion(self.path, ending) if self.path else {}
+        return _beside(self.path, ending) if self.path else {}
 
     def skills_in_role(self, role: Role) -> tuple[Skill, ...]:
         """Skills that can stand in `role`, in the order of the definition."""
@@ -182,17 +192,9 @@ def load_vocabulary(source: str | Path = DEFAULT) -> Vocabulary:
         )
     text = read_text(path)
     raw = _parse(path, text)
-    phrases, logic, motion = (_companion(path, ending) for ending in (PHRASES, LOGIC, MOTION))
-    vocabulary = build_vocabulary(
-        raw,
-        phrases,
-        str(path),
-        logic=logic,
-        motion=motion,
-        source=str(source),
-        sha256=sha256_text(text),
-    )
-    return replace(vocabulary, path=path)
+    phrases, logic, motion = (_beside(path, ending) for ending in (PHRASES, LOGIC, MOTION))
+    vocabulary = build_vocabulary(raw, phrases, str(path), logic=logic, motion=motion)
+    return replace(vocabulary, path=path, source=str(source), sha256=sha256_text(text))
 
 
 def build_vocabulary(
@@ -202,29 +204,25 @@ def build_vocabulary(
     *,
     logic: dict[str, Any] | None = None,
     motion: dict[str, Any] | None = None,
-    source: str = "",
-    sha256: str = "",
 ) -> Vocabulary:
     """The vocabulary of a parsed definition, its phrases, its logic and its motions. Raises
     PlannerError that lists everything wrong, and says `where`.
     """
+    logic, motion = logic or {}, motion or {}
     problems = shape_problems(raw, phrases)
     if not problems:
-        vocabulary = _build(raw, phrases, source, sha256)
+        vocabulary = _build(raw, phrases)
         problems = [
-            *_reference_problems(vocabulary),
-            *logic_problems(logic or {}, vocabulary.task),
-            *motion_problems(motion or {}, vocabulary.task, vocabulary.skill),
+            *reference_problems(vocabulary),
+            *logic_problems(logic, vocabulary.task),
+            *motion_problems(motion, vocabulary.task, vocabulary.skill),
         ]
     if problems:
         raise PlannerError(f"{where}: " + "; ".join(problems))
-    return replace(vocabulary, logic=build_logic(logic or {}), motion=build_motions(motion or {}))
+    return replace(vocabulary, logic=build_logic(logic), motion=build_motions(motion))
 
 
-def _companion(path: Path, ending: str) -> dict[str, Any]:
-    """The content of the file NAME + ending beside a definition NAME.toml; nothing where there is
-    none.
-    """
+def _beside(path: Path, ending: str) -> dict[str, Any]:
     beside = path.with_name(path.name.removesuffix(".toml") + ending)
     return _parse(beside, read_text(beside)) if beside.is_file() else {}
 
@@ -236,75 +234,24 @@ def _parse(path: Path, text: str) -> dict[str, Any]:
         raise PlannerError(f"{path}: not TOML: {error}") from None
 
 
-def _build(raw: dict[str, Any], phrases: dict[str, Any], source: str, sha256: str) -> Vocabulary:
-    vehicle = raw["vehicle"]
+def _build(raw: dict[str, Any], phrases: dict[str, Any]) -> Vocabulary:
+    vehicle: dict[str, Any] = {
+        key: tuple(value) if isinstance(value, list) else value
+        for key, value in raw["vehicle"].items()
+    }
     return Vocabulary(
-        name=vehicle["name"],
-        title=vehicle["title"],
-        frame=vehicle["frame"],
-        home=tuple(vehicle["home"]),
-        unresolved=tuple(vehicle["unresolved"]),
-        transit=vehicle["transit"],
-        locate=vehicle["locate"],
+        **vehicle,
         tasks=tuple(Task(**_values(entry)) for entry in raw["task"]),
         skills=tuple(Skill(**_values(entry)) for entry in raw["skill"]),
-        source=source,
-        sha256=sha256,
+        source="",
+        sha256="",
         phrases=phrases,
     )
 
 
 def _values(entry: dict[str, Any]) -> dict[str, Any]:
-    values = dict(entry)
-    values["parameters"] = tuple(
-        Parameter(**parameter) for parameter in entry.get("parameters", [])
-    )
-    values["require_any"] = tuple(entry.get("require_any", []))
+    values = {**entry, "require_any": tuple(entry.get("require_any", ()))}
+    values["parameters"] = tuple(Parameter(**item) for item in entry.get("parameters", ()))
     if "skills" in entry:
         values["skills"] = {role: tuple(names) for role, names in entry["skills"].items()}
     return values
-
-
-def _reference_problems(vocabulary: Vocabulary) -> Iterator[str]:
-    """Names that are defined twice or not at all."""
-    for kind, names in (
-        ("task", [task.title for task in vocabulary.tasks]),
-        ("skill", [skill.name for skill in vocabulary.skills]),
-    ):
-        yield from (
-            f"{kind} {name} is defined twice"
-            for name in sorted({name for name in names if names.count(name) > 1})
-        )
-    for key in ("transit", "locate"):
-        if getattr(vocabulary, key) not in vocabulary.task:
-            yield f"[vehicle] {key} = {getattr(vocabulary, key)!r} is no task"
-    transit = vocabulary.task.get(vocabulary.transit)
-    if transit and transit.position_parameter is None:
-        yield (
-            f"task {transit.title}: brings the vehicle to a place and needs a parameter of type"
-            " position"
-        )
-    owners: list[Task | Skill] = [*vocabulary.tasks, *vocabulary.skills]
-    for owner in owners:
-        what = f"task {owner.title}" if isinstance(owner, Task) else f"skill {owner.name}"
-        yield from (
-            f"{what}: require_any names {name!r}, which is no parameter"
-            for name in owner.require_any
-            if name not in owner.by_name
-        )
-    for task in vocabulary.tasks:
-        for role, fitting in task.skills.items():
-            for name in fitting:
-                if name not in vocabulary.skill:
-                    yield f"task {task.title}: skill {name!r} is not defined"
-                elif vocabulary.skill[name].role != role:
-                    yield (
-                        f"task {task.title}: skill {name!r} has the role"
-                        f" {vocabulary.skill[name].role}, not {role}"
-                    )
-    for kind, known in (("task", set(vocabulary.task)), ("skill", set(vocabulary.skill))):
-        unknown = sorted(set(vocabulary.phrases.get(kind, {})) - known)
-        yield from (
-            f"the phrase file has phrases for {kind} {name!r}, which is not defined"
-            for name in unknown
-        )

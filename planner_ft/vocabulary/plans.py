@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, Literal, get_args
 
 from planner_ft.support.errors import PlannerError
@@ -31,6 +31,8 @@ STEP_KEYS = (
     "expected_outputs",
 )
 SKILL_KEYS = ("name", "parameters")
+ENTRIES = ("tasks", "skill_sequence", "filter_skills", "perception_skills")
+"""Keys of lists whose items are objects."""
 WORKING = "working"
 """Stands before a skill sequence where a model writes sums down before it needs their results. No
 part of the plan.
@@ -55,14 +57,14 @@ def named_entries(level: Level, plan: Any) -> Iterator[tuple[str, dict[str, Any]
     """Yield (name, parameters) of every task or skill of a plan in order; entries of another form
     are passed over.
     """
-    for entry in _items(plan, list_key(level)):
-        if level == "mission":
-            if isinstance(entry, dict) and isinstance(entry.get("title"), str):
-                yield entry["title"], _object(entry, "parameters")
-            continue
-        for _role, skill in step_skills(entry):
-            if isinstance(skill.get("name"), str):
-                yield skill["name"], _object(skill, "parameters")
+    entries = _items(plan, list_key(level))
+    key = "title" if level == "mission" else "name"
+    if level == "task":
+        entries = [skill for step in entries for _role, skill in step_skills(step)]
+    for entry in entries:
+        if isinstance(entry, dict) and isinstance(entry.get(key), str):
+            parameters = entry.get("parameters")
+            yield entry[key], parameters if isinstance(parameters, dict) else {}
 
 
 def step_skills(step: Any) -> Iterator[tuple[str, dict[str, Any]]]:
@@ -84,30 +86,9 @@ def plan_names(level: Level, plan: Any) -> list[str]:
     return [name for name, _parameters in named_entries(level, plan)]
 
 
-def canonical_plan(level: Level, plan: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
-    """The plan with its keys in the fixed order, parameters in the order of the definition and
-    whole floats as integers.
-
-    Training targets are serialised from this form, so that a grammar with fixed key order can
-    produce every one of them. Missing free-text fields become empty; keys that the form does not
-    know are dropped.
-    """
-    if level == "mission":
-        return {
-            "tasks": [
-                {
-                    "title": task["title"],
-                    "parameters": _ordered(task, vocabulary.task.get(task["title"])),
-                    "task_prompt": task.get("task_prompt", ""),
-                }
-                for task in plan["tasks"]
-            ],
-            "assumptions": list(plan.get("assumptions", [])),
-            "constraints": list(plan.get("constraints", [])),
-        }
-    return {
-        "skill_sequence": [_canonical_step(step, vocabulary) for step in plan["skill_sequence"]]
-    }
+def task_entry(task: dict[str, Any]) -> dict[str, Any]:
+    """Title, parameters and prompt of a task alone."""
+    return {key: task[key] for key in TASK_KEYS}
 
 
 def without_working(text: str) -> tuple[str, str]:
@@ -118,12 +99,35 @@ def without_working(text: str) -> tuple[str, str]:
     return ("{" + text[match.end() :], match[0].split('"')[3]) if match else (text, "")
 
 
+# ---------------------------------------------------------------- canonical form
+
+
+def canonical_plan(level: Level, plan: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
+    """The plan with its keys in the fixed order, parameters in the order of the definition and
+    whole floats as integers.
+
+    Training targets are serialised from this form, so that a grammar with fixed key order can
+    produce every one of them. Missing free-text fields become empty; keys that the form does not
+    know are dropped.
+    """
+    if level == "task":
+        steps = [_canonical_step(step, vocabulary) for step in plan["skill_sequence"]]
+        return {"skill_sequence": steps}
+    tasks = [
+        {
+            "title": task["title"],
+            "parameters": _ordered(task, vocabulary.task.get(task["title"])),
+            "task_prompt": task.get("task_prompt", ""),
+        }
+        for task in plan["tasks"]
+    ]
+    return {"tasks": tasks, **{key: list(plan.get(key, [])) for key in MISSION_KEYS[1:]}}
+
+
 def canonical_parameters(parameters: dict[str, Any], owner: Task | Skill | None) -> dict[str, Any]:
     """Parameters in the order of the definition (unknown ones last), whole floats as integers."""
-    order = list(owner.by_name) if owner else []
-    names = [name for name in order if name in parameters] + [
-        name for name in parameters if name not in order
-    ]
+    known = [name for name in (owner.by_name if owner else ()) if name in parameters]
+    names = dict.fromkeys((*known, *parameters))
     return {name: canonical_value(parameters[name]) for name in names}
 
 
@@ -138,15 +142,12 @@ def canonical_value(value: Any) -> Any:
 
 def _canonical_step(step: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
     def skill(entry: dict[str, Any]) -> dict[str, Any]:
-        return {
-            "name": entry["name"],
-            "parameters": _ordered(entry, vocabulary.skill.get(entry["name"])),
-        }
+        known = vocabulary.skill.get(entry["name"])
+        return {"name": entry["name"], "parameters": _ordered(entry, known)}
 
     return {
         "navigation_skill": skill(step["navigation_skill"]),
-        "filter_skills": [skill(entry) for entry in step.get("filter_skills", [])],
-        "perception_skills": [skill(entry) for entry in step.get("perception_skills", [])],
+        **{key: [skill(entry) for entry in step.get(key, [])] for key in STEP_KEYS[1:3]},
         **{key: list(step.get(key, [])) for key in STEP_KEYS[3:]},
     }
 
@@ -160,11 +161,6 @@ def _items(value: Any, key: str) -> list[Any]:
     return items if isinstance(items, list) else []
 
 
-def _object(value: dict[str, Any], key: str) -> dict[str, Any]:
-    item = value.get(key)
-    return item if isinstance(item, dict) else {}
-
-
 # ---------------------------------------------------------------- validity
 
 
@@ -175,149 +171,123 @@ def plan_problems(level: Level, plan: Any, vocabulary: Vocabulary, *, strict: bo
     the vocabulary, every skill stands in its role, and every parameter has a known name, the right
     type and a value in range.
     """
-    problems: list[str] = []
     if not isinstance(plan, dict):
         return [f"a JSON object is expected, not {_kind(plan)}"]
-    if level == "mission":
-        _check_keys(plan, MISSION_KEYS, "", strict, problems)
-        _check_texts(plan, MISSION_KEYS[1:], "", problems)
-        for index, task in enumerate(_list(plan, "tasks", "", problems)):
-            _check_task(task, f"tasks[{index}]", vocabulary, strict, problems)
-    else:
-        _check_keys(plan, ("skill_sequence",), "", strict, problems)
-        for index, step in enumerate(_list(plan, "skill_sequence", "", problems)):
-            _check_step(step, f"skill_sequence[{index}]", vocabulary, strict, problems)
+    key = list_key(level)
+    keys = MISSION_KEYS if level == "mission" else (key,)
+    check = _task_problems if level == "mission" else _step_problems
+    problems = list(_object_problems(plan, keys, "", strict, lists=keys))
+    for index, entry in enumerate(_items(plan, key)):
+        problems += check(entry, f"{key}[{index}]", vocabulary, strict)
     return problems
 
 
-def _check_task(
-    task: Any, where: str, vocabulary: Vocabulary, strict: bool, problems: list[str]
-) -> None:
-    if not isinstance(task, dict):
-        problems.append(f"{where}: an object is expected, not {_kind(task)}")
-        return
-    _check_keys(task, TASK_KEYS, where, strict, problems)
-    for key in ("title", "task_prompt"):
-        if key in task and not isinstance(task[key], str):
-            problems.append(f"{where}.{key}: a string is expected, not {_kind(task[key])}")
-    _check_parameters(
-        task,
-        vocabulary.task.get(str(task.get("title"))),
-        task.get("title"),
-        "task title",
-        where,
-        strict,
-        problems,
-    )
+def task_problems(task: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
+    """What keeps one task of a mission plan from being strictly valid."""
+    return list(_task_problems(task_entry(task), "", vocabulary, True))
 
 
-def _check_step(
-    step: Any, where: str, vocabulary: Vocabulary, strict: bool, problems: list[str]
-) -> None:
-    if not isinstance(step, dict):
-        problems.append(f"{where}: an object is expected, not {_kind(step)}")
-        return
-    _check_keys(step, STEP_KEYS, where, strict, problems)
-    _check_texts(step, STEP_KEYS[3:], where, problems)
-    if "navigation_skill" in step:
-        _check_skill(
-            step["navigation_skill"],
-            "navigation",
-            f"{where}.navigation_skill",
-            vocabulary,
-            strict,
-            problems,
-        )
+def _task_problems(entry: Any, where: str, vocabulary: Vocabulary, strict: bool) -> Iterator[str]:
+    yield from _object_problems(entry, TASK_KEYS, where, strict, texts=("title", "task_prompt"))
+    if isinstance(entry, dict):
+        known = vocabulary.task.get(str(entry.get("title")))
+        yield from _parameter_problems(entry, known, "title", where, strict)
+
+
+def _step_problems(entry: Any, where: str, vocabulary: Vocabulary, strict: bool) -> Iterator[str]:
+    yield from _object_problems(entry, STEP_KEYS, where, strict, lists=STEP_KEYS[1:])
+    if isinstance(entry, dict) and "navigation_skill" in entry:
+        key = "navigation_skill"
+        yield from _skill_problems(entry[key], "navigation", f"{where}.{key}", vocabulary, strict)
     for role in ("filter", "perception"):
-        for index, skill in enumerate(_list(step, f"{role}_skills", where, problems)):
-            _check_skill(
-                skill, role, f"{where}.{role}_skills[{index}]", vocabulary, strict, problems
-            )
+        for index, skill in enumerate(_items(entry, f"{role}_skills")):
+            path = f"{where}.{role}_skills[{index}]"
+            yield from _skill_problems(skill, role, path, vocabulary, strict)
 
 
-def _check_skill(
-    skill: Any, role: str, where: str, vocabulary: Vocabulary, strict: bool, problems: list[str]
-) -> None:
-    if not isinstance(skill, dict):
-        problems.append(f"{where}: an object is expected, not {_kind(skill)}")
-        return
-    _check_keys(skill, SKILL_KEYS, where, strict, problems)
-    name = skill.get("name")
-    if "name" in skill and not isinstance(name, str):
-        problems.append(f"{where}.name: a string is expected, not {_kind(name)}")
-    known = vocabulary.skill.get(str(name))
-    if strict and known is not None and known.role != role:
-        problems.append(f"{where}: {name} cannot stand as {role} skill, only as {known.role} skill")
-    _check_parameters(skill, known, name, "skill name", where, strict, problems)
+def _skill_problems(
+    skill: Any, role: str, where: str, vocabulary: Vocabulary, strict: bool
+) -> Iterator[str]:
+    yield from _object_problems(skill, SKILL_KEYS, where, strict, texts=("name",))
+    if isinstance(skill, dict):
+        name = skill.get("name")
+        known = vocabulary.skill.get(str(name))
+        if strict and known is not None and known.role != role:
+            yield f"{where}: {name} cannot stand as {role} skill, only as {known.role} skill"
+        yield from _parameter_problems(skill, known, "name", where, strict)
 
 
-def _check_parameters(
-    entry: dict[str, Any],
-    owner: Task | Skill | None,
-    name: Any,
-    what: str,
+def _object_problems(
+    value: Any,
+    keys: tuple[str, ...],
     where: str,
     strict: bool,
-    problems: list[str],
-) -> None:
-    parameters = entry.get("parameters", {})
+    texts: Iterable[str] = (),
+    lists: Iterable[str] = (),
+) -> Iterator[str]:
+    """Problems of an object's keys, of those that are texts, and of those that are lists, in which
+    all but entries are texts.
+    """
+    if not isinstance(value, dict):
+        yield f"{where}: an object is expected, not {_kind(value)}"
+        return
+    prefix, path = (f"{where}: ", f"{where}.") if where else ("", "")
+    yield from (f"{prefix}{key} is missing" for key in keys if key not in value)
+    if strict:
+        yield from (f"{prefix}unknown key {key!r}" for key in value if key not in keys)
+    for key in texts:
+        if key in value and not isinstance(value[key], str):
+            yield f"{path}{key}: a string is expected, not {_kind(value[key])}"
+    for key in lists:
+        if key in value and not isinstance(value[key], list):
+            yield f"{path}{key}: a list is expected, not {_kind(value[key])}"
+        elif key not in ENTRIES:
+            for index, item in enumerate(_items(value, key)):
+                if not isinstance(item, str):
+                    yield f"{path}{key}[{index}]: a string is expected, not {_kind(item)}"
+
+
+def _parameter_problems(
+    entry: dict[str, Any], owner: Task | Skill | None, key: str, where: str, strict: bool
+) -> Iterator[str]:
+    parameters, name = entry.get("parameters", {}), entry.get(key)
     if not isinstance(parameters, dict):
-        problems.append(f"{where}.parameters: an object is expected, not {_kind(parameters)}")
+        yield f"{where}.parameters: an object is expected, not {_kind(parameters)}"
         return
     if not strict:
         return
     if owner is None:
         if isinstance(name, str):
-            problems.append(f"{where}: {name!r} is no {what} of the vocabulary")
+            what = "task title" if key == "title" else "skill name"
+            yield f"{where}: {name!r} is no {what} of the vocabulary"
         return
-    for key, value in parameters.items():
-        parameter = owner.by_name.get(key)
-        problem = (
-            f"is no parameter of {name}" if parameter is None else value_problem(value, parameter)
-        )
+    for given, value in parameters.items():
+        known = owner.by_name.get(given)
+        problem = value_problem(value, known) if known else f"is no parameter of {name}"
         if problem:
-            problems.append(f"{where}.parameters.{key}: {problem}")
-    problems.extend(
-        f"{where}: {name} needs {parameter.name}"
-        for parameter in owner.parameters
-        if parameter.required and parameter.name not in parameters
-    )
-    if owner.require_any and not any(key in parameters for key in owner.require_any):
-        problems.append(f"{where}: {name} needs {' or '.join(owner.require_any)}")
+            yield f"{where}.parameters.{given}: {problem}"
+    needed = [item.name for item in owner.parameters if item.required]
+    yield from (f"{where}: {name} needs {item}" for item in needed if item not in parameters)
+    if owner.require_any and not any(item in parameters for item in owner.require_any):
+        yield f"{where}: {name} needs {' or '.join(owner.require_any)}"
 
 
 def value_problem(value: Any, parameter: Parameter) -> str | None:
     """Why `value` is none of this parameter, or None when it is one."""
-    kind = parameter.type
-    if kind in ("number", "integer"):
-        if not _is_number(value) or (kind == "integer" and value != int(value)):
-            return f"{value!r} is no {'whole number' if kind == 'integer' else 'number'}"
-        # The two bounds stand together in a definition, or neither does.
-        if (
-            parameter.minimum is not None
-            and parameter.maximum is not None
-            and not parameter.minimum <= value <= parameter.maximum
-        ):
-            return f"{value!r} is not between {parameter.minimum:g} and {parameter.maximum:g}"
-    elif kind == "text" and not _is_text(value):
-        return f"{value!r} is no text"
-    elif kind == "id" and not (_is_text(value) or (_is_number(value) and value == int(value))):
-        return f"{value!r} is no identifier"
-    elif kind == "texts" and not (
-        isinstance(value, list) and all(_is_text(item) for item in value)
-    ):
-        return f"{value!r} is no list of texts"
-    elif kind == "position" and not _is_position(value):
-        return f"{value!r} is no position [x, y]"
-    elif kind == "polygon" and not (
-        isinstance(value, list) and len(value) >= 3 and all(_is_position(item) for item in value)
-    ):
-        return f"{value!r} is no polygon of at least three positions"
+    words, holds = VALUES[parameter.type]
+    if not holds(value):
+        return f"{value!r} is no {words}"
+    # The two bounds stand together in a definition, or neither does.
+    low, high = parameter.minimum, parameter.maximum
+    if low is not None and high is not None and not low <= value <= high:
+        return f"{value!r} is not between {low:g} and {high:g}"
     return None
 
 
-def _is_number(value: Any) -> bool:
-    # False for NaN and infinity, and for whole numbers too large to be calculated with.
+def is_number(value: Any) -> bool:
+    """Whether a JSON value is a number to calculate with: not true or false, NaN, infinity or
+    beyond the largest float.
+    """
     return (
         isinstance(value, int | float)
         and not isinstance(value, bool)
@@ -325,51 +295,34 @@ def _is_number(value: Any) -> bool:
     )
 
 
+def is_position(value: Any) -> bool:
+    """Whether a JSON value is a position [x, y]."""
+    return isinstance(value, list) and len(value) == 2 and all(map(is_number, value))
+
+
+def _is_whole(value: Any) -> bool:
+    return is_number(value) and value == int(value)
+
+
 def _is_text(value: Any) -> bool:
     return isinstance(value, str) and bool(value.strip())
 
 
-def _is_position(value: Any) -> bool:
-    return isinstance(value, list) and len(value) == 2 and all(_is_number(item) for item in value)
-
-
-def _check_keys(
-    value: dict[str, Any], keys: tuple[str, ...], where: str, strict: bool, problems: list[str]
-) -> None:
-    prefix = f"{where}: " if where else ""
-    problems.extend(f"{prefix}{key} is missing" for key in keys if key not in value)
-    if strict:
-        problems.extend(f"{prefix}unknown key {key!r}" for key in value if key not in keys)
-
-
-def _check_texts(
-    value: dict[str, Any], keys: tuple[str, ...], where: str, problems: list[str]
-) -> None:
-    for key in keys:
-        for index, item in enumerate(_list(value, key, where, problems)):
-            if not isinstance(item, str):
-                problems.append(
-                    f"{where}.{key}[{index}]: a string is expected, not {_kind(item)}".lstrip(".")
-                )
-
-
-def _list(value: dict[str, Any], key: str, where: str, problems: list[str]) -> list[Any]:
-    if key not in value:
-        return []
-    if not isinstance(value[key], list):
-        problems.append(f"{where}.{key}: a list is expected, not {_kind(value[key])}".lstrip("."))
-        return []
-    items: list[Any] = value[key]
-    return items
+VALUES = {
+    "number": ("number", is_number),
+    "integer": ("whole number", _is_whole),
+    "text": ("text", _is_text),
+    "id": ("identifier", lambda value: _is_text(value) or _is_whole(value)),
+    "texts": ("list of texts", lambda value: isinstance(value, list) and all(map(_is_text, value))),
+    "position": ("position [x, y]", is_position),
+    "polygon": (
+        "polygon of at least three positions",
+        lambda value: isinstance(value, list) and len(value) >= 3 and all(map(is_position, value)),
+    ),
+}
+"""Per type of parameter its name in words, and whether a value is of it."""
+_KINDS = {dict: "an object", list: "a list", str: "a string", bool: "a boolean", type(None): "null"}
 
 
 def _kind(value: Any) -> str:
-    return {
-        dict: "an object",
-        list: "a list",
-        str: "a string",
-        bool: "a boolean",
-        int: "a number",
-        float: "a number",
-        type(None): "null",
-    }[type(value)]
+    return _KINDS.get(type(value), "a number")

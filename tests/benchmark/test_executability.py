@@ -10,9 +10,10 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics.executability import Stop, executable, replay
+from planner_ft.benchmark.metrics.executability import executable
 from planner_ft.data.mission.synthetic import sample_missions
 from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.replay import Stop, replay
 
 USV, DRONE = load_vocabulary(), load_vocabulary("inspection_drone")
 DATA = Path(__file__).parents[2] / "data" / "mission"

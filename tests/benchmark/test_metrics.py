@@ -18,8 +18,8 @@ from planner_ft.benchmark.metrics import (
     strict_valid,
 )
 from planner_ft.benchmark.metrics.parameters import values_agree
-from planner_ft.benchmark.outputs import parse_output
 from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.outputs import parse_output
 
 USV = load_vocabulary()
 

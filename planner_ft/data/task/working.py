@@ -4,7 +4,7 @@ A grid's lanes and a square's corners are not in the task's input, they are work
 model that must write `"x":45` at once has to find 33 and 12 in the input, and add them, within one
 token. So what is trained has the sums in front, `x33+12=45;y-18+12=-6`, in the order in which the
 waypoints need them, and the sequence copies their results. Whoever reads an answer drops them
-(`planner_ft.benchmark.outputs`).
+(`planner_ft.vocabulary.outputs`).
 
 The sums are found from the input and the waypoints alone, so every task set has them, whoever wrote
 it: a coordinate that the input does not state is the one before it, or one that is stated, and a

@@ -40,7 +40,7 @@ from planner_ft.decoding.constraints.reading.missions.taken_back import (
     places_taken_back,
 )
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
-from planner_ft.vocabulary.progress import Progress
+from planner_ft.vocabulary.replay import Progress
 
 Position = tuple[float, float]
 LONGEST = 3000

@@ -40,7 +40,7 @@ from planner_ft.decoding.constraints.grammar import (
 from planner_ft.decoding.constraints.grounded_mission import Told, ToldValues
 from planner_ft.decoding.constraints.patterns import literal
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
-from planner_ft.vocabulary.progress import START, Progress, target_parameter
+from planner_ft.vocabulary.replay import START, Progress, target_parameter
 
 Position = tuple[float, float]
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from planner_ft.benchmark.metrics.executability import Condition, Holds, stops
 from planner_ft.data.quantities import positions
 from planner_ft.document.said import is_place
 from planner_ft.document.warnings.warning import Warning, named, warning
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.progress import START
+from planner_ft.vocabulary.replay import START, Condition, stops
 
 KIND_OF: dict[Condition, str] = {
     "target located": "used-before-found",
@@ -39,7 +38,7 @@ def order_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Itera
             "parameter": parameter,
         }
     yield from _elsewhere(tasks, vocabulary)
-    for stop, _missing in stops({"tasks": tasks}, vocabulary, Holds()):
+    for stop, _missing in stops({"tasks": tasks}, vocabulary):
         kind = KIND_OF.get(stop.condition)
         if kind is not None:
             yield warning(

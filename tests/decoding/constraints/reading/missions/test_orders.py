@@ -7,7 +7,7 @@ import pytest
 from planner_ft.decoding.constraints.grounded_mission import read_told
 from planner_ft.decoding.constraints.reading.missions.orders import read_orders
 from planner_ft.vocabulary import load_vocabulary
-from planner_ft.vocabulary.progress import START
+from planner_ft.vocabulary.replay import START
 
 
 @pytest.mark.parametrize(

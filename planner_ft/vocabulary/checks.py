@@ -1,0 +1,314 @@
+"""Everything wrong with a parsed definition and the files beside it, in words."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, Literal, get_args
+
+from planner_ft.vocabulary.logic import LISTS
+from planner_ft.vocabulary.motion import FILTER_KINDS, KINDS, PARAMETERS_OF, STANDOFF
+
+if TYPE_CHECKING:
+    from planner_ft.vocabulary.definition import Parameter, Skill, Task, Vocabulary
+
+Role = Literal["navigation", "filter", "perception"]
+ParameterType = Literal["position", "polygon", "number", "integer", "text", "id", "texts"]
+Arrival = Literal["transit", "self", "none"]
+Motion = Literal["goto", "hold", "turn_to", "turn_by", "arc", "drift", "visual", "wait"]
+ROLES: tuple[Role, ...] = get_args(Role)
+
+Check = tuple[str, Callable[[Any], bool]]
+"""The kind of value that is expected, in words, and whether a value is of that kind."""
+Table = Mapping[str, Any]
+
+
+def _is_text(value: Any) -> bool:
+    return isinstance(value, str) and bool(value.strip())
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _is_position(value: Any) -> bool:
+    return isinstance(value, list) and len(value) == 2 and all(map(_is_number, value))
+
+
+def _are_names(value: Any) -> bool:
+    return isinstance(value, list) and all(map(_is_text, value))
+
+
+def _are_tables(value: Any) -> bool:
+    return isinstance(value, dict) and all(isinstance(entry, dict) for entry in value.values())
+
+
+def _one_of(choices: Iterable[str]) -> Check:
+    known = tuple(choices)
+    return f"one of {', '.join(known)}", lambda value: value in known
+
+
+TEXT: Check = ("a text", _is_text)
+FLAG: Check = ("true or false", lambda value: isinstance(value, bool))
+NUMBER: Check = ("a number", _is_number)
+POSITION: Check = ("a position [x, y]", _is_position)
+NAMES: Check = ("a list of names", _are_names)
+
+VEHICLE = {
+    **dict.fromkeys(("name", "title", "frame", "transit", "locate"), TEXT),
+    **dict.fromkeys(("home", "unresolved"), POSITION),
+}
+PARAMETER = {
+    **dict.fromkeys(("name", "unit", "description"), TEXT),
+    **dict.fromkeys(("minimum", "maximum"), NUMBER),
+    "type": _one_of(get_args(ParameterType)),
+    "required": FLAG,
+}
+TASK = {
+    **dict.fromkeys(("title", "category", "description", "pattern"), TEXT),
+    "arrival": _one_of(get_args(Arrival)),
+    "leaves": FLAG,
+    "require_any": NAMES,
+}
+SKILL = {
+    **dict.fromkeys(("name", "category", "description", "stop", "failure", "output"), TEXT),
+    "role": _one_of(ROLES),
+    "motion": _one_of(get_args(Motion)),
+    "require_any": NAMES,
+}
+NEEDED = {
+    "task": ("title", "category", "description", "arrival", "pattern"),
+    "skill": ("name", "category", "role", "description"),
+}
+
+
+# ---------------------------------------------------------------- the shape of a definition
+
+
+def shape_problems(raw: Table, phrases: Table) -> list[str]:
+    """Problems of keys and kinds of values in a definition and its phrase file; names are not
+    looked up.
+    """
+    problems = [f"unknown key {key!r}" for key in raw if key not in ("vehicle", "task", "skill")]
+    vehicle = raw.get("vehicle")
+    if isinstance(vehicle, dict):
+        problems += _table(vehicle, VEHICLE, VEHICLE, "[vehicle]")
+        if not problems and vehicle["home"] == vehicle["unresolved"]:
+            problems.append("[vehicle]: home and unresolved are the same position")
+    else:
+        problems.append("a table [vehicle] is needed")
+    problems += [*_entries(raw, "task", "title", TASK), *_entries(raw, "skill", "name", SKILL)]
+    problems += [
+        f"the phrase file needs tables [{kind}.NAME]"
+        for kind in NEEDED
+        if not _are_tables(phrases.get(kind, {}))
+    ]
+    return problems
+
+
+def _table(
+    table: Table, checks: Mapping[str, Check], needed: Iterable[str], where: str
+) -> Iterator[str]:
+    missing = [name for name in needed if name not in table]
+    if missing:
+        yield f"{where}: lacks {', '.join(missing)}"
+    for name, value in table.items():
+        if name not in checks:
+            yield f"{where}: unknown key {name!r}"
+        elif not checks[name][1](value):
+            yield f"{where}: {name} = {value!r} must be {checks[name][0]}"
+
+
+def _entries(raw: Table, kind: str, key: str, checks: Mapping[str, Check]) -> Iterator[str]:
+    entries = raw.get(kind)
+    if not isinstance(entries, list) or not entries or not _are_tables(dict(enumerate(entries))):
+        yield f"at least one [[{kind}]] is needed"
+        return
+    nested = {"parameters", "skills"} if kind == "task" else {"parameters"}
+    for number, entry in enumerate(entries, 1):
+        where = f"{kind} {entry.get(key, number)}"
+        plain = {name: value for name, value in entry.items() if name not in nested}
+        yield from _table(plain, checks, NEEDED[kind], where)
+        yield from _parameters(entry.get("parameters", []), where)
+        if kind == "task":
+            yield from _fitting_skills(entry.get("skills"), where)
+
+
+def _parameters(parameters: Any, where: str) -> Iterator[str]:
+    if not isinstance(parameters, list) or not _are_tables(dict(enumerate(parameters))):
+        yield f"{where}: parameters must be a list of tables"
+        return
+    names = [str(parameter.get("name")) for parameter in parameters]
+    yield from (f"{where}: parameter {name} is defined twice" for name in _repeated(names))
+    for name, parameter in zip(names, parameters, strict=True):
+        here = f"{where}, parameter {name}"
+        problems = list(_table(parameter, PARAMETER, ("name", "type"), here))
+        yield from problems
+        bounds = [parameter[bound] for bound in ("minimum", "maximum") if bound in parameter]
+        if problems or not bounds:
+            continue
+        if parameter["type"] not in ("number", "integer"):
+            yield f"{here}: only numbers have a minimum and a maximum"
+        elif len(bounds) == 1 or bounds[0] > bounds[1]:
+            yield f"{here}: minimum and maximum stand together, the smaller one first"
+
+
+def _fitting_skills(skills: Any, where: str) -> Iterator[str]:
+    if not isinstance(skills, dict):
+        yield f"{where}: skills must be a table of lists by role"
+        return
+    for role, names in skills.items():
+        if role not in ROLES:
+            yield f"{where}: skills.{role} is none of {', '.join(ROLES)}"
+        elif not _are_names(names):
+            yield f"{where}: skills.{role} must be a list of names"
+    if not skills.get("navigation"):
+        yield f"{where}: needs at least one navigation skill"
+
+
+def _repeated(names: Iterable[str]) -> list[str]:
+    return sorted(name for name, count in Counter(names).items() if count > 1)
+
+
+# ---------------------------------------------------------------- names
+
+
+def reference_problems(vocabulary: Vocabulary) -> Iterator[str]:
+    """Names that are defined twice or not at all."""
+    titles, names = [task.title for task in vocabulary.tasks], [s.name for s in vocabulary.skills]
+    yield from (f"task {title} is defined twice" for title in _repeated(titles))
+    yield from (f"skill {name} is defined twice" for name in _repeated(names))
+    for key in ("transit", "locate"):
+        if getattr(vocabulary, key) not in vocabulary.task:
+            yield f"[vehicle] {key} = {getattr(vocabulary, key)!r} is no task"
+    transit = vocabulary.task.get(vocabulary.transit)
+    if transit and transit.position_parameter is None:
+        yield (
+            f"task {transit.title}: brings the vehicle to a place and needs a parameter of type"
+            " position"
+        )
+    owners: list[tuple[str, Task | Skill]] = [
+        (f"task {task.title}", task) for task in vocabulary.tasks
+    ]
+    owners += [(f"skill {skill.name}", skill) for skill in vocabulary.skills]
+    for where, owner in owners:
+        unknown = [name for name in owner.require_any if name not in owner.by_name]
+        yield from (
+            f"{where}: require_any names {name!r}, which is no parameter" for name in unknown
+        )
+    for task in vocabulary.tasks:
+        for role, fitting in task.skills.items():
+            for name in fitting:
+                skill = vocabulary.skill.get(name)
+                if skill is None:
+                    yield f"task {task.title}: skill {name!r} is not defined"
+                elif skill.role != role:
+                    yield f"task {task.title}: skill {name!r} has the role {skill.role}, not {role}"
+    for kind, known in (("task", set(titles)), ("skill", set(names))):
+        yield from (
+            f"the phrase file has phrases for {kind} {name!r}, which is not defined"
+            for name in sorted(set(vocabulary.phrases.get(kind, {})) - known)
+        )
+
+
+# ---------------------------------------------------------------- the files beside a definition
+
+
+def logic_problems(raw: Table, tasks: Mapping[str, Task]) -> Iterator[str]:
+    """Problems of a parsed logic file, for a vocabulary with these tasks by title."""
+    facts, entries = raw.get("fact", {}), raw.get("task", {})
+    here = "the logic file"
+    yield from (f"{here} has an unknown key {key!r}" for key in raw.keys() - {"fact", "task"})
+    if not _are_tables(facts) or not _are_tables(entries):
+        yield f"{here} needs tables [fact.NAME] and [task.TITLE]"
+        return
+    for name, fact in facts.items():
+        if set(fact) != {"lacking"} or not _is_text(fact["lacking"]):
+            yield f"{here}: fact {name} must have a text lacking, and nothing else"
+    for title, entry in entries.items():
+        where = f"{here}: task {title}"
+        if title not in tasks:
+            yield f"{where}: it is not defined"
+            continue
+        for key, value in entry.items():
+            if key == "sends":
+                yield from _names_parameter(where, key, value, tasks[title].by_name, "texts")
+            elif key not in LISTS:
+                yield f"{where}: unknown key {key!r}"
+            elif not _are_names(value):
+                yield f"{where}: {key} = {value!r} must be a list of names"
+            elif key != "yields":
+                unknown = [name for name in value if name not in facts]
+                yield from (
+                    f"{where}: {key} names the fact {name!r}, which is not declared"
+                    for name in unknown
+                )
+    given = [entry.get("gives", ()) for entry in entries.values()]
+    yield from (
+        f"{here}: no task gives the fact {name!r}"
+        for name in facts
+        if not any(name in names for names in given if isinstance(names, list))
+    )
+
+
+def motion_problems(
+    raw: Table, tasks: Mapping[str, Task], skills: Mapping[str, Skill]
+) -> Iterator[str]:
+    """Problems of a parsed motion file, for a vocabulary with these tasks and skills by name."""
+    here = "the motion file"
+    yield from (f"{here} has an unknown key {key!r}" for key in raw.keys() - {"skill", "task"})
+    for kind in ("skill", "task"):
+        if not _are_tables(raw.get(kind, {})):
+            yield f"{here} needs tables [{kind}.NAME]"
+            return
+    for name, entry in raw.get("skill", {}).items():
+        yield from _motion(entry, skills.get(name), f"{here}: skill {name}")
+    for title, entry in raw.get("task", {}).items():
+        where, task = f"{here}: task {title}", tasks.get(title)
+        if task is None:
+            yield f"{where}: it is not defined"
+            continue
+        types = {role: "position" if role == "center" else "number" for role in STANDOFF}
+        yield from _roles(entry, ("center", "radius"), types, task.by_name, where, "a stand-off")
+
+
+def _motion(entry: Table, skill: Skill | None, where: str) -> Iterator[str]:
+    kind = next((known for known in KINDS if known == entry.get("motion")), None)
+    if skill is None:
+        yield f"{where}: it is not defined"
+    elif kind is None:
+        yield f"{where}: motion = {entry.get('motion')!r} must be one of {', '.join(KINDS)}"
+    else:
+        if (skill.role == "filter") != (kind in FILTER_KINDS):
+            yield f"{where}: motion = {kind!r} does not fit the role {skill.role}"
+        needed, allowed = PARAMETERS_OF[kind]
+        types = {role: "polygon" if role == "polygon" else "number" for role in (*needed, *allowed)}
+        roles = {role: name for role, name in entry.items() if role != "motion"}
+        yield from _roles(roles, needed, types, skill.by_name, where, kind)
+
+
+def _roles(
+    entry: Table,
+    needed: tuple[str, ...],
+    types: Mapping[str, str],
+    parameters: Mapping[str, Parameter],
+    where: str,
+    owner: str,
+) -> Iterator[str]:
+    """Problems of {role: name of a parameter}."""
+    missing = [role for role in needed if role not in entry]
+    yield from (f"{where}: {owner} needs {role} = the name of a parameter" for role in missing)
+    for role, name in entry.items():
+        if role not in types:
+            yield f"{where}: unknown key {role!r}"
+        else:
+            yield from _names_parameter(where, role, name, parameters, types[role])
+
+
+def _names_parameter(
+    where: str, key: str, name: Any, parameters: Mapping[str, Parameter], kind: str
+) -> Iterator[str]:
+    parameter = parameters.get(name) if isinstance(name, str) else None
+    if parameter is None or parameter.type != kind:
+        yield f"{where}: {key} = {name!r} must name a parameter of type {kind}"
