@@ -47,12 +47,9 @@ def check_records(
     """
     if data is not None:
         records = read_jsonl(data)[:count]
+        needed = ("prompt",) if level == "mission" else ("prompt", "task")
         for number, record in enumerate(records, 1):
-            missing = [
-                key
-                for key in (("prompt",) if level == "mission" else ("prompt", "task"))
-                if not isinstance(record.get(key), str)
-            ]
+            missing = [key for key in needed if not isinstance(record.get(key), str)]
             if missing:
                 raise PlannerError(
                     f"{data}: record {number} has no {missing[0]}; give commands of the {level}"
@@ -95,20 +92,14 @@ class Answers:
     ) -> None:
         from planner_ft.decoding.generate import Query
 
-        self.queries = [
-            Query(
-                level,
-                record,
-                tuple(
-                    render_prompt(
-                        level, record, tokenizer, vocabulary, with_vocabulary=with_vocabulary
-                    )
-                ),
+        def query(record: dict[str, Any]) -> Query:
+            ids = render_prompt(
+                level, record, tokenizer, vocabulary, with_vocabulary=with_vocabulary
             )
-            for record in records
-        ]
-        self.level = level
-        self.tokenizer = tokenizer
+            return Query(level, record, tuple(ids))
+
+        self.queries = [query(record) for record in records]
+        self.level, self.tokenizer = level, tokenizer
 
     def of(self, model: Any) -> list[tuple[int, ...]]:
         """The ids of the model's answers."""
@@ -117,17 +108,10 @@ class Answers:
         from planner_ft.decoding.limits import MAX_NEW_TOKENS, Limits
         from planner_ft.decoding.passes import ModelDecoder
 
-        limits = Limits(
-            end_ids(self.tokenizer, named_ends(model)),
-            int(self.tokenizer.pad_token_id),
-            MAX_NEW_TOKENS[self.level],
-        )
-        return [
-            answer.ids
-            for answer in generate(
-                ModelDecoder(model, limits.pad_id), self.queries, limits, batch_size=1
-            )
-        ]
+        ends, pad = end_ids(self.tokenizer, named_ends(model)), int(self.tokenizer.pad_token_id)
+        limits = Limits(ends, pad, MAX_NEW_TOKENS[self.level])
+        answers = generate(ModelDecoder(model, limits.pad_id), self.queries, limits, batch_size=1)
+        return [answer.ids for answer in answers]
 
     def logits(self, model: Any, answers: Sequence[Sequence[int]]) -> list[Any]:
         """The logits after each position of prompt and answer: tensors (positions, tokens)."""
@@ -147,19 +131,14 @@ def agreement(
     differs.
     """
     found = answers.of(model)
-    largest = max(
-        float((one - other).abs().max())
-        for one, other in zip(logits, answers.logits(model, expected), strict=True)
-    )
-    result = Agreement(
-        len(expected),
-        sum(one == other for one, other in zip(expected, found, strict=True)),
-        largest,
-    )
-    if result.same < result.count:
+    pairs = zip(logits, answers.logits(model, expected), strict=True)
+    largest = max(float((one - other).abs().max()) for one, other in pairs)
+    same = sum(one == other for one, other in zip(expected, found, strict=True))
+    count = len(expected)
+    if same < count:
         raise PlannerError(
-            f"{result.count - result.same} of {result.count} answers differ between the adapter and"
-            f" the merged weights (logits by up to {largest:.3g}), so nothing was written; give"
-            " other commands with --check-data, or serve base and adapter as they are"
+            f"{count - same} of {count} answers differ between the adapter and the merged weights"
+            f" (logits by up to {largest:.3g}), so nothing was written; give other commands with"
+            " --check-data, or serve base and adapter as they are"
         )
-    return result
+    return Agreement(count, same, largest)

@@ -1,8 +1,8 @@
-"""Writing a transformers folder as a GGUF file, the format of llama.cpp, for the architectures of
-the candidates.
+"""Writing a transformers folder as a GGUF file, the format of llama.cpp.
 
-Names and layout follow llama.cpp's convert_hf_to_gguf.py: Llama's query and key rows are reordered,
-because llama.cpp rotates neighbouring pairs where transformers rotates halves; Qwen2's are not.
+Names are those of the gguf library, the layout is that of llama.cpp's convert_hf_to_gguf.py:
+Llama's query and key rows are reordered, because llama.cpp rotates neighbouring pairs where
+transformers rotates halves; Qwen2's are not.
 """
 
 from __future__ import annotations
@@ -24,20 +24,11 @@ if TYPE_CHECKING:
     import numpy as np
 
 ARCHITECTURES = {"LlamaForCausalLM": "llama", "Qwen2ForCausalLM": "qwen2"}
-OF_MODEL = {"model.embed_tokens": "token_embd", "model.norm": "output_norm", "lm_head": "output"}
-OF_LAYER = {
-    "input_layernorm": "attn_norm",
-    "self_attn.q_proj": "attn_q",
-    "self_attn.k_proj": "attn_k",
-    "self_attn.v_proj": "attn_v",
-    "self_attn.o_proj": "attn_output",
-    "post_attention_layernorm": "ffn_norm",
-    "mlp.gate_proj": "ffn_gate",
-    "mlp.up_proj": "ffn_up",
-    "mlp.down_proj": "ffn_down",
-}
-LAYER = "model.layers."
 PLAIN_ROPE = ("default", "llama3")
+LLAMA_3_ROPE = (
+    *("low_freq_factor", "high_freq_factor", "factor"),
+    "original_max_position_embeddings",
+)
 
 
 def check_architecture(folder: Path) -> str:
@@ -45,21 +36,11 @@ def check_architecture(folder: Path) -> str:
     written here.
     """
     config = read_config(folder)
-    found = next(
-        (
-            ARCHITECTURES[name]
-            for name in config.get("architectures") or []
-            if name in ARCHITECTURES
-        ),
-        None,
-    )
+    names = config.get("architectures") or []
+    found = next((ARCHITECTURES[name] for name in names if name in ARCHITECTURES), None)
     rope = _rope(config).get("rope_type", "default")
-    if (
-        found is None
-        or rope not in PLAIN_ROPE
-        or config.get("hidden_act") != "silu"
-        or Dimensions.from_config(config) is None
-    ):
+    plain = rope in PLAIN_ROPE and config.get("hidden_act") == "silu"
+    if found is None or not plain or Dimensions.from_config(config) is None:
         what = f"architecture {config.get('architectures')} with positions of type {rope}"
         raise PlannerError(
             f"{folder}: {what} is not written as GGUF here; leave out --gguf and {CONVERTER}"
@@ -80,15 +61,19 @@ def write_gguf(
     PlannerError.
     """
     gguf = import_gguf()
-    architecture = check_architecture(folder)
+    architecture, config = check_architecture(folder), read_config(folder)
     temporary = path.with_name(f".{path.name}.{os.getpid()}.{secrets.token_hex(3)}.tmp")
     writer = gguf.GGUFWriter(str(temporary), architecture)
     try:
-        _write_settings(writer, gguf, read_config(folder), architecture, name, outtype)
+        writer.add_name(name)
+        half = outtype == "f16"
+        types = gguf.LlamaFileType
+        writer.add_file_type(types.MOSTLY_F16 if half else types.ALL_F32)
+        _write_settings(writer, config, architecture)
         _write_tokenizer(writer, table, tokenizer)
-        for tensor_name, tensor in _tensors(folder, architecture):
-            halved = outtype == "f16" and tensor.ndim > 1
-            writer.add_tensor(tensor_name, tensor.astype("float16" if halved else "float32"))
+        for tensor_name, tensor in _tensors(gguf, folder, architecture):
+            dtype = "float16" if half and tensor.ndim > 1 else "float32"
+            writer.add_tensor(tensor_name, tensor.astype(dtype))
         writer.write_header_to_file()
         writer.write_kv_data_to_file()
         writer.write_tensors_to_file()
@@ -114,15 +99,8 @@ def import_gguf() -> Any:
     return gguf
 
 
-def _write_settings(
-    writer: Any, gguf: Any, config: dict[str, Any], architecture: str, name: str, outtype: OutType
-) -> None:
-    sizes = Dimensions.from_config(config)
-    assert sizes is not None  # check_architecture has read them
-    writer.add_name(name)
-    writer.add_file_type(
-        gguf.LlamaFileType.MOSTLY_F16 if outtype == "f16" else gguf.LlamaFileType.ALL_F32
-    )
+def _write_settings(writer: Any, config: dict[str, Any], architecture: str) -> None:
+    sizes = _sizes(config)
     writer.add_vocab_size(sizes.vocabulary)
     writer.add_block_count(sizes.layers)
     writer.add_context_length(sizes.context)
@@ -141,6 +119,7 @@ def _write_settings(
 def _write_tokenizer(writer: Any, table: TokenTable, tokenizer: Any) -> None:
     from planner_ft.prompts import end_of_turn_ids
 
+    first = tokenizer.bos_token_id
     writer.add_tokenizer_model("gpt2")
     writer.add_tokenizer_pre(table.split)
     writer.add_token_list(list(table.tokens))
@@ -148,90 +127,70 @@ def _write_tokenizer(writer: Any, table: TokenTable, tokenizer: Any) -> None:
     writer.add_token_merges(list(table.merges))
     writer.add_eos_token_id(end_of_turn_ids(tokenizer)[0])
     writer.add_pad_token_id(int(tokenizer.pad_token_id))
-    if tokenizer.bos_token_id is not None:
-        writer.add_bos_token_id(int(tokenizer.bos_token_id))
-    writer.add_add_bos_token(
-        tokenizer.bos_token_id is not None and tokenizer.encode("x")[:1] == [tokenizer.bos_token_id]
-    )
+    if first is not None:
+        writer.add_bos_token_id(int(first))
+    writer.add_add_bos_token(first is not None and tokenizer.encode("x")[:1] == [first])
     if tokenizer.chat_template:
         writer.add_chat_template(tokenizer.chat_template)
 
 
-def _tensors(folder: Path, architecture: str) -> Iterator[tuple[str, np.ndarray[Any, Any]]]:
+def _tensors(
+    gguf: Any, folder: Path, architecture: str
+) -> Iterator[tuple[str, np.ndarray[Any, Any]]]:
     """The tensors under llama.cpp's names, as float32. Raises PlannerError for one that has
     none.
     """
+    import numpy as np
     from safetensors import safe_open
 
     config = read_config(folder)
-    sizes = Dimensions.from_config(config)
-    assert sizes is not None
+    sizes = _sizes(config)
+    heads = {"q_proj": sizes.heads, "k_proj": sizes.kv_heads} if architecture == "llama" else {}
+    names = gguf.get_tensor_name_map(gguf.MODEL_ARCH[architecture.upper()], sizes.layers)
     if factors := _rope_factors(config, sizes):
-        import numpy as np
-
         yield "rope_freqs.weight", np.array(factors, dtype=np.float32)
     for path in weight_files(folder):
         with safe_open(str(path), framework="np") as stored:
             for name in stored.keys():  # noqa: SIM118
                 if name == "lm_head.weight" and sizes.tied:
                     continue
-                heads = (
-                    {"q_proj": sizes.heads, "k_proj": sizes.kv_heads}.get(name.split(".")[-2])
-                    if architecture == "llama"
-                    else None
-                )
-                tensor = stored.get_tensor(name)
-                yield _gguf_name(folder, name), _interleaved(tensor, heads) if heads else tensor
-
-
-def _gguf_name(folder: Path, name: str) -> str:
-    stem, _, kind = name.rpartition(".")
-    if name.startswith(LAYER):
-        number, _, part = stem.removeprefix(LAYER).partition(".")
-        if part in OF_LAYER:
-            return f"blk.{number}.{OF_LAYER[part]}.{kind}"
-    elif stem in OF_MODEL:
-        return f"{OF_MODEL[stem]}.{kind}"
-    raise PlannerError(
-        f"{folder}: the tensor {name} has no place in a GGUF file as it is written here; leave out"
-        f" --gguf and {CONVERTER}"
-    )
+                known = names.get_name(name, try_suffixes=(".weight", ".bias"))
+                if known is None:
+                    raise PlannerError(
+                        f"{folder}: the tensor {name} has no place in a GGUF file as it is written"
+                        f" here; leave out --gguf and {CONVERTER}"
+                    )
+                tensor, count = stored.get_tensor(name), heads.get(name.split(".")[-2])
+                yield known, _interleaved(tensor, count) if count else tensor
 
 
 def _interleaved(tensor: np.ndarray[Any, Any], heads: int) -> np.ndarray[Any, Any]:
     """Rows of each head from halves (transformers) to neighbouring pairs (llama.cpp)."""
-    return (
-        tensor.reshape(heads, 2, tensor.shape[0] // heads // 2, *tensor.shape[1:])
-        .swapaxes(1, 2)
-        .reshape(tensor.shape)
-    )
+    halves = tensor.reshape(heads, 2, tensor.shape[0] // heads // 2, *tensor.shape[1:])
+    return halves.swapaxes(1, 2).reshape(tensor.shape)
+
+
+def _sizes(config: dict[str, Any]) -> Dimensions:
+    sizes = Dimensions.from_config(config)
+    assert sizes is not None  # check_architecture has read them
+    return sizes
 
 
 def _rope(config: dict[str, Any]) -> dict[str, Any]:
     """The rotary positions' settings; older files hold them in two places."""
-    old = {
-        **(config.get("rope_scaling") or {}),
-        **({"rope_theta": config["rope_theta"]} if "rope_theta" in config else {}),
-    }
+    theta = {"rope_theta": config["rope_theta"]} if "rope_theta" in config else {}
+    old = {**(config.get("rope_scaling") or {}), **theta}
     return {**old, **(config.get("rope_parameters") or {})}
 
 
 def _rope_factors(config: dict[str, Any], sizes: Dimensions) -> list[float]:
-    """What llama.cpp divides each rotary frequency by, for Llama 3's scaling (Llama 3.1 model card,
+    """Divisors of the rotary frequencies in llama.cpp, for Llama 3's scaling (Llama 3.1 model card,
     `transformers` modeling_rope_utils).
     """
     rope = _rope(config)
     if rope.get("rope_type") != "llama3":
         return []
-    low, high, factor, before = (
-        float(rope[key])
-        for key in (
-            "low_freq_factor",
-            "high_freq_factor",
-            "factor",
-            "original_max_position_embeddings",
-        )
-    )
+    low, high, factor, before = (float(rope[key]) for key in LLAMA_3_ROPE)
     factors = []
     for place in range(0, sizes.head_dim, 2):
         wavelength = 2 * math.pi * float(rope["rope_theta"]) ** (place / sizes.head_dim)

@@ -32,6 +32,8 @@ KNOWN = {LLAMA_3: "llama-bpe", QWEN_2: "qwen2"}
 LEAST = "superbpe"
 LEAST_PATTERNS = (r"\p{N}+", r"(?=(\d{3})+(?!\d))")
 CONVERTER = "convert it with llama.cpp's convert_hf_to_gguf.py"
+SHORT = 32
+"""Bytes from which llama-cpp-python drops a token from the text of an answer (its issue 2362)."""
 
 
 class Kind(IntEnum):
@@ -41,10 +43,6 @@ class Kind(IntEnum):
     CONTROL = 3
     USER_DEFINED = 4
     UNUSED = 5
-
-
-SHORT = 32
-"""Bytes from which llama-cpp-python drops a token from the text of an answer (its issue 2362)."""
 
 
 @dataclass(frozen=True)
@@ -66,10 +64,13 @@ class TokenTable:
         """Tokens with letters that are longer than SHORT; in byte-level BPE a character stands for
         a byte.
         """
-        return sum(
-            len(token) > SHORT and kind == Kind.NORMAL and any("a" <= sign <= "z" for sign in token)
+        normal = [
+            token
             for token, kind in zip(self.tokens, self.kinds, strict=True)
-        )
+            if kind == Kind.NORMAL
+        ]
+        long = [token for token in normal if len(token) > SHORT]
+        return sum(any("a" <= sign <= "z" for sign in token) for token in long)
 
 
 def token_table(path: Path, size: int) -> TokenTable:
@@ -77,28 +78,28 @@ def token_table(path: Path, size: int) -> TokenTable:
     no byte-level BPE.
     """
     settings = read_json(path)
-    model = settings.get("model", {})
-    if (
-        model.get("type") != "BPE"
-        or not _is_byte_level(settings)
-        or model.get("byte_fallback")
-        or settings.get("normalizer") not in (None, {"type": "NFC"})
+    model, steps = settings.get("model", {}), _steps(settings)
+    bytewise = [step for step in steps if step.get("type") == "ByteLevel"]
+    plain = model.get("type") == "BPE" and not model.get("byte_fallback")
+    normalizer = settings.get("normalizer")
+    if not (plain and normalizer in (None, {"type": "NFC"})) or not any(
+        not step.get("add_prefix_space") for step in bytewise
     ):
         raise PlannerError(
             f"{path}: only byte-level BPE tokenizers are written as GGUF here; {CONVERTER}"
         )
-    split = KNOWN.get(_pattern(settings) or "", LEAST)
+    patterns = [step["pattern"].get("Regex") for step in steps if step.get("type") == "Split"]
+    split = KNOWN.get(patterns[0] or "", LEAST) if len(patterns) == 1 else LEAST
     added = _torn_apart(settings) if split == LEAST else {}
     tokens, kinds = [f"[PAD{number}]" for number in range(size)], [Kind.UNUSED] * size
-    for text, number in model["vocab"].items():
-        tokens[number], kinds[number] = text, Kind.NORMAL
-    for entry in settings["added_tokens"]:
-        tokens[entry["id"]], kinds[entry["id"]] = (
-            entry["content"],
-            (Kind.CONTROL if entry["special"] else Kind.USER_DEFINED),
-        )
-    for number, text in added.items():
-        tokens[number], kinds[number] = text, Kind.USER_DEFINED
+    entries = [(number, text, Kind.NORMAL) for text, number in model["vocab"].items()]
+    entries += [
+        (one["id"], one["content"], Kind.CONTROL if one["special"] else Kind.USER_DEFINED)
+        for one in settings["added_tokens"]
+    ]
+    entries += [(number, text, Kind.USER_DEFINED) for number, text in added.items()]
+    for number, text, kind in entries:
+        tokens[number], kinds[number] = text, kind
     merges = [merge if isinstance(merge, str) else " ".join(merge) for merge in model["merges"]]
     return TokenTable(tuple(tokens), tuple(kinds), tuple(merges), split, added)
 
@@ -112,18 +113,15 @@ def check_ids(path: Path, table: TokenTable, texts: Iterable[str]) -> int:
     from tokenizers import Tokenizer
 
     settings = read_json(path)
-    ours, theirs = (
-        Tokenizer.from_str(json.dumps(settings)),
-        Tokenizer.from_str(json.dumps(_as_split(settings, table))),
-    )
+    ours = Tokenizer.from_str(json.dumps(settings))
+    theirs = Tokenizer.from_str(json.dumps(_with_split(settings, table)))
     # The library gives the added texts new ids.
     back = {theirs.token_to_id(text): number for number, text in table.added.items()}
     count = 0
     for count, text in enumerate(texts, 1):  # noqa: B007
         found = theirs.encode(text, add_special_tokens=False).ids
-        if ours.encode(text, add_special_tokens=False).ids != [
-            back.get(number, number) for number in found
-        ]:
+        expected = ours.encode(text, add_special_tokens=False).ids
+        if expected != [back.get(number, number) for number in found]:
             raise PlannerError(
                 f"{path}: no way in which llama.cpp splits text gives this tokenizer's ids for"
                 f" {text[:80]!r}; {CONVERTER}, if it knows one"
@@ -131,34 +129,24 @@ def check_ids(path: Path, table: TokenTable, texts: Iterable[str]) -> int:
     return count
 
 
-def _as_split(settings: dict[str, Any], table: TokenTable) -> dict[str, Any]:
+def _with_split(settings: dict[str, Any], table: TokenTable) -> dict[str, Any]:
     """A tokenizer.json that splits as the table says."""
     if table.split != LEAST:
         return settings
-    splits = [
+    steps: list[dict[str, Any]] = [
         {"type": "Split", "pattern": {"Regex": pattern}, "behavior": "Isolated", "invert": False}
         for pattern in LEAST_PATTERNS
     ]
-    byte_level = {
-        "type": "ByteLevel",
-        "add_prefix_space": False,
-        "trim_offsets": True,
-        "use_regex": False,
-    }
-    form = {
-        "single_word": False,
-        "lstrip": False,
-        "rstrip": False,
-        "normalized": False,
-        "special": False,
-    }
+    byte_level = {"add_prefix_space": False, "trim_offsets": True, "use_regex": False}
+    steps.append({"type": "ByteLevel", **byte_level})
+    flags = dict.fromkeys(("single_word", "lstrip", "rstrip", "normalized", "special"), False)
     more = [
-        {"id": len(table.tokens) + place, "content": text, **form}
+        {"id": len(table.tokens) + place, "content": text, **flags}
         for place, text in enumerate(table.added.values())
     ]
     return {
         **settings,
-        "pre_tokenizer": {"type": "Sequence", "pretokenizers": [*splits, byte_level]},
+        "pre_tokenizer": {"type": "Sequence", "pretokenizers": steps},
         "added_tokens": [*settings["added_tokens"], *more],
     }
 
@@ -174,12 +162,10 @@ def _torn_apart(settings: dict[str, Any]) -> dict[int, str]:
     found = {}
     for token, number in settings["model"]["vocab"].items():
         text = tokenizer.decode([number], skip_special_tokens=False)
-        mixed = any(sign.isnumeric() for sign in text) and not text.isnumeric() and "�" not in text
-        if (
-            mixed
-            and token not in own
-            and tokenizer.encode(text, add_special_tokens=False).ids == [number]
-        ):
+        mixed = any(sign.isnumeric() for sign in text) and not text.isnumeric()
+        if not mixed or "�" in text or token in own:
+            continue
+        if tokenizer.encode(text, add_special_tokens=False).ids == [number]:
             found[number] = text
     return found
 
@@ -187,18 +173,3 @@ def _torn_apart(settings: dict[str, Any]) -> dict[int, str]:
 def _steps(settings: dict[str, Any]) -> list[dict[str, Any]]:
     step = settings.get("pre_tokenizer") or {}
     return list(step["pretokenizers"]) if step.get("type") == "Sequence" else [step]
-
-
-def _is_byte_level(settings: dict[str, Any]) -> bool:
-    return any(
-        step.get("type") == "ByteLevel" and not step.get("add_prefix_space")
-        for step in _steps(settings)
-    )
-
-
-def _pattern(settings: dict[str, Any]) -> str | None:
-    """The one pattern that a tokenizer splits by."""
-    patterns = [
-        step["pattern"].get("Regex") for step in _steps(settings) if step.get("type") == "Split"
-    ]
-    return patterns[0] if len(patterns) == 1 else None

@@ -20,6 +20,8 @@ from planner_ft.support.files import read_json, write_json
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level
 
+LOCAL: dict[str, Any] = {"local_files_only": True, "trust_remote_code": False}
+
 
 def load_full(
     candidate: Candidate, adapter: Path | None, level: Level, vocabulary: Vocabulary
@@ -37,11 +39,7 @@ def load_full(
     try:
         with quiet_bars():
             model = AutoModelForCausalLM.from_pretrained(
-                str(folder),
-                dtype=torch.float32,
-                local_files_only=True,
-                trust_remote_code=False,
-                use_safetensors=True,
+                str(folder), dtype=torch.float32, use_safetensors=True, **LOCAL
             )
             if adapter is not None:
                 from peft import PeftModel
@@ -53,9 +51,9 @@ def load_full(
             " on a larger machine"
         ) from error
     except (OSError, ValueError, RuntimeError) as error:
+        why = " ".join(str(error).split())[:200]
         raise PlannerError(
-            f"{folder}: the model cannot be loaded ({' '.join(str(error).split())[:200]}); check"
-            " its files"
+            f"{folder}: the model cannot be loaded ({why}); check its files"
         ) from error
     return model.eval()
 
@@ -72,35 +70,30 @@ def merged(model: Any) -> Any:
         raise PlannerError(f"the adapter cannot be merged ({error}); train it again") from error
 
 
-def save_full(
-    model: Any, candidate: Candidate, told_by_heart: Vocabulary | None, folder: Path
-) -> None:
+def save_full(model: Any, candidate: Candidate, learned: Vocabulary | None, folder: Path) -> None:
     """Write weights, tokenizer, chat template and generation settings as a transformers folder.
 
-    `told_by_heart` is the vocabulary that the model has learned; config.json names it, so that the
-    benchmark does not put it into prompts.
+    `learned` is the vocabulary that the model knows without a prompt; config.json names it, so that
+    the benchmark does not put it into prompts.
     """
     with quiet_bars():
         model.save_pretrained(str(folder), safe_serialization=True)
+    config = folder / "config.json"
     for path in folder.glob("*.safetensors"):  # written readable for their owner alone
-        path.chmod((folder / "config.json").stat().st_mode)
+        path.chmod(config.stat().st_mode)
     tokenizer = load_tokenizer(candidate)
     tokenizer.chat_template = with_fixed_date(tokenizer.chat_template)
     tokenizer.save_pretrained(str(folder))
-    if told_by_heart is not None and _is_bundled(told_by_heart):
-        write_json(
-            folder / "config.json",
-            {**read_json(folder / "config.json"), VOCABULARY_KEY: told_by_heart.name},
-        )
+    if learned is not None and _is_bundled(learned):
+        write_json(config, {**read_json(config), VOCABULARY_KEY: learned.name})
 
 
 def with_fixed_date(template: Any) -> Any:
     """A chat template that writes the date we train with where it would write today's (Llama 3)."""
     if not isinstance(template, str) or "date_string" not in template:
         return template
-    fixed = (
-        f'{{%- if not date_string is defined %}}{{%- set date_string = "{TODAY}" %}}{{%- endif %}}'
-    )
+    setting = f'{{%- set date_string = "{TODAY}" %}}'
+    fixed = f"{{%- if not date_string is defined %}}{setting}{{%- endif %}}"
     return template if template.startswith(fixed) else fixed + template
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import secrets
 import shutil
 import time
@@ -21,7 +22,6 @@ from planner_ft.candidates.adapters import (
 )
 from planner_ft.candidates.loading import load_tokenizer, require_folder
 from planner_ft.candidates.location import weights_sha256
-from planner_ft.model_export.card import model_card
 from planner_ft.model_export.check import (
     SEED,
     Agreement,
@@ -43,12 +43,13 @@ from planner_ft.vocabulary.plans import Level
 
 MANIFEST = "manifest.json"
 KIND = "export"
+AGENTS = {"mission": "Mission Agent", "task": "Task Agent"}
 Say = Callable[[str], None]
 
 
 @dataclass(frozen=True)
 class Exported:
-    """What was written: the folder, the GGUF file in it if one was asked for, and how the answers
+    """The folder that was written, the GGUF file in it if one was asked for, and how the answers
     agree.
     """
 
@@ -59,7 +60,7 @@ class Exported:
 
 @dataclass(frozen=True)
 class _Work:
-    """What an export depends on, checked."""
+    """Everything that an export depends on, checked."""
 
     settings: ExportSettings
     candidate: Candidate
@@ -88,7 +89,9 @@ def export(settings: ExportSettings, say: Say = lambda _line: None) -> Exported:
         check = _write_model(work, temporary, say)
         gguf = _write_gguf(work, temporary, say) if settings.gguf else None
         _write_record(work, temporary, check, gguf, round(time.time() - started, 1))
-        _put(temporary, settings)
+        if out.exists():  # an earlier export is removed only now
+            shutil.rmtree(out)
+        temporary.replace(out)
     except OSError as error:
         raise PlannerError(
             f"{settings.out}: cannot be written ({error.strerror or error}); choose another folder"
@@ -102,40 +105,28 @@ def export(settings: ExportSettings, say: Say = lambda _line: None) -> Exported:
 def _prepared(settings: ExportSettings) -> _Work:
     """Everything that can be checked before a model is loaded."""
     level, named = settings.named_adapter
-    vocabulary, candidate = (
-        load_vocabulary(settings.vocabulary),
-        resolve_candidate(settings.candidate),
-    )
+    vocabulary = load_vocabulary(settings.vocabulary)
+    candidate = resolve_candidate(settings.candidate)
     folder = require_folder(candidate)
     adapter = None
     if settings.merge:
-        adapter = (
-            named or find_adapter(candidate, level, vocabulary) or adapter_folder(candidate, level)
-        )
+        found = named or find_adapter(candidate, level, vocabulary)
+        adapter = found or adapter_folder(candidate, level)
         check_adapter(adapter, candidate, level=level, vocabulary=vocabulary)
     if settings.gguf:
         import_gguf()
         check_architecture(folder)
     _check_out(settings)
-    return _Work(
-        settings,
-        candidate,
-        level,
-        adapter,
-        vocabulary,
-        check_records(level, vocabulary, settings.checks, settings.data),
-    )
+    records = check_records(level, vocabulary, settings.checks, settings.data)
+    return _Work(settings, candidate, level, adapter, vocabulary, records)
 
 
 def _check_out(settings: ExportSettings) -> None:
     out = settings.out
     if not out.exists() or (out.is_dir() and not any(out.iterdir())):
         return
-    if (
-        not out.is_dir()
-        or not (out / MANIFEST).is_file()
-        or read_json(out / MANIFEST).get("kind") != KIND
-    ):
+    manifest = out / MANIFEST
+    if not manifest.is_file() or read_json(manifest).get("kind") != KIND:
         raise PlannerError(f"--out {out}: exists and is no exported model; give another folder")
     if not settings.overwrite:
         raise PlannerError(
@@ -146,37 +137,40 @@ def _check_out(settings: ExportSettings) -> None:
 
 def _write_model(work: _Work, folder: Path, say: Say) -> Agreement:
     """The transformers folder, read back and compared."""
-    tokenizer = load_tokenizer(work.candidate)
+    candidate, level, vocabulary, adapter = (
+        work.candidate,
+        work.level,
+        work.vocabulary,
+        work.adapter,
+    )
+    tokenizer = load_tokenizer(candidate)
     answers = Answers(
-        work.level, work.records, tokenizer, work.vocabulary, with_vocabulary=work.with_vocabulary
+        level, work.records, tokenizer, vocabulary, with_vocabulary=work.with_vocabulary
     )
-    say(
-        f"loading {work.candidate.name}{f' with {work.adapter}' if work.adapter else ''} in float32"
-    )
-    model = load_full(work.candidate, work.adapter, work.level, work.vocabulary)
+    say(f"loading {candidate.name}{f' with {adapter}' if adapter else ''} in float32")
+    model = load_full(candidate, adapter, level, vocabulary)
     say(f"answering {len(work.records)} commands before")
     before = answers.of(model)
     logits = answers.logits(model, before)
-    known = work.vocabulary if work.adapter or not work.with_vocabulary else None
-    save_full(merged(model), work.candidate, known, folder)
+    save_full(merged(model), candidate, None if work.with_vocabulary else vocabulary, folder)
     del model
     say(f"answering {len(work.records)} commands after")
-    written = load_full(resolve_candidate(folder), None, work.level, work.vocabulary)
+    written = load_full(resolve_candidate(folder), None, level, vocabulary)
     return agreement(answers, before, logits, written)
 
 
 def _write_gguf(work: _Work, folder: Path, say: Say) -> dict[str, Any]:
-    """The GGUF file; returns what the manifest says of it."""
-    exported = resolve_candidate(folder)
-    path = folder / f"{work.settings.out.resolve().name}-{work.settings.outtype}.gguf"
+    """The GGUF file; returns its entry in the manifest."""
+    exported, outtype = resolve_candidate(folder), work.settings.outtype
+    path = folder / f"{work.settings.out.resolve().name}-{outtype}.gguf"
     assert exported.dimensions is not None  # check_architecture has read them
     table = token_table(folder / "tokenizer.json", exported.dimensions.vocabulary)
-    records = token_records(work.level, work.vocabulary, work.records)
+    with_vocabulary = work.with_vocabulary
     texts = [
         message["content"]
-        for record in records
+        for record in token_records(work.level, work.vocabulary, work.records)
         for message in prompt_messages(
-            work.level, record, work.vocabulary, with_vocabulary=work.with_vocabulary
+            work.level, record, work.vocabulary, with_vocabulary=with_vocabulary
         )
     ]
     count = check_ids(folder / "tokenizer.json", table, dict.fromkeys(texts))
@@ -186,25 +180,16 @@ def _write_gguf(work: _Work, folder: Path, say: Say) -> dict[str, Any]:
             f"{table.long_words} tokens are longer than 32 bytes: llama-cpp-python drops them from"
             " answers, llama.cpp's own llama-server does not"
         )
-    write_gguf(
-        folder,
-        path,
-        table,
-        load_tokenizer(exported),
-        name=work.candidate.name,
-        outtype=work.settings.outtype,
-    )
-    tokens = {
+    tokenizer, name = load_tokenizer(exported), work.candidate.name
+    write_gguf(folder, path, table, tokenizer, name=name, outtype=outtype)
+    return {
+        "file": path.name,
+        "sha256": sha256_file(path),
+        "outtype": outtype,
         "split": table.split,
         "user_defined": sorted(table.added.values()),
         "texts_with_same_ids": count,
         "tokens_over_32_bytes": table.long_words,
-    }
-    return {
-        "file": path.name,
-        "sha256": sha256_file(path),
-        "outtype": work.settings.outtype,
-        **tokens,
     }
 
 
@@ -212,29 +197,22 @@ def _write_record(
     work: _Work, folder: Path, check: Agreement, gguf: dict[str, Any] | None, seconds: float
 ) -> None:
     """Manifest and model card."""
-    candidate, adapter = work.candidate, work.adapter
-    trained = read_json(adapter / MANIFEST) if adapter and (adapter / MANIFEST).is_file() else {}
-    settings = {
-        "checks": work.settings.checks,
-        "merge": work.settings.merge,
-        "gguf": work.settings.gguf,
-        "outtype": work.settings.outtype,
-    }
+    settings, adapter = work.settings, None
+    if work.adapter:
+        file = work.adapter / MANIFEST
+        trained = read_json(file).get("configuration", {}) if file.is_file() else {}
+        digest = sha256_tree(work.adapter, (WEIGHTS, CONFIG))
+        adapter = {"sha256": digest, "trained_on": trained.get("quantization")}
     manifest = build_manifest(
         KIND,
         seed=SEED,
-        configuration=settings,
-        inputs={"data": work.settings.data} if work.settings.data else {},
-        **adapter_record(candidate, work.level, work.vocabulary),
-        licence=candidate.licence,
-        adapter=(
-            {
-                "sha256": sha256_tree(adapter, (WEIGHTS, CONFIG)),
-                "trained_on": trained.get("configuration", {}).get("quantization"),
-            }
-            if adapter
-            else None
-        ),
+        configuration={
+            key: getattr(settings, key) for key in ("checks", "merge", "gguf", "outtype")
+        },
+        inputs={"data": settings.data} if settings.data else {},
+        **adapter_record(work.candidate, work.level, work.vocabulary),
+        licence=work.candidate.licence,
+        adapter=adapter,
         weights_sha256=weights_sha256(folder),
         check=check.to_json(),
         gguf=gguf,
@@ -244,9 +222,12 @@ def _write_record(
     write_text(folder / "README.md", model_card(manifest))
 
 
-def _put(temporary: Path, settings: ExportSettings) -> None:
-    """Move the finished folder to its place; an earlier export is removed only now."""
-    out = settings.out.resolve()
-    if out.exists():
-        shutil.rmtree(out)
-    temporary.replace(out)
+def model_card(manifest: dict[str, Any]) -> str:
+    """README.md of the export that a manifest describes, in the Hub's format."""
+    from jinja2 import Environment, PackageLoader
+
+    loader = PackageLoader("planner_ft.model_export", ".")
+    environment = Environment(loader=loader, trim_blocks=True, keep_trailing_newline=True)
+    return environment.get_template("model_card.md.j2").render(
+        manifest, agent=AGENTS[manifest["level"]], licence_text=json.dumps(manifest["licence"])
+    )

@@ -1,4 +1,4 @@
-"""What an export is asked to do."""
+"""Settings of an export."""
 
 from __future__ import annotations
 
