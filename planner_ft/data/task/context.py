@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from typing import Any
 
-from planner_ft.data.task.numbers import Value, position
+from planner_ft.data.numbers import Value, position
 from planner_ft.data.task.phrasebook import Call, Phrasebook, Saying, Slots
 from planner_ft.data.task.template import compile_template
 from planner_ft.data.task.values import draw_point, say_number, sense_of

@@ -11,9 +11,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
+from planner_ft.data.numbers import Value, length, position
 from planner_ft.data.task import geometry as g
 from planner_ft.data.task.context import Context
-from planner_ft.data.task.numbers import Value, length, position
 from planner_ft.data.task.phrasebook import Call, Saying, Slots
 from planner_ft.data.task.values import draw_number, draw_point
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from planner_ft.data.numbers import in_words
 from planner_ft.data.task.movements import Movement
-from planner_ft.data.task.numbers import in_words
 from planner_ft.data.task.phrasebook import Call
 from planner_ft.data.task.phrasing import Scoped, Script, Speaker, join, pick_weighted, sentence
 from planner_ft.data.task.scopes import Scopes, group_of

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from planner_ft.data.task.numbers import Value
+from planner_ft.data.numbers import Value
 from planner_ft.data.task.template import Form, Template, compile_template, mark
 from planner_ft.data.task.values import Draw, number_space, value_space
 from planner_ft.data.task.words import FALLBACK, MADE_UP, Lexicon

@@ -7,8 +7,8 @@ from __future__ import annotations
 import random
 from collections.abc import Sequence
 
+from planner_ft.data.numbers import in_words
 from planner_ft.data.task.movements import Movement
-from planner_ft.data.task.numbers import in_words
 from planner_ft.data.task.phrasebook import Phrasebook
 
 ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh")

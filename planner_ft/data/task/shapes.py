@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from planner_ft.data.numbers import COMPASS, Value, bearing, count_text, duration, length, position
 from planner_ft.data.task import geometry as g
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.movements import (
@@ -17,15 +18,6 @@ from planner_ft.data.task.movements import (
     in_pattern,
     one_phrase,
     take,
-)
-from planner_ft.data.task.numbers import (
-    COMPASS,
-    Value,
-    bearing,
-    count_text,
-    duration,
-    length,
-    position,
 )
 from planner_ft.data.task.phrasebook import Saying
 from planner_ft.data.task.template import Template

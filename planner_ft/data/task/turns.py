@@ -7,18 +7,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from planner_ft.data.numbers import COMPASS, Value, bearing, count_text, digits, duration, rotation
 from planner_ft.data.task import geometry as g
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.movements import Movement, Step, in_turns, one_phrase, take
-from planner_ft.data.task.numbers import (
-    COMPASS,
-    Value,
-    bearing,
-    count_text,
-    digits,
-    duration,
-    rotation,
-)
 from planner_ft.data.task.phrasebook import Saying
 from planner_ft.data.task.template import Template
 from planner_ft.data.task.values import draw_bearing, draw_duration, draw_rotation

@@ -12,14 +12,21 @@ import random
 from collections.abc import Callable
 from typing import Any
 
+from planner_ft.data.numbers import SENSES, Value, plain_number, polygon, position
 from planner_ft.data.task.geometry import Point, point, tidy
-from planner_ft.data.task.numbers import SENSES, Value, plain_number, polygon, position
 from planner_ft.data.task.words import Lexicon
 from planner_ft.vocabulary.definition import Parameter
 
 Draw = Callable[[random.Random], Value]
 
-UNIT_SENSE = {"m": "length", "s": "duration", "deg": "angle", "degC": "temperature", "%": "percent"}
+UNIT_SENSE = {
+    "m": "length",
+    "s": "duration",
+    "deg": "angle",
+    "degC": "temperature",
+    "%": "percent",
+    "m/s": "speed",
+}
 UNIT_TYPICAL = {
     "m": (1, 60),
     "s": (5, 900),

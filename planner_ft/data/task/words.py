@@ -13,7 +13,7 @@ import random
 import re
 from collections.abc import Callable, Mapping, Sequence
 
-from planner_ft.data.task.numbers import Value
+from planner_ft.data.numbers import Value
 
 _SLOT = re.compile(r"\{([a-z_]+)\}")
 _ARTICLE = re.compile(r"^(the|a|an) ")

@@ -1,0 +1,151 @@
+"""Template files: JSONL records beside a vehicle's definition, read once and parsed when drawn.
+
+The templates of NAME.toml stand in NAME.commands.jsonl and NAME.prompts.jsonl, or, by subject, in
+the files of the folders NAME.commands/ and NAME.prompts/. schemas/templates.schema.json is the form
+of a record.
+"""
+
+from __future__ import annotations
+
+import functools
+import json
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+from planner_ft.data.templates.grammar import Nodes, Step, TemplateError, parse_plan, parse_text
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import read_text
+from planner_ft.vocabulary import Vocabulary
+
+Kind = Literal["commands", "prompts"]
+SPLITS = ("train", "validation", "test")
+FIELDS: dict[str, dict[str, type]] = {
+    "commands": {"id": str, "split": str, "command": str, "plan": str},
+    "prompts": {"id": str, "split": str, "tasks": list, "prompt": str, "plan": str},
+}
+LISTS = ("excluded", "constraints", "assumptions")
+
+
+@dataclass(eq=False)
+class Template:
+    """A record of a template file; texts and plan are parsed at first use, with a PlannerError
+    that names file and line.
+    """
+
+    id: str
+    split: str
+    text: str
+    plan: str
+    where: str
+    tasks: tuple[str, ...] = ()
+    excluded: tuple[str, ...] = ()
+    constraints: tuple[str, ...] = ()
+    assumptions: tuple[str, ...] = ()
+    bound: dict[Any, Any] = field(default_factory=dict)
+    """What drawing has worked out for a vehicle's tasks."""
+
+    @functools.cached_property
+    def nodes(self) -> Nodes:
+        return self._parsed(parse_text, self.text)
+
+    @functools.cached_property
+    def steps(self) -> tuple[Step, ...]:
+        return self._parsed(parse_plan, self.plan)
+
+    @functools.cached_property
+    def remarks(self) -> tuple[tuple[Nodes, ...], tuple[Nodes, ...]]:
+        """The constraints and the assumptions."""
+        constraints, assumptions = (
+            tuple(self._parsed(parse_text, line) for line in lines)
+            for lines in (self.constraints, self.assumptions)
+        )
+        return constraints, assumptions
+
+    def _parsed[T](self, parse: Callable[[str], T], source: str) -> T:
+        try:
+            return parse(source)
+        except TemplateError as error:
+            raise self.error(error) from None
+
+    def error(self, problem: object) -> PlannerError:
+        """An error that says where the template stands."""
+        return PlannerError(f"{self.where}: {problem}")
+
+    @property
+    def group(self) -> str:
+        """Records of one group, whose ids differ behind a dot, are drawn as one."""
+        return self.id.partition(".")[0]
+
+
+def template_files(vocabulary: Vocabulary, kind: Kind) -> list[Path]:
+    """The template files of a vehicle, by name."""
+    if vocabulary.path is None:
+        return []
+    stem = vocabulary.path.with_suffix("")
+    single, folder = (
+        stem.with_name(f"{stem.name}.{kind}.jsonl"),
+        stem.with_name(f"{stem.name}.{kind}"),
+    )
+    return [path for path in (single, *sorted(folder.glob("*.jsonl"))) if path.is_file()]
+
+
+def templates(vocabulary: Vocabulary, kind: Kind, split: str | None = None) -> list[list[Template]]:
+    """The vehicle's templates by group, those of one split. Raises PlannerError for a record that
+    is not of the form.
+    """
+    groups: dict[tuple[str, str], list[Template]] = {}
+    for path in template_files(vocabulary, kind):
+        for template in read_templates(path, kind):
+            if split in (None, template.split):
+                groups.setdefault((path.stem, template.group), []).append(template)
+    return list(groups.values())
+
+
+@functools.lru_cache(maxsize=256)
+def read_templates(path: Path, kind: Kind) -> tuple[Template, ...]:
+    """The records of one file. Raises PlannerError with file and line."""
+    found: list[Template] = []
+    ids: set[str] = set()
+    for number, line in enumerate(read_text(path).splitlines(), 1):
+        where = f"{path}:{number}"
+        try:
+            record = json.loads(line)
+        except ValueError as error:
+            raise PlannerError(f"{where}: not JSON ({error})") from None
+        problem = _problem(record, kind)
+        if problem or record["id"] in ids:
+            raise PlannerError(f"{where}: {problem or 'the id stands twice'}")
+        ids.add(record["id"])
+        found.append(
+            Template(
+                record["id"],
+                record["split"],
+                record["command" if kind == "commands" else "prompt"],
+                record["plan"],
+                where,
+                tuple(record.get("tasks", ())),
+                *(tuple(record.get(name, ())) for name in LISTS),
+            )
+        )
+    return tuple(found)
+
+
+def _problem(record: Any, kind: Kind) -> str | None:
+    """What is wrong with the form of a record."""
+    if not isinstance(record, dict):
+        return "not an object"
+    fields = FIELDS[kind]
+    for name, type_ in fields.items():
+        if not isinstance(record.get(name), type_):
+            return f"{name} is missing or no {'list' if type_ is list else 'text'}"
+    unknown = set(record) - set(fields) - (set(LISTS) if kind == "commands" else set())
+    if unknown:
+        return f"unknown field {min(unknown)}"
+    if record["split"] not in SPLITS:
+        return f"split {record['split']!r}: must be {', '.join(SPLITS)}"
+    lists = [record[name] for name in (*LISTS, "tasks") if name in record]
+    if not all(isinstance(item, str) for values in lists for item in values):
+        return "a list holds something that is no text"
+    return None
