@@ -12,13 +12,14 @@ import json
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 from planner_ft.data.templates.grammar import Nodes, Step, TemplateError, parse_plan, parse_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text
 from planner_ft.vocabulary import Vocabulary
 
+T = TypeVar("T")
 Kind = Literal["commands", "prompts"]
 SPLITS = ("train", "validation", "test")
 FIELDS: dict[str, dict[str, type]] = {
@@ -63,7 +64,7 @@ class Template:
         )
         return constraints, assumptions
 
-    def _parsed[T](self, parse: Callable[[str], T], source: str) -> T:
+    def _parsed(self, parse: Callable[[str], T], source: str) -> T:
         try:
             return parse(source)
         except TemplateError as error:
@@ -126,7 +127,9 @@ def read_templates(path: Path, kind: Kind) -> tuple[Template, ...]:
                 record["plan"],
                 where,
                 tuple(record.get("tasks", ())),
-                *(tuple(record.get(name, ())) for name in LISTS),
+                tuple(record.get("excluded", ())),
+                tuple(record.get("constraints", ())),
+                tuple(record.get("assumptions", ())),
             )
         )
     return tuple(found)
