@@ -1,20 +1,35 @@
-"""A plan document of what was planned."""
+"""A plan document of a planned command, and everything in a document that follows from the rest of
+it.
+
+A place that was filled in stands as `located` beside the parameters of its tasks: {parameter:
+name}, under the name by which the plan left it open.
+"""
 
 from __future__ import annotations
 
 import copy
+import hashlib
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from planner_ft.document.files import PlanDocument
-from planner_ft.document.places import locate_parameters
-from planner_ft.document.revise import revise
+from planner_ft.document.ontology import check
+from planner_ft.document.sources import sources
+from planner_ft.document.track import estimate, track
 from planner_ft.document.vehicle import Vehicle, load_vehicle
+from planner_ft.document.warnings import warnings
+from planner_ft.planning.locations import OpenPlace, open_places
 from planner_ft.planning.result import Answer, Planned, PlannedTask
-from planner_ft.vocabulary.document_schema import FORMAT, VERSION
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.document_schema import FORMAT, TASK_KEYS, VERSION, document_keys
+from planner_ft.vocabulary.plans import canonical_parameters
 
-if TYPE_CHECKING:
-    from planner_ft.vocabulary import Vocabulary
+PlanDocument = dict[str, Any]
+"""A plan document (schemas/plan.schema.json). Nobody changes one in place: a change returns
+another.
+"""
+LARGEST = 2**53 - 1
+"""Larger whole numbers have no exact form in RFC 8785 (I-JSON, RFC 7493)."""
 
 
 def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = None) -> PlanDocument:
@@ -22,19 +37,20 @@ def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = No
     profile by default.
     """
     plan = planned.mission.plan or {"tasks": []}
-    located = locate_parameters(plan, [task.parameters for task in planned.tasks], vocabulary)
-    tasks = [
-        _task(number, task, located.get(number, {}))
-        for number, task in enumerate(planned.tasks, start=1)
-    ]
-    places = {
-        name: planned.tasks[number - 1].parameters[parameter]
-        for number, named in located.items()
-        for parameter, name in named.items()
-    }
-    texts = {
+    tasks = [_task(number, task) for number, task in enumerate(planned.tasks, start=1)]
+    places: dict[str, Any] = {}
+    for place in open_places(plan, vocabulary):
+        for task in (tasks[number - 1] for number in place.tasks):
+            parameter = vocabulary.task[task["title"]].position_parameter or ""
+            position = task["parameters"][parameter]
+            if position != list(vocabulary.unresolved):
+                task["located"] = {parameter: place.name}
+                places[place.name] = position
+    proposal = {
+        "tasks": tasks,
         "assumptions": [*plan.get("assumptions", []), *planned.mission.notes],
         "constraints": list(plan.get("constraints", [])),
+        "located": places,
     }
     document = {
         "format": FORMAT,
@@ -42,11 +58,9 @@ def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = No
         "command": planned.command,
         "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
         "vehicle": (vehicle or load_vehicle(None, vocabulary)).as_json(),
-        "tasks": tasks,
-        **texts,
-        "located": places,
-        **problems(planned.mission),
-        "proposed": copy.deepcopy({"tasks": tasks, **texts, "located": places}),
+        **proposal,
+        **_problems(planned.mission),
+        "proposed": copy.deepcopy(proposal),
         "edits": [],
         "usage": {agent: asdict(use) for agent, use in planned.usage.items()},
         "peak_memory_bytes": planned.peak_memory,
@@ -55,36 +69,127 @@ def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = No
     return revise(document, vocabulary)
 
 
-def skills_of(answer: Answer | None) -> dict[str, Any]:
-    """What a document says of the Task Agent's answer for a task; its skill sequence is null where
-    there is none, or no valid one.
-    """
-    if answer is None:
-        return {"skill_sequence": None}
-    skills = answer.plan["skill_sequence"] if answer.plan is not None else None
-    return {
-        "skill_sequence": skills,
-        **({"assumptions": list(answer.notes)} if answer.notes else {}),
-        **problems(answer),
-    }
-
-
-def problems(answer: Answer) -> dict[str, Any]:
-    """What is wrong with an answer, with its raw text; nothing for a valid one."""
-    return (
-        {}
-        if answer.plan is not None
-        else {"problems": list(answer.problems), "output": answer.text}
-    )
-
-
-def _task(number: int, task: PlannedTask, located: dict[str, str]) -> dict[str, Any]:
-    told = {
+def _task(number: int, task: PlannedTask) -> dict[str, Any]:
+    entry: dict[str, Any] = {
         "id": f"t{number}",
         "title": task.title,
         "parameters": task.parameters,
         "task_prompt": task.task_prompt,
+        "skill_sequence": None,
     }
-    return copy.deepcopy(
-        {**told, **skills_of(task.answer), **({"located": located} if located else {})}
-    )
+    answer = task.answer
+    if answer is not None:
+        entry["skill_sequence"] = answer.plan["skill_sequence"] if answer.plan is not None else None
+        entry |= {"assumptions": list(answer.notes)} if answer.notes else {}
+        entry |= _problems(answer)
+    return copy.deepcopy(entry)
+
+
+def _problems(answer: Answer) -> dict[str, Any]:
+    """What is wrong with an answer, with its raw text; nothing for a valid one."""
+    if answer.plan is not None:
+        return {}
+    return {"problems": list(answer.problems), "output": answer.text}
+
+
+def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
+    """The document with all that derives made anew: open places, sources, estimate, warnings,
+    whether it is valid and complete, the digest.
+    """
+    tasks = [_underived(task, vocabulary) for task in document["tasks"]]
+    places = places_of(tasks, vocabulary)
+    for place in places:
+        for number in place.tasks:
+            tasks[number - 1]["waits_for"] = place.name
+    valid = not any("problems" in part for part in (document, *tasks))
+    revised = {
+        **document,
+        "tasks": tasks,
+        "valid": valid,
+        "complete": valid and all(task["skill_sequence"] is not None for task in tasks),
+        "open_places": [{"name": place.name, "tasks": list(place.tasks)} for place in places],
+        "ontology": check(document["command"], vocabulary),
+    }
+    for task, found in zip(tasks, sources(revised, vocabulary), strict=True):
+        task["sources"] = found
+    path = track(revised, vocabulary)
+    revised["estimate"] = estimate(revised, path)
+    revised["warnings"] = warnings(revised, vocabulary, path)
+    revised["tasks"] = [_ordered(task, TASK_KEYS) for task in tasks]
+    ordered = _ordered(revised, document_keys())
+    return {**ordered, "digest": document_digest(ordered)}
+
+
+def _underived(task: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
+    """A task without what derives, its parameters in the order of the definition."""
+    kept = {key: value for key, value in task.items() if key not in ("waits_for", "sources")}
+    known = vocabulary.task.get(task["title"])
+    return {**kept, "parameters": canonical_parameters(task["parameters"], known)}
+
+
+def _ordered(value: Mapping[str, Any], keys: Sequence[str]) -> dict[str, Any]:
+    return {key: value[key] for key in keys if key in value}
+
+
+# ---------------------------------------------------------------- places
+
+
+def places_of(tasks: Sequence[dict[str, Any]], vocabulary: Vocabulary) -> list[OpenPlace]:
+    """The places that a document's tasks leave open."""
+    return open_places({"tasks": tasks}, vocabulary)
+
+
+def tasks_at(
+    name: str, tasks: Sequence[dict[str, Any]], vocabulary: Vocabulary
+) -> list[tuple[dict[str, Any], str]]:
+    """The tasks at a place, open or located already, each with the parameter that holds its
+    position.
+    """
+    places = [place for place in places_of(tasks, vocabulary) if place.name == name]
+    waiting = [tasks[number - 1] for place in places for number in place.tasks]
+    found = [(task, vocabulary.task[task["title"]].position_parameter or "") for task in waiting]
+    return found + [
+        (task, parameter)
+        for task in tasks
+        for parameter, located in task.get("located", {}).items()
+        if located == name
+    ]
+
+
+# ---------------------------------------------------------------- digest
+
+
+def canonical(value: Any) -> bytes:
+    """A JSON value in the canonical form of RFC 8785; whole numbers beyond 2^53 - 1 as the
+    floating-point numbers that they are to most readers.
+    """
+    import rfc8785
+
+    return rfc8785.dumps(_exact(value))
+
+
+def sha256_canonical(value: Any) -> str:
+    """Hexadecimal SHA-256 over the canonical form of a JSON value."""
+    return hashlib.sha256(canonical(value)).hexdigest()
+
+
+def document_digest(document: Mapping[str, Any]) -> str:
+    """The digest of a plan document: of all of it but the key `digest`."""
+    return sha256_canonical({key: value for key, value in document.items() if key != "digest"})
+
+
+def altered(document: Mapping[str, Any]) -> bool:
+    """Whether a document is not what its digest says: changed by hand, or by a program that does
+    not know it.
+    """
+    return document.get("digest") != document_digest(document)
+
+
+def _exact(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _exact(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_exact(item) for item in value]
+    if isinstance(value, int) and not isinstance(value, bool) and abs(value) > LARGEST:
+        return float(value)
+    return value

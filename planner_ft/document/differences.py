@@ -6,11 +6,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
-from planner_ft.document.files import PlanDocument
+from planner_ft.document.build import PlanDocument
 from planner_ft.support.files import compact_json
 
 Tasks = Sequence[dict[str, Any]]
 MISSING = "nothing"
+Kind = Literal["added", "removed", "moved", "parameter", "prompt", "skills", "located"]
 
 
 @dataclass(frozen=True)
@@ -20,7 +21,7 @@ class Difference:
     """
 
     task: str | None
-    kind: Literal["added", "removed", "moved", "parameter", "prompt", "skills", "located"]
+    kind: Kind
     name: str
     before: Any
     after: Any
@@ -32,7 +33,7 @@ class Difference:
 
 
 def differences(document: PlanDocument) -> list[Difference]:
-    """What differs between the proposal of a document and the plan as it stands."""
+    """The differences between the proposal of a document and the plan as it stands."""
     return compare(document["proposed"], document)
 
 
@@ -40,119 +41,71 @@ def compare(before: dict[str, Any], after: dict[str, Any]) -> list[Difference]:
     """The differences between two plans of one command ({"tasks", "located"}), whose tasks are the
     same when their ids are.
     """
-    old, new = (
-        {task["id"]: task for task in before["tasks"]},
-        {task["id"]: task for task in after["tasks"]},
-    )
-    found = list(_located(before["located"], after["located"]))
-    for ident, task in old.items():
-        if ident not in new:
-            found.append(
-                Difference(
-                    ident,
-                    "removed",
-                    task["title"],
-                    task["parameters"],
-                    None,
-                    f"{_called(task)}: removed",
-                )
-            )
+    old = {task["id"]: task for task in before["tasks"]}
+    kept = {task["id"] for task in after["tasks"]}
+    found = list(_changes(None, "located", "", before["located"], after["located"]))
+    for name, task in old.items():
+        title = task["title"]
+        if name not in kept:
+            text = f"{title} ({name}): removed"
+            found.append(Difference(name, "removed", title, task["parameters"], None, text))
     for number, task in enumerate(after["tasks"], start=1):
-        if task["id"] not in old:
-            found.append(
-                Difference(
-                    task["id"],
-                    "added",
-                    task["title"],
-                    None,
-                    task["parameters"],
-                    f"task {number}, {task['title']}: added",
-                )
-            )
+        name, title = task["id"], task["title"]
+        where = f"task {number}, {title}: "
+        if name not in old:
+            given = task["parameters"]
+            found.append(Difference(name, "added", title, None, given, f"{where}added"))
         else:
-            found += _within(number, old[task["id"]], task)
+            found += _within(where, old[name], task)
     return found + list(_moved(before["tasks"], after["tasks"]))
 
 
-def _within(number: int, old: dict[str, Any], new: dict[str, Any]) -> Iterator[Difference]:
-    where = f"task {number}, {new['title']}"
-    for name in dict.fromkeys((*old["parameters"], *new["parameters"])):
-        before, after = old["parameters"].get(name), new["parameters"].get(name)
-        if before != after:
-            yield Difference(
-                new["id"],
-                "parameter",
-                name,
-                before,
-                after,
-                f"{where}: {name} {_shown(before)} -> {_shown(after)}",
-            )
-    if old["task_prompt"] != new["task_prompt"]:
-        text = f'{where}: prompt "{old["task_prompt"]}" -> "{new["task_prompt"]}"'
-        yield Difference(
-            new["id"], "prompt", "task_prompt", old["task_prompt"], new["task_prompt"], text
-        )
-    if old["skill_sequence"] != new["skill_sequence"]:
-        text = f"{where}: skills {_steps(old['skill_sequence'])} -> {_steps(new['skill_sequence'])}"
-        yield Difference(
-            new["id"],
-            "skills",
-            "skill_sequence",
-            old["skill_sequence"],
-            new["skill_sequence"],
-            text,
-        )
+def _within(where: str, old: dict[str, Any], new: dict[str, Any]) -> Iterator[Difference]:
+    name = new["id"]
+    yield from _changes(name, "parameter", where, old["parameters"], new["parameters"])
+    before, after = old["task_prompt"], new["task_prompt"]
+    if before != after:
+        text = f'{where}prompt "{before}" -> "{after}"'
+        yield Difference(name, "prompt", "task_prompt", before, after, text)
+    before, after = old["skill_sequence"], new["skill_sequence"]
+    if before != after:
+        text = f"{where}skills {_steps(before)} -> {_steps(after)}"
+        yield Difference(name, "skills", "skill_sequence", before, after, text)
 
 
-def _located(old: dict[str, Any], new: dict[str, Any]) -> Iterator[Difference]:
+def _changes(
+    task: str | None, kind: Kind, where: str, old: dict[str, Any], new: dict[str, Any]
+) -> Iterator[Difference]:
+    """The differences between two objects, key by key."""
     for name in dict.fromkeys((*old, *new)):
-        if old.get(name) != new.get(name):
-            yield Difference(
-                None,
-                "located",
-                name,
-                old.get(name),
-                new.get(name),
-                f"{name}: {_shown(old.get(name))} -> {_shown(new.get(name))}",
-            )
+        before, after = old.get(name), new.get(name)
+        if before != after:
+            sign = ":" if kind == "located" else ""
+            text = f"{where}{name}{sign} {_shown(before)} -> {_shown(after)}"
+            yield Difference(task, kind, name, before, after, text)
 
 
 def _moved(old: Tasks, new: Tasks) -> Iterator[Difference]:
     """The tasks that stand elsewhere among those that both plans have: as few as explain the new
     order.
     """
-    common = {task["id"] for task in old} & {task["id"] for task in new}
-    places = {
-        task["id"]: index for index, task in enumerate(task for task in old if task["id"] in common)
-    }
-    row = [task["id"] for task in new if task["id"] in common]
-    kept = {row[index] for index in _longest_rising([places[ident] for ident in row])}
-    at = {task["id"]: number for number, task in enumerate(new, start=1)}
     was = {task["id"]: number for number, task in enumerate(old, start=1)}
-    titles = {task["id"]: task["title"] for task in new}
-    for ident in row:
-        if ident not in kept:
-            yield Difference(
-                ident,
-                "moved",
-                titles[ident],
-                was[ident],
-                at[ident],
-                f"{titles[ident]}: moved from place {was[ident]} to {at[ident]}",
-            )
+    common = [(at, task) for at, task in enumerate(new, start=1) if task["id"] in was]
+    kept = _longest_rising([was[task["id"]] for _at, task in common])
+    for at, task in common:
+        name, title, place = task["id"], task["title"], was[task["id"]]
+        if place not in kept:
+            text = f"{title}: moved from place {place} to {at}"
+            yield Difference(name, "moved", title, place, at, text)
 
 
 def _longest_rising(values: Sequence[int]) -> list[int]:
-    """The indices of a longest rising subsequence."""
+    """A longest rising subsequence of different values."""
     best: list[list[int]] = []
-    for index, value in enumerate(values):
-        longest = max((row for row in best if values[row[-1]] < value), key=len, default=[])
-        best.append([*longest, index])
+    for value in values:
+        longest = max((row for row in best if row[-1] < value), key=len, default=[])
+        best.append([*longest, value])
     return max(best, key=len, default=[])
-
-
-def _called(task: dict[str, Any]) -> str:
-    return f"{task['title']} ({task['id']})"
 
 
 def _shown(value: Any) -> str:

@@ -5,22 +5,26 @@ can be taken back.
 from __future__ import annotations
 
 import copy
+import functools
+import json
+import re
 from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
-from functools import cache
 from typing import Any
 
-import jsonschema
-
-from planner_ft.document.digest import altered
-from planner_ft.document.files import PlanDocument
-from planner_ft.document.places import places_of, tasks_at
-from planner_ft.document.revise import revise
-from planner_ft.document.reword import reword
+from planner_ft.document.build import PlanDocument, altered, places_of, revise, tasks_at
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.document_schema import task_schema
-from planner_ft.vocabulary.plans import canonical_value, plan_problems, step_skills, value_problem
+from planner_ft.vocabulary.plans import (
+    canonical_value,
+    is_number,
+    plan_problems,
+    step_skills,
+    task_problems,
+    value_problem,
+)
 
 Edit = dict[str, Any]
 """{"kind": one of KINDS, ...}: what to change."""
@@ -28,6 +32,7 @@ LONGEST_PROMPT = 4000
 LONGEST_SHOWN = 120
 """Characters of a value that a sentence repeats."""
 MOST_TASKS = 1000
+POSITION = Parameter("position", "position", "m")
 
 
 def apply(
@@ -50,13 +55,13 @@ def adopt(document: PlanDocument, vocabulary: Vocabulary, by: str | None = None)
     """A document that was altered outside, its tasks as they stand recorded as an edit. Raises
     PlannerError when they are not valid.
     """
+    derived = ("sources", "waits_for")
     tasks = [
-        {key: value for key, value in task.items() if key not in ("sources", "waits_for")}
+        {key: value for key, value in task.items() if key not in derived}
         for task in document["tasks"]
     ]
-    return revise(
-        _applied(document, _record({"kind": "replace", "tasks": tasks}, by), vocabulary), vocabulary
-    )
+    record = _record({"kind": "replace", "tasks": tasks}, by)
+    return revise(_applied(document, record, vocabulary), vocabulary)
 
 
 def undo(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
@@ -82,42 +87,32 @@ def _applied(
     kind = edit.get("kind") if isinstance(edit, dict) else None
     if not isinstance(kind, str) or kind not in KINDS:
         raise PlannerError(f"edit {_short(repr(kind))}: is not known; there is {', '.join(KINDS)}")
-    keys, change = KINDS[kind]
-    unknown = [key for key in edit if key not in ("kind", *keys, *OPTIONAL.get(kind, ()))]
+    keys, optional, change = KINDS[kind]
+    unknown = [key for key in edit if key not in ("kind", *keys, *optional)]
     if unknown:
         raise PlannerError(f"edit {kind}: has no {_short(unknown[0])}; leave it out")
-    for key, (types, what) in keys.items():
+    for key, (types, expected) in keys.items():
         if key not in edit or not isinstance(edit[key], types) or isinstance(edit[key], bool):
-            raise PlannerError(f"edit {kind}: {key} must be {what}")
-    edited = {
-        **document,
-        "tasks": copy.deepcopy(document["tasks"]),
-        "located": dict(document["located"]),
-    }
+            raise PlannerError(f"edit {kind}: {key} must be {expected}")
+    tasks, located = copy.deepcopy(document["tasks"]), dict(document["located"])
+    edited = {**document, "tasks": tasks, "located": located}
     change(edited, edit, vocabulary)
     return {**edited, "edits": [*document["edits"], {**record, "edit": edit}]}
 
 
-# ---------------------------------------------------------------- the kinds of edits: each changes
+# ---------------------------------------------------------------- kinds of edits: each changes
 # `document`, which is a copy
 
 
 def _locate(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
-    name, position = (
-        edit["name"],
-        _value(edit["position"], Parameter("position", "position", "m"), "position"),
-    )
+    name, position = edit["name"], _value(edit["position"], POSITION)
     if position == list(vocabulary.unresolved):
         raise PlannerError(f"{name}: {position} stands for an unknown place; give where it is")
     found = tasks_at(name, document["tasks"], vocabulary)
     if not found:
-        known = [
-            *(place.name for place in places_of(document["tasks"], vocabulary)),
-            *document["located"],
-        ]
-        raise PlannerError(
-            f"{_short(name)}: no such place is open; there is {', '.join(known) or 'none'}"
-        )
+        waiting = [place.name for place in places_of(document["tasks"], vocabulary)]
+        known = ", ".join((*waiting, *document["located"])) or "none"
+        raise PlannerError(f"{_short(name)}: no such place is open; there is {known}")
     for task, parameter in found:
         task["parameters"][parameter] = position
         task["located"] = {**task.get("located", {}), parameter: name}
@@ -126,18 +121,15 @@ def _locate(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
 
 
 def _parameter(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
-    task = _task(document, edit)
-    name, value = edit["name"], edit.get("value")
+    task, name = _task(document, edit), edit["name"]
     parameter = _known(vocabulary.task[task["title"]], task["title"], name)
     before = task["parameters"].get(name)
-    if value is None:
-        task["parameters"].pop(name, None)
-    else:
-        task["parameters"][name] = _value(value, parameter, name)
+    _set(task["parameters"], parameter, edit.get("value"))
+    if name in task["parameters"]:
         task["task_prompt"] = reword(task["task_prompt"], before, task["parameters"][name])
-    task["located"] = {key: place for key, place in task.get("located", {}).items() if key != name}
-    if not task["located"]:
-        del task["located"]
+    located = {key: place for key, place in task.pop("located", {}).items() if key != name}
+    if located:
+        task["located"] = located
     _check(task, vocabulary)
     _outdate(task)
     _forget_places(document)
@@ -161,35 +153,24 @@ def _move(document: PlanDocument, edit: Edit, _vocabulary: Vocabulary) -> None:
 
 
 def _insert(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
-    title = edit["title"]
+    title, given = edit["title"], edit.get("parameters", {})
     if title not in vocabulary.task:
-        raise PlannerError(
-            f"{_short(title)}: is no task of this vehicle; there is {', '.join(vocabulary.task)}"
-        )
+        known = ", ".join(vocabulary.task)
+        raise PlannerError(f"{_short(title)}: is no task of this vehicle; there is {known}")
     if len(document["tasks"]) >= MOST_TASKS:
         raise PlannerError(
             f"insert {title}: the plan has {MOST_TASKS} tasks, and no more fit; plan two missions"
         )
-    given = edit.get("parameters", {})
     if not isinstance(given, dict):
         raise PlannerError("edit insert: parameters must be an object")
-    parameters = {
-        name: _value(value, _known(vocabulary.task[title], title, name), name)
-        for name, value in given.items()
-    }
-    taken = [
-        int(task["id"][1:])
-        for task in (*document["tasks"], *document["proposed"]["tasks"])
-        if task["id"][1:].isdecimal()
-    ]
-    inserted = [
-        int(record["edit"]["id"][1:]) for record in document["edits"] if "id" in record["edit"]
-    ]
-    edit["id"] = f"t{max([*taken, *inserted], default=0) + 1}"
+    owner = vocabulary.task[title]
+    edit["id"] = _new_id(document)
     task = {
         "id": edit["id"],
         "title": title,
-        "parameters": parameters,
+        "parameters": {
+            name: _value(value, _known(owner, title, name)) for name, value in given.items()
+        },
         "task_prompt": _prompt_text(edit.get("task_prompt", "")),
         "skill_sequence": None,
     }
@@ -198,50 +179,40 @@ def _insert(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
 
 
 def _skills(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
-    task = _task(document, edit)
-    found = plan_problems(
-        "task", {"skill_sequence": edit["skill_sequence"]}, vocabulary, strict=True
-    )
-    if found:
-        raise PlannerError(f"skills of {task['id']}: {found[0]}")
+    task, assumptions = _task(document, edit), edit.get("assumptions", [])
+    _check_skills(edit["skill_sequence"], f"skills of {task['id']}", vocabulary)
+    if not isinstance(assumptions, list) or not all(isinstance(text, str) for text in assumptions):
+        raise PlannerError("edit skills: assumptions must be a list of texts")
     task["skill_sequence"] = copy.deepcopy(edit["skill_sequence"])
     for key in ("stale", "assumptions", "problems", "output"):
         task.pop(key, None)
-    assumptions = edit.get("assumptions", [])
-    if not isinstance(assumptions, list) or not all(isinstance(text, str) for text in assumptions):
-        raise PlannerError("edit skills: assumptions must be a list of texts")
     if assumptions:
         task["assumptions"] = assumptions
 
 
 def _skill(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
-    task = _task(document, edit)
-    steps = task["skill_sequence"] or []
-    where = f"{task['id']} step {edit['step'] + 1}"
-    if not 0 <= edit["step"] < len(steps):
+    task, number, role = _task(document, edit), edit["step"], edit["role"]
+    steps, where = task["skill_sequence"] or [], f"{task['id']} step {number + 1}"
+    if not 0 <= number < len(steps):
         raise PlannerError(f"{where}: the task has {len(steps)} steps")
-    skills = [skill for role, skill in step_skills(steps[edit["step"]]) if role == edit["role"]]
+    skills = [skill for known, skill in step_skills(steps[number]) if known == role]
     if not 0 <= edit["index"] < len(skills):
         raise PlannerError(
-            f"{where}: has {len(skills)} {edit['role']} skills, and none of number"
-            f" {edit['index'] + 1}"
+            f"{where}: has {len(skills)} {role} skills, and none of number {edit['index'] + 1}"
         )
     skill = skills[edit["index"]]
     parameter = _known(vocabulary.skill[skill["name"]], skill["name"], edit["name"])
-    if edit.get("value") is None:
-        skill["parameters"].pop(edit["name"], None)
-    else:
-        skill["parameters"][edit["name"]] = _value(edit["value"], parameter, edit["name"])
-    found = plan_problems("task", {"skill_sequence": steps}, vocabulary, strict=True)
-    if found:
-        raise PlannerError(f"{where}: {found[0]}")
+    _set(skill["parameters"], parameter, edit.get("value"))
+    _check_skills(steps, where, vocabulary)
 
 
 def _replace(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
+    from jsonschema.exceptions import best_match
+
     for task in edit["tasks"]:
         if isinstance(task, dict) and {"id", "title", "parameters", "task_prompt"} <= task.keys():
             _check(task, vocabulary)
-        found = jsonschema.exceptions.best_match(_task_validator(vocabulary).iter_errors(task))
+        found = best_match(_task_validator(vocabulary).iter_errors(task))
         if found is not None:
             raise PlannerError(f"edit replace: {_short(found.message)}")
     if len({task["id"] for task in edit["tasks"]}) < len(edit["tasks"]):
@@ -250,61 +221,93 @@ def _replace(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None
     _forget_places(document)
 
 
-TEXT: tuple[type, str] = (str, "a text")
-WHOLE: tuple[type, str] = (int, "a whole number")
-TASK: Mapping[str, tuple[type, str]] = {"task": (str, "the id of a task")}
-KINDS: dict[
-    str, tuple[Mapping[str, tuple[type, str]], Callable[[PlanDocument, Edit, Vocabulary], None]]
-] = {
-    "locate": ({"name": TEXT, "position": (list, "a position [x, y]")}, _locate),
-    "parameter": ({**TASK, "name": TEXT}, _parameter),
-    "prompt": ({**TASK, "text": TEXT}, _prompt),
-    "remove": (TASK, _remove),
-    "move": ({**TASK, "to": WHOLE}, _move),
-    "insert": ({"title": TEXT, "at": WHOLE}, _insert),
-    "skills": ({**TASK, "skill_sequence": (list, "a list of steps")}, _skills),
-    "replace": ({"tasks": (list, "a list of tasks")}, _replace),
-    "skill": ({**TASK, "step": WHOLE, "role": TEXT, "index": WHOLE, "name": TEXT}, _skill),
+Keys = Mapping[str, tuple[type, str]]
+TEXT, WHOLE, LIST = (str, "a text"), (int, "a whole number"), (list, "a list")
+TASK: Keys = {"task": (str, "the id of a task")}
+STEPS, TASKS, PLACE = (
+    (list, "a list of steps"),
+    (list, "a list of tasks"),
+    (list, "a position [x, y]"),
+)
+SKILL: Keys = {**TASK, "step": WHOLE, "role": TEXT, "index": WHOLE, "name": TEXT}
+KINDS: dict[str, tuple[Keys, tuple[str, ...], Callable[[PlanDocument, Edit, Vocabulary], None]]] = {
+    "locate": ({"name": TEXT, "position": PLACE}, (), _locate),
+    "parameter": ({**TASK, "name": TEXT}, ("value",), _parameter),
+    "prompt": ({**TASK, "text": TEXT}, (), _prompt),
+    "remove": (TASK, (), _remove),
+    "move": ({**TASK, "to": WHOLE}, (), _move),
+    "insert": ({"title": TEXT, "at": WHOLE}, ("parameters", "task_prompt", "id"), _insert),
+    "skills": ({**TASK, "skill_sequence": STEPS}, ("assumptions",), _skills),
+    "replace": ({"tasks": TASKS}, (), _replace),
+    "skill": (SKILL, ("value",), _skill),
 }
-"""Per kind of edit the keys that it needs, and what makes it."""
-OPTIONAL = {
-    "parameter": ("value",),
-    "insert": ("parameters", "task_prompt", "id"),
-    "skills": ("assumptions",),
-    "skill": ("value",),
-}
-"""Keys that an edit may have besides; the id of an inserted task is always given anew."""
+"""Per kind of edit the keys that it needs, those that it may have besides (the id of an inserted
+task is always given anew), and the function that makes it.
+"""
 
 
 # ---------------------------------------------------------------- parts
 
 
+def reword(prompt: str, before: Any, after: Any) -> str:
+    """The prompt with the old value replaced where it stands there once, in digits or word by word;
+    else as it is. The Task Agent reads prompt and parameters: they must not contradict each other.
+
+    Nothing that stays behind is silent: a value that a prompt says and its task does not have is a
+    warning.
+    """
+    if is_number(before):
+        wanted = rf"(?<![\w.,-]){re.escape(compact_json(before))}(?![\w]|[.,]\d)"
+    elif isinstance(before, str):
+        wanted = rf"(?<!\w){re.escape(before)}(?!\w)"
+    elif isinstance(before, list) and len(before) == 2 and all(map(is_number, before)):
+        x, y = (re.escape(compact_json(part)) for part in before)
+        wanted = rf"[\[(]\s*{x}\s*,\s*{y}\s*[\])]"
+    else:
+        return prompt
+    found = list(re.finditer(wanted, prompt))
+    if len(found) != 1:
+        return prompt
+    text = after if isinstance(after, str) else json.dumps(after)
+    return prompt[: found[0].start()] + text + prompt[found[0].end() :]
+
+
 def _task(document: PlanDocument, edit: Edit) -> dict[str, Any]:
-    for task in document["tasks"]:
-        if task["id"] == edit["task"]:
-            found: dict[str, Any] = task
-            return found
-    raise PlannerError(
-        f"task {_short(edit['task'])}: is not in the plan; there is"
-        f" {', '.join(task['id'] for task in document['tasks']) or 'none'}"
-    )
+    tasks: dict[str, dict[str, Any]] = {task["id"]: task for task in document["tasks"]}
+    if edit["task"] not in tasks:
+        known = ", ".join(tasks) or "none"
+        raise PlannerError(f"task {_short(edit['task'])}: is not in the plan; there is {known}")
+    return tasks[edit["task"]]
+
+
+def _new_id(document: PlanDocument) -> str:
+    """An id that no task of the plan, of the proposal or of an edit has or had."""
+    names = [task["id"] for task in (*document["tasks"], *document["proposed"]["tasks"])]
+    names += [record["edit"]["id"] for record in document["edits"] if "id" in record["edit"]]
+    taken = [int(name[1:]) for name in names if name[1:].isdecimal()]
+    return f"t{max(taken, default=0) + 1}"
 
 
 def _known(owner: Task | Skill, title: str, name: str) -> Parameter:
     if name not in owner.by_name:
-        raise PlannerError(
-            f"{_short(name)}: is no parameter of {title}; there is"
-            f" {', '.join(owner.by_name) or 'none'}"
-        )
+        known = ", ".join(owner.by_name) or "none"
+        raise PlannerError(f"{_short(name)}: is no parameter of {title}; there is {known}")
     return owner.by_name[name]
 
 
-def _value(value: Any, parameter: Parameter, name: str) -> Any:
+def _set(parameters: dict[str, Any], parameter: Parameter, value: Any) -> None:
+    """Set a parameter; None removes it."""
+    if value is None:
+        parameters.pop(parameter.name, None)
+    else:
+        parameters[parameter.name] = _value(value, parameter)
+
+
+def _value(value: Any, parameter: Parameter) -> Any:
     problem = value_problem(value, parameter)
     if problem:
-        raise PlannerError(
-            f"{name}: {_short(problem)}{f' ({parameter.unit})' if parameter.unit else ''}"
-        )
+        unit = f" ({parameter.unit})" if parameter.unit else ""
+        raise PlannerError(f"{parameter.name}: {_short(problem)}{unit}")
     return canonical_value(value)
 
 
@@ -318,8 +321,10 @@ def _short(text: str) -> str:
     return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]} ..."
 
 
-@cache
+@functools.cache
 def _task_validator(vocabulary: Vocabulary) -> Any:
+    import jsonschema
+
     return jsonschema.Draft202012Validator(task_schema(vocabulary))
 
 
@@ -330,19 +335,16 @@ def _index(index: int, count: int) -> int:
 
 
 def _check(task: dict[str, Any], vocabulary: Vocabulary) -> None:
-    """Raises PlannerError when a task lacks a parameter that it needs."""
-    entry = {
-        "title": task["title"],
-        "parameters": task["parameters"],
-        "task_prompt": task["task_prompt"],
-    }
-    found = plan_problems(
-        "mission", {"tasks": [entry], "assumptions": [], "constraints": []}, vocabulary, strict=True
-    )
+    """Raises PlannerError when a task is not valid, such as without a parameter that it needs."""
+    found = task_problems(task, vocabulary)
     if found:
-        raise PlannerError(
-            f"{task['id']}: {found[0].removeprefix('tasks[0]: ')}; give it, or remove the task"
-        )
+        raise PlannerError(f"{task['id']}: {found[0]}; give it, or remove the task")
+
+
+def _check_skills(steps: Any, where: str, vocabulary: Vocabulary) -> None:
+    found = plan_problems("task", {"skill_sequence": steps}, vocabulary, strict=True)
+    if found:
+        raise PlannerError(f"{where}: {found[0]}")
 
 
 def _outdate(task: dict[str, Any]) -> None:
@@ -354,6 +356,5 @@ def _outdate(task: dict[str, Any]) -> None:
 def _forget_places(document: PlanDocument) -> None:
     """Drop located places that no task is at any more."""
     used = {name for task in document["tasks"] for name in task.get("located", {}).values()}
-    document["located"] = {
-        name: place for name, place in document["located"].items() if name in used
-    }
+    located = document["located"].items()
+    document["located"] = {name: place for name, place in located if name in used}

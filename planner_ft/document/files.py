@@ -6,22 +6,17 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import jsonschema
-
-from planner_ft.document.digest import document_digest
+from planner_ft.document.build import PlanDocument, document_digest
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, write_json
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import bundled_vocabularies
 from planner_ft.vocabulary.document_schema import FORMAT, VERSION, frame_schema
-from planner_ft.vocabulary.plans import plan_problems
+from planner_ft.vocabulary.plans import plan_problems, task_problems
 
-PlanDocument = dict[str, Any]
-"""A plan document (schemas/plan.schema.json). Nobody changes one in place: what changes it returns
-another.
-"""
 LARGEST_FILE = 64 * 2**20
 """Bytes of a file that is read at most: a plan of 500 tasks has about 2 MB."""
+LONGEST_SHOWN = 200
 
 
 def read_document(path: Path | str, vocabulary: Vocabulary | None = None) -> PlanDocument:
@@ -36,9 +31,24 @@ def read_document(path: Path | str, vocabulary: Vocabulary | None = None) -> Pla
             f"{path}: has {path.stat().st_size} bytes, more than the {LARGEST_FILE} of any plan;"
             " give the file that `plannerft plan --out` wrote"
         )
-    document = _plan_in(path)
+    document = read_json(path)
+    if not isinstance(document, dict) or document.get("format") != FORMAT:
+        raise PlannerError(
+            f"{path}: is no plan document; write one with `plannerft plan COMMAND --out {path.name}`"
+        )
+    if document.get("version") != VERSION:
+        raise PlannerError(
+            f"{path}: is of version {document.get('version')!r}, and this program reads version"
+            f" {VERSION}; plan the command again"
+        )
     vocabulary = vocabulary or vocabulary_of(document, path)
-    _check_vocabulary(document, vocabulary, path)
+    made = document.get("vocabulary")
+    named = made if isinstance(made, dict) else {}
+    if named.get("sha256") != vocabulary.sha256:
+        raise PlannerError(
+            f"{path}: was made with another vocabulary ({named.get('name')!r}, other content) than"
+            f" {vocabulary.name!r}; give its file with --vocabulary, or plan again"
+        )
     problem = document_problem(document, vocabulary)
     if problem is not None:
         raise PlannerError(
@@ -53,48 +63,28 @@ def document_problem(document: Any, vocabulary: Vocabulary) -> str | None:
     JSON Schema checks the frame; tasks and their steps are checked as plans are, which takes a
     fraction of the time.
     """
-    found = jsonschema.exceptions.best_match(_frame().iter_errors(document))
+    from jsonschema.exceptions import best_match
+
+    found = best_match(_frame().iter_errors(document))
     if found is not None:
         where = "".join(
             f"[{key}]" if isinstance(key, int) else f".{key}" for key in found.absolute_path
-        ).lstrip(".")
-        return f"{where or 'the document'}: {_short(found.message)}"
-    for where, tasks in (
-        ("tasks", document["tasks"]),
-        ("proposed.tasks", document["proposed"]["tasks"]),
-    ):
-        for index, task in enumerate(tasks):
-            entry = {
-                "title": task["title"],
-                "parameters": task["parameters"],
-                "task_prompt": task["task_prompt"],
-            }
-            problems = plan_problems(
-                "mission",
-                {"tasks": [entry], "assumptions": [], "constraints": []},
-                vocabulary,
-                strict=True,
-            )
-            problems += plan_problems(
-                "task", {"skill_sequence": task["skill_sequence"] or []}, vocabulary, strict=True
-            )
+        )
+        return f"{where.lstrip('.') or 'the document'}: {_short(found.message)}"
+    for where, part in (("tasks", document), ("proposed.tasks", document["proposed"])):
+        for index, task in enumerate(part["tasks"]):
+            steps = {"skill_sequence": task["skill_sequence"] or []}
+            problems = task_problems(task, vocabulary)
+            problems += plan_problems("task", steps, vocabulary, strict=True)
             if problems:
-                return (
-                    f"{where}[{index}]:"
-                    f" {_short(problems[0].removeprefix('tasks[0].').removeprefix('tasks[0]: '))}"
-                )
+                return f"{where}[{index}]: {_short(problems[0])}"
     return None
 
 
 def vocabulary_of(document: PlanDocument, path: Path | str) -> Vocabulary:
-    """The bundled vocabulary that a document names. Raises PlannerError when there is none of that
-    name.
-    """
-    name = (
-        document.get("vocabulary", {}).get("name")
-        if isinstance(document.get("vocabulary"), dict)
-        else None
-    )
+    """The bundled vocabulary that a document names. Raises PlannerError when there is none."""
+    made = document.get("vocabulary")
+    name = made.get("name") if isinstance(made, dict) else None
     if not isinstance(name, str):
         raise PlannerError(
             f"{path}: names no vocabulary; take the file as `plannerft plan` wrote it"
@@ -116,35 +106,12 @@ def write_document(path: Path | str, document: PlanDocument) -> PlanDocument:
     return written
 
 
-def _plan_in(path: Path) -> PlanDocument:
-    document = read_json(path)
-    if not isinstance(document, dict) or document.get("format") != FORMAT:
-        raise PlannerError(
-            f"{path}: is no plan document; write one with `plannerft plan COMMAND --out"
-            f" {path.name}`"
-        )
-    if document.get("version") != VERSION:
-        raise PlannerError(
-            f"{path}: is of version {document.get('version')!r}, and this program reads version"
-            f" {VERSION}; plan the command again"
-        )
-    return document
-
-
-def _check_vocabulary(document: PlanDocument, vocabulary: Vocabulary, path: Path) -> None:
-    made = document.get("vocabulary")
-    if not isinstance(made, dict) or made.get("sha256") != vocabulary.sha256:
-        name = made.get("name") if isinstance(made, dict) else None
-        other = f"another vocabulary ({name!r}, other content) than {vocabulary.name!r}"
-        raise PlannerError(
-            f"{path}: was made with {other}; give its file with --vocabulary, or plan again"
-        )
+def _short(message: str) -> str:
+    return message if len(message) <= LONGEST_SHOWN else f"{message[:LONGEST_SHOWN]} ..."
 
 
 @cache
 def _frame() -> Any:
+    import jsonschema
+
     return jsonschema.Draft202012Validator(frame_schema())
-
-
-def _short(message: str) -> str:
-    return message if len(message) <= 200 else f"{message[:200]} ..."

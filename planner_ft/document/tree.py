@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from planner_ft.document.files import PlanDocument
+from planner_ft.document.build import PlanDocument
 from planner_ft.support.files import compact_json
 from planner_ft.support.resources import memory_size
 from planner_ft.vocabulary.plans import step_skills
@@ -13,6 +13,7 @@ from planner_ft.vocabulary.plans import step_skills
 INDENT = "   "
 SHOWN_PROBLEMS, SHOWN_TEXT = 5, 400
 """Problems and characters of an answer that is not valid."""
+SIGNS = {"navigation": "", "filter": " | ", "perception": " + "}
 
 
 def plan_tree(document: PlanDocument) -> str:
@@ -25,14 +26,18 @@ def plan_tree(document: PlanDocument) -> str:
 def _lines(document: PlanDocument) -> Iterator[str]:
     yield document["command"]
     yield from task_tree(document)
-    yield from _list_lines("Assumptions", document["assumptions"])
-    yield from _list_lines("Constraints", document["constraints"])
-    open_places = [
-        f"{place['name']}: task{'s' if len(place['tasks']) > 1 else ''} {_numbers(place['tasks'])}"
+    places = [
+        f"{place['name']}: task{'s' * (len(place['tasks']) > 1)} {', '.join(map(str, place['tasks']))}"
         for place in document["open_places"]
     ]
-    yield from _list_lines('Open places (fill in with --locate "NAME=x,y")', open_places)
-    yield from _list_lines("Warnings", [warning["text"] for warning in document["warnings"]])
+    sections = {
+        "Assumptions": document["assumptions"],
+        "Constraints": document["constraints"],
+        'Open places (fill in with --locate "NAME=x,y")': places,
+        "Warnings": [warning["text"] for warning in document["warnings"]],
+    }
+    for heading, items in sections.items():
+        yield from (f"{heading}:", *(f" - {item}" for item in items)) if items else ()
     yield ""
     for agent, use in document["usage"].items():
         yield f"{agent.capitalize()} Agent  {_use(use)}"
@@ -44,18 +49,12 @@ def task_tree(document: PlanDocument) -> Iterator[str]:
     answer.
     """
     if "problems" in document:
-        yield from _invalid(
-            "the Mission Agent's answer is not a valid plan",
-            document["problems"],
-            document["output"],
-        )
+        yield from _invalid("the Mission Agent's answer", document)
     elif not document["tasks"]:
         yield "no tasks"
     if document["located"]:
-        yield (
-            "Located:"
-            f" {', '.join(f'{name} at {compact_json(position)}' for name, position in document['located'].items())}"
-        )
+        places = [f"{name} at {compact_json(at)}" for name, at in document["located"].items()]
+        yield f"Located: {', '.join(places)}"
     for number, task in enumerate(document["tasks"], start=1):
         yield from _task_lines(number, task)
 
@@ -66,46 +65,31 @@ def _task_lines(number: int, task: dict[str, Any]) -> Iterator[str]:
     if "waits_for" in task:
         yield f"{INDENT}(skills wait for the position of {task['waits_for']})"
     if "problems" in task:
-        yield from _invalid(
-            f"{INDENT}the Task Agent's answer is not a valid plan", task["problems"], task["output"]
-        )
+        yield from _invalid(f"{INDENT}the Task Agent's answer", task)
     if task.get("stale"):
         yield f"{INDENT}(the skills were planned before the task was edited)"
     for place, step in enumerate(task["skill_sequence"] or (), start=1):
-        yield f"{INDENT}{place:2d}. {_step(step)}"
+        # The navigation skill, filters after "|", what gathers data after "+".
+        skills = [
+            SIGNS[role] + call(skill["name"], skill["parameters"])
+            for role, skill in step_skills(step)
+        ]
+        yield f"{INDENT}{place:2d}. {''.join(skills)}"
     yield from (f"{INDENT}({note})" for note in task.get("assumptions", ()))
-
-
-def _step(step: dict[str, Any]) -> str:
-    """The navigation skill, filters after "|", what gathers data after "+"."""
-    signs = {"navigation": "", "filter": " | ", "perception": " + "}
-    return "".join(
-        signs[role] + call(skill["name"], skill["parameters"]) for role, skill in step_skills(step)
-    )
 
 
 def call(name: str, parameters: dict[str, Any]) -> str:
     """A task or skill as it is called: "GoToXY(x=12, y=-4)"."""
-    return (
-        f"{name}({', '.join(f'{key}={compact_json(value)}' for key, value in parameters.items())})"
-    )
-
-
-def _list_lines(heading: str, items: Iterable[str]) -> Iterator[str]:
-    told = list(items)
-    if told:
-        yield f"{heading}:"
-        yield from (f" - {item}" for item in told)
+    given = [f"{key}={compact_json(value)}" for key, value in parameters.items()]
+    return f"{name}({', '.join(given)})"
 
 
 def _use(use: dict[str, Any]) -> str:
     adapter = f"adapter {use['adapter']}" if use["adapter"] else "no adapter"
     loaded = f" (loaded in {use['load_seconds']:.1f} s)" if use["load_seconds"] else ""
-    did = (
-        f"{use['queries']} answer{'s' if use['queries'] != 1 else ''}, {use['tokens']} tokens,"
-        f" {use['forward_passes']} forward passes, {use['seconds']:.2f} s"
-    )
-    return f"{use['candidate']} {use['configuration']}, {adapter}: {did}{loaded}"
+    answers = f"{use['queries']} answer{'s' if use['queries'] != 1 else ''}"
+    cost = f"{use['tokens']} tokens, {use['forward_passes']} forward passes, {use['seconds']:.2f} s"
+    return f"{use['candidate']} {use['configuration']}, {adapter}: {answers}, {cost}{loaded}"
 
 
 def plain(line: str) -> str:
@@ -115,15 +99,10 @@ def plain(line: str) -> str:
     return "".join(char if char.isprintable() else repr(char)[1:-1] for char in line)
 
 
-def _numbers(numbers: Iterable[int]) -> str:
-    return ", ".join(str(number) for number in numbers)
-
-
-def _invalid(what: str, problems: Iterable[str], text: str) -> Iterator[str]:
-    """What is wrong, and how the answer begins: one that is cut at the limit fills screens."""
-    listed = list(problems)
-    more = f" (and {len(listed) - SHOWN_PROBLEMS} more)" if len(listed) > SHOWN_PROBLEMS else ""
-    yield f"{what}: {'; '.join(listed[:SHOWN_PROBLEMS])}{more}"
-    yield (
-        f"{INDENT}{text[:SHOWN_TEXT]}{f' ... ({len(text)} characters; --json prints all)' if len(text) > SHOWN_TEXT else ''}"
-    )
+def _invalid(whose: str, part: dict[str, Any]) -> Iterable[str]:
+    """The problems, and how the answer begins: one that is cut at the limit fills screens."""
+    problems, text = part["problems"], part["output"]
+    more, cut = len(problems) - SHOWN_PROBLEMS, len(text) > SHOWN_TEXT
+    listed = "; ".join(problems[:SHOWN_PROBLEMS]) + (f" (and {more} more)" if more > 0 else "")
+    rest = f" ... ({len(text)} characters; --json prints all)" if cut else ""
+    return f"{whose} is not a valid plan: {listed}", f"{INDENT}{text[:SHOWN_TEXT]}{rest}"

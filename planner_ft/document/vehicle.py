@@ -4,9 +4,8 @@ vehicle may be in.
 
 from __future__ import annotations
 
-import math
 import tomllib
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +13,9 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import VEHICLE
+from planner_ft.vocabulary.plans import is_number, is_position
 
-AMOUNTS = {
+UNITS = {
     "cruise_speed": "m/s",
     "endurance": "s",
     "turn_rate": "degrees per second",
@@ -42,15 +42,7 @@ class Vehicle:
 
     def as_json(self) -> dict[str, Any]:
         """The profile as it stands in a plan document."""
-        area = None if self.area is None else [list(corner) for corner in self.area]
-        return {
-            "name": self.name,
-            "cruise_speed": self.cruise_speed,
-            "endurance": self.endurance,
-            "turn_rate": self.turn_rate,
-            "orbit_angle": self.orbit_angle,
-            "area": area,
-        }
+        return {**asdict(self), "area": self.area and [list(corner) for corner in self.area]}
 
 
 def load_vehicle(path: Path | str | None, vocabulary: Vocabulary) -> Vehicle:
@@ -59,20 +51,23 @@ def load_vehicle(path: Path | str | None, vocabulary: Vocabulary) -> Vehicle:
 
     Raises PlannerError that names the file and what is wrong.
     """
-    own = vocabulary.beside(VEHICLE)
-    if path is None:
-        if not own:
-            beside = f"{vocabulary.path.stem if vocabulary.path else vocabulary.name}{VEHICLE}"
-            raise PlannerError(
-                f"vocabulary {vocabulary.name}: has no vehicle profile; write {beside} beside its"
-                " definition, or give one with --vehicle FILE"
-            )
-        return _built(own, f"{vocabulary.name}{VEHICLE}")
+    own, where, raw = vocabulary.beside(VEHICLE), f"{vocabulary.name}{VEHICLE}", {}
+    if path is not None:
+        where = str(path)
+        try:
+            raw = tomllib.loads(read_text(path))
+        except tomllib.TOMLDecodeError as error:
+            raise PlannerError(f"{path}: not TOML: {error}") from None
+    elif not own:
+        stem = vocabulary.path.stem if vocabulary.path else vocabulary.name
+        raise PlannerError(
+            f"vocabulary {vocabulary.name}: has no vehicle profile; write {stem}{VEHICLE} beside its"
+            " definition, or give one with --vehicle FILE"
+        )
     try:
-        raw = tomllib.loads(read_text(path))
-    except tomllib.TOMLDecodeError as error:
-        raise PlannerError(f"{path}: not TOML: {error}") from None
-    return _built({**own, **raw}, str(path))
+        return _built({"orbit_angle": FULL_CIRCLE, **own, **raw})
+    except PlannerError as error:
+        raise PlannerError(f"{where}: {error}") from None
 
 
 def check_area(corners: Any) -> tuple[tuple[float, float], ...]:
@@ -81,56 +76,30 @@ def check_area(corners: Any) -> tuple[tuple[float, float], ...]:
     """
     from shapely import Polygon
 
-    if (
-        not isinstance(corners, list | tuple)
-        or len(corners) < 3
-        or not all(map(_is_position, corners))
-    ):
+    pairs = [list(corner) if isinstance(corner, tuple) else corner for corner in corners or ()]
+    if len(pairs) < 3 or not all(is_position(pair) and _is_near(pair) for pair in pairs):
         raise PlannerError(
             f"area = {corners!r}: must be a list of at least three positions [x, y] in local metres"
         )
-    area = tuple((float(x), float(y)) for x, y in corners)
+    area = tuple((float(x), float(y)) for x, y in pairs)
     if not Polygon(area).is_valid:
         raise PlannerError("area: its sides cross or touch each other; give its corners in order")
     return area
 
 
-def _built(raw: dict[str, Any], where: str) -> Vehicle:
-    raw = {"orbit_angle": FULL_CIRCLE, **raw}
-    unknown = [key for key in raw if key not in ("name", *AMOUNTS, "area")]
+def _is_near(pair: list[float]) -> bool:
+    return max(map(abs, pair)) <= LARGEST
+
+
+def _built(raw: dict[str, Any]) -> Vehicle:
+    unknown = [key for key in raw if key not in ("name", *UNITS, "area")]
     if unknown:
-        raise PlannerError(
-            f"{where}: unknown key {unknown[0]!r}; there is name, {', '.join(AMOUNTS)}, area"
-        )
-    if not isinstance(raw.get("name"), str) or not raw["name"].strip():
-        raise PlannerError(f"{where}: name must be a text")
-    for key, unit in AMOUNTS.items():
-        if not _is_number(raw.get(key)) or not 0 < raw[key] <= LARGEST:
-            raise PlannerError(
-                f"{where}: {key} = {raw.get(key)!r} must be a number above 0 ({unit})"
-            )
-    try:
-        area = None if raw.get("area") is None else check_area(raw["area"])
-    except PlannerError as error:
-        raise PlannerError(f"{where}: {error}") from None
-    return Vehicle(
-        raw["name"].strip(),
-        raw["cruise_speed"],
-        raw["endurance"],
-        raw["turn_rate"],
-        raw["orbit_angle"],
-        area,
-    )
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def _is_position(value: Any) -> bool:
-    return (
-        isinstance(value, list | tuple)
-        and len(value) == 2
-        and all(map(_is_number, value))
-        and max(map(abs, value)) <= LARGEST
-    )
+        raise PlannerError(f"unknown key {unknown[0]!r}; there is name, {', '.join(UNITS)}, area")
+    name, area = raw.get("name"), raw.get("area")
+    if not isinstance(name, str) or not name.strip():
+        raise PlannerError("name must be a text")
+    for key, unit in UNITS.items():
+        if not is_number(raw.get(key)) or not 0 < raw[key] <= LARGEST:
+            raise PlannerError(f"{key} = {raw.get(key)!r} must be a number above 0 ({unit})")
+    amounts = {key: raw[key] for key in UNITS}
+    return Vehicle(name.strip(), **amounts, area=None if area is None else check_area(area))

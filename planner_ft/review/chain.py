@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from planner_ft.document.digest import sha256_canonical
+from planner_ft.document.build import sha256_canonical
 from planner_ft.support.files import decode_json
 
 Record = dict[str, Any]

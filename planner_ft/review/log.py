@@ -14,7 +14,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import NamedTuple
 
-from planner_ft.document.digest import canonical
+from planner_ft.document.build import canonical
 from planner_ft.review.chain import Chain, Head, Record, read_chain, sealed
 from planner_ft.review.store import exclusive
 from planner_ft.support.errors import PlannerError

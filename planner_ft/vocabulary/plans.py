@@ -184,7 +184,8 @@ def plan_problems(level: Level, plan: Any, vocabulary: Vocabulary, *, strict: bo
 
 def task_problems(task: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
     """What keeps one task of a mission plan from being strictly valid."""
-    return list(_task_problems(task_entry(task), "", vocabulary, True))
+    found = _task_problems(task_entry(task), "", vocabulary, True)
+    return [problem.lstrip(".: ") for problem in found]
 
 
 def _task_problems(entry: Any, where: str, vocabulary: Vocabulary, strict: bool) -> Iterator[str]:

@@ -8,8 +8,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.document.estimate import estimate
-from planner_ft.document.track import Track, track
+from planner_ft.document.track import Track, estimate, track
 from tests.documents import DRONE, USV, document, step, task
 
 
@@ -163,4 +162,4 @@ def test_the_estimate_sums_what_is_known_and_names_the_rest() -> None:
             transit(-99, -99, []) | {"skill_sequence": None},
         ]
     )
-    assert estimate(plan, USV) == {"length": 50, "seconds": 33, "open": ["t2", "t3"]}
+    assert estimate(plan, track(plan, USV)) == {"length": 50, "seconds": 33, "open": ["t2", "t3"]}

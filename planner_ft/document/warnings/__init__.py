@@ -4,43 +4,53 @@ serious first.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
-from planner_ft.document.track import track
-from planner_ft.document.warnings.answers import answer_warnings
+from planner_ft.document.track import Track
 from planner_ft.document.warnings.command import command_warnings
-from planner_ft.document.warnings.endurance import endurance_warnings
-from planner_ft.document.warnings.order import order_warnings
-from planner_ft.document.warnings.space import space_warnings
+from planner_ft.document.warnings.route import order_warnings, range_warnings, space_warnings
 from planner_ft.document.warnings.values import value_warnings
-from planner_ft.document.warnings.warning import KINDS, NOTES, SERIOUS, Warning
+from planner_ft.document.warnings.warning import KINDS, NOTES, SERIOUS, Warning, named, warning
 from planner_ft.vocabulary import Vocabulary
 
 __all__ = ["KINDS", "NOTES", "SERIOUS", "warnings"]
 
 
-def warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Warning]:
+def warnings(document: Mapping[str, Any], vocabulary: Vocabulary, path: Track) -> list[Warning]:
     """The warnings of a document, by kind as in KINDS and in the order of the plan. It needs the
-    tasks' sources and the estimate.
+    tasks' sources, the estimate and the track.
     """
-    document = {
-        **document,
-        "tasks": [
-            {**task, "number": number} for number, task in enumerate(document["tasks"], start=1)
-        ],
-    }
-    path = track(document, vocabulary)
+    tasks = [{**task, "number": number} for number, task in enumerate(document["tasks"], start=1)]
+    document = {**document, "tasks": tasks}
     found = [
-        *answer_warnings(document),
+        *_answer_warnings(document),
         *order_warnings(document, vocabulary),
         *space_warnings(document, path, vocabulary),
-        *endurance_warnings(document, path, vocabulary),
+        *range_warnings(document, path, vocabulary),
         *command_warnings(document, vocabulary),
         *value_warnings(document, vocabulary),
     ]
-    unique: dict[str, Warning] = {}
-    for item in found:
-        # Two of one id say the same: the first stays.
-        unique.setdefault(item["id"], item)
-    return sorted(unique.values(), key=lambda item: KINDS.index(item["kind"]))
+    # Two of one id say the same: the first stays.
+    unique = {item["id"]: item for item in reversed(found)}
+    kept = [item for item in found if item is unique[item["id"]]]
+    return sorted(kept, key=lambda item: KINDS.index(item["kind"]))
+
+
+def _answer_warnings(document: Mapping[str, Any]) -> Iterator[Warning]:
+    """Answers that are not valid, a plan without tasks, skills that are stale or missing."""
+    if document.get("problems"):
+        problem = document["problems"][0]
+        yield warning("invalid-answer", f"The Mission Agent's answer is not valid: {problem}.")
+    elif not document["tasks"]:
+        reason = next(iter(document.get("constraints", ())), "no reason is given")
+        yield warning("empty-plan", f"The plan has no tasks ({reason.rstrip('.')}).")
+    for task in document["tasks"]:
+        if task.get("problems"):
+            text = f"the Task Agent's answer is not valid: {task['problems'][0]}."
+            yield warning("invalid-answer", f"{named(task)}: {text}", task)
+        elif task.get("stale"):
+            text = "was changed after its skills were planned; plan its skills again."
+            yield warning("stale-skills", f"{named(task)} {text}", task)
+        elif task.get("skill_sequence") is None and "waits_for" not in task:
+            yield warning("no-skills", f"{named(task)} has no skills yet.", task)

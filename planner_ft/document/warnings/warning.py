@@ -9,24 +9,11 @@ Warning = dict[str, Any]
 """{"id", "kind", "task", "parameter", "text"}. The id is made of kind, task and what it is about:
 edits elsewhere leave it as it is.
 """
-
 SERIOUS = (
-    "invalid-answer",
-    "unresolved-location",
-    "used-before-found",
-    "not-at-place",
-    "position-missing",
-    "outside-boundary",
-    "outside-area",
-    "out-of-reach",
-    "over-endurance",
-    "missing-return",
-    "not-planned",
-    "value-not-said",
-    "skill-value-not-said",
-    "value-lost",
-    "stale-skills",
-    "no-skills",
+    *("invalid-answer", "unresolved-location", "used-before-found", "not-at-place"),
+    *("position-missing", "outside-boundary", "outside-area", "out-of-reach", "over-endurance"),
+    *("missing-return", "not-planned", "value-not-said", "skill-value-not-said", "value-lost"),
+    *("stale-skills", "no-skills"),
 )
 """Kinds that a plan should not be approved with unread, the most serious first."""
 NOTES = ("empty-plan", "unread-command", "data-not-collected", "endurance-open", "ends-away")
@@ -45,9 +32,8 @@ def warning(
     apart.
     """
     name = task["id"] if task else None
-    parts = [part for part in (kind, name, parameter, about) if part]
     return {
-        "id": ":".join(parts),
+        "id": ":".join(part for part in (kind, name, parameter, about) if part),
         "kind": kind,
         "task": name,
         "parameter": parameter,

@@ -1,0 +1,243 @@
+"""Whether the vehicle can carry the plan out: places and their order, boundaries, area, range and
+endurance, and where the plan leaves it.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from planner_ft.data.quantities import positions
+from planner_ft.document.clauses import said_apart
+from planner_ft.document.language import language
+from planner_ft.document.said import is_place
+from planner_ft.document.track import Leg, Point, TaskEntry, Track, place_of
+from planner_ft.document.warnings.warning import Warning, named, warning
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.replay import START, Condition, stops
+
+KIND_OF: dict[Condition, str] = {
+    "target located": "used-before-found",
+    "vehicle at the place": "not-at-place",
+    "position known": "position-missing",
+    "data collected": "data-not-collected",
+}
+TOLERANCE = 0.5
+"""Metres beyond a boundary that are its line still."""
+MUCH = 0.5
+"""The part of the endurance from which parts of unknown length matter."""
+MOST_LISTED = 6
+INSIDE = re.compile(
+    r"\b(?:inside|within|boundary|fence|geofence|box|polygon|leave)\b", re.IGNORECASE
+)
+
+
+# ---------------------------------------------------------------- order
+
+
+def order_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
+    """One per open place, and per condition that a replay of the plan finds unmet."""
+    tasks = document["tasks"]
+    for place in document.get("open_places", ()):
+        first, several = tasks[place["tasks"][0] - 1], len(place["tasks"]) > 1
+        needed = f"task{'s' if several else ''} {', '.join(map(str, place['tasks']))}"
+        text = (
+            f"Where {place['name']} is, is not known; {needed} cannot be carried out before it is"
+            " located."
+        )
+        yield {
+            **warning("unresolved-location", text, about=place["name"]),
+            "task": first["id"],
+            "parameter": vocabulary.task[first["title"]].position_parameter,
+        }
+    unmet = [(tasks[at], reason) for at, reason in _elsewhere(tasks, vocabulary)]
+    for task, reason in unmet:
+        yield _not_there("not-at-place", task, reason)
+    for stop, _missing in stops({"tasks": tasks}, vocabulary):
+        if stop.condition in KIND_OF:
+            yield _not_there(KIND_OF[stop.condition], tasks[stop.index], stop.reason)
+
+
+def _not_there(kind: str, task: TaskEntry, reason: str) -> Warning:
+    return warning(kind, f"{named(task)} cannot be carried out there: {reason}.", task)
+
+
+def _elsewhere(tasks: list[TaskEntry], vocabulary: Vocabulary) -> Iterator[tuple[int, str]]:
+    """(index, reason) of tasks that the vehicle must be brought to, at a place that their prompt
+    names and no task before goes to.
+    """
+    progress, transit = START, vocabulary.transit
+    for index, task in enumerate(tasks):
+        known, text = vocabulary.task[task["title"]], task["task_prompt"]
+        places = [(x, y) for x, y, start, end in positions(text) if is_place(text, start, end)]
+        if known.arrival == "transit" and places and progress.here not in places:
+            x, y = places[0]
+            yield index, f"its prompt names [{x:g}, {y:g}], and no {transit} goes there before it"
+        progress = progress.after(known, task["parameters"], vocabulary)
+
+
+# ---------------------------------------------------------------- space
+
+
+def space_warnings(
+    document: Mapping[str, Any], path: Track, vocabulary: Vocabulary
+) -> Iterator[Warning]:
+    """Waypoints outside a boundary that is stated for them, outside the vehicle's area, or too far
+    away to come back from.
+    """
+    tasks = {task["id"]: task for task in document["tasks"]}
+    vehicle = document.get("vehicle") or {}
+    for name, step, polygon in _boundaries(document, path, vocabulary):
+        legs = [leg for leg in path.legs if leg.task == name and step in (None, leg.step)]
+        yield from _outside(
+            "outside-boundary", tasks[name], _reached(legs), polygon, "its boundary"
+        )
+    for name, task in tasks.items():
+        place = place_of(task, vocabulary)
+        reached = [place] if place else []
+        reached += _reached(leg for leg in path.legs if leg.task == name)
+        if vehicle.get("area"):
+            area = _polygon(vehicle["area"])
+            yield from _outside("outside-area", task, reached, area, "the vehicle's area")
+        yield from _too_far(task, reached, vehicle, vocabulary)
+
+
+def _outside(
+    kind: str, task: TaskEntry, points: Iterable[Point], area: Any, what: str
+) -> Iterator[Warning]:
+    from shapely import intersects_xy
+
+    outside = next((point for point in points if not intersects_xy(area, *point)), None)
+    if outside:
+        text = f"{named(task)} goes to {_shown(outside)}, which is outside {what}."
+        yield warning(kind, text, task)
+
+
+def _too_far(
+    task: TaskEntry, reached: Iterable[Point], vehicle: Mapping[str, Any], vocabulary: Vocabulary
+) -> Iterator[Warning]:
+    if not vehicle.get("endurance"):
+        return
+    reach = vehicle["cruise_speed"] * vehicle["endurance"] / 2
+    farthest = max(reached, key=lambda point: math.dist(point, vocabulary.home), default=None)
+    away = math.dist(farthest, vocabulary.home) if farthest else 0.0
+    if farthest and away > reach:
+        text = (
+            f"{named(task)} goes to {_shown(farthest)}, {away:.0f} m from home; the vehicle comes"
+            f" {reach:.0f} m far and back."
+        )
+        yield warning("out-of-reach", text, task)
+
+
+def _boundaries(
+    document: Mapping[str, Any], path: Track, vocabulary: Vocabulary
+) -> Iterator[tuple[str, int | None, Any]]:
+    """(task, step or None for all of them, polygon): of filter skills, of task parameters, and of
+    the plan's constraints for every task.
+    """
+    for boundary in path.boundaries:
+        yield boundary.task, boundary.step, _polygon(boundary.polygon)
+    plan = [corners for text in document.get("constraints", ()) for corners in _corners(text)]
+    for task in document["tasks"]:
+        parameters = vocabulary.task[task["title"]].parameters
+        own = [task["parameters"].get(item.name) for item in parameters if item.type == "polygon"]
+        yield from ((task["id"], None, _polygon(corners)) for corners in (*own, *plan) if corners)
+
+
+def _corners(text: str) -> Iterator[list[Point]]:
+    """The corners that a constraint names: "Stay inside [0, 0], [80, 0], [80, 50], [0, 50]."."""
+    brackets = re.compile(r"[\[(]-?$")
+    found = [(x, y) for x, y, start, _end in positions(text) if brackets.search(text[:start])]
+    corners = list(dict.fromkeys(found))
+    if len(corners) >= 3 and INSIDE.search(text):
+        yield corners
+
+
+def _reached(legs: Iterable[Leg]) -> list[Point]:
+    """The points that legs lead to; where a leg begins was reached before."""
+    points = [leg.points[1:] if leg.kind in ("go", "arc") else leg.points for leg in legs]
+    return [point for some in points for point in some]
+
+
+def _polygon(corners: Iterable[Any]) -> Any:
+    return _prepared(tuple((float(x), float(y)) for x, y in corners))
+
+
+@functools.lru_cache(maxsize=512)
+def _prepared(corners: tuple[Point, ...]) -> Any:
+    """The area inside, with what is its line still; corners in an order with crossing sides enclose
+    what any reading of them does.
+    """
+    from shapely import Polygon, make_valid, prepare
+
+    shape = Polygon(corners)
+    whole = shape if shape.is_valid else make_valid(shape).union(shape.convex_hull)
+    area = whole.buffer(TOLERANCE)
+    prepare(area)
+    return area
+
+
+def _shown(point: Point) -> str:
+    return f"[{point[0]:.6g}, {point[1]:.6g}]"
+
+
+# ---------------------------------------------------------------- range and return
+
+
+def range_warnings(
+    document: Mapping[str, Any], path: Track, vocabulary: Vocabulary
+) -> Iterator[Warning]:
+    """Time against endurance, the way home included, and a return that is missing."""
+    away = _last_away(document["tasks"], vocabulary)
+    yield from _over_endurance(document, path, vocabulary, away is not None)
+    if away is None:
+        return
+    command, words = document["command"], language(vocabulary).words
+    if said_apart(command, words["home"], vocabulary):
+        text = f"coming home or back, and the plan ends with {named(away)} and no return."
+        yield warning("missing-return", f"The command speaks of {text}")
+    elif not words["stay"].search(command):
+        text = f"ends with {named(away)}: it brings the vehicle neither home nor to a dock."
+        yield warning("ends-away", f"The plan {text}")
+
+
+def _over_endurance(
+    document: Mapping[str, Any], path: Track, vocabulary: Vocabulary, away: bool
+) -> Iterator[Warning]:
+    vehicle, known = document.get("vehicle") or {}, document.get("estimate") or {}
+    endurance = vehicle.get("endurance")
+    if not endurance or not known:
+        return
+    last = next((leg.points[-1] for leg in reversed(path.legs) if leg.points), vocabulary.home)
+    home = math.dist(last, vocabulary.home) / vehicle["cruise_speed"] if away else 0.0
+    taken = _minutes(known["seconds"])
+    taken += f" and {_minutes(home)} for the way home" if home >= 60 else ""
+    limit, names = _minutes(endurance), known["open"]
+    more = len(names) - MOST_LISTED
+    listed = ", ".join(names[:MOST_LISTED]) + (f" and {more} more tasks" if more > 0 else "")
+    unknown = f" Not counted is what is not known of {listed}." if names else ""
+    if known["seconds"] + home > endurance:
+        text = f"The plan takes at least {taken}, and the vehicle lasts {limit}.{unknown}"
+        yield warning("over-endurance", text)
+    elif unknown and known["seconds"] + home > MUCH * endurance:
+        text = f"The known part of the plan takes {taken} of the vehicle's {limit}.{unknown}"
+        yield warning("endurance-open", text)
+
+
+def _last_away(tasks: list[TaskEntry], vocabulary: Vocabulary) -> TaskEntry | None:
+    """The last task that takes place somewhere, unless that is home or a dock."""
+    for task in reversed(tasks):
+        known = vocabulary.task[task["title"]]
+        docks = known.docks or (known.arrival == "none" and known.pattern == "visual")
+        if docks or place_of(task, vocabulary) == vocabulary.home:
+            return None
+        if known.arrival != "none":
+            return task
+    return None
+
+
+def _minutes(seconds: float) -> str:
+    return f"{math.ceil(seconds / 60):,} min"
