@@ -1,0 +1,161 @@
+"""Values that follow from stated ones by arithmetic: headings evenly round the compass, points a
+stated way off, points of lines, grids, squares and rings.
+
+Metres, x east, y north; bearings in degrees clockwise from north.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from planner_ft.facts.geometry import Point, offset
+
+MOST_SECTORS = 36
+MOST_STARTS = 8
+"""Stated angles that even turns begin at."""
+CLOSE = 0.02
+"""Metres by which a computed coordinate, which has two decimals, can be off."""
+SQUARELY = (0.0, 90.0, 180.0, 270.0)
+"""Turns from a bearing: ahead, to either side, back."""
+
+
+def sector_counts(numbers: Iterable[float]) -> frozenset[int]:
+    """The numbers into which a turn or a line can be divided."""
+    return frozenset(int(number) for number in numbers if number in range(2, MOST_SECTORS + 1))
+
+
+def turned(said: Sequence[float], counts: Iterable[int]) -> Iterator[float]:
+    """Angles in degrees that follow from stated ones: parts of them, turns to port, headings to the
+    side and back, and evenly round the compass.
+    """
+    counts = sorted({2, *counts})
+    steps = [360 / count for count in counts if count > 2]
+    parts = [value / count for value in said for count in counts]
+    yield from itertools.chain(steps, parts)
+    yield from (-value for value in (*said, *steps, *parts))
+    few = said if len(said) <= MOST_STARTS else ()
+    yield from ((value + turn) % 360 for value in few for turn in SQUARELY)
+    for start, step in itertools.product({0.0, *(value % 360 for value in few)}, steps):
+        yield from ((start + number * step) % 360 for number in range(round(360 / step)))
+
+
+@dataclass(frozen=True)
+class Ground:
+    """What waypoints are derived from: known places, centres of shapes (those that are the `corners`
+    of areas among them), lengths, bearings, numbers of lanes or points.
+    """
+
+    places: tuple[Point, ...]
+    centres: tuple[Point, ...]
+    lengths: tuple[float, ...]
+    bearings: tuple[float, ...]
+    counts: tuple[int, ...]
+    sizes: tuple[tuple[float, float], ...]
+    corners: bool = False
+
+    def leads_to(self, point: Point, before: Iterable[Point] = ()) -> bool:
+        """Whether a waypoint is a known place, a point of a line, a grid, a square or a ring, or a
+        stated way off a known place or one of the waypoints `before` it.
+        """
+        bases = tuple(dict.fromkeys((*self.places, *before)))
+        return (
+            all(any(abs(point[axis] - base[axis]) <= CLOSE for base in bases) for axis in (0, 1))
+            or any(self.is_way_off(point, base) for base in bases)
+            or any(_divides(point, *line, self.counts) for line in self._lines)
+            or self.has_shape_through(point)
+        )
+
+    def has_shape_through(self, point: Point) -> bool:
+        """Whether a point is on a square, a ring or a grid."""
+        for centre in self.centres:
+            x, y = point[0] - centre[0], point[1] - centre[1]
+            if any(_on_square(x, y, half) for half in self.lengths) or self._on_ring(x, y):
+                return True
+        return any(
+            _on_grid(point[0] - x, point[1] - y, width, length, spacing)
+            for x, y, width, length in self._areas
+            for spacing in self._spacings(width, length)
+        )
+
+    def is_way_off(self, point: Point, base: Point) -> bool:
+        """Whether a point is a stated way off another in a stated direction, or squarely to it."""
+        length = math.dist(point, base)
+        return any(abs(length - known) <= CLOSE for known in self.lengths) and any(
+            math.dist(point, offset(base, bearing + turn, length)) <= CLOSE
+            for bearing in (*self.bearings, *self._courses)
+            for turn in SQUARELY
+        )
+
+    def _on_ring(self, x: float, y: float) -> bool:
+        radius, bearing = math.hypot(x, y), math.degrees(math.atan2(x, y))
+        if not any(abs(radius - length) <= CLOSE for length in self.lengths):
+            return False
+        slack = math.degrees(CLOSE / radius)
+        ways = itertools.product({*self.bearings, *SQUARELY}, self.counts)
+        return any((bearing - start + slack) % (360 / count) <= 2 * slack for start, count in ways)
+
+    @functools.cached_property
+    def _lines(self) -> list[tuple[Point, Point]]:
+        return list(itertools.combinations(self.places, 2))
+
+    @functools.cached_property
+    def _courses(self) -> list[float]:
+        return [
+            math.degrees(math.atan2(end[0] - start[0], end[1] - start[1]))
+            for start, end in self._lines
+        ]
+
+    @functools.cached_property
+    def _areas(self) -> list[tuple[float, float, float, float]]:
+        """Middle, width and length of every area that can be meant."""
+        found = []
+        signs = [(0, 0), *(itertools.product((1, -1), repeat=2) if self.corners else ())]
+        for (x, y), (width, length), (right, up) in itertools.product(
+            self.centres, self.sizes, signs
+        ):
+            found.append((x + right * width / 2, y + up * length / 2, width, length))
+        for one, other in itertools.combinations(self.centres, 2):
+            middle = (one[0] + other[0]) / 2, (one[1] + other[1]) / 2
+            found.append((*middle, abs(one[0] - other[0]), abs(one[1] - other[1])))
+        return [area for area in dict.fromkeys(found) if area[2] and area[3]]
+
+    def _spacings(self, width: float, length: float) -> set[float]:
+        return {*self.lengths, *(side / (n - 1) for n in self.counts for side in (width, length))}
+
+
+def _divides(point: Point, start: Point, end: Point, counts: Iterable[int]) -> bool:
+    """Whether a point is in the middle of a line, or one of several evenly along it."""
+    return any(
+        math.dist(
+            point,
+            [one + (other - one) * step / parts for one, other in zip(start, end, strict=True)],
+        )
+        <= CLOSE
+        for parts in {2, *counts, *(count - 1 for count in counts)}
+        for step in range(1, parts)
+    )
+
+
+def _on_square(x: float, y: float, half: float) -> bool:
+    """Whether a point seen from the centre is a corner or mid-side of the square."""
+    parts = [min(abs(abs(part) - half), abs(part)) <= CLOSE for part in (x, y)]
+    return all(parts) and max(abs(x), abs(y)) >= half - CLOSE
+
+
+def _on_grid(x: float, y: float, width: float, length: float, spacing: float) -> bool:
+    """Whether a point seen from the middle is the end of a lane, along y or along x."""
+    return _ends_lane(x, y, width, length, spacing) or _ends_lane(y, x, length, width, spacing)
+
+
+def _ends_lane(across: float, along: float, width: float, length: float, spacing: float) -> bool:
+    lanes, place = width / spacing, (across + width / 2) / spacing
+    return (
+        abs(lanes - round(lanes)) < 1e-6
+        and abs(place - round(place)) * spacing <= CLOSE
+        and abs(across) <= width / 2 + CLOSE
+        and abs(abs(along) - length / 2) <= CLOSE
+    )

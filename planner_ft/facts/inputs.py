@@ -1,0 +1,240 @@
+"""What an answer can draw on: a command with its vehicle, or a task prompt with the task's
+parameters.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import json
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+from planner_ft.facts import derived
+from planner_ft.facts.geometry import Point
+from planner_ft.facts.lists import MULTIPLES, WORDS
+from planner_ft.facts.reading import (
+    EXACT,
+    NOBODY,
+    UNREAD,
+    WAYPOINT,
+    Evidence,
+    Facts,
+    is_number,
+    is_place,
+    near,
+    read,
+    same_place,
+    together,
+)
+from planner_ft.facts.words import missing_words, normalised, words
+from planner_ft.vocabulary import Parameter, Task, Vocabulary
+
+MOST_LENGTHS, MOST_PLACES = 9, 12
+"""Stated lengths and places up to which waypoints are derived."""
+_UNREAD_SHAPES = re.compile(rf"\b(?:{'|'.join(WORDS['unread_shapes'])})", re.IGNORECASE)
+
+
+class Input:
+    """The facts of a text, the vehicle's own places and the parameters of a task."""
+
+    def __init__(
+        self, text: str, vocabulary: Vocabulary, task: str = "", parameters: Any = None
+    ) -> None:
+        self.facts: Facts = read(text)
+        self.vocabulary = vocabulary
+        self.task: Task | None = vocabulary.task.get(task)
+        self.parameters: dict[str, Any] = parameters if isinstance(parameters, dict) else {}
+        self.is_task = parameters is not None
+
+    def stated(self, value: Any, parameter: Parameter, tolerance: float = EXACT) -> Evidence:
+        """Whether the text or a parameter of the task says a value: the evidence without the
+        vehicle's own places and without geometry.
+        """
+        if self._is_own(value, parameter, tolerance):
+            return Evidence("stated")
+        found = self.facts.evidence(value, parameter, tolerance)
+        texts = parameter.type in ("text", "id", "texts")
+        if found.kind == "nobody" and texts and self._texts:
+            said = "\n".join((self.facts.text, *self._texts))
+            items = value if isinstance(value, list) else [value]
+            missing = any(missing_words(said, str(item), misspelt=True) for item in items)
+            return NOBODY if missing else Evidence("stated")
+        return found
+
+    def evidence(
+        self,
+        value: Any,
+        parameter: Parameter,
+        tolerance: float = EXACT,
+        before: Iterable[Point] = (),
+    ) -> Evidence:
+        """Where a value is from. A waypoint (WAYPOINT) may follow from the waypoints `before` it."""
+        if parameter is WAYPOINT:
+            return self._waypoint(value, tolerance, before)
+        if parameter.type == "position" and is_place(value) and self._is_vehicles(value):
+            return Evidence("vehicle")
+        if parameter.type == "polygon" and isinstance(value, list):
+            return together(self._corner(corner, tolerance) for corner in value)
+        found = self.stated(value, parameter, tolerance)
+        if found.kind != "nobody":
+            return found
+        if parameter.type == "position":
+            follows = is_place(value) and self._is_way_off(_point(value))
+        else:
+            follows = is_number(value) and self._follows(value, parameter)
+        return Evidence("derived") if follows else found
+
+    @functools.cached_property
+    def ground(self) -> derived.Ground | None:
+        """What waypoints are derived from; None where numbers or a shape of the text cannot be read
+        with certainty.
+        """
+        facts, home = self.facts, _point(self.vocabulary.home)
+        lengths = {number.value for number in facts.numbers("m") if number.value > 0}
+        lengths |= {value for value in self._own("m") if value > 0}
+        lengths |= {length * factor for length in set(lengths) for factor in self._factors}
+        stated = (_point((place.x, place.y)) for place in facts.positions)
+        places = dict.fromkeys((*self._places, *stated, home))
+        unread = facts.unread or facts.loose or _UNREAD_SHAPES.search(facts.text)
+        if unread or len(lengths) > MOST_LENGTHS or len(places) > MOST_PLACES:
+            return None
+        angles = (*facts.bearings, *facts.numbers("deg"))
+        bearings = {number.value % 360 for number in angles} | set(self._own("deg"))
+        centres = tuple(place for place in places if place != home or place in self._places)
+        return derived.Ground(
+            tuple(places),
+            centres or (home,),
+            tuple(sorted(lengths)),
+            tuple(sorted(bearings)),
+            tuple(sorted(derived.sector_counts((*facts.counts, *self._own(None))))),
+            self._sizes(lengths),
+            "corner" in facts.text.lower(),
+        )
+
+    # ------------------------------------------------------------ places
+
+    def _is_vehicles(self, value: Sequence[float]) -> bool:
+        return tuple(value) in (self.vocabulary.home, self.vocabulary.unresolved)
+
+    def _is_way_off(self, point: Point) -> bool:
+        ground = self.ground
+        return ground is not None and any(ground.is_way_off(point, at) for at in ground.places)
+
+    def _corner(self, corner: Any, tolerance: float) -> Evidence:
+        """A corner's coordinates may be those of two stated places: "the box from (0, 0) to (40,
+        20)".
+        """
+        if not is_place(corner):
+            return NOBODY
+        found = self.stated(corner, WAYPOINT, tolerance)
+        ground = self.ground if found.kind == "nobody" else None
+        if ground and ground.has_shape_through(_point(corner)):
+            return Evidence("derived")
+        places = [*self._places, *((place.x, place.y) for place in self.facts.positions)]
+        places += [_point(self.vocabulary.home), _point(self.vocabulary.unresolved)]
+        crossed = all(
+            any(near(corner[axis], place[axis], tolerance) for place in places) for axis in (0, 1)
+        )
+        if found.kind != "nobody" or not crossed:
+            return UNREAD if found.kind == "nobody" and self.facts.loose else found
+        return Evidence("derived")
+
+    def _waypoint(self, value: Any, tolerance: float, before: Iterable[Point]) -> Evidence:
+        if not is_place(value):
+            return NOBODY
+        if _point(value) == _point(self.vocabulary.home):
+            return Evidence("vehicle")
+        found = self.stated(value, WAYPOINT, tolerance)
+        if found.kind != "nobody":
+            return found
+        # Any waypoint may be meant where the geometry cannot be read.
+        if self.ground is None:
+            return UNREAD
+        return Evidence("derived") if self.ground.leads_to(_point(value), before) else found
+
+    # ------------------------------------------------------------ parameters of the task
+
+    def _is_own(self, value: Any, parameter: Parameter, tolerance: float) -> bool:
+        if parameter.type in ("number", "integer"):
+            own = (number for number in self._values if is_number(number))
+            return is_number(value) and any(near(value, number, tolerance) for number in own)
+        if parameter.type == "position":
+            return is_place(value) and any(
+                same_place(value, place, tolerance) for place in self._places
+            )
+        own_texts = set(map(normalised, self._texts))
+        items = value if isinstance(value, list) else [value]
+        return bool(own_texts) and all(normalised(str(item)) in own_texts for item in items)
+
+    def _follows(self, value: float, parameter: Parameter) -> bool:
+        """Whether a number follows from those that are stated: as a multiple or a part ("twice as
+        long", "half the distance"), at task level also as an angle.
+        """
+        own = [number for number in self._values if is_number(number)]
+        numbers = [number.value for number in self.facts.numbers(parameter.unit)]
+        said = [*numbers, *self._own(parameter.unit)]
+        if any(near(value, factor * number) for factor in self._factors for number in said):
+            return True
+        if parameter.unit != "deg" or not self.is_task:
+            return False
+        said = [*numbers, *(angle.value for angle in self.facts.bearings), *own]
+        counts = derived.sector_counts((*self.facts.counts, *own))
+        return any(near(value, other) for other in derived.turned(said, counts))
+
+    @functools.cached_property
+    def _factors(self) -> tuple[float, ...]:
+        """What the text multiplies by: "twice", "half"."""
+        said = set(words(self.facts.text))
+        return tuple({factor for word, factor in MULTIPLES.items() if word in said})
+
+    def _sizes(self, lengths: set[float]) -> tuple[tuple[float, float], ...]:
+        """Width and length of areas: the task's own where no other lengths are stated."""
+        own = [self.parameters.get(name) for name in ("width", "length")]
+        if all(map(is_number, own)) and lengths <= set(self._own("m")):
+            return ((own[0], own[1]),)  # type: ignore[return-value]
+        return tuple(itertools.product(sorted(lengths), sorted(lengths)))
+
+    def _own(self, unit: str | None) -> Iterator[float]:
+        """The numbers in a unit among the task's parameters."""
+        known = self.task.by_name if self.task else {}
+        for name, value in self.parameters.items():
+            if is_number(value) and name in known and known[name].unit == unit:
+                yield value
+
+    @functools.cached_property
+    def _values(self) -> list[Any]:
+        """Every value of the task's parameters, those of lists one by one."""
+        lists = (
+            value if isinstance(value, list) else [value] for value in self.parameters.values()
+        )
+        return [item for values in lists for item in values]
+
+    @functools.cached_property
+    def _texts(self) -> tuple[str, ...]:
+        return tuple(value for value in self._values if isinstance(value, str))
+
+    @functools.cached_property
+    def _places(self) -> tuple[Point, ...]:
+        return tuple(_point(value) for value in self.parameters.values() if is_place(value))
+
+
+def read_input(record: dict[str, Any], vocabulary: Vocabulary) -> Input:
+    """The input of an answer, kept for the next one to it: {"prompt"} of a mission, or {"prompt",
+    "task", "parameters"} of a task.
+    """
+    keys = ("prompt", "task", "parameters")
+    return _read_input(json.dumps({key: record.get(key) for key in keys}), vocabulary)
+
+
+@functools.lru_cache(maxsize=4096)
+def _read_input(text: str, vocabulary: Vocabulary) -> Input:
+    record = json.loads(text)
+    task = record["task"] is not None
+    parameters = (record["parameters"] or {}) if task else None
+    return Input(str(record["prompt"] or ""), vocabulary, str(record["task"]), parameters)
+
+
+def _point(place: Sequence[float]) -> Point:
+    return float(place[0]), float(place[1])

@@ -1,0 +1,329 @@
+"""Places, directions and turns of a text, in one way of reading it.
+
+Geographic coordinates are a kind of their own. They are told from local positions ("40 east, 25
+north", in metres) by a degree sign with minutes or a hemisphere, the words latitude and longitude,
+hemisphere letters at numbers with decimals, or four decimals and more, and stand in pairs unless
+they have minutes.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from planner_ft.facts.lists import COMPASS, SHORT, TURNS, UNITS
+from planner_ft.facts.numbers import WRITTEN, Number, read_numbers
+
+DIGITS_OF_DEGREES = 4
+"""Decimals from which a bare number is rather degrees than metres."""
+BLANK = "|"
+"""Stands in place of what was read already."""
+_DIRECTION = r"(?:east|west|north|south)(?:ings?|wards?|erly)?|[ewns](?![a-z])"
+_METRES = r"met(?:re|er)s?|m"
+_SIGN = r"(?:minus |negative |[-−–])"
+_NUMBER = r"[-−–]?\d+(?:\.\d+)?"
+_PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
+
+_COORDINATE = re.compile(
+    r"(?P<word>\b(?:lat(?:itude)?|lon(?:g(?:itude)?)?|lng)\b[\s.:=]{0,3}(?:of |is )?)?"
+    r"(?P<lead>\b[NSEW]\s?)?(?<![\w.])(?P<sign>[-−–+])?(?P<degrees>\d{1,3}(?:\.\d+)?)(?![\d.]*\d)"
+    r"(?P<ring>\s?°\s?(?:(?P<minutes>\d{1,2}(?:\.\d+)?)\s?['′’]\s?"
+    r"(?:(?P<seconds>\d{1,2}(?:\.\d+)?)\s?(?:[\"″”]|'')\s?)?)?)?"
+    r"(?P<hemisphere>\s?(?:[NSEW]\b|north\b|south\b|east\b|west\b))?"
+)
+_BETWEEN_COORDINATES = re.compile(r"[\s,;/]*(?:and|by)?[\s,;/]*")
+_WRITTEN_PAIR = re.compile(
+    rf"\[\s*{_PAIR}\s*\]|\(\s*{_PAIR}\s*\)"
+    rf"|(?<!\w)x\s?[=:]?\s?{_NUMBER}\W{{0,3}}y\s?[=:]?\s?{_NUMBER}",
+    re.IGNORECASE,
+)
+"""Two numbers that are certainly coordinates, and no other values."""
+_BETWEEN = re.compile(
+    rf"(?:[\s,;:/=]|comma|and|by|(?<![a-z])[xy](?![a-z])|{_METRES}|(?:(?:to )?the |due )?"
+    rf"(?:{_DIRECTION})|(?:of|from) (?:home|base|here|(?:the )?origin)|[-−–(])*",
+    re.IGNORECASE,
+)
+_DIRECTED = re.compile(rf"\s*(?:{_METRES})?\s*(?:(?:to )?the |due )?({_DIRECTION})", re.IGNORECASE)
+_LED = re.compile(rf"(?<![a-z])({_DIRECTION})\s*(?:of|by|[:=])?\s*{_SIGN}?\s*$", re.IGNORECASE)
+_Y_FIRST = re.compile(r"y\s*[=:]?\s*$", re.IGNORECASE)
+_COORDINATE_UNIT = re.compile(
+    r"(?:,|\(|^|\ball|\bgiven|\bcorners|\bcoordinates|\bpositions|\bis|\bare) ?in "
+    r"(kilometres|kilometers|km|feet|ft|yards)\b(?! \w+ing\b)",
+    re.IGNORECASE,
+)
+"""The unit of the coordinates in a sentence, which are metres elsewhere."""
+_OPENED = re.compile(r"[\[(]\s*$")
+_AT = re.compile(r"\b(?:at|to|near|around|from|on|cent(?:re|er)|@)\W{0,3}$", re.IGNORECASE)
+_PLAIN = re.compile(rf"{_SIGN}?\d+(?:\.\d+)?\s*(?:,\s*|\s){_SIGN}?\d+(?:\.\d+)?", re.IGNORECASE)
+_AXES = re.compile(
+    r"(?<![a-z])y\s?[=:]?\s?(?:[-−–]|minus )?\d|\d\s?(?:east|west|north|south)\b.*\d", re.IGNORECASE
+)
+_AXIS = r"(?:eastings?|northings?|east|north|west|south|latitude|longitude|coordinates?|[xy])"
+_AXIS_BEFORE = re.compile(rf"(?<![a-z]){_AXIS}(?:(?![.;]\s)\W){{0,3}}(?:of |is )?$", re.IGNORECASE)
+_AXIS_BEHIND = re.compile(
+    rf"\s?(?:{_METRES})?\s?(?:to the |due )?{_AXIS}"
+    r"(?![a-z-]| (?:side|face|wall|end|edge|corner|of (?!home|base|here)))",
+    re.IGNORECASE,
+)
+_BEARING = re.compile(
+    r"(?i:(?<![\w-])(?:(?:north|south|east|west)[\s-]?){1,3}(?:erly|wards?|ern|bound)?(?![\w-]))"
+    r"|\b(?:[NSEW]{1,3}|[ns][ns]?[ew]|[ew][ns][ew])\b"
+)
+_POINT = re.compile(r"north|south|east|west", re.IGNORECASE)
+_ENDING = re.compile(r"erly|wards?|ern|[ -]?bound", re.IGNORECASE)
+_PART = re.compile(
+    r" of (?:a|an|the) (?:full |complete |whole )?"
+    r"(?:turn|circle|rotation|revolution|circuit|round)\b",
+    re.IGNORECASE,
+)
+_TURN = re.compile(rf"\b(?:all the way (?:a?round|about)|{'|'.join(TURNS)})\b", re.IGNORECASE)
+_LAPS = re.compile(
+    r"[\s-]*(?:full |complete )?(?:times?|turns?|laps?|rounds?|circles?|circuits?|orbits?)",
+    re.IGNORECASE,
+)
+
+
+@dataclass(frozen=True)
+class Position:
+    """Two neighbouring numbers as local coordinates in metres, at `start` to `end` of the text.
+
+    `certain`: they are nothing else, standing in brackets, with axes or directions, or behind a word
+    like "at".
+    """
+
+    x: float
+    y: float
+    start: int
+    end: int
+    certain: bool = False
+
+
+@dataclass(frozen=True)
+class Geographic:
+    """A geographic position in degrees, north and east positive; None for what is not said."""
+
+    latitude: float | None
+    longitude: float | None
+    start: int
+    end: int
+
+
+# ---------------------------------------------------------------- geographic positions
+
+
+@functools.lru_cache(maxsize=2048)
+def read_geographic(text: str) -> tuple[Geographic, ...]:
+    """The geographic positions of a text."""
+    found = [match for match in _COORDINATE.finditer(text) if _is_degrees(match)]
+    result, index = list[Geographic](), 0
+    while index < len(found):
+        one, two = found[index], found[index + 1] if index + 1 < len(found) else None
+        if two is not None and _BETWEEN_COORDINATES.fullmatch(text, one.end(), two.start()):
+            result.append(_geographic(one, two))
+            index += 2
+        else:
+            if one["minutes"]:
+                result.append(_geographic(one, None))
+            index += 1
+    return tuple(result)
+
+
+def _is_degrees(match: re.Match[str]) -> bool:
+    decimals = len(match["degrees"].partition(".")[2])
+    letter = match["lead"] or match["hemisphere"]
+    return bool(
+        match["word"]
+        or match["minutes"]
+        or (match["ring"] and letter)
+        or decimals >= DIGITS_OF_DEGREES
+        or (letter and len(letter.strip()) == 1 and decimals >= 2)
+    )
+
+
+def _geographic(one: re.Match[str], two: re.Match[str] | None) -> Geographic:
+    values = [(_degrees(match), _axis(match)) for match in (one, two) if match is not None]
+    (first, axis), (second, other) = [*values, (None, "")][:2]
+    turned = axis == "lon" or other == "lat"
+    latitude, longitude = (second, first) if turned else (first, second)
+    return Geographic(latitude, longitude, one.start(), (two or one).end())
+
+
+def _axis(match: re.Match[str]) -> str:
+    said = (match["word"] or match["lead"] or match["hemisphere"] or "").strip().lower()
+    return "" if not said else "lon" if said.startswith(("lo", "ln", "e", "w")) else "lat"
+
+
+def _degrees(match: re.Match[str]) -> float:
+    value = float(match["degrees"]) + float(match["minutes"] or 0) / 60
+    value += float(match["seconds"] or 0) / 3600
+    letter = (match["lead"] or match["hemisphere"] or "").strip().lower()
+    negative = match["sign"] in ("-", "−", "–") or letter[:1] in ("s", "w")
+    return -value if negative else value
+
+
+def without_geographic(text: str) -> str:
+    """A text of the same length with blanks for its geographic positions."""
+    for place in read_geographic(text):
+        text = text[: place.start] + BLANK * (place.end - place.start) + text[place.end :]
+    return text
+
+
+# ---------------------------------------------------------------- local positions
+
+
+def written_pairs(text: str) -> list[tuple[int, int]]:
+    """The spans of what certainly are coordinates: "[40, 12]", "x=40 y=12"."""
+    return [match.span() for match in _WRITTEN_PAIR.finditer(text)]
+
+
+@functools.lru_cache(maxsize=4096)
+def read_positions(text: str) -> tuple[Position, ...]:
+    """Pairs of neighbouring numbers that can be coordinates, whatever form they are written in.
+
+    A pair is read both as it stands and by its directions, said behind the numbers or before them:
+    "40 south 12 east" and "south 40, east 12" are also (12, -40).
+    """
+    found = dict[Position, None]()
+    for first, second in itertools.pairwise(read_numbers(text)):
+        between = text[_number_end(text, first) : second.start]
+        if not _BETWEEN.fullmatch(between):
+            continue
+        certain = _is_certain(text, first.start, second.end)
+        behind = text[_number_end(text, second) : second.end + 24]
+        end = _way_end(text, first.start, second.end)
+        for x, y in _readings(first, second, text[: first.start][-24:], between, behind):
+            found[Position(x, y, first.start, end, certain)] = None
+    for place, unit in _other_units(text, list(found)):
+        found[place] = found[unit] = None
+    return tuple(found)
+
+
+def _readings(
+    first: Number, second: Number, before: str, between: str, behind: str
+) -> Iterator[tuple[float, float]]:
+    ways = _DIRECTED.match(between), _DIRECTED.match(behind)
+    one, two = (_along(number, way) for number, way in zip((first, second), ways, strict=True))
+    yield one[0], two[0]
+    if (one[1] is None) != (two[1] is None):
+        # The direction belongs to what follows: "from 22/98 westwards".
+        yield first.said, second.said
+    if one[1] == "y" or two[1] == "x" or _Y_FIRST.search(before):
+        yield two[0], one[0]
+    led = [_along(first, _LED.search(before)), _along(second, _LED.search(between))]
+    by_axis = {axis: value for value, axis in led}
+    if {"x", "y"} <= by_axis.keys():
+        yield by_axis["x"], by_axis["y"]
+
+
+def _along(number: Number, way: re.Match[str] | None) -> tuple[float, str | None]:
+    """The coordinate with the sign of its direction, and the axis that the direction gives."""
+    if way is None:
+        return number.said, None
+    letter = way[1][0].lower()
+    return (-number.said if letter in "ws" else number.said), "x" if letter in "ew" else "y"
+
+
+def _number_end(text: str, number: Number) -> int:
+    """Where a number ends and its unit begins: coordinates keep metres in the text between them."""
+    said = text[number.start : number.end].lower()
+    for unit in ("metres", "meters", "metre", "meter", "m") if number.unit == "m" else ():
+        if said.endswith(unit):
+            return number.start + len(said.removesuffix(unit).rstrip())
+    return number.end
+
+
+def _way_end(text: str, start: int, end: int) -> int:
+    """The end of a coordinate with its direction, where the one before has a direction, too: "120
+    east 45 north", but not "40, 40 due east".
+    """
+    way = _DIRECTED.match(text, end) if _BEARING.search(text, start, end) else None
+    return way.end() if way else end
+
+
+def _is_certain(text: str, start: int, end: int) -> bool:
+    before, said = text[:start][-16:], text[start:end]
+    plain = _AT.search(before) and _PLAIN.fullmatch(said)
+    return bool(_OPENED.search(before) or plain or _AXES.search(said))
+
+
+def _other_units(text: str, places: list[Position]) -> Iterator[tuple[Position, Position]]:
+    """Positions in a sentence that says their unit ("fence corners, in kilometres: ..."), with what
+    they are in metres.
+    """
+    for match in _COORDINATE_UNIT.finditer(text):
+        factor = UNITS[match[1].lower()][1]
+        begin, end = text.rfind(". ", 0, match.start()) + 1, text.find(". ", match.end())
+        for place in places:
+            if begin <= place.start and place.end <= (end if end >= 0 else len(text)):
+                x, y = round(place.x * factor, 2), round(place.y * factor, 2)
+                yield place, Position(x, y, place.start, place.end, place.certain)
+
+
+@functools.lru_cache(maxsize=4096)
+def unpaired_coordinates(text: str) -> bool:
+    """Whether a number is said as a coordinate ("x 40 ...") and has no partner."""
+    paired = [(place.start, place.end) for place in read_positions(text)]
+    return any(
+        number.unit in ("m", None)
+        and not any(start <= number.start < end for start, end in paired)
+        and (
+            _AXIS_BEFORE.search(text[: number.start][-24:])
+            or _AXIS_BEHIND.match(text[number.end : number.end + 40])
+        )
+        for number in read_numbers(text)
+    )
+
+
+# ---------------------------------------------------------------- directions and turns
+
+
+@functools.lru_cache(maxsize=4096)
+def read_bearings(text: str) -> tuple[Number, ...]:
+    """Compass directions that a text names, in degrees clockwise from north."""
+    found = []
+    for match in _BEARING.finditer(text):
+        if match[0].upper() in SHORT:
+            angle = 22.5 * SHORT.index(match[0].upper())
+            found.append(Number(angle, WRITTEN, *match.span(), "deg", angle))
+        else:
+            points = _POINT.finditer(text, *match.span())
+            found += _points([(point[0].lower(), *point.span()) for point in points], text)
+    return tuple(found)
+
+
+def _points(points: list[tuple[str, int, int]], text: str) -> Iterator[Number]:
+    """The directions of neighbouring compass words, as many as possible in each: "north" and
+    "south-east" of "north south-east".
+    """
+    while points:
+        for many in (3, 2, 1):
+            name = "-".join(word for word, _start, _end in points[:many])
+            if name in COMPASS:
+                break
+        start, end = points[0][1], points[min(many, len(points)) - 1][2]
+        ending = _ENDING.match(text, end)
+        angle = 22.5 * COMPASS.index(name)
+        yield Number(angle, WRITTEN, start, ending.end() if ending else end, "deg", angle)
+        points = points[many:]
+
+
+@functools.lru_cache(maxsize=4096)
+def read_turns(text: str) -> tuple[Number, ...]:
+    """Angles in degrees of the turns that a text speaks of: full, once, half, three quarters, twice,
+    three times.
+    """
+    found = []
+    for match in _TURN.finditer(text):
+        turn = TURNS.get(match[0].lower(), 1.0 if match[0].lower().startswith("all") else 0.0)
+        if turn:
+            found.append(Number(360 * turn, WRITTEN, *match.span(), "deg", turn))
+    for number in read_numbers(text):
+        behind = _LAPS.match(text, number.end) or _PART.match(text, number.end)
+        part = number.value in (0.75, 1.5) or abs(number.value - 2 / 3) < 1e-9
+        if number.unit is None and (part or behind):
+            end = behind.end() if behind and _LAPS.match(text, number.end) else number.end
+            found.append(Number(360 * number.value, WRITTEN, number.start, end, "deg", number.said))
+    return tuple(found)

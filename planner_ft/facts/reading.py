@@ -1,0 +1,366 @@
+"""The facts of a text, and where a value is from."""
+
+from __future__ import annotations
+
+import bisect
+import functools
+import itertools
+import math
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal, TypeVar
+
+from planner_ft.facts.lists import SCALES, SMALL, WORDS
+from planner_ft.facts.numbers import AS_BEFORE, BARE, IN_PAIR, REREAD, Number, in_unit, read_numbers
+from planner_ft.facts.places import (
+    Geographic,
+    Position,
+    read_bearings,
+    read_geographic,
+    read_positions,
+    read_turns,
+    unpaired_coordinates,
+    without_geographic,
+    written_pairs,
+)
+from planner_ft.facts.variants import Variant, plain, variants
+from planner_ft.facts.words import Phrases, Span, is_known, phrases
+from planner_ft.vocabulary import Parameter
+
+Kind = Literal["stated", "converted", "derived", "vehicle", "nobody", "unread"]
+EXACT, SCORING = 0.0, 0.02
+"""Relative tolerances: that of document and constraint, and what the labelling rules allow."""
+ROUNDING = 0.0051
+"""Converted values are written with two decimals,"""
+CONVERSION = 1e-4
+"""and their factors are rounded: relative."""
+FARTHEST = 0.5
+"""Metres that a position may lie off: another whole metre is another place."""
+LARGEST = 1e9
+"""Longer rows of digits are no values."""
+LONGEST_PIECE = 1500
+"""Characters that are read at once."""
+THOROUGH = 6000
+"""Characters that are read in every way that they can be meant; what follows, as it stands."""
+FEWEST_WORDS = 5
+"""Words below which a text is too short to tell its language by."""
+MEASURES = ("m", "s", "m/s", "degC")
+WAYPOINT = Parameter("x, y", "position", "m")
+"""The two coordinates of a destination, judged together."""
+
+_END = re.compile(r"[.!?;]\s+|\n+")
+_UNREAD = re.compile(
+    r"\d+(?:\.\d+){2,}|\d+['’]\d+|\d\^\d|(?<![\w.])0x[0-9a-f]+|[×*]\s?10\b(?!\s?m)"
+    rf"|\b(?:\d+|an?|half|{'|'.join([*SMALL, *SCALES])})[ -]"
+    r"(?:(?:boat|ship|hull|vessel|cable|car|rope)['’s]*[- ]?lengths?"
+    rf"|chain lengths?|(?:{'|'.join(WORDS['unread_units'])})s?)\b",
+    re.IGNORECASE,
+)
+
+Place = tuple[float, float]
+Found = TypeVar("Found", Number, Position)
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """Where a value is from.
+
+    - stated: the text, or a parameter of the task, says it
+    - converted: the text says it in another unit
+    - derived: arithmetic with what is stated makes it
+    - vehicle: home or the unresolved location
+    - nobody: none of these
+    - unread: numbers of the text could not be read with certainty, and it may be one of them
+
+    `mentions` are the words for it, each as the spans that say it together; several where the text
+    says it several times. `rank` is how plainly a number is said (numbers.WRITTEN and following).
+    """
+
+    kind: Kind
+    mentions: tuple[tuple[Span, ...], ...] = ()
+    rank: int = 0
+
+    @property
+    def spans(self) -> tuple[Span, ...]:
+        """The first words that say the value."""
+        return self.mentions[0] if self.mentions else ()
+
+    @property
+    def given(self) -> bool | None:
+        """Whether somebody gave the value; None where that cannot be told."""
+        return None if self.kind == "unread" else self.kind != "nobody"
+
+
+NOBODY, UNREAD = Evidence("nobody"), Evidence("unread")
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """A part of a text at `offset`, and the ways of reading it, the plain one first."""
+
+    offset: int
+    readings: tuple[Variant, ...]
+
+    def span(self, reading: Variant, start: int, end: int) -> Span:
+        first, last = reading.origin(start, end)
+        return first + self.offset, last + self.offset
+
+
+class Facts:
+    """What a text states. Everything is read once, when it is first asked for, and in pieces: the
+    work grows with the length of the text and no faster.
+    """
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self._numbers: dict[str | None, tuple[Number, ...]] = {}
+
+    def numbers(self, unit: str | None) -> tuple[Number, ...]:
+        """Every value of a parameter in `unit` that the text can state, in every way of reading it,
+        by value: numbers with this unit, converted, and without one. Counts are no measures, and
+        coordinates are neither.
+        """
+        if unit not in self._numbers:
+            found = (
+                number
+                for piece in self._pieces
+                for reading in piece.readings
+                for number in self._numbers_of(piece, reading, unit)
+            )
+            self._numbers[unit] = tuple(sorted(dict.fromkeys(found), key=_plainness))
+        return self._numbers[unit]
+
+    @functools.cached_property
+    def positions(self) -> tuple[Position, ...]:
+        """Local coordinates in metres that the text can state, the plainest reading first."""
+        found = self._read(read_positions)
+        return tuple(place for place in found if max(abs(place.x), abs(place.y)) < LARGEST)
+
+    @functools.cached_property
+    def geographic(self) -> tuple[Geographic, ...]:
+        """Positions in degrees. They are neither local positions nor numbers."""
+        return read_geographic(self.text)
+
+    @functools.cached_property
+    def bearings(self) -> tuple[Number, ...]:
+        """Compass directions, in degrees clockwise from north."""
+        return tuple(self._read(read_bearings))
+
+    @functools.cached_property
+    def turns(self) -> tuple[Number, ...]:
+        """Angles of parts and numbers of circles: "half", "once round", "three times"."""
+        return tuple(self._read(read_turns))
+
+    @functools.cached_property
+    def counts(self) -> tuple[float, ...]:
+        """The bare numbers of the text, those that count things included."""
+        plain_numbers = (read_numbers(piece.readings[0].text) for piece in self._pieces)
+        return tuple(number.said for number in itertools.chain(*plain_numbers))
+
+    @property
+    def phrases(self) -> Phrases:
+        """The words of the text."""
+        return phrases(self.text)
+
+    @functools.cached_property
+    def unread(self) -> tuple[str, ...]:
+        """Why numbers of the text could not be read with certainty, for an operator."""
+        return tuple(_notes(self.text[:THOROUGH]))
+
+    @functools.cached_property
+    def loose(self) -> tuple[float, ...]:
+        """The numbers that coordinates can be made of, where one that is said as a coordinate has
+        no partner.
+        """
+        pieces = [piece for piece in self._pieces if piece.offset < THOROUGH]
+        if self.unread or not any(unpaired_coordinates(piece.readings[0].text) for piece in pieces):
+            return ()
+        found = (read_numbers(reading.text) for piece in pieces for reading in piece.readings)
+        said = (number.said for number in itertools.chain(*found) if number.unit in ("m", None))
+        return tuple(dict.fromkeys(said))
+
+    def evidence(self, value: Any, parameter: Parameter, tolerance: float = EXACT) -> Evidence:
+        """Whether the text says a value of a parameter, and with which words. A number may differ
+        by `tolerance`, relative, beside rounding; texts may have their spelling put right.
+        """
+        kind = parameter.type
+        if kind in ("number", "integer"):
+            return self._number(value, parameter, tolerance) if is_number(value) else NOBODY
+        if kind == "position":
+            return self._position(value, tolerance) if is_place(value) else NOBODY
+        items = value if isinstance(value, list) else [value]
+        if kind == "polygon":
+            return together(self.evidence(corner, WAYPOINT, tolerance) for corner in items)
+        return together(self._text(str(item)) for item in items)
+
+    def _read(self, reader: Callable[[str], Iterable[Found]]) -> dict[Found, None]:
+        """What a reader finds in every way of reading the text, with its place in the text itself,
+        the plainest way first.
+        """
+        return {
+            replace(item, start=span[0], end=span[1]): None
+            for piece in self._pieces
+            for reading in piece.readings
+            for item in reader(reading.text)
+            for span in [piece.span(reading, item.start, item.end)]
+        }
+
+    # ------------------------------------------------------------ numbers
+
+    def _numbers_of(self, piece: _Piece, reading: Variant, unit: str | None) -> Iterator[Number]:
+        text, degrees = reading.text, "deg" if unit == "degC" else unit
+        certain = written_pairs(text)
+        pairs = [(place.start, place.end) for place in read_positions(text)]
+        for number in in_unit(text, degrees):
+            no_measure = number.counts and unit in MEASURES
+            if no_measure or _within(certain, number.start) or abs(number.value) >= LARGEST:
+                continue
+            rank = number.rank
+            if rank == BARE and _within(pairs, number.start):
+                rank = IN_PAIR
+            if reading is not piece.readings[0]:
+                rank = REREAD + (rank >= BARE)
+            start, end = piece.span(reading, number.start, number.end)
+            yield replace(number, rank=rank, start=start, end=end)
+
+    def _number(self, value: float, parameter: Parameter, tolerance: float) -> Evidence:
+        found = _near(self.numbers(parameter.unit), value, tolerance)
+        # An arc of more than a circle is no direction: "half round, the south wall too".
+        if parameter.unit == "deg" and (parameter.maximum or 360) <= 360:
+            found += [angle for angle in self.bearings if near(value % 360, angle.value)]
+        plainest = min((number.rank for number in found), default=REREAD + 2)
+        turned = [
+            turn
+            for turn in (self.turns if parameter.unit == "deg" and plainest else ())
+            if near(abs(value), turn.value, tolerance)
+        ]
+        if turned:
+            return Evidence("derived", _mentions(turned))
+        if found:
+            best = [number for number in found if number.rank == plainest]
+            return Evidence(_kind(best[0]), _mentions(best), plainest)
+        return UNREAD if self.unread else NOBODY
+
+    # ------------------------------------------------------------ places and texts
+
+    def _position(self, value: Sequence[float], tolerance: float) -> Evidence:
+        found = [
+            place for place in self.positions if same_place(value, (place.x, place.y), tolerance)
+        ]
+        if found:
+            return Evidence("stated", _mentions(found))
+        loose = self.loose and all(
+            any(near(abs(part), abs(number), tolerance) for number in self.loose) for part in value
+        )
+        return UNREAD if self.unread else Evidence("stated") if loose else NOBODY
+
+    def _text(self, value: str) -> Evidence:
+        if self.phrases.missing(value):
+            return NOBODY
+        return Evidence("stated", tuple(spans for spans in self.phrases.spans(value) if spans))
+
+    @functools.cached_property
+    def _pieces(self) -> tuple[_Piece, ...]:
+        return tuple(
+            _Piece(offset, variants(text) if offset < THOROUGH else (plain(text),))
+            for offset, text in pieces(without_geographic(self.text))
+        )
+
+
+@functools.lru_cache(maxsize=4096)
+def read(text: str) -> Facts:
+    """The facts of a text, read once for all that ask about it."""
+    return Facts(text)
+
+
+def pieces(text: str, longest: int = LONGEST_PIECE) -> Iterator[tuple[int, str]]:
+    """The text cut behind sentences, or words where a sentence is too long, with where each piece
+    begins.
+    """
+    start = 0
+    while len(text) - start > longest:
+        window = text[start : start + longest]
+        ends = [match.end() for match in _END.finditer(window)]
+        cut = ends[-1] if ends else window.rfind(" ") + 1 or longest
+        yield start, window[:cut]
+        start += cut
+    yield start, text[start:]
+
+
+# ---------------------------------------------------------------- comparing values
+
+
+def is_number(value: Any) -> bool:
+    """Whether a JSON value is a number; true and false are none."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def is_place(value: Any) -> bool:
+    """Whether a JSON value is a pair of numbers."""
+    return isinstance(value, list | tuple) and len(value) == 2 and all(map(is_number, value))
+
+
+def near(value: float, said: float, tolerance: float = EXACT) -> bool:
+    """Whether a value is the one that was said, up to rounding and a relative tolerance."""
+    return abs(value - said) <= max(ROUNDING, max(tolerance, CONVERSION) * abs(said))
+
+
+def same_place(value: Sequence[float], said: Place, tolerance: float = EXACT) -> bool:
+    """Whether a position is the one that was said: by distance, half a metre at most."""
+    allowed = min(tolerance * math.hypot(*said), FARTHEST + 1e-9)
+    return math.dist(value, said) <= max(allowed, ROUNDING * math.sqrt(2))
+
+
+def together(parts: Iterable[Evidence]) -> Evidence:
+    """The evidence of a value that has parts: the weakest kind, and the first words of each part."""
+    found = list(parts)
+    if len(found) == 1:
+        return found[0]
+    order: list[Kind] = ["stated", "converted", "vehicle", "derived", "unread", "nobody"]
+    kind: Kind = order[max((order.index(part.kind) for part in found), default=0)]
+    spans = sorted({span for part in found for span in part.spans})
+    return Evidence(kind, (tuple(spans),) if spans else ())
+
+
+def _kind(number: Number) -> Kind:
+    if number.rank == AS_BEFORE or abs(number.factor - 1) > 1e-9:
+        return "converted" if number.said else "derived"
+    return "stated"
+
+
+def _mentions(found: Iterable[Number | Position]) -> tuple[tuple[Span, ...], ...]:
+    return tuple(((start, end),) for start, end in sorted({(one.start, one.end) for one in found}))
+
+
+def _near(numbers: tuple[Number, ...], value: float, tolerance: float) -> list[Number]:
+    """The numbers, sorted by value, that `value` is near to."""
+    margin = 2 * max(ROUNDING, max(tolerance, CONVERSION) * abs(value))
+    first = bisect.bisect_left(numbers, value - margin, key=lambda number: number.value)
+    last = bisect.bisect_right(numbers, value + margin, key=lambda number: number.value)
+    return [number for number in numbers[first:last] if near(value, number.value, tolerance)]
+
+
+def _within(spans: Iterable[tuple[int, int]], place: int) -> bool:
+    return any(start <= place < end for start, end in spans)
+
+
+def _notes(text: str) -> Iterator[str]:
+    if any(ord(letter) > 0x24F and letter.isalpha() for letter in text):
+        yield "The command has words in another script; its numbers are not checked against it."
+        return
+    words = re.findall(r"[^\W\d_]{2,}", text)
+    if len(words) >= FEWEST_WORDS and sum(map(is_known, words)) * 2 < len(words):
+        yield (
+            "The command is mostly in words that are not known; its numbers are not checked"
+            " against it."
+        )
+    if unread := _UNREAD.search(text):
+        yield (
+            f"The command has a number that could not be read ({unread[0][:24]}); numbers are not"
+            " checked against it."
+        )
+
+
+def _plainness(number: Number) -> tuple[float, int, int]:
+    return number.value, number.rank, number.start

@@ -1,0 +1,226 @@
+"""Words of a text: how near one is to another, which are known, and where a phrase is said.
+
+`known_words.txt` is a frozen list of the words that commands use, with how often the templates have
+them (scripts/freeze_words.py wrote it). A word that it lacks is a name, or misspelt.
+"""
+
+from __future__ import annotations
+
+import bisect
+import functools
+import re
+from collections import defaultdict
+
+from rapidfuzz import process
+from rapidfuzz.distance import OSA
+
+from planner_ft.facts.lists import FOLDER
+
+Span = tuple[int, int]
+FARTHEST = 120
+"""Characters between the words of one phrase."""
+MOST_PLACES = 100
+"""Places of a word that are looked at."""
+FEW_WORDS = 400
+"""Different words of a text up to which each can be a misspelling; of more, only unknown ones."""
+ENDINGS = ("'s", "s", "es", "ed", "d", "ing", "ly", "er")
+_WORD = re.compile(r"[^\W_]+(?:[-'’.][^\W_]+)*")
+_INNER = re.compile(r"[-'.]")
+
+
+def words(text: str) -> list[str]:
+    """The words of a text in lower case; hyphens, apostrophes and dots inside a word are kept."""
+    return [word.lower().replace("’", "'") for word in _WORD.findall(text)]
+
+
+def normalised(text: str) -> str:
+    """A text in lower case, with single spaces and without a leading article."""
+    first, *rest = text.casefold().split() or [""]
+    return " ".join(rest if first in ("the", "a", "an") and rest else [first, *rest])
+
+
+def edit_distance(first: str, second: str, limit: int) -> int:
+    """Levenshtein distance with transpositions of neighbours, or `limit` + 1 where it is larger."""
+    return OSA.distance(first, second, score_cutoff=limit)
+
+
+# ---------------------------------------------------------------- the known words
+
+
+@functools.cache
+def known_words() -> dict[str, int]:
+    """Every known word in lower case, with how often the templates have it."""
+    lines = (FOLDER / "known_words.txt").read_text(encoding="utf-8").splitlines()
+    return {word: int(count) for word, count in (line.rsplit(" ", 1) for line in lines)}
+
+
+@functools.lru_cache(maxsize=8192)
+def is_known(word: str) -> bool:
+    """Whether a word, or the word without a usual ending, is in the list."""
+    known, lowered = known_words(), word.lower()
+    stems = (lowered.removesuffix(end) for end in ENDINGS if lowered.endswith(end))
+    return lowered in known or any(stem in known for stem in stems)
+
+
+@functools.lru_cache(maxsize=8192)
+def corrections(word: str, most: int = 6) -> tuple[str, ...]:
+    """Known words that `word` can be a misspelling or a shortening of, the nearest first; none for
+    a known word.
+
+    Words up to five letters may differ by one edit, longer ones by two, and so may those of five
+    that nothing else is near and that begin alike. A word without vowels is also the consonants of
+    another: "thrml" is thermal.
+    """
+    lowered, known = word.lower(), known_words()
+    if len(lowered) < 3 or lowered in known:
+        return ()
+    found = _near(lowered, 1 if len(lowered) < 6 else 2)
+    if not set(lowered) & set("aeiou"):
+        found += [(1, -known[other], other) for other in known if _shortens(lowered, other)]
+    if not found and len(lowered) == 5:
+        found = [item for item in _near(lowered, 2) if item[2][0] == lowered[0]]
+    return tuple(dict.fromkeys(other for _distance, _count, other in sorted(found)))[:most]
+
+
+def _near(word: str, limit: int) -> list[tuple[int, int, str]]:
+    """(edits, -frequency, known word) of the known words that `limit` edits make of `word`."""
+    known = known_words()
+    found = process.extract(
+        word, _long_words(), scorer=OSA.distance, score_cutoff=limit, limit=None
+    )
+    return [(int(distance), -known[other], other) for other, distance, _index in found]
+
+
+@functools.cache
+def _long_words() -> list[str]:
+    return [word for word in known_words() if len(word) >= 3]
+
+
+def _shortens(word: str, whole: str) -> bool:
+    """Whether a word has the letters of `whole` in order, the first one first, and half at least."""
+    letters = iter(whole)
+    return (
+        whole[0] == word[0]
+        and len(word) < len(whole) <= 2 * len(word)
+        and all(letter in letters for letter in word)
+    )
+
+
+def _resembles(written: str, meant: str) -> bool:
+    """Whether a word can be a misspelling of another. "T142" is none of "T143"."""
+    if len(meant) < 3 or len(written) < 2 or any(letter.isdigit() for letter in meant):
+        return False
+    limit = max(1, len(meant) // 3)
+    return edit_distance(written, meant, limit) <= limit or _shortens(written, meant)
+
+
+# ---------------------------------------------------------------- phrases of a text
+
+
+class Phrases:
+    """The words of a text by every form that counts as the same word: without a possessive ending,
+    in its parts ("red-white").
+    """
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self._lower = text.lower()
+        self._spans: dict[str, list[Span]] = defaultdict(list)
+        for match in _WORD.finditer(text):
+            word = match[0].lower().replace("’", "'")
+            forms = {word, word.removesuffix("'s"), word.rstrip("'"), *_INNER.split(word)}
+            for form in forms - {""}:
+                self._spans[form].append(match.span())
+        few = len(self._spans) <= FEW_WORDS
+        self._uncertain = [word for word in self._spans if few or not is_known(word)]
+        self._places: dict[str, list[Span]] = {}
+
+    def missing(self, phrase: str, *, misspelt: bool = True) -> list[str]:
+        """Words of a phrase that the text does not say; with `misspelt`, a word that resembles one
+        says it.
+        """
+        said = self.places if misspelt else self._exact
+        return [word for word in words(phrase) if not said(word)]
+
+    def spans(self, phrase: str) -> list[tuple[Span, ...]]:
+        """The places of a phrase: where it stands word for word, else its words near each other;
+        none where half of them are not said.
+        """
+        whole = self._whole(normalised(phrase))
+        if whole:
+            return [(span,) for span in whole]
+        options = [self.places(word) for word in words(phrase)]
+        found = [places for places in options if places]
+        return [self._joined(_nearest(found))] if found and 2 * len(found) >= len(options) else []
+
+    def places(self, word: str) -> list[Span]:
+        """Where a word is said, put right where it is misspelt; at most MOST_PLACES."""
+        if word not in self._places:
+            self._places[word] = self._exact(word) or sorted(
+                span
+                for other in self._uncertain
+                if _resembles(other, word)
+                for span in self._spans[other]
+            )
+        return self._places[word][:MOST_PLACES]
+
+    def _exact(self, word: str) -> list[Span]:
+        forms = dict.fromkeys((word, f"{word}s", word.removesuffix("s")))
+        found = [span for form in forms for span in self._spans.get(form, ())]
+        parts = [part for part in re.split(r"[-.]", word) if part != word] if "-" in word else []
+        if not found and parts and all(part in self._spans for part in parts):
+            found = [span for part in parts for span in self._spans[part]]
+        return sorted(found)[:MOST_PLACES]
+
+    def _whole(self, wanted: str) -> list[Span]:
+        found: list[Span] = []
+        start = self._lower.find(wanted) if wanted and len(self._lower) == len(self.text) else -1
+        while start >= 0 and len(found) < MOST_PLACES:
+            end = start + len(wanted)
+            beside = self._lower[start - 1 : start] if start else "", self._lower[end : end + 1]
+            if not any(letter.isalnum() for letter in beside):
+                found.append((start, end))
+            start = self._lower.find(wanted, end)
+        return found
+
+    def _joined(self, spans: list[Span]) -> tuple[Span, ...]:
+        """Spans in order; those with nothing but blanks between them as one."""
+        joined: list[Span] = []
+        for start, end in sorted(set(spans)):
+            if joined and not self.text[joined[-1][1] : start].strip():
+                joined[-1] = (joined[-1][0], end)
+            else:
+                joined.append((start, end))
+        return tuple(joined)
+
+
+@functools.lru_cache(maxsize=2048)
+def phrases(text: str) -> Phrases:
+    """The words of a text, indexed once."""
+    return Phrases(text)
+
+
+def missing_words(text: str, phrase: str, *, misspelt: bool) -> list[str]:
+    """Words of `phrase` that `text` does not say (Phrases.missing)."""
+    return phrases(text).missing(phrase, misspelt=misspelt)
+
+
+def _nearest(options: list[list[Span]]) -> list[Span]:
+    """One place per word so that they stand near each other: all near one of the last word, mostly
+    a noun.
+    """
+    best: list[Span] = []
+    for anchor in options[-1]:
+        chosen = [_closest(places, anchor) for places in options]
+        if not best or _width(chosen) < _width(best):
+            best = chosen
+    return [span for span in best if abs(span[0] - best[-1][0]) <= FARTHEST]
+
+
+def _closest(places: list[Span], anchor: Span) -> Span:
+    index = bisect.bisect_left(places, anchor)
+    return min(places[max(0, index - 1) : index + 1], key=lambda span: abs(span[0] - anchor[0]))
+
+
+def _width(spans: list[Span]) -> int:
+    return max(end for _start, end in spans) - min(start for start, _end in spans)

@@ -1,0 +1,117 @@
+"""Where a value is from: the text, the task, the vehicle, arithmetic, nobody."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import pytest
+
+from planner_ft.benchmark.metrics.entries import plan_entries
+from planner_ft.benchmark.metrics.groundedness import given_values
+from planner_ft.data.mission.synthetic import sample_missions
+from planner_ft.data.task.sampler import Split, sample_tasks
+from planner_ft.facts import SCORING, WAYPOINT, read_input
+from planner_ft.facts.derived import turned
+from planner_ft.support.files import read_jsonl
+from planner_ft.vocabulary import Parameter, load_vocabulary
+from planner_ft.vocabulary.plans import Level
+
+USV = load_vocabulary()
+PLACE, FENCE = Parameter("center", "position", "m"), Parameter("fence", "polygon", "m")
+TIME, HEADING = Parameter("time", "number", "s"), Parameter("heading", "number", "deg")
+GRID = {"center": [10, 20], "width": 20, "length": 10, "spacing": 10}
+
+
+def kind(prompt: str, value: Any, parameter: Parameter, **record: Any) -> str:
+    return read_input({"prompt": prompt, **record}, USV).evidence(value, parameter).kind
+
+
+@pytest.mark.parametrize(
+    ("prompt", "value", "parameter", "expected"),
+    [
+        ("Go out.", [0, 0], PLACE, "vehicle"),
+        ("Go out.", [-99, -99], PLACE, "vehicle"),
+        ("Go out.", [4, 5], PLACE, "nobody"),
+        ("Go 30 m north of [4, 5].", [4, 35], PLACE, "derived"),
+        ("Stay in the box from (1, 2) to (40, 20).", [[1, 2], [40, 2], [40, 20], [1, 20]], FENCE,
+         "derived"),
+        ("Stay in a 30 m square round [5, 5].", [[-25, -25], [35, -25], [35, 35], [-25, 35]], FENCE,
+         "derived"),
+        ("Stay in the box.", [[1, 2], [40, 2], [40, 20]], FENCE, "nobody"),
+        ("Hold a minute, then twice as long.", 120, TIME, "derived"),
+        ("Hold a minute, then as long.", 120, TIME, "nobody"),
+    ],
+)  # fmt: skip
+def test_values_of_a_mission(prompt: str, value: Any, parameter: Parameter, expected: str) -> None:
+    assert kind(prompt, value, parameter) == expected
+
+
+@pytest.mark.parametrize(
+    ("prompt", "parameters", "point", "before", "expected"),
+    [
+        ("Run the grid.", GRID, [0, 15], [], "derived"),
+        ("Run the grid.", GRID, [5, 25], [(0, 15)], "nobody"),
+        ("Run the grid.", GRID, [10, 20], [], "stated"),
+        ("Run a zigzag.", GRID, [7, 7], [], "unread"),
+        ("Stop 30 m north of there.", {"target_position": [10, 0]}, [10, 30], [], "derived"),
+        ("Stop 30 m north of there.", {"target_position": [10, 0]}, [10, 31], [], "nobody"),
+        ("20 m north, 30 m east.", {"target_position": [10, 0]}, [40, 20], [(10, 20)], "derived"),
+        ("Survey it.", {"target_position": [10, 10], "radius": 5}, [15, 15], [], "derived"),
+        ("Six points round it.", {"center": [0, 10], "radius": 10}, [8.66, 15], [], "derived"),
+        ("Six points round it.", {"center": [0, 10], "radius": 10}, [8, 16], [], "nobody"),
+        ("[10, 0] to [50, 0] in five points.", {}, [20, 0], [], "derived"),
+    ],
+)
+def test_waypoints(
+    prompt: str, parameters: Any, point: list[float], before: Any, expected: str
+) -> None:
+    record = {"prompt": prompt, "task": "Transit", "parameters": parameters}
+    if "width" in parameters:
+        record["task"] = "BathymetryGridSurvey"
+    if "radius" in parameters:
+        record["task"] = "SurveyTarget" if "target_position" in parameters else "PerformOrbit"
+    assert read_input(record, USV).evidence(point, WAYPOINT, before=before).kind == expected
+
+
+def test_a_task_s_own_values_are_stated() -> None:
+    record = {"task": "KeepStation", "parameters": {"duration": 240, "note": ["red mark"]}}
+    assert kind("Hold for the duration.", 240, TIME, **record) == "stated"
+    assert kind("Hold.", "red mark", Parameter("label", "text"), **record) == "stated"
+    assert kind("Hold.", "mark", Parameter("label", "text"), **record) == "stated"
+    assert kind("Hold.", 120, TIME, **record) == "nobody"
+
+
+def test_even_turns_and_the_way_back_follow() -> None:
+    record = {"task": "HorizontalPanorama", "parameters": {"sectors": 4}}
+    assert kind("Turn to each heading.", 270, HEADING, **record) == "derived"
+    assert kind("Turn to each heading.", 200, HEADING, **record) == "nobody"
+    assert {45.0, 135.0, 225.0, 315.0} <= set(turned([45], [4]))
+
+
+def nobodys(level: Level, records: list[dict[str, Any]]) -> tuple[int, int]:
+    """Labelled values that nobody gave, of those that could be judged."""
+    kinds = []
+    for record in records:
+        source = read_input(record if level == "task" else {"prompt": record["prompt"]}, USV)
+        before: list[tuple[float, float]] = []
+        for given in given_values(level, plan_entries(level, record["expected"]), USV):
+            place = given.parameter.name == WAYPOINT.name
+            parameter = WAYPOINT if place else given.parameter
+            kinds.append(source.evidence(given.value, parameter, SCORING, before).kind)
+            before += [tuple(given.value)] if place else []
+    return kinds.count("nobody"), len(kinds) - kinds.count("unread")
+
+
+def test_labelled_values_of_missions_have_evidence() -> None:
+    splits = ("train", "validation", "test")
+    curated = [record for split in splits for record in read_jsonl(f"data/mission/{split}.jsonl")]
+    assert nobodys("mission", curated) == (0, 615)
+    missed, judged = nobodys("mission", list(sample_missions(5, 300)))
+    assert missed <= judged / 500
+
+
+@pytest.mark.parametrize("split", ["train", "test"])
+def test_labelled_values_of_tasks_have_evidence(split: Split) -> None:
+    missed, judged = nobodys("task", list(itertools.islice(sample_tasks(USV, 3, None, split), 150)))
+    assert missed <= judged / 300
