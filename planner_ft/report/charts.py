@@ -1,5 +1,4 @@
-"""What a figure shows, apart from how it is drawn: the page draws it as SVG, figures.py with
-matplotlib.
+"""The content of figures, apart from how `pictures` draws it, and the same as tables.
 
 Every chart has a `name` (file name), a `title` and a `caption` that says what to see in it.
 """
@@ -7,6 +6,11 @@ Every chart has a `name` (file name), a `title` and a `caption` that says what t
 from __future__ import annotations
 
 from dataclasses import dataclass
+
+from planner_ft.report.tables import NOTHING, Cell, Table, TableRow, row
+
+HEATS = 6
+"""Shades of a count, beside none."""
 
 
 @dataclass(frozen=True)
@@ -41,27 +45,16 @@ class Bars:
     @property
     def groups(self) -> list[str]:
         """The groups in the order in which they first appear."""
-        return list(dict.fromkeys(bar.group for bar in self.bars if bar.group))
-
-    @property
-    def has_second(self) -> bool:
-        """Whether any bar has a second figure."""
-        return any(bar.second is not None for bar in self.bars)
+        return list(dict.fromkeys(bar.group for bar in self.bars))
 
     def lines(self, group: str) -> list[list[int]]:
         """Indices of a group's bars with a second figure, measured and compared ones apart: a line
         joins what was measured alike.
         """
-        found = [
-            index
-            for index, bar in enumerate(self.bars)
-            if bar.group == group and bar.second is not None
-        ]
-        return [
-            run
-            for muted in (False, True)
-            if (run := [index for index in found if self.bars[index].muted == muted])
-        ]
+        members = [index for index, bar in enumerate(self.bars) if bar.group == group]
+        found = [index for index in members if self.bars[index].second is not None]
+        runs = [[at for at in found if self.bars[at].muted == muted] for muted in (False, True)]
+        return [run for run in runs if run]
 
 
 @dataclass(frozen=True)
@@ -143,32 +136,54 @@ class Matrix:
 Chart = Bars | Lines | Dots | Matrix
 
 
-def ticks(high: float, count: int = 5) -> list[float]:
-    """About `count` round steps from 0 to the first that is not below `high`."""
-    if high <= 0:
-        return [0.0, 1.0]
-    magnitude = 10.0 ** _exponent(high / count)
-    step = next(
-        factor * magnitude
-        for factor in (1, 2, 2.5, 5, 10)
-        if factor * magnitude * count >= high * 0.999999
-    )
-    steps = [0.0]
-    while steps[-1] < high * 0.999999:
-        steps.append(round(len(steps) * step, 10))
-    return steps
-
-
-def _exponent(value: float) -> int:
-    return int(f"{value:e}".partition("e")[2])
-
-
 def number(value: float | None) -> str:
     """A figure for people: three significant digits, no exponent for everyday sizes."""
     if value is None:
-        return "–"
+        return NOTHING
     if value != 0 and not 1e-4 <= abs(value) < 1e7:
         return f"{value:.2e}"
     if abs(value) >= 100:
         return f"{value:,.0f}"
     return f"{value:.3g}" if value else "0"
+
+
+def chart_table(chart: Chart) -> Table:
+    """The figures of a chart as a table; counts are shaded."""
+    if isinstance(chart, Matrix):
+        rows = tuple(
+            TableRow(
+                name,
+                tuple(_count(count, chart.largest or 1) for count in counts),
+                "published" if "(published" in name else "measured",
+            )
+            for name, counts in zip(chart.rows, chart.counts, strict=True)
+        )
+        return Table(chart.name, chart.title, chart.caption, chart.corner, chart.columns, rows)
+    heads: tuple[str, ...]
+    if isinstance(chart, Bars):
+        heads = ("System", chart.axis, "95 % interval", chart.second_axis)
+        rows = tuple(
+            row(bar.label, number(bar.value), _interval(bar), number(bar.second))
+            for bar in chart.bars
+        )
+    elif isinstance(chart, Dots):
+        heads = ("", *chart.marks, chart.note_heading or "samples")
+        rows = tuple(row(one.label, *map(number, one.values), one.note) for one in chart.rows)
+    else:
+        heads = ("Line", chart.x_axis, chart.y_axis, "samples")
+        rows = tuple(
+            row(series.label, number(point.x), number(point.y), str(point.n))
+            for series in chart.series
+            for point in series.points
+        )
+    return Table(f"{chart.name}-data", chart.title, "", heads[0], heads[1:], rows)
+
+
+def _interval(bar: Bar) -> str:
+    return NOTHING if bar.low is None else f"[{number(bar.low)}, {number(bar.high)}]"
+
+
+def _count(count: int | None, largest: int) -> Cell:
+    if count is None:
+        return Cell(NOTHING)
+    return Cell(str(count), heat=-(-HEATS * count // largest), bounds=(count, None, None))

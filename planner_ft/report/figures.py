@@ -11,18 +11,7 @@ from planner_ft.benchmark.costs import QUANTILES, quantile
 from planner_ft.benchmark.layout import heading
 from planner_ft.benchmark.metrics import FAILURES
 from planner_ft.benchmark.metrics.failures import PUBLISHED
-from planner_ft.report.charts import (
-    Bar,
-    Bars,
-    Chart,
-    DotRow,
-    Dots,
-    Lines,
-    Matrix,
-    Point,
-    Series,
-    number,
-)
+from planner_ft.report.charts import Bar, Bars, Chart, DotRow, Dots, Lines, Matrix, Point, Series
 from planner_ft.report.metrics import estimate, published_label, published_rows
 from planner_ft.report.names import Confusion, confusion
 from planner_ft.report.runs import Record, System, TestSet
@@ -352,27 +341,3 @@ def slug(name: str) -> str:
             for letter in name.lower().replace("+", " ")
         ).split()
     )
-
-
-def chart_rows(chart: Bars | Lines | Dots) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
-    """The figures of a chart as a table: headings and rows of text."""
-    if isinstance(chart, Bars):
-        return ("System", chart.axis, "95 % interval", chart.second_axis), [
-            (
-                bar.label,
-                number(bar.value),
-                "–" if bar.low is None else f"[{number(bar.low)}, {number(bar.high)}]",
-                number(bar.second),
-            )
-            for bar in chart.bars
-        ]
-    if isinstance(chart, Dots):
-        note = (chart.note_heading or "samples",)
-        return ("", *chart.marks, *note), [
-            (row.label, *(number(value) for value in row.values), row.note) for row in chart.rows
-        ]
-    return ("Line", chart.x_axis, chart.y_axis, "samples"), [
-        (series.label, number(point.x), number(point.y), str(point.n))
-        for series in chart.series
-        for point in series.points
-    ]

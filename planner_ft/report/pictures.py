@@ -1,58 +1,123 @@
-"""Charts as PNG and SVG, drawn with matplotlib: colours that colour-blind people can tell apart,
-letters that stay text.
+"""Charts drawn with matplotlib: as PNG and SVG files, and as SVG inside the page.
+
+Colours can be told apart by colour-blind people, and every series has a mark and a line style of
+its own; letters stay text. The page's style sheet gives its drawings their colours, dark or light.
 """
 
 from __future__ import annotations
 
 import io
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Any
+from xml.etree import ElementTree
 
-from planner_ft.report.charts import Bars, Chart, Dots, Lines, Matrix, ticks
+from planner_ft.report.charts import Bars, Chart, Dots, Lines, Matrix
 
-PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#555555", "#B8A000")
+WIDE, NARROW = 860, 340
+"""Widths in pixels, which are points here: letters keep their size on a phone because the page
+shows one drawing or the other.
+"""
+LETTER = 7.2
+"""Mean width of a letter at 12 pixels."""
+PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#b8a000")
 """Okabe and Ito's colours (2008), the brightest yellow darkened for white paper."""
-LONGEST = 44
-"""Letters of a label."""
+INK, SOFT, LINE = "#1b2128", "#55606c", "#d5dbe1"
+ROLES = {INK: "ink", SOFT: "soft", LINE: "line"} | {
+    colour: f"s{index}" for index, colour in enumerate(PALETTE)
+}
+"""Names of the style sheet's colours."""
 MARKERS = ("o", "s", "^", "D", "v")
 STYLES = ("-", "--", ":", "-.")
 SETTINGS = {
     "svg.fonttype": "none",
     "svg.hashsalt": "planner_ft",
-    "font.size": 9,
+    "text.parse_math": False,
+    "text.color": INK,
+    "font.size": 12,
+    "axes.titlesize": 12,
+    "axes.facecolor": "none",
+    "axes.edgecolor": SOFT,
+    "axes.labelcolor": SOFT,
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.axisbelow": True,
+    "grid.color": LINE,
+    "xtick.color": SOFT,
+    "ytick.color": SOFT,
+    "ytick.labelcolor": INK,
+    "legend.frameon": False,
 }
 
 
 def picture(chart: Chart) -> dict[str, bytes]:
     """The bytes of a chart as "png" and "svg"; the same chart gives the same bytes."""
+    with _drawn(chart, WIDE, title=chart.title) as figure:
+        return {
+            "png": _saved(figure, "png", {"dpi": 110, "metadata": {"Software": None}}),
+            "svg": _saved(figure, "svg", {"metadata": {"Date": None}}),
+        }
+
+
+def inline_svg(chart: Chart, width: int) -> str:
+    """A chart as an element of a page that allows no style but its own: colours are classes."""
+    with _drawn(chart, width) as figure:
+        root = ElementTree.fromstring(_saved(figure, "svg", {"facecolor": "none"}))
+    for parent in list(root.iter()):
+        for child in list(parent):
+            if child.tag.endswith(("}metadata", "}style", "}clipPath")):
+                parent.remove(child)
+    for node in root.iter():
+        _restyle(node, f"{chart.name}-{width}-")
+    _x, _y, *size = root.attrib["viewBox"].split()
+    root.attrib.update(zip(("width", "height"), size, strict=True))
+    root.attrib.update({"role": "img", "aria-label": chart.title})
+    return ElementTree.tostring(root, encoding="unicode")
+
+
+def _restyle(node: ElementTree.Element, prefix: str) -> None:
+    """Styles as classes and attributes, and ids that no other drawing has."""
+    node.tag = node.tag.rpartition("}")[2]
+    found: dict[str, str] = {}
+    classes = []
+    styles = [entry.partition(":") for entry in node.attrib.pop("style", "").split(";")]
+    for key, _, value in [(key, ":", value) for key, value in node.attrib.items()] + styles:
+        name, text = key.strip().rpartition("}")[2], value.strip()
+        if name in ("fill", "stroke") and text in ROLES:
+            classes.append(f"{name}-{ROLES[text]}")
+        elif name == "href":
+            found[name] = text.replace("#", f"#{prefix}")
+        elif name == "id":
+            found |= {} if node.tag == "g" else {"id": prefix + text}
+        elif name not in ("", "font", "clip-path"):
+            found[name] = text
+    node.attrib.clear()
+    node.attrib.update(found | ({"class": " ".join(classes)} if classes else {}))
+
+
+@contextmanager
+def _drawn(chart: Chart, width: int, title: str = "") -> Iterator[Any]:
     import matplotlib
 
     matplotlib.use("Agg")
     from matplotlib.figure import Figure
 
-    with matplotlib.rc_context(SETTINGS):
-        figure = Figure(layout="constrained")
-        _draw(figure, chart)
-        # Lay out once, not for each format again.
-        figure.draw_without_rendering()
-        figure.set_layout_engine("none")
-        return {
-            "png": _saved(figure, "png", {"dpi": 150, "metadata": {"Software": None}}),
-            "svg": _saved(figure, "svg", {"metadata": {"Date": None}}),
-        }
-
-
-def _draw(figure: Any, chart: Chart) -> None:
-    if isinstance(chart, Bars):
-        _bars(figure, chart)
-    elif isinstance(chart, Lines):
-        _lines(figure, chart)
-    elif isinstance(chart, Dots):
-        _dots(figure, chart)
-    else:
-        _matrix(figure, chart)
+    with matplotlib.rc_context(SETTINGS), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph")  # names may hold any letters
+        sheet = _Sheet(Figure(), width, top=40 if title else 24)
+        if isinstance(chart, Bars):
+            _bars(sheet, chart)
+        elif isinstance(chart, Lines):
+            _lines(sheet, chart)
+        elif isinstance(chart, Dots):
+            _dots(sheet, chart)
+        else:
+            _matrix(sheet, chart)
+        if title:
+            sheet.figure.suptitle(fitted(title, 100), x=0.01, ha="left", fontweight="bold")
+        yield sheet.figure
 
 
 def _saved(figure: Any, suffix: str, options: dict[str, Any]) -> bytes:
@@ -61,218 +126,183 @@ def _saved(figure: Any, suffix: str, options: dict[str, Any]) -> bytes:
     return buffer.getvalue()
 
 
-def _rows(figure: Any, labels: list[str], title: str, axis: str, *, extra: float = 0) -> Any:
-    """Axes with a row per label, the first on top."""
-    figure.set_size_inches(7.2, 1.3 + extra + 0.28 * len(labels))
-    axes = figure.subplots()
-    _dress(axes, labels, title, axis)
-    return axes
+def fitted(label: str, longest: int = 44) -> str:
+    """A label that leaves room for the figure, on one line."""
+    shown = "".join(letter if letter.isprintable() else " " for letter in label)
+    shown = " ".join(shown.split())
+    return shown if len(shown) <= longest else f"{shown[: longest - 1]}…"
 
 
-def fitted(label: str) -> str:
-    """A label that leaves room for the figure, on one line; dollars would be read as formulas."""
-    label = " ".join(label.split()).replace("$", "\\$")
-    return label if len(label) <= LONGEST else f"{label[: LONGEST - 1]}…"
+def _length(labels: Sequence[str]) -> float:
+    return max((LETTER * len(fitted(label)) for label in labels), default=0.0)
 
 
-def _dress(axes: Any, labels: list[str], title: str, axis: str) -> None:
-    axes.set_yticks(range(len(labels)), [fitted(label) for label in labels])
-    axes.set_ylim(len(labels) - 0.4, -0.6)
-    axes.set_xlabel(axis)
-    axes.set_title(title, loc="left", fontsize=10, fontweight="bold")
-    axes.grid(axis="x", alpha=0.3)
-    axes.tick_params(axis="y", length=0)
+@dataclass
+class _Sheet:
+    """A figure with margins in pixels, which cost no layout."""
+
+    figure: Any
+    width: float
+    top: float
+
+    @property
+    def narrow(self) -> bool:
+        return self.width <= NARROW
+
+    def panels(
+        self,
+        height: float,
+        left: float,
+        *,
+        right: float = 12,
+        below: float = 0,
+        ratios: Sequence[float] = (1,),
+    ) -> list[Any]:
+        """Axes beside each other, `height` high, with room for the x axis and `below`."""
+        bottom = 44 + below
+        whole = self.top + height + bottom
+        self.figure.set_size_inches(self.width / 72, whole / 72)
+        edges = {"left": left / self.width, "right": 1 - right / self.width}
+        edges |= {"bottom": bottom / whole, "top": 1 - self.top / whole}
+        grid = {**edges, "width_ratios": ratios, "wspace": 0.06}
+        return list(
+            self.figure.subplots(1, len(ratios), sharey=True, squeeze=False, gridspec_kw=grid)[0]
+        )
+
+    def rows(
+        self,
+        labels: Sequence[str],
+        axis: str,
+        *,
+        right: float = 12,
+        keys: Sequence[str],
+        ratios: Sequence[float] = (1,),
+    ) -> list[Any]:
+        """Axes with a row per label, the first on top; labels stand above their rows where there is
+        no room beside them.
+        """
+        shown = [fitted(label) for label in labels]
+        height = (42 if self.narrow else 28) * len(labels) + 10
+        left = 12 if self.narrow else _length(labels) + 12
+        below = self.legend_height(keys)
+        first, *others = self.panels(height, left, right=right, below=below, ratios=ratios)
+        first.set_yticks(range(len(labels)), [""] * len(labels) if self.narrow else shown)
+        for index, label in enumerate(shown if self.narrow else ()):
+            place = (0, index - 0.28)
+            first.annotate(label, place, xycoords=("axes fraction", "data"), va="bottom")
+        first.set_ylim(len(labels) - 0.4, -1 if self.narrow else -0.6)
+        for axes in (first, *others):
+            axes.tick_params(axis="y", length=0, labelleft=axes is first)
+        self.measure(first, axis, 4 if self.narrow else 8)
+        return [first, *others]
+
+    def measure(self, axes: Any, axis: str, steps: int) -> None:
+        axes.set_xlabel(axis)
+        axes.grid(axis="x")
+        axes.locator_params(axis="x", nbins=steps)
+
+    def legend(self, handles: Sequence[Any], labels: Sequence[str]) -> None:
+        columns = self._columns(labels)
+        shown = [fitted(label) for label in labels]
+        if shown:
+            self.figure.legend(handles, shown, loc="lower left", ncols=columns)
+
+    def _columns(self, labels: Sequence[str]) -> int:
+        return max(1, min(4, int(self.width / (_length(labels) + 50))))
+
+    def legend_height(self, labels: Sequence[str]) -> float:
+        return -(-len(labels) // self._columns(labels)) * 20
 
 
-def _bars(figure: Any, chart: Bars) -> None:
+def _bars(sheet: _Sheet, chart: Bars) -> None:
+    keys = [name or "–" for name in chart.groups] if len(chart.groups) > 1 else []
+    second_panel = any(bar.second is not None for bar in chart.bars)
+    ratios = [2, 1] if second_panel else [1]
     labels = [bar.label for bar in chart.bars]
-    figure.set_size_inches(7.2, 1.5 + 0.28 * len(labels))
-    axes, *others = figure.subplots(
-        1,
-        2 if chart.has_second else 1,
-        sharey=True,
-        width_ratios=[2, 1] if chart.has_second else [1],
-        squeeze=False,
-    )[0]
-    _dress(axes, labels, chart.title, chart.axis)
-    axes.set_xlim(0, 1.1)
+    axes, *others = sheet.rows(labels, chart.axis, keys=keys, ratios=ratios)
+    axes.set_xlim(0, 1.15)
+    colours = {name: PALETTE[at % len(PALETTE)] for at, name in enumerate(chart.groups)}
     for index, bar in enumerate(chart.bars):
         if bar.value is None:
             continue
-        axes.barh(
-            index,
-            bar.value,
-            height=0.6,
-            color=_colour(chart, bar.group),
-            alpha=0.35 if bar.muted else 1,
-        )
+        alpha = 0.35 if bar.muted else 1
+        axes.barh(index, bar.value, height=0.5, color=colours[bar.group], alpha=alpha)
         if bar.low is not None and bar.high is not None:
-            axes.errorbar(
-                bar.value,
-                index,
-                xerr=[[bar.value - bar.low], [bar.high - bar.value]],
-                color="black",
-                capsize=2.5,
-                linewidth=1,
-            )
-        axes.annotate(
-            f"{bar.value:.2f}",
-            (max(bar.value, bar.high or 0), index),
-            (4, 0),
-            textcoords="offset points",
-            va="center",
-            fontsize=8,
-        )
+            reach = [[bar.value - bar.low], [bar.high - bar.value]]
+            axes.errorbar(bar.value, index, xerr=reach, color=INK, capsize=3, linewidth=1.5)
+        end = max(bar.value, bar.high or 0)
+        text = f"{bar.value:.2f}"
+        axes.annotate(text, (end, index), (4, 0), textcoords="offset points", va="center")
     for second in others:
-        second.set_xlabel(chart.second_axis)
-        second.grid(axis="x", alpha=0.3)
-        second.tick_params(axis="y", length=0)
-        for number, group in enumerate(chart.groups):
-            for run in chart.lines(group):
-                style = {
-                    "marker": MARKERS[number % len(MARKERS)],
-                    "alpha": 0.5 if chart.bars[run[0]].muted else 1,
-                }
-                second.plot(
-                    [chart.bars[index].second for index in run],
-                    run,
-                    STYLES[number % len(STYLES)],
-                    color=_colour(chart, group),
-                    markersize=4,
-                    **style,
-                )
+        sheet.measure(second, chart.second_axis, 3)
+        for at, name in enumerate(chart.groups):
+            style, marker = STYLES[at % len(STYLES)], MARKERS[at % len(MARKERS)]
+            for run in chart.lines(name):
+                values = [chart.bars[index].second for index in run]
+                alpha = 0.5 if chart.bars[run[0]].muted else 1
+                second.plot(values, run, style, marker=marker, color=colours[name], alpha=alpha)
         second.set_xlim(left=0)
-    if len(chart.groups) > 1:
+    if keys:
         from matplotlib.patches import Patch
 
-        figure.legend(
-            handles=[
-                Patch(color=_colour(chart, group), label=fitted(group)) for group in chart.groups
-            ],
-            loc="outside lower left",
-            frameon=False,
-            ncols=4,
-            fontsize=8,
-        )
+        sheet.legend([Patch(color=colour) for colour in colours.values()], keys)
 
 
-def _colour(chart: Bars, group: str) -> str:
-    return PALETTE[chart.groups.index(group) % len(PALETTE)] if group else PALETTE[0]
-
-
-def _lines(figure: Any, chart: Lines) -> None:
-    figure.set_size_inches(7.2, 4)
-    axes = figure.subplots()
+def _lines(sheet: _Sheet, chart: Lines) -> None:
+    keys = [series.label for series in chart.series]
+    (axes,) = sheet.panels(230 if sheet.narrow else 300, 62, below=sheet.legend_height(keys))
+    handles = []
     for index, series in enumerate(chart.series):
-        colour = PALETTE[index % len(PALETTE)]
+        colour, style = PALETTE[index % len(PALETTE)], STYLES[index % len(STYLES)]
         x, y = [point.x for point in series.points], [point.y for point in series.points]
-        axes.plot(
-            x,
-            y,
-            STYLES[index % len(STYLES)],
-            marker=MARKERS[index % len(MARKERS)],
-            color=colour,
-            markersize=5,
-            label=fitted(series.label),
-        )
-        spread = [point for point in series.points if point.low is not None]
-        axes.vlines(
-            [point.x for point in spread],
-            [point.low for point in spread],
-            [point.high for point in spread],
-            color=colour,
-            alpha=0.4,
-        )
+        marker = MARKERS[index % len(MARKERS)]
+        handles += axes.plot(x, y, style, marker=marker, color=colour)
+        for point in series.points:
+            if point.low is not None:
+                axes.vlines(point.x, point.low, point.high, color=colour, alpha=0.5)
     axes.set(xlabel=chart.x_axis, ylabel=chart.y_axis)
-    axes.set_title(chart.title, loc="left", fontsize=10, fontweight="bold")
     axes.set_ylim(bottom=0)
-    axes.set_xticks(sorted({point.x for series in chart.series for point in series.points}))
-    axes.grid(alpha=0.3)
-    axes.legend(frameon=False, fontsize=8)
+    places = sorted({point.x for series in chart.series for point in series.points})
+    axes.set_xticks(places if len(places) <= 12 else places[:: len(places) // 8])
+    axes.grid()
+    sheet.legend(handles, keys)
 
 
-def _dots(figure: Any, chart: Dots) -> None:
-    axes = _rows(figure, [row.label for row in chart.rows], chart.title, chart.axis, extra=0.3)
+def _dots(sheet: _Sheet, chart: Dots) -> None:
+    labels, notes = [row.label for row in chart.rows], [row.note for row in chart.rows]
+    right = _length(notes) + 16
+    (axes,) = sheet.rows(labels, chart.axis, right=right, keys=chart.marks)
+    beside: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "color": SOFT, "va": "center"}
     for index, row in enumerate(chart.rows):
         known = [value for value in row.values if value is not None]
         if len(known) > 1:
-            axes.hlines(index, min(known), max(known), color="#999999", linewidth=1.5, zorder=1)
-        if row.note:
-            axes.annotate(
-                row.note,
-                (1.01, index),
-                xycoords=("axes fraction", "data"),
-                va="center",
-                fontsize=8,
-                color="#555555",
-                annotation_clip=False,
-            )
-    for mark, label in reversed(list(enumerate(chart.marks))):
-        found = [
-            (row.values[mark], index)
-            for index, row in enumerate(chart.rows)
-            if row.values[mark] is not None
-        ]
-        axes.scatter(
-            [x for x, _y in found],
-            [y for _x, y in found],
-            s=34,
-            marker=MARKERS[mark],
-            color=PALETTE[mark],
-            label=label,
-            zorder=3,
-        )
-    axes.set_xlim(
-        0,
-        (
-            chart.high
-            or ticks(max((value or 0 for row in chart.rows for value in row.values), default=1))[-1]
-        )
-        * 1.02,
-    )
-    if chart.note_heading:
-        axes.annotate(
-            chart.note_heading,
-            (1.01, -0.9),
-            xycoords=("axes fraction", "data"),
-            fontsize=8,
-            color="#555555",
-            annotation_clip=False,
-        )
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(
-        handles[::-1],
-        labels[::-1],
-        loc="outside lower right",
-        frameon=False,
-        ncols=len(labels),
-        fontsize=8,
-    )
+            axes.hlines(index, min(known), max(known), color=SOFT, linewidth=2, zorder=1)
+        axes.annotate(row.note, (1.01, index), **beside)
+    heading = {"xycoords": "figure fraction", "color": SOFT, "ha": "right", "va": "top"}
+    axes.annotate(chart.note_heading, (0.99, 0.995), **heading)
+    handles = []
+    # Equal values lie on each other: the first mark is drawn last.
+    for mark in reversed(range(len(chart.marks))):
+        values = [row.values[mark] for row in chart.rows]
+        found = [(value, index) for index, value in enumerate(values) if value is not None]
+        style = {"marker": MARKERS[mark], "color": PALETTE[mark], "zorder": 3}
+        handles.append(axes.scatter([x for x, _y in found], [y for _x, y in found], s=40, **style))
+    axes.set_xlim(0, chart.high * 1.02 if chart.high else None)
+    sheet.legend(handles[::-1], chart.marks)
 
 
-def _matrix(figure: Any, chart: Matrix) -> None:
-    figure.set_size_inches(2.8 + 0.5 * len(chart.columns), 1.9 + 0.3 * len(chart.rows))
-    axes = figure.subplots()
+def _matrix(sheet: _Sheet, chart: Matrix) -> None:
+    left, below = _length(chart.rows) + 16, 0.65 * _length(chart.columns)
+    sheet.width = max(left + 48 * len(chart.columns) + 30, 0.8 * left + _length(chart.columns))
+    (axes,) = sheet.panels(28 * len(chart.rows), left, below=below)
     values = [[float("nan") if count is None else count for count in row] for row in chart.counts]
     axes.imshow(values, cmap="Blues", vmin=0, vmax=max(chart.largest, 1) * 1.15, aspect="auto")
-    axes.set_xticks(
-        range(len(chart.columns)),
-        [fitted(name) for name in chart.columns],
-        rotation=40,
-        ha="right",
-        rotation_mode="anchor",
-    )
+    columns = [fitted(name) for name in chart.columns]
+    axes.set_xticks(range(len(columns)), columns, rotation=40, ha="right", rotation_mode="anchor")
     axes.set_yticks(range(len(chart.rows)), [fitted(name) for name in chart.rows])
     axes.tick_params(length=0)
     for row, counts in enumerate(chart.counts):
         for column, count in enumerate(counts):
             if count:
-                axes.text(
-                    column,
-                    row,
-                    str(count),
-                    ha="center",
-                    va="center",
-                    color="white" if count > 0.6 * chart.largest else "black",
-                )
-    axes.set_title(chart.title, loc="left", fontsize=10, fontweight="bold")
+                colour = "white" if count > 0.6 * chart.largest else INK
+                axes.text(column, row, str(count), ha="center", va="center", color=colour)

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Literal, cast, get_args
 
-from planner_ft.report.charts import Matrix
+from planner_ft.report.charts import Matrix, chart_table
 from planner_ft.report.contents import Section, provenance, section
-from planner_ft.report.page import matrix_table, page
+from planner_ft.report.page import page
 from planner_ft.report.runs import load_test_sets
 from planner_ft.report.tables import csv_table, latex_table, markdown_table
 from planner_ft.support.errors import PlannerError
@@ -99,10 +99,8 @@ def _remove_former(out: Path) -> None:
 
 def _tables(sections: Sequence[Section], out: Path) -> Iterator[Path]:
     for one in sections:
-        for table in [
-            *one.tables,
-            *(matrix_table(chart) for chart in one.figures if isinstance(chart, Matrix)),
-        ]:
+        counted = [chart_table(chart) for chart in one.figures if isinstance(chart, Matrix)]
+        for table in [*one.tables, *counted]:
             for suffix, writer in WRITERS.items():
                 path = out / TABLES / f"{table.name}.{suffix}"
                 write_text(path, writer(table))

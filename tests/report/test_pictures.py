@@ -8,7 +8,7 @@ from io import BytesIO
 import pytest
 
 from planner_ft.report.charts import Bar, Bars, Chart, DotRow, Dots, Lines, Matrix, Point, Series
-from planner_ft.report.pictures import picture
+from planner_ft.report.pictures import NARROW, WIDE, inline_svg, picture
 
 HOSTILE = "<b> $x_1$ & " + 60 * "long "
 CHARTS: list[Chart] = [
@@ -69,3 +69,29 @@ def test_a_chart_is_a_png_and_an_svg_whose_letters_stay_text(chart: Chart) -> No
 
 def test_the_same_chart_gives_the_same_bytes() -> None:
     assert picture(CHARTS[3]) == picture(CHARTS[3])
+
+
+@pytest.mark.parametrize("chart", CHARTS[:3], ids=lambda chart: chart.name)
+@pytest.mark.parametrize("width", [WIDE, NARROW])
+def test_a_drawing_in_the_page_has_its_width_and_no_style_of_its_own(
+    chart: Chart, width: int
+) -> None:
+    root = ElementTree.fromstring(inline_svg(chart, width))
+    assert (root.tag, root.get("width"), root.get("aria-label")) == ("svg", str(width), chart.title)
+    nodes = list(root.iter())
+    assert not [node for node in nodes if node.get("style") or node.tag in ("style", "metadata")]
+    assert any("-s0" in node.get("class", "") for node in nodes)
+    ids = {node.get("id") for node in nodes if node.get("id")}
+    assert {node.get("href") for node in nodes if node.get("href")} <= {f"#{one}" for one in ids}
+    assert all(one and one.startswith(f"{chart.name}-{width}-") for one in ids)
+
+
+def test_bars_in_the_page_are_as_long_as_their_values() -> None:
+    chart = Bars("n", "t", "c", "F1", "s", (Bar("one", 0.25), Bar("two", 0.5)))
+    root = ElementTree.fromstring(inline_svg(chart, WIDE))
+    ends = []
+    for node in root.iter("path"):
+        if node.get("class") == "fill-s0":
+            numbers = [float(part) for part in node.get("d", "").split() if part[0].isdigit()]
+            ends.append(max(numbers[::2]) - min(numbers[::2]))
+    assert ends[1] == pytest.approx(2 * ends[0], rel=1e-4)

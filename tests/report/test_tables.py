@@ -1,17 +1,14 @@
-"""Tables as HTML, Markdown, CSV and LaTeX, and how charts choose their axes."""
+"""Tables as HTML, Markdown, CSV and LaTeX."""
 
 from __future__ import annotations
 
 import csv
 import io
 
-import pytest
 from rich.console import Console
 
-from planner_ft.report.charts import Bar, Bars, number, ticks
-from planner_ft.report.html_table import html_table
-from planner_ft.report.markup import Markup, tag
-from planner_ft.report.svg import NARROW, WIDE, bars
+from planner_ft.report.charts import number
+from planner_ft.report.page import html_table
 from planner_ft.report.tables import (
     Cell,
     Table,
@@ -73,20 +70,6 @@ def test_latex_is_escaped_and_balanced() -> None:
     assert {line.count(" & ") for line in body} == {2}
 
 
-def test_attributes_and_children_are_escaped_but_markup_is_not() -> None:
-    assert (
-        tag("p", "<b>", Markup("<i>"), title='"x"') == '<p title="&quot;x&quot;">&lt;b&gt;<i></p>'
-    )
-
-
-@pytest.mark.parametrize(
-    ("high", "expected"), [(1, 1.0), (0.93, 1.0), (27.3, 30), (0.0013, 0.0015), (0, 1.0), (4, 4.0)]
-)
-def test_axes_end_at_a_round_number_not_below_the_data(high: float, expected: float) -> None:
-    assert ticks(high)[-1] == pytest.approx(expected)
-    assert ticks(high)[0] == 0
-
-
 def test_numbers_are_short() -> None:
     assert [number(value) for value in (None, 0, 0.12345, 12.345, 1234.5, 1e9)] == [
         "–",
@@ -96,27 +79,6 @@ def test_numbers_are_short() -> None:
         "1,234",
         "1.00e+09",
     ]
-
-
-@pytest.mark.parametrize("width", [WIDE, NARROW])
-def test_bars_are_as_long_as_their_values_and_labels_are_escaped(width: int) -> None:
-    chart = Bars(
-        "n",
-        "t",
-        "c",
-        "F1",
-        "s",
-        (Bar("<one>", 0.25, 0.2, 0.3, 1.0), Bar("two", 0.5, second=2.0), Bar("three", None)),
-    )
-    text = bars(chart, width)
-    lengths = [
-        float(part.split('"')[0])
-        for part in text.split('width="')[1:]
-        if 'class="bar' in part.split(">")[0]
-    ]
-    assert lengths[1] == pytest.approx(2 * lengths[0], abs=0.02)
-    assert "&lt;one&gt;" in text
-    assert "<one>" not in text
 
 
 def test_sections_head_the_rows_that_follow_in_every_form() -> None:
