@@ -33,14 +33,18 @@ from planner_ft.candidates.loading import compute_dtype, load_model, load_tokeni
 from planner_ft.support.files import write_json
 from planner_ft.support.manifest import build_manifest
 from planner_ft.training.batches import epoch_steps
-from planner_ft.training.checkpoint import Trainee, TrainState, adapter_tensors, set_adapter
+from planner_ft.training.checkpoint import (
+    Trainee,
+    TrainState,
+    adapter_tensors,
+    seed_everything,
+    set_adapter,
+)
 from planner_ft.training.loop import Run, train_loop
-from planner_ft.training.model import attach_adapter, cpu_threads, make_optimizer
+from planner_ft.training.model import attach_adapter, cpu_threads, make_optimizer, unpack
 from planner_ft.training.report import Trackers, TrainLog, make_display, read_log
-from planner_ft.training.rng import seed_everything
 from planner_ft.training.samples import Sample, read_split, render_split
 from planner_ft.training.settings import PUBLISHED, TrainSettings
-from planner_ft.training.unpacking import unpack
 from planner_ft.vocabulary import load_vocabulary
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -1,12 +1,10 @@
-"""From samples to tensors: the order of an epoch, optimiser steps, batches without needless
-padding.
-"""
+"""From samples to tensors: the order of an epoch, optimiser steps, batches with little padding."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,9 +18,7 @@ VALIDATION_TOKENS = 2048
 
 
 WIDTH_MULTIPLE = 16
-"""Batches are padded to a multiple of this: matrix kernels are prepared per shape (on a CPU at 50
-ms a new width for a 7-million-weight model), and GPUs multiply multiples of 8 fastest.
-"""
+"""Batches are padded to a multiple of this: kernels are prepared per shape (50 ms on a CPU)."""
 
 
 @dataclass(frozen=True)
@@ -50,11 +46,9 @@ class Batch:
         """The batch on `device`; copied from pinned memory in the background where that is CUDA."""
         if device.type == "cpu":
             return self
-        tensors = {
-            name: getattr(self, name)
-            for name in ("input_ids", "rows", "columns", "targets", "positions")
-        }
-        moved = {
+        names = ("input_ids", "rows", "columns", "targets", "positions")
+        tensors = {name: getattr(self, name) for name in names}
+        moved: dict[str, Any] = {
             name: tensor.pin_memory().to(device, non_blocking=True)
             for name, tensor in tensors.items()
             if tensor is not None
@@ -63,20 +57,17 @@ class Batch:
 
 
 def epoch_order(count: int, seed: int, epoch: int) -> list[int]:
-    """The order of `count` samples in an epoch: the same for the same seed and epoch, whatever ran
-    before.
-    """
+    """The order of `count` samples in an epoch; it depends on seed and epoch alone."""
     return [int(index) for index in np.random.default_rng([seed, epoch]).permutation(count)]
 
 
 def epoch_steps(
     lengths: Sequence[int], batch_size: int, accumulation: int, seed: int, epoch: int
 ) -> list[list[list[int]]]:
-    """The optimiser steps of an epoch, each a list of batches of sample indices. The last step may
-    be smaller.
+    """The optimiser steps of an epoch, each a list of batches of sample indices.
 
-    Samples of one step are sorted by length before they are put into batches: less padding, and the
-    step's gradient, a mean over its tokens, stays what it is.
+    Samples of one step are sorted by length before they are put into batches: less padding, and
+    the same gradient, a mean over the step's tokens. The last step may be smaller.
     """
     order = epoch_order(len(lengths), seed, epoch)
     size = batch_size * accumulation
@@ -91,13 +82,10 @@ def epoch_steps(
 
 
 def validation_batches(lengths: Sequence[int]) -> Iterator[list[int]]:
-    """Indices sorted by length, in batches of at most VALIDATION_TOKENS (a longer sample goes
-    alone).
-    """
+    """Indices by length in batches of at most VALIDATION_TOKENS; a longer sample goes alone."""
     batch: list[int] = []
     for index in sorted(range(len(lengths)), key=lambda index: -lengths[index]):
-        # Longest first, so that a batch that does not fit the memory shows at once; the first of a
-        # batch is its width.
+        # Longest first: a batch that does not fit the memory shows at once.
         if batch and lengths[batch[0]] * (len(batch) + 1) > VALIDATION_TOKENS:
             yield batch
             batch = []
@@ -121,15 +109,13 @@ def collate(samples: Sequence[Sample], pad: int, *, packed: bool = False) -> Bat
     rows: list[int] = []
     columns: list[int] = []
     targets: list[int] = []
-    for sample, (row, start) in sorted(
-        zip(samples, places, strict=True), key=lambda placed: placed[1]
-    ):
+    placed = sorted(zip(samples, places, strict=True), key=lambda pair: pair[1])
+    for sample, (row, start) in placed:
         ids = sample.rendered.input_ids
         input_ids[row, start : start + len(ids) - 1] = torch.tensor(ids[:-1])
         positions[row, start:] = torch.arange(width - start)
-        trained = [
-            position for position, kept in enumerate(sample.rendered.completion_mask) if kept
-        ]
+        mask = enumerate(sample.rendered.completion_mask)
+        trained = [position for position, kept in mask if kept]
         rows.extend([row] * len(trained))
         columns.extend(start + position - 1 for position in trained)
         targets.extend(ids[position] for position in trained)
@@ -145,15 +131,12 @@ def collate(samples: Sequence[Sample], pad: int, *, packed: bool = False) -> Bat
 
 
 def packed_places(lengths: Sequence[int], width: int) -> list[tuple[int, int]]:
-    """(row, first column) of each sample in rows of `width`: the longest first, each into the first
-    row that has room for it.
-    """
+    """(row, first column) of each sample in rows of `width`, longest first, first row with room."""
     used: list[int] = []
     places: dict[int, tuple[int, int]] = {}
     for index in sorted(range(len(lengths)), key=lambda index: -lengths[index]):
-        row = next(
-            (row for row, filled in enumerate(used) if filled + lengths[index] <= width), len(used)
-        )
+        fitting = (row for row, filled in enumerate(used) if filled + lengths[index] <= width)
+        row = next(fitting, len(used))
         used += [0] if row == len(used) else []
         places[index] = row, used[row]
         used[row] += lengths[index]

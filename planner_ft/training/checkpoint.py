@@ -2,8 +2,7 @@
 
 A checkpoint is a folder `step-00000120` with `state.json` (position, history, Python's random
 state, plain optimizer values) and `tensors.safetensors` (adapter, best adapter, optimizer moments,
-torch and CUDA random states). It is written beside its final place and renamed, so that one is
-complete or does not exist. No pickle is written or read.
+torch and CUDA random states). It is renamed into place when it is complete. No pickle is involved.
 """
 
 from __future__ import annotations
@@ -11,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import random
 import shutil
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -23,18 +23,15 @@ from torch import Tensor
 
 from planner_ft.support.errors import PlannerError
 from planner_ft.training.model import adapter_parameters
-from planner_ft.training.rng import restore_rng, rng_state
+from planner_ft.training.output import CHECKPOINTS
 
-FOLDER = "checkpoints"
 PREFIX = "step-"
 TENSOR = "$tensor"
 
 
 @dataclass
 class TrainState:
-    """Where a run stands. `step` counts optimiser steps; `history` holds one entry per
-    validation.
-    """
+    """Position of a run. `step` counts optimiser steps, `history` has an entry per validation."""
 
     step: int = 0
     tokens: int = 0
@@ -52,24 +49,23 @@ class TrainState:
 
 @dataclass
 class Trainee:
-    """What a checkpoint saves besides the state: the model's adapter, the optimizer, and the best
-    adapter so far.
-
-    `best` is None while there is no validation or the current adapter is the best.
-    """
+    """The model with its adapter, optimizer, and the best adapter so far (None: the current)."""
 
     model: Any
     optimizer: torch.optim.Optimizer
     scaler: torch.amp.GradScaler
     best: dict[str, Tensor] | None = None
 
+    @property
+    def weights(self) -> int:
+        """Number of trained weights."""
+        return sum(value.numel() for value in adapter_parameters(self.model).values())
+
 
 def adapter_tensors(model: Any) -> dict[str, Tensor]:
     """A copy of the adapter's weights on the CPU."""
-    return {
-        name: value.detach().to("cpu", copy=True)
-        for name, value in adapter_parameters(model).items()
-    }
+    values = adapter_parameters(model).items()
+    return {name: value.detach().to("cpu", copy=True) for name, value in values}
 
 
 def set_adapter(model: Any, tensors: dict[str, Tensor]) -> None:
@@ -80,10 +76,8 @@ def set_adapter(model: Any, tensors: dict[str, Tensor]) -> None:
 
 
 def save_checkpoint(output: Path, state: TrainState, trainee: Trainee) -> Path:
-    """Write a checkpoint of `state` under `output`, then remove the older ones. Raises PlannerError
-    when the disk is full.
-    """
-    folder = output / FOLDER
+    """Write a checkpoint under `output`, then remove older ones. Raises PlannerError: disk full."""
+    folder = output / CHECKPOINTS
     target = folder / f"{PREFIX}{state.step:08d}"
     temporary = folder / f".{target.name}.{os.getpid()}.tmp"
     values, tensors = _collect(state, trainee)
@@ -111,14 +105,10 @@ def load_checkpoint(path: Path, trainee: Trainee) -> TrainState:
     try:
         values = json.loads((path / "state.json").read_text(encoding="utf-8"))
         tensors = load_tensors((path / "tensors.safetensors").read_bytes())
-        parts = {
-            part: {
-                name.split("/", 1)[1]: value
-                for name, value in tensors.items()
-                if name.startswith(f"{part}/")
-            }
-            for part in ("adapter", "best", "rng")
-        }
+        parts: dict[str, dict[str, Tensor]] = {"adapter": {}, "best": {}, "rng": {}}
+        for name, value in tensors.items():
+            part, _, rest = name.partition("/")
+            parts.setdefault(part, {})[rest] = value
         set_adapter(trainee.model, parts["adapter"])
         _restore_optimizer(trainee.optimizer, values["optimizer"], tensors)
     except Exception as error:
@@ -134,27 +124,27 @@ def load_checkpoint(path: Path, trainee: Trainee) -> TrainState:
 
 def checkpoints(output: Path) -> list[Path]:
     """Complete checkpoints under `output`, oldest first."""
-    return sorted(path for path in (output / FOLDER).glob(f"{PREFIX}*") if path.is_dir())
+    return sorted(path for path in (output / CHECKPOINTS).glob(f"{PREFIX}*") if path.is_dir())
 
 
 def remove_leftovers(output: Path) -> None:
     """Remove checkpoints that a killed run had not finished writing."""
-    for path in (output / FOLDER).glob(f".{PREFIX}*.tmp"):
+    for path in (output / CHECKPOINTS).glob(f".{PREFIX}*.tmp"):
         shutil.rmtree(path, ignore_errors=True)
 
 
 def _collect(state: TrainState, trainee: Trainee) -> tuple[dict[str, Any], dict[str, Tensor]]:
-    random = rng_state()
+    states = rng_state()
     tensors = {f"adapter/{name}": value for name, value in adapter_tensors(trainee.model).items()}
     tensors |= {f"best/{name}": value for name, value in (trainee.best or {}).items()}
-    tensors |= {f"rng/{name}": value for name, value in random["tensors"].items()}
+    tensors |= {f"rng/{name}": value for name, value in states["tensors"].items()}
     # Groups (learning rate, betas) follow from the settings; only the moments are saved.
     optimizer = _take_tensors(trainee.optimizer.state_dict()["state"], "optimizer", tensors)
     return {
         "state": asdict(state),
         "optimizer": optimizer,
         "scaler": trainee.scaler.state_dict(),
-        "python": random["python"],
+        "python": states["python"],
     }, tensors
 
 
@@ -168,17 +158,14 @@ def _restore_optimizer(
 
 
 def _take_tensors(value: Any, name: str, tensors: dict[str, Tensor]) -> Any:
-    """`value` as JSON can hold it: every tensor goes into `tensors`, and its name there stands in
-    its place.
-    """
+    """`value` for JSON: every tensor moves into `tensors`, its name there takes its place."""
     if isinstance(value, Tensor):
         # A copy: safetensors refuses tensors that share memory, as the tables of 8-bit moments do.
         tensors[name] = value.detach().to("cpu", copy=True).contiguous()
         return {TENSOR: name}
     if isinstance(value, dict):
-        return {
-            str(key): _take_tensors(item, f"{name}/{key}", tensors) for key, item in value.items()
-        }
+        items = value.items()
+        return {str(key): _take_tensors(item, f"{name}/{key}", tensors) for key, item in items}
     return value
 
 
@@ -206,3 +193,30 @@ def _sync(folder: Path) -> None:
             os.fsync(descriptor)
         finally:
             os.close(descriptor)
+
+
+def rng_state() -> dict[str, Any]:
+    """States of Python's, torch's and CUDA's generators: `python` for JSON, byte `tensors`."""
+    version, values, gauss = random.getstate()
+    tensors: dict[str, Tensor] = {"torch": torch.get_rng_state()}
+    if torch.cuda.is_available():
+        states = enumerate(torch.cuda.get_rng_state_all())
+        tensors |= {f"cuda:{index}": state for index, state in states}
+    return {"python": [version, list(values), gauss], "tensors": tensors}
+
+
+def restore_rng(state: dict[str, Any]) -> None:
+    """Set the generators to a state from `rng_state`; devices that are not here are skipped."""
+    version, values, gauss = state["python"]
+    random.setstate((version, tuple(values), gauss))
+    for name, tensor in state["tensors"].items():
+        if name == "torch":
+            torch.set_rng_state(tensor)
+        elif torch.cuda.is_available() and int(name.split(":")[1]) < torch.cuda.device_count():
+            torch.cuda.set_rng_state(tensor, int(name.split(":")[1]))
+
+
+def seed_everything(seed: int) -> None:
+    """Seed all generators."""
+    random.seed(seed)
+    torch.manual_seed(seed)

@@ -1,6 +1,4 @@
-"""The training loop: optimiser steps, validation after each epoch, the best adapter, checkpoints,
-interruption.
-"""
+"""The training loop: optimiser steps, validation, the best adapter, checkpoints, interruption."""
 
 from __future__ import annotations
 
@@ -28,7 +26,6 @@ from planner_ft.training.checkpoint import (
 from planner_ft.training.model import adapter_parameters, loss_sum, packs, validation_loss
 from planner_ft.training.report import Display, Trackers, TrainLog
 from planner_ft.training.samples import Sample
-from planner_ft.training.schedule import learning_rate
 from planner_ft.training.settings import TrainSettings
 
 
@@ -49,12 +46,9 @@ class StopSignals:
 
     def __enter__(self) -> StopSignals:
         # Python lets only the main thread set handlers; elsewhere the caller's apply.
-        self.before = {}
-        if threading.current_thread() is threading.main_thread():
-            self.before = {
-                number: signal.signal(number, self._handle)
-                for number in (signal.SIGINT, signal.SIGTERM)
-            }
+        main = threading.current_thread() is threading.main_thread()
+        numbers = (signal.SIGINT, signal.SIGTERM) if main else ()
+        self.before = {number: signal.signal(number, self._handle) for number in numbers}
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -72,9 +66,7 @@ class StopSignals:
 
 @dataclass
 class Run:
-    """Everything that the loop works with. `pad` is the id that fills batches, `dtype` what layers
-    compute in.
-    """
+    """Inputs of the loop. `pad` is the id that fills batches; layers compute in `dtype`."""
 
     settings: TrainSettings
     trainee: Trainee
@@ -90,26 +82,38 @@ class Run:
 
     @property
     def steps_per_epoch(self) -> int:
-        return math.ceil(
-            len(self.train) / (self.settings.batch_size * self.settings.gradient_accumulation)
-        )
+        return steps_per_epoch(self.settings, len(self.train))
 
     @property
     def total_steps(self) -> int:
         return total_steps(self.settings, len(self.train))
 
 
+def steps_per_epoch(settings: TrainSettings, samples: int) -> int:
+    """Optimiser steps of an epoch; the last one may be smaller."""
+    return math.ceil(samples / (settings.batch_size * settings.gradient_accumulation))
+
+
 def total_steps(settings: TrainSettings, samples: int) -> int:
     """Optimiser steps of a whole run."""
-    steps = settings.epochs * math.ceil(
-        samples / (settings.batch_size * settings.gradient_accumulation)
-    )
+    steps = settings.epochs * steps_per_epoch(settings, samples)
     return min(steps, settings.max_steps or steps)
 
 
+def learning_rate(settings: TrainSettings, step: int, total: int) -> float:
+    """Learning rate of optimiser step `step` (from 0) of `total`: linear warm-up, then the schedule."""
+    warm = math.ceil(settings.warmup * total)
+    if step < warm:
+        return settings.learning_rate * (step + 1) / warm
+    if settings.schedule == "constant":
+        return settings.learning_rate
+    progress = (step - warm) / max(1, total - warm)
+    cosine = 0.5 * (1 + math.cos(math.pi * progress))
+    return settings.learning_rate * (1 - progress if settings.schedule == "linear" else cosine)
+
+
 def train_loop(run: Run, state: TrainState) -> None:
-    """Train from `state` to the end; afterwards the model holds the best adapter (the last one
-    without validation).
+    """Train from `state` to the end; then the model holds the best (or last) adapter.
 
     Raises InterruptedRunError after Ctrl-C, and PlannerError when the loss is not finite or a file
     cannot be written.
@@ -138,15 +142,9 @@ def train_loop(run: Run, state: TrainState) -> None:
 
 def _remaining_steps(run: Run, state: TrainState) -> Iterator[list[list[int]]]:
     """The batches of every optimiser step from the state's on."""
-    lengths = [sample.length for sample in run.train]
-    for epoch in range(state.step // run.steps_per_epoch, run.settings.epochs):
-        steps = epoch_steps(
-            lengths,
-            run.settings.batch_size,
-            run.settings.gradient_accumulation,
-            run.settings.seed,
-            epoch,
-        )
+    lengths, s = [sample.length for sample in run.train], run.settings
+    for epoch in range(state.step // run.steps_per_epoch, s.epochs):
+        steps = epoch_steps(lengths, s.batch_size, s.gradient_accumulation, s.seed, epoch)
         for step in steps[state.step % run.steps_per_epoch :]:
             if state.step >= run.total_steps:
                 return
@@ -154,9 +152,7 @@ def _remaining_steps(run: Run, state: TrainState) -> Iterator[list[list[int]]]:
 
 
 def _step(run: Run, state: TrainState, batches: list[list[int]]) -> None:
-    """One optimiser step: the gradient is the mean over all completion tokens of its batches,
-    however they are split.
-    """
+    """One optimiser step; the gradient is the mean over all completion tokens of its batches."""
     settings, trainee = run.settings, run.trainee
     begun = time.monotonic()
     rate = learning_rate(settings, state.step, run.total_steps)
@@ -186,22 +182,17 @@ def _step(run: Run, state: TrainState, batches: list[list[int]]) -> None:
     state.epoch_loss += loss * count
     state.epoch_tokens += count
     state.loss = state.epoch_loss / state.epoch_tokens
-    _report(
-        run, state, {"loss": loss, "lr": rate, "grad_norm": norm}, trained, time.monotonic() - begun
-    )
+    values = {"loss": loss, "lr": rate, "grad_norm": norm}
+    _report(run, state, values, trained, time.monotonic() - begun)
 
 
 def _update(run: Run, state: TrainState, batches: list[Batch]) -> float:
     """Clip the gradient, step the optimizer, and return the gradient's norm before clipping."""
     trainee = run.trainee
     trainee.scaler.unscale_(trainee.optimizer)
-    norm = float(
-        torch.nn.utils.clip_grad_norm_(
-            adapter_parameters(trainee.model).values(), run.settings.gradient_clip
-        )
-    )
-    # In float16 an overflow is ordinary: the scaler leaves the step out and scales the next loss
-    # less.
+    weights = adapter_parameters(trainee.model).values()
+    norm = float(torch.nn.utils.clip_grad_norm_(weights, run.settings.gradient_clip))
+    # In float16 an overflow is ordinary: the scaler skips the step and scales the next loss less.
     if not math.isfinite(norm) and not trainee.scaler.is_enabled():
         raise PlannerError(_not_finite(run, state, f"gradient norm is {norm}", batches[0]))
     trainee.scaler.step(trainee.optimizer)
@@ -210,9 +201,9 @@ def _update(run: Run, state: TrainState, batches: list[Batch]) -> float:
     return norm if math.isfinite(norm) else -1.0
 
 
-def _not_finite(run: Run, state: TrainState, what: str, batch: Batch) -> str:
+def _not_finite(run: Run, state: TrainState, finding: str, batch: Batch) -> str:
     return (
-        f"step {state.step + 1}, sample {', '.join(batch.ids)}: the {what}; lower --learning-rate"
+        f"step {state.step + 1}, sample {', '.join(batch.ids)}: the {finding}; lower --learning-rate"
         f" (now {run.settings.learning_rate:g}) or --gradient-clip (now"
         f" {run.settings.gradient_clip:g}), or look at that sample with --preview-id; the"
         f" checkpoints in {run.output} are from before"

@@ -1,6 +1,4 @@
-"""The model in training: its adapter, the loss on completion tokens, evaluation, and the levers
-against too little memory.
-"""
+"""The model in training: adapter, loss on completion tokens, evaluation, levers on memory."""
 
 from __future__ import annotations
 
@@ -13,6 +11,7 @@ import torch
 from torch import Tensor, nn
 from torch.utils.checkpoint import checkpoint
 
+from planner_ft.candidates.packing import linear_4bit
 from planner_ft.support.errors import PlannerError
 from planner_ft.training.batches import Batch, collate, validation_batches
 from planner_ft.training.settings import TrainSettings
@@ -23,11 +22,12 @@ if TYPE_CHECKING:
 LOGIT_VALUES = 2**24
 """Output-layer values that exist at one time: 16 million, 64 MiB in float32."""
 SMALL_MODEL = 50_000_000
-"""Weights below which one CPU thread is used. A step of a 7-million-weight model took 0.1 s on one
-thread, and 3 to 7 s on two while another program kept one of the two cores busy: every small
-operation waits for the slower thread.
+"""Weights below which one CPU thread is used: every small operation waits for the slower thread.
+A step of a 7-million-weight model took 0.1 s on one thread, 3 to 7 s on two of which one was busy.
 """
 PACKING_TYPES = ("llama", "qwen2")
+UNPACKED_SHARE = 4
+"""Weights are unpacked where they fit this often into the free memory."""
 LARGE_MODEL = 500_000_000
 """Weights from which gradient checkpointing `auto` is on."""
 
@@ -38,8 +38,7 @@ def cpu_threads(settings: TrainSettings, parameters: int) -> int:
 
 
 def attach_adapter(model: Any, settings: TrainSettings, reference: str) -> Any:
-    """A PeftModel with a new LoRA adapter, weights in float32; `reference` is what the adapter
-    names as its base.
+    """A PeftModel with a new LoRA adapter in float32, which names `reference` as its base.
 
     Raises PlannerError when `target_modules` fits no layer.
     """
@@ -66,8 +65,7 @@ def attach_adapter(model: Any, settings: TrainSettings, reference: str) -> Any:
             f"--target-modules {settings.target_modules}: {str(error).splitlines()[0]}"
         ) from None
     for layer in peft_model.modules():
-        # PEFT would copy every input to the adapter's float32, and autocast back to the dtype that
-        # it computes in.
+        # PEFT would copy every input to the adapter's float32, and autocast would copy it back.
         if hasattr(layer, "lora_A"):
             layer.cast_input_dtype_enabled = False
     peft_model.peft_config["default"].base_model_name_or_path = reference
@@ -84,12 +82,11 @@ def uses_gradient_checkpointing(settings: TrainSettings, parameters: int) -> boo
 
 
 def packs(model: Any) -> bool:
-    """Whether samples may share a row: whether the model keeps apart what its positions keep apart,
-    in every layer.
+    """Whether samples may share a row, kept apart by their positions in every layer.
+
+    transformers derives the mask from restarting positions for these attention implementations.
     """
     config = model.get_base_model().config
-    # transformers makes the mask for these from positions that begin again; flash attention does so
-    # for a single row alone.
     return (
         config.model_type in PACKING_TYPES
         and config._attn_implementation in ("sdpa", "eager")
@@ -103,11 +100,10 @@ def adapter_parameters(model: Any) -> dict[str, nn.Parameter]:
 
 
 def loss_sum(model: Any, batch: Batch, dtype: torch.dtype) -> Tensor:
-    """Cross-entropy summed over the batch's completion tokens (a float32 scalar); layers compute in
-    `dtype`.
+    """Cross-entropy summed over the batch's completion tokens, a float32 scalar.
 
-    Logits are computed for completion positions alone, and in chunks where they are many: for each
-    chunk the backward pass computes them again instead of keeping them.
+    Layers compute in `dtype`. Logits exist for completion positions alone; many are computed in
+    chunks, which the backward pass computes again.
     """
     base = model.get_base_model()
     head = base.get_output_embeddings()
@@ -169,22 +165,18 @@ def make_optimizer(model: Any, settings: TrainSettings) -> torch.optim.Optimizer
         "weight_decay": settings.weight_decay,
     }
     if settings.optimizer == "adamw":
-        # One kernel a matrix: with a loop over ten operations the step of a small model was a ninth
-        # of its time.
+        # One kernel a matrix; unfused, the update took a ninth of a small model's step.
         return torch.optim.AdamW(parameters, **arguments, fused=True)
     import bitsandbytes
 
-    kind = (
-        bitsandbytes.optim.AdamW8bit
-        if settings.optimizer == "adamw-8bit"
-        else bitsandbytes.optim.PagedAdamW8bit
-    )
+    name = "AdamW8bit" if settings.optimizer == "adamw-8bit" else "PagedAdamW8bit"
+    kind = getattr(bitsandbytes.optim, name)
     optimizer: torch.optim.Optimizer = kind(parameters, **arguments)
     return optimizer
 
 
 def memory_levers(settings: TrainSettings, checkpointing: bool, longest: int) -> str:
-    """What to change, the next step first, when training does not fit the memory."""
+    """Changes to try, in order, when training does not fit the memory."""
     levers = []
     if settings.quantization == "none":
         levers.append("store the base in 4 bits (--quantization nf4)")
@@ -207,3 +199,36 @@ def memory_levers(settings: TrainSettings, checkpointing: bool, longest: int) ->
         levers.append(f"a smaller --rank (now {settings.rank})")
     levers.append("a smaller --candidate")
     return "next: " + "; then ".join(levers)
+
+
+def unpack(model: Any) -> int:
+    """Replace 4-bit layers by dense ones with the same weights where memory allows; return how many.
+
+    bitsandbytes unpacks a layer in every pass; on a CPU at batch size 1 that takes as long as
+    multiplying. Training computes with the very same numbers, in four times the memory.
+    """
+    import psutil
+
+    layers = list(linear_4bit(model))
+    needed = sum(2 * layer.in_features * layer.out_features for _name, layer in layers)
+    if UNPACKED_SHARE * needed > psutil.virtual_memory().available:
+        return 0
+    for name, layer in layers:
+        parent, _, own = name.rpartition(".")
+        setattr(model.get_submodule(parent), own, _dense(layer))
+    return len(layers)
+
+
+def _dense(layer: Any) -> Any:
+    """A linear layer with the weights that a 4-bit layer computes with."""
+    import torch
+    from bitsandbytes.functional import dequantize_4bit
+
+    weight = dequantize_4bit(layer.weight.data, layer.weight.quant_state)
+    dense = torch.nn.Linear(
+        layer.in_features, layer.out_features, bias=layer.bias is not None, device="meta"
+    )
+    dense.weight = torch.nn.Parameter(weight, requires_grad=False)
+    if layer.bias is not None:
+        dense.bias = torch.nn.Parameter(layer.bias.data, requires_grad=False)
+    return dense

@@ -1,38 +1,37 @@
-"""The output folder: what lies in it, whether a run may use it, and what a run there depends on."""
+"""The output folder: its state, the record of an unfinished run, the finished adapter folder."""
 
 from __future__ import annotations
 
 import shutil
 import tempfile
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
+from planner_ft.candidates.adapters import adapter_record
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_json, write_json
+from planner_ft.support.files import read_json, sha256_file, write_json, write_text
+from planner_ft.support.manifest import build_manifest
+from planner_ft.support.resources import peak_memory
+from planner_ft.training.card import model_card
+from planner_ft.training.report import LOG, plot_losses, read_log
+
+if TYPE_CHECKING:
+    from planner_ft.training.checkpoint import TrainState
+    from planner_ft.training.loop import Run
+    from planner_ft.training.request import TrainRequest
+    from planner_ft.training.samples import Split
 
 FolderState = Literal["empty", "complete", "unfinished", "foreign"]
 
-MANIFEST = "manifest.json"
-RUN = "checkpoints/run.json"
-WRITTEN = (
-    "adapter_config.json",
-    "adapter_model.safetensors",
-    "README.md",
-    MANIFEST,
-    "train_log.jsonl",
-    "loss.png",
-    "loss.svg",
-    "checkpoints",
-    "logs",
-    "tokenizer.json",
-    "tokenizer_config.json",
-    "special_tokens_map.json",
-    "added_tokens.json",
-    "chat_template.jinja",
-    "vocab.json",
-    "merges.txt",
+MANIFEST, ADAPTER = "manifest.json", "adapter_model.safetensors"
+CHECKPOINTS = "checkpoints"
+RUN = f"{CHECKPOINTS}/run.json"
+TOKENIZER = (
+    "tokenizer.json tokenizer_config.json special_tokens_map.json added_tokens.json"
+    " chat_template.jinja vocab.json merges.txt"
 )
-"""Everything that a run writes, and all that --overwrite removes."""
+WRITTEN = f"adapter_config.json {ADAPTER} README.md {MANIFEST} {LOG} loss.png loss.svg {TOKENIZER}"
+"""All files that a run writes; --overwrite removes them and the folders of checkpoints and logs."""
 
 
 def folder_state(output: Path) -> FolderState:
@@ -43,16 +42,13 @@ def folder_state(output: Path) -> FolderState:
         return "unfinished"
     if (output / MANIFEST).is_file():
         manifest = read_json(output / MANIFEST)
-        return (
-            "complete"
-            if isinstance(manifest, dict) and manifest.get("kind") == "train"
-            else "foreign"
-        )
+        trained = isinstance(manifest, dict) and manifest.get("kind") == "train"
+        return "complete" if trained else "foreign"
     return "foreign" if any(output.iterdir()) else "empty"
 
 
 def folder_problems(output: Path, *, overwrite: bool, resume: bool) -> list[str]:
-    """What keeps a run from using the folder."""
+    """Reasons why a run may not use the folder."""
     state = folder_state(output)
     if state == "foreign":
         return [
@@ -74,9 +70,7 @@ def folder_problems(output: Path, *, overwrite: bool, resume: bool) -> list[str]
 
 
 def writable_problem(output: Path) -> str | None:
-    """Why nothing can be written to the folder (or to the one that it would be made in), or
-    None.
-    """
+    """Why nothing can be written to the folder (or where it would be made), or None."""
     try:
         with tempfile.TemporaryFile(dir=nearest_folder(output)):
             return None
@@ -91,9 +85,8 @@ def nearest_folder(path: Path) -> Path:
 
 
 def clear(output: Path) -> None:
-    """Remove what an earlier run wrote; other files stay."""
-    for name in WRITTEN:
-        path = output / name
+    """Remove the files of an earlier run; other files stay."""
+    for path in (output / name for name in (*WRITTEN.split(), CHECKPOINTS, "logs")):
         if path.is_dir() and not path.is_symlink():
             shutil.rmtree(path)
         else:
@@ -101,14 +94,12 @@ def clear(output: Path) -> None:
 
 
 def write_run(output: Path, fingerprint: dict[str, Any], status: str) -> None:
-    """Record what the run depends on and how it stands ("running", "interrupted", or why it
-    stopped).
-    """
+    """Record a run's fingerprint and status ("running", "interrupted", or the failure)."""
     write_json(output / RUN, {"status": status, **fingerprint})
 
 
 def stored_fingerprint(output: Path) -> dict[str, Any]:
-    """What the run in `output`, finished or not, depended on."""
+    """The fingerprint of the run in `output`, finished or not."""
     path = output / RUN if (output / RUN).is_file() else output / MANIFEST
     values = read_json(path)
     if not isinstance(values, dict):
@@ -119,19 +110,121 @@ def stored_fingerprint(output: Path) -> dict[str, Any]:
 def fingerprint_problems(stored: dict[str, Any], current: dict[str, Any]) -> list[str]:
     """Sentences on everything that differs from the run that is to be resumed."""
     problems = []
-    for key in current:
-        before, now = stored.get(key), current[key]
+    for key, now in current.items():
+        before, name = stored.get(key), key.replace("_", " ")
         if key == "settings":
             before = before if isinstance(before, dict) else {}
-            names = [name for name in now if before.get(name) != now[name]]
             problems += [
-                f"--{name.replace('_', '-')} was {before.get(name)} and is {now[name]}"
-                for name in names
+                f"--{setting.replace('_', '-')} was {before.get(setting)} and is {value}"
+                for setting, value in now.items()
+                if before.get(setting) != value
             ]
         elif before != now:
+            short = len(str(now)) < 40
             problems.append(
-                f"{key.replace('_', ' ')} was {before} and is {now}"
-                if len(str(now)) < 40
-                else f"the {key.replace('_', ' ')} changed since"
+                f"{name} was {before} and is {now}" if short else f"the {name} changed since"
             )
     return problems
+
+
+def write_result(
+    request: TrainRequest,
+    run: Run,
+    state: TrainState,
+    tokenizer: Any,
+    splits: dict[str, Split],
+    fingerprint: dict[str, Any],
+) -> dict[str, Any]:
+    """Write the adapter folder and return its manifest, which is written last.
+
+    Raises PlannerError when a file cannot be written; the checkpoints are then still there.
+    """
+    output, temporary = request.output, request.output / CHECKPOINTS / ".result"
+    try:
+        shutil.rmtree(temporary, ignore_errors=True)
+        run.trainee.model.save_pretrained(temporary, save_embedding_layers=False)
+        tokenizer.save_pretrained(temporary)
+        # safetensors makes files that only their owner may read; adapters are shared.
+        (temporary / ADAPTER).chmod((temporary / "adapter_config.json").stat().st_mode)
+        for path in sorted(temporary.iterdir()):
+            path.replace(output / path.name)
+        temporary.rmdir()
+    except Exception as error:  # safetensors and tokenizers raise their own kinds for a full disk
+        raise PlannerError(
+            f"{output}: the adapter cannot be written ({error}); free some space and run the same"
+            " command with --resume"
+        ) from error
+    title = f"{request.candidate.row_name}, {request.level} level"
+    plot_losses(read_log(output / LOG), output, title)
+    manifest = run_manifest(request, run, state, splits, fingerprint)
+    write_text(output / "README.md", model_card(manifest))
+    write_json(output / MANIFEST, manifest)
+    if request.settings.keep_checkpoints:
+        (output / RUN).unlink(missing_ok=True)
+    else:
+        shutil.rmtree(output / CHECKPOINTS, ignore_errors=True)
+    return manifest
+
+
+def run_manifest(
+    request: TrainRequest,
+    run: Run,
+    state: TrainState,
+    splits: dict[str, Split],
+    fingerprint: dict[str, Any],
+) -> dict[str, Any]:
+    """The manifest of a finished run: its inputs, settings, outputs and result."""
+    candidate, settings, output = request.candidate, request.settings, request.output
+    inputs = {role: split.path for role, split in splits.items()}
+    if request.corrections:
+        inputs["corrections"] = request.corrections
+    files = [output / name for name in (ADAPTER, "adapter_config.json", "tokenizer.json", LOG)]
+    return build_manifest(
+        "train",
+        seed=settings.seed,
+        configuration={**settings.as_dict(), "origin": request.resolved.origin},
+        inputs=dict(inputs),
+        outputs={path.name: sha256_file(path) for path in files if path.is_file()},
+        **adapter_record(candidate, request.level, request.vocabulary),
+        is_standin=candidate.is_standin,
+        base_reference=candidate.reference,
+        licence=candidate.licence,
+        samples={role: len(split.samples) for role, split in splits.items()},
+        departures=request.resolved.departures(request.level),
+        result={
+            "steps": state.step,
+            "epochs": round(state.step / run.steps_per_epoch, 4),
+            "tokens": state.tokens,
+            "completion_tokens": state.completion_tokens,
+            "seconds": round(state.seconds, 1),
+            "tokens_per_s": round(state.tokens / state.seconds, 1) if state.seconds else None,
+            "train_loss": state.loss,
+            "validation_loss": state.best_loss,
+            "best_epoch": state.best_epoch,
+            "history": state.history,
+            "peak_memory_bytes": peak_memory(run.device),
+            "device": device_name(run.device),
+            "compute_dtype": str(run.dtype).removeprefix("torch."),
+            "adapter_parameters": run.trainee.weights,
+            "adapter_bytes": (output / ADAPTER).stat().st_size,
+        },
+        fingerprint=fingerprint,
+    )
+
+
+def device_name(device: Any) -> str:
+    """cpu, or the GPU's name."""
+    if device.type != "cuda":
+        return str(device)
+    import torch
+
+    return str(torch.cuda.get_device_name(device))
+
+
+def existing_result(output: Path) -> str:
+    """A sentence on a finished run."""
+    result = read_json(output / MANIFEST).get("result", {})
+    return (
+        f"{output}: this run is complete ({result.get('steps')} steps, {result.get('epochs')}"
+        " epochs); nothing to resume"
+    )

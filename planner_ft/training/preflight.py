@@ -41,9 +41,7 @@ CHECKS = 7
 
 @dataclass
 class Prepared:
-    """What the checks found and training goes on with. None where a check could not get that
-    far.
-    """
+    """Results of the checks that training goes on with; None where a check got no result."""
 
     device: torch.device | None = None
     tokenizer: PreTrainedTokenizerBase | None = None
@@ -61,28 +59,19 @@ class Prepared:
 
 @dataclass
 class Finding:
-    """The outcome of one check: a line of text, what is wrong, and what deserves a look."""
+    """The outcome of one check: a line of text, problems, notes. `skipped`: it could not run."""
 
     title: str
     text: str = ""
     problems: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     skipped: bool = False
-    """The check could not run, for want of what an earlier one did not find."""
 
 
 def run_preflight(request: TrainRequest, prepared: Prepared) -> Iterator[Finding]:
-    """Yield the outcome of each check and fill `prepared` on the way. Raises nothing for what is
-    wrong with the run.
-    """
-    for check in (
-        check_candidate,
-        check_data,
-        check_rendering,
-        check_tokens,
-        check_output,
-        check_memory,
-    ):
+    """Yield the outcome of each check and fill `prepared`. Problems of the run raise nothing."""
+    checks = (check_candidate, check_data, check_rendering, check_tokens, check_output)
+    for check in (*checks, check_memory):
         yield check(request, prepared)
 
 
@@ -99,11 +88,8 @@ def check_candidate(request: TrainRequest, prepared: Prepared) -> Finding:
         prepared.tokenizer = load_tokenizer(candidate)
     except PlannerError as error:
         finding.problems.append(str(error))
-    if (
-        settings.optimizer.startswith("paged")
-        and prepared.device
-        and prepared.device.type != "cuda"
-    ):
+    paged = settings.optimizer.startswith("paged")
+    if paged and prepared.device and prepared.device.type != "cuda":
         finding.problems.append(
             f"--optimizer {settings.optimizer} needs CUDA; take adamw-8bit or adamw"
         )
@@ -121,28 +107,28 @@ def check_candidate(request: TrainRequest, prepared: Prepared) -> Finding:
 
 def check_data(request: TrainRequest, prepared: Prepared) -> Finding:
     """Do the files hold records of this level and vocabulary?"""
-    finding = Finding("data")
-    limit = request.settings.max_samples
-    prepared.train = read_split(
-        request.train_file, request.level, request.vocabulary, finding.problems, limit
-    )
-    added: list[str] = []
-    if prepared.train:
-        prepared.train = _enlarged(request, prepared.train, finding, added)
+    finding, level, vocabulary = Finding("data"), request.level, request.vocabulary
+    settings, problems, added = request.settings, finding.problems, []
+    train = read_split(request.train_file, level, vocabulary, problems, settings.max_samples)
+    if train and request.corrections:
+        own = len(train.records)
+        train = with_corrections(train, request.corrections, level, vocabulary, problems)
+        count = len(train.records) - own
+        added.append(f"{count} of the training samples from {request.corrections}")
+    if train and settings.augment:
+        train = augmented(train, level, vocabulary, settings.seed, settings.augment)
+        added.append(f"{settings.augment} of the training samples synthetic")
+    prepared.train = train
     if request.validation_file:
-        prepared.validation = read_split(
-            request.validation_file, request.level, request.vocabulary, finding.problems
-        )
+        prepared.validation = read_split(request.validation_file, level, vocabulary, problems)
     else:
         finding.notes.append("no validation split: the last adapter is kept, not the best one")
-    finding.text = ", ".join(
-        [*(f"{len(split.records)} samples in {split.path}" for split in prepared.splits), *added]
-    )
-    if prepared.train and prepared.validation:
-        trained = {record.value["prompt"] for record in prepared.train.records}
-        shared = [
-            record.id for record in prepared.validation.records if record.value["prompt"] in trained
-        ]
+    counts = [f"{len(split.records)} samples in {split.path}" for split in prepared.splits]
+    finding.text = ", ".join([*counts, *added])
+    if train and prepared.validation:
+        trained = {record.value["prompt"] for record in train.records}
+        checked = prepared.validation.records
+        shared = [record.id for record in checked if record.value["prompt"] in trained]
         if shared:
             finding.notes.append(
                 f"{len(shared)} validation prompts are in the training split, too (first:"
@@ -151,51 +137,26 @@ def check_data(request: TrainRequest, prepared: Prepared) -> Finding:
     return finding
 
 
-def _enlarged(request: TrainRequest, train: Split, finding: Finding, added: list[str]) -> Split:
-    """The training split with corrections and synthetic samples, where they are asked for; `added`
-    is told how many of each.
-    """
-    own, count = len(train.records), request.settings.augment
-    if request.corrections:
-        train = with_corrections(
-            train, request.corrections, request.level, request.vocabulary, finding.problems
-        )
-        added.append(
-            f"{len(train.records) - own} of the training samples from {request.corrections}"
-        )
-    if count:
-        train = augmented(train, request.level, request.vocabulary, request.settings.seed, count)
-        added.append(f"{count} of the training samples synthetic")
-    return train
-
-
 def check_rendering(request: TrainRequest, prepared: Prepared) -> Finding:
     """Does every sample fit the limit whole, and is something of it trained?"""
     finding = Finding("rendering")
     if prepared.tokenizer is None or not prepared.splits:
         return replace(finding, text="skipped: no tokenizer or no data", skipped=True)
-    # transformers would warn of samples beyond the model's length, which are errors here, on its
-    # own and only of the first.
-    prepared.tokenizer.deprecation_warnings[
-        "sequence-length-is-longer-than-the-specified-maximum"
-    ] = True
+
+    def rendered(split: Split | None) -> Split | None:
+        assert prepared.tokenizer
+        return split and render_split(split, request.level, prepared.tokenizer, request.vocabulary)
+
     try:
-        rendered = {
-            split.path: render_split(split, request.level, prepared.tokenizer, request.vocabulary)
-            for split in prepared.splits
-        }
+        prepared.train, prepared.validation = map(rendered, (prepared.train, prepared.validation))
     except PlannerError as error:
         finding.problems.append(str(error))
         return finding
-    prepared.train = rendered.get(request.train_file)
-    prepared.validation = rendered.get(request.validation_file) if request.validation_file else None
     context = request.candidate.dimensions.context if request.candidate.dimensions else None
     limit = min(request.settings.max_length, context or request.settings.max_length)
-    lever = (
-        f"raise --max-length (now {limit})"
-        if limit == request.settings.max_length
-        else f"{request.candidate.name} takes no more"
-    )
+    lever = f"{request.candidate.name} takes no more"
+    if limit == request.settings.max_length:
+        lever = f"raise --max-length (now {limit})"
     finding.problems += shortened(
         f"{split.path}: sample {sample.id} has {sample.length} tokens and its answer would be cut"
         f" at {limit}; {lever}, or leave the sample out"
@@ -217,17 +178,14 @@ def check_rendering(request: TrainRequest, prepared: Prepared) -> Finding:
 
 
 def check_tokens(request: TrainRequest, prepared: Prepared) -> Finding:
-    """Does every answer end with a trained end-of-turn token, and every text begin with one
-    beginning-of-text token?
-    """
+    """Does every answer end with a trained end-of-turn token, and a text begin with one BOS?"""
     finding = Finding("special tokens")
     if prepared.tokenizer is None or not prepared.samples:
         return replace(finding, text="skipped: nothing rendered", skipped=True)
     tokenizer = prepared.tokenizer
     end, bos = end_of_turn_ids(tokenizer)[0], tokenizer.bos_token_id
-    size = (
-        request.candidate.dimensions.vocabulary if request.candidate.dimensions else len(tokenizer)
-    )
+    dimensions = request.candidate.dimensions
+    size = dimensions.vocabulary if dimensions else len(tokenizer)
     kinds: dict[str, list[str]] = {}
     for _, sample in prepared.samples:
         for problem in _token_problems(sample, end, bos if isinstance(bos, int) else None, size):
@@ -235,16 +193,12 @@ def check_tokens(request: TrainRequest, prepared: Prepared) -> Finding:
     finding.problems = [
         f"{len(ids)} samples {problem} (first: {ids[0]})" for problem, ids in kinds.items()
     ]
+    begins = any(bos in sample.rendered.input_ids[:1] for _, sample in prepared.samples)
     begin = (
-        f"one {tokenizer.bos_token} at the beginning"
-        if any(bos in sample.rendered.input_ids[:1] for _, sample in prepared.samples)
-        else "no beginning-of-text token"
+        f"one {tokenizer.bos_token} at the beginning" if begins else "no beginning-of-text token"
     )
-    finding.text = (
-        f"every answer ends with a trained {tokenizer.convert_ids_to_tokens(end)}; {begin}"
-        if not finding.problems
-        else "see below"
-    )
+    ends = f"every answer ends with a trained {tokenizer.convert_ids_to_tokens(end)}; {begin}"
+    finding.text = "see below" if finding.problems else ends
     return finding
 
 
@@ -266,32 +220,24 @@ def _token_problems(sample: Sample, end: int, bos: int | None, size: int) -> Ite
 
 def check_output(request: TrainRequest, prepared: Prepared) -> Finding:
     """May the output folder be used, and is there room for checkpoints?"""
-    finding = Finding(
-        "output",
-        problems=folder_problems(
-            request.output, overwrite=request.overwrite, resume=request.resume
-        ),
-    )
-    if problem := writable_problem(request.output):
+    output, dimensions = request.output, request.candidate.dimensions
+    problems = folder_problems(output, overwrite=request.overwrite, resume=request.resume)
+    finding = Finding("output", problems=problems)
+    if problem := writable_problem(output):
         finding.problems.append(problem)
         return finding
-    free = shutil.disk_usage(nearest_folder(request.output)).free
-    # Adapter, best adapter and two moments in float32; the old checkpoint goes when the new one is
-    # complete.
-    weights = (
-        adapter_parameters(request.candidate.dimensions, request.settings.rank)
-        if request.candidate.dimensions
-        else 0
-    )
+    free = shutil.disk_usage(nearest_folder(output)).free
+    # Adapter, best adapter and two moments in float32, twice: the old checkpoint goes last.
+    weights = adapter_parameters(dimensions, request.settings.rank) if dimensions else 0
     needed = 2 * 4 * 4 * weights + 2**25
+    finding.text = (
+        f"{output}: {memory_size(needed)} needed for checkpoints, {memory_size(free)} free"
+    )
     if needed > free:
         finding.problems.append(
-            f"--output {request.output}: {memory_size(needed)} are needed for checkpoints and"
+            f"--output {output}: {memory_size(needed)} are needed for checkpoints and"
             f" {memory_size(free)} free; choose another disk"
         )
-    finding.text = (
-        f"{request.output}: {memory_size(needed)} needed for checkpoints, {memory_size(free)} free"
-    )
     return finding
 
 
@@ -300,9 +246,8 @@ def check_memory(request: TrainRequest, prepared: Prepared) -> Finding:
     finding = Finding("memory")
     estimate = estimated_memory(request, prepared)
     if estimate is None or prepared.device is None:
-        return replace(
-            finding, text="no estimate: dimensions, device or samples are unknown", skipped=True
-        )
+        unknown = "no estimate: dimensions, device or samples are unknown"
+        return replace(finding, text=unknown, skipped=True)
     free, total = device_memory(prepared.device)
     finding.text = (
         f"about {memory_size(estimate.total)} of {memory_size(free)} free on {prepared.device}"

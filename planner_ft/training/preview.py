@@ -28,12 +28,10 @@ def preview_text(sample: Sample, tokenizer: PreTrainedTokenizerBase) -> Text:
             text.append("⟦" if mask else "⟧", "bold")
             trained = mask
         style = ("green" if mask else "dim") + (" reverse" if special else "")
-        text.append(
-            str(
-                tokenizer.decode(ids, skip_special_tokens=False, clean_up_tokenization_spaces=False)
-            ),
-            style,
+        decoded = tokenizer.decode(
+            ids, skip_special_tokens=False, clean_up_tokenization_spaces=False
         )
+        text.append(str(decoded), style)
     if trained:
         text.append("⟧", "bold")
     return text

@@ -19,8 +19,8 @@ import torch
 from torch import Tensor
 
 from planner_ft.training.batches import Batch, collate
+from planner_ft.training.checkpoint import restore_rng, rng_state
 from planner_ft.training.model import adapter_parameters, evaluating, loss_sum
-from planner_ft.training.rng import restore_rng, rng_state
 
 if TYPE_CHECKING:
     from planner_ft.training.samples import Sample

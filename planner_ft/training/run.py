@@ -11,14 +11,15 @@ from planner_ft.candidates.location import weights_sha256
 from planner_ft.support.errors import PlannerError
 from planner_ft.training.loop import InterruptedRunError, train_loop
 from planner_ft.training.output import (
+    existing_result,
     fingerprint_problems,
     folder_state,
     stored_fingerprint,
+    write_result,
     write_run,
 )
 from planner_ft.training.preflight import CHECKS, Finding, Prepared, run_preflight
 from planner_ft.training.request import TrainRequest, listed
-from planner_ft.training.result import existing_result, write_result
 from planner_ft.training.samples import Sample, Split, read_split, render_split
 from planner_ft.training.session import limited_threads, memory_errors, open_run, ready_model
 
@@ -27,9 +28,7 @@ if TYPE_CHECKING:
 
 
 def preview_sample(request: TrainRequest, sample_id: str | None) -> tuple[Sample, Any]:
-    """The sample of that id (the first one without) rendered as for training, and the tokenizer.
-    Raises PlannerError.
-    """
+    """The sample of that id (or the first one) rendered as for training, and the tokenizer."""
     problems: list[str] = []
     split = read_split(request.train_file, request.level, request.vocabulary, problems)
     if split is None or problems:
@@ -45,10 +44,10 @@ def preview_sample(request: TrainRequest, sample_id: str | None) -> tuple[Sample
 
 
 def train(request: TrainRequest, console: Console) -> dict[str, Any] | None:
-    """Run the checks, train, write the adapter folder and return its manifest; None when --resume
-    finds the run complete.
+    """Run the checks, train, write the adapter folder and return its manifest.
 
-    Raises PlannerError for whatever the user can put right, and InterruptedRunError after Ctrl-C.
+    None when --resume finds the run complete. Raises PlannerError for anything that the user can
+    put right, and InterruptedRunError after Ctrl-C.
     """
     for text in request.resolved.departures(request.level):
         _say(console, f"note: {text}")
@@ -61,9 +60,9 @@ def train(request: TrainRequest, console: Console) -> dict[str, Any] | None:
     if request.resume and not _resumable(request.output, fingerprint):
         _say(console, existing_result(request.output))
         return None
-    splits = {"training": prepared.train} | (
-        {"validation": prepared.validation} if prepared.validation else {}
-    )
+    splits = {"training": prepared.train}
+    if prepared.validation:
+        splits["validation"] = prepared.validation
     with limited_threads(request, prepared), memory_errors(request, prepared):
         with console.status("loading the model ..."):
             model, finding = ready_model(request, prepared)
@@ -74,16 +73,10 @@ def train(request: TrainRequest, console: Console) -> dict[str, Any] | None:
                 train_loop(run, state)
                 return write_result(request, run, state, prepared.tokenizer, splits, fingerprint)
             except (Exception, KeyboardInterrupt) as error:
+                stopped = isinstance(error, InterruptedRunError)
+                status = "interrupted" if stopped else f"failed: {error!r}"
                 with contextlib.suppress(PlannerError):
-                    write_run(
-                        request.output,
-                        fingerprint,
-                        (
-                            "interrupted"
-                            if isinstance(error, InterruptedRunError)
-                            else f"failed: {error!r}"
-                        ),
-                    )
+                    write_run(request.output, fingerprint, status)
                 raise
 
 
@@ -104,26 +97,18 @@ def _raise_problems(findings: list[Finding]) -> None:
 
 def show_finding(console: Console, number: int, finding: Finding) -> None:
     """One line on a check, and a line for each note."""
-    count = (
-        f"{len(finding.problems)} problem{'s' if len(finding.problems) > 1 else ''}"
-        if finding.problems
-        else ""
-    )
+    number_of = len(finding.problems)
+    count = f"{number_of} problem{'s' if number_of > 1 else ''}" if number_of else ""
     text = "; ".join(part for part in (count, finding.text) if part)
-    mark = "✗" if finding.problems else "-" if finding.skipped else "✓"
-    _say(
-        console,
-        f"[{number}/{CHECKS}] {mark} {finding.title}: {text}",
-        "red" if finding.problems else None,
-    )
+    mark = "✗" if number_of else "-" if finding.skipped else "✓"
+    line = f"[{number}/{CHECKS}] {mark} {finding.title}: {text}"
+    _say(console, line, "red" if number_of else None)
     for note in finding.notes:
         _say(console, f"      note: {note}", "yellow")
 
 
 def _resumable(output: Path, fingerprint: dict[str, Any]) -> bool:
-    """Whether there is something to resume; False for a complete run. Raises PlannerError when the
-    run was another one.
-    """
+    """Whether a run is unfinished. Raises PlannerError when it was another one."""
     differences = fingerprint_problems(stored_fingerprint(output), fingerprint)
     if differences:
         raise PlannerError(

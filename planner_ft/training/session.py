@@ -16,6 +16,7 @@ from planner_ft.training.checkpoint import (
     checkpoints,
     load_checkpoint,
     remove_leftovers,
+    seed_everything,
 )
 from planner_ft.training.loop import Run, total_steps
 from planner_ft.training.model import (
@@ -25,6 +26,7 @@ from planner_ft.training.model import (
     cpu_threads,
     make_optimizer,
     memory_levers,
+    unpack,
     uses_gradient_checkpointing,
 )
 from planner_ft.training.output import clear, write_run
@@ -32,8 +34,6 @@ from planner_ft.training.preflight import Finding, Prepared
 from planner_ft.training.probe import probe_model
 from planner_ft.training.report import Trackers, TrainLog, make_display
 from planner_ft.training.request import TrainRequest
-from planner_ft.training.rng import seed_everything
-from planner_ft.training.unpacking import unpack
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -52,18 +52,12 @@ def ready_model(request: TrainRequest, prepared: Prepared) -> tuple[Any, Finding
     if prepared.device.type == "cpu":
         unpack(base)
     model = attach_adapter(base, settings, request.candidate.reference)
-    problems = probe_model(
-        model,
-        prepared.train.samples,
-        pad_id(prepared),
-        settings.batch_size,
-        prepared.device,
-        compute_dtype(prepared.device),
-    )
-    parameters = adapter_parameters(model)
+    samples, device = prepared.train.samples, prepared.device
+    dtype = compute_dtype(device)
+    problems = probe_model(model, samples, pad_id(prepared), settings.batch_size, device, dtype)
+    sizes = [value.numel() for value in adapter_parameters(model).values()]
     text = (
-        f"all {len(parameters)} adapter matrices learn"
-        f" ({sum(value.numel() for value in parameters.values()):,} weights), also after a"
+        f"all {len(sizes)} adapter matrices learn ({sum(sizes):,} weights), also after a"
         " validation pass"
     )
     return model, Finding("gradients", "" if problems else text, problems)
@@ -77,17 +71,12 @@ def open_run(
     console: Console,
     fingerprint: dict[str, Any],
 ) -> Iterator[tuple[Run, TrainState]]:
-    """Make the output folder ready, go to the newest checkpoint where the run is resumed, and open
-    log and display.
-    """
+    """Prepare the output folder, load the newest checkpoint to resume, open log and display."""
     assert prepared.device and prepared.train
-    settings, output = request.settings, request.output
+    settings, output, samples = request.settings, request.output, prepared.train.samples
     dtype = compute_dtype(prepared.device)
-    trainee = Trainee(
-        model,
-        make_optimizer(model, settings),
-        torch.amp.GradScaler(prepared.device.type, enabled=dtype == torch.float16),
-    )
+    scaler = torch.amp.GradScaler(prepared.device.type, enabled=dtype == torch.float16)
+    trainee = Trainee(model, make_optimizer(model, settings), scaler)
     if not request.resume:
         clear(output)
     write_run(output, fingerprint, "running")
@@ -95,27 +84,23 @@ def open_run(
     state = _resumed(request, trainee, console) if request.resume else TrainState()
     log = TrainLog(output, state.step)
     trackers = Trackers(settings, output, f"{request.candidate.slug}-{request.level}")
-    display = make_display(
-        console, total_steps(settings, len(prepared.train.samples)), state.step, settings.log_every
+    total = total_steps(settings, len(samples))
+    display = make_display(console, total, state.step, settings.log_every)
+    run = Run(
+        settings,
+        trainee,
+        samples,
+        prepared.validation.samples if prepared.validation else [],
+        pad_id(prepared),
+        prepared.device,
+        dtype,
+        output,
+        log,
+        trackers,
+        display,
     )
-    validation = prepared.validation.samples if prepared.validation else []
     try:
-        yield (
-            Run(
-                settings,
-                trainee,
-                prepared.train.samples,
-                validation,
-                pad_id(prepared),
-                prepared.device,
-                dtype,
-                output,
-                log,
-                trackers,
-                display,
-            ),
-            state,
-        )
+        yield run, state
     finally:
         display.close()
         trackers.close()
@@ -138,9 +123,8 @@ def limited_threads(request: TrainRequest, prepared: Prepared) -> Iterator[None]
     """In the block, a run on the CPU has the threads that its settings say."""
     before = torch.get_num_threads()
     if prepared.device and prepared.device.type == "cpu":
-        torch.set_num_threads(
-            cpu_threads(request.settings, request.candidate.parameters or SMALL_MODEL)
-        )
+        parameters = request.candidate.parameters or SMALL_MODEL
+        torch.set_num_threads(cpu_threads(request.settings, parameters))
     try:
         yield
     finally:
@@ -153,14 +137,13 @@ def memory_errors(request: TrainRequest, prepared: Prepared) -> Iterator[None]:
     try:
         yield
     except (torch.OutOfMemoryError, MemoryError, RuntimeError) as error:
-        if not isinstance(
-            error, torch.OutOfMemoryError | MemoryError
-        ) and "allocate memory" not in str(error):
+        if type(error) is RuntimeError and "allocate memory" not in str(error):
             raise
-        longest = prepared.train.longest if prepared.train else 0
-        checkpointing = uses_gradient_checkpointing(
-            request.settings, request.candidate.parameters or 0
+        longest, size = (
+            prepared.train.longest if prepared.train else 0,
+            request.candidate.parameters,
         )
+        checkpointing = uses_gradient_checkpointing(request.settings, size or 0)
         advice = memory_levers(request.settings, checkpointing, longest)
         raise PlannerError(
             f"out of memory on {prepared.device}; {advice}. The checkpoints so far are kept: see"

@@ -155,7 +155,7 @@ def test_logits_in_chunks_give_the_same_step(tiny, monkeypatch):
 
 
 def test_the_learning_rate_warms_up_and_falls_to_zero():
-    from planner_ft.training.schedule import learning_rate
+    from planner_ft.training.loop import learning_rate
     from planner_ft.training.settings import TrainSettings
 
     for schedule in ("cosine", "linear"):

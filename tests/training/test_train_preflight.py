@@ -217,3 +217,14 @@ def test_the_preview_marks_what_is_trained(ask):
 
 def test_the_curated_set_passes(ask):
     assert problems(ask(data_dir=str(Path(__file__).parents[2] / "data" / "mission"))) == []
+
+
+def test_one_file_for_training_and_validation_is_rendered_as_two_splits(ask, tmp_path):
+    data = tmp_path / "data.jsonl"
+    lines = (Path(__file__).parents[2] / "data" / "mission" / "train.jsonl").read_text()
+    data.write_text(lines)
+    request = ask(data_dir=None, train_file=str(data), validation_file=str(data), max_samples=5)
+    prepared = Prepared()
+    assert not [p for finding in run_preflight(request, prepared) for p in finding.problems]
+    assert prepared.train and len(prepared.train.samples) == 5
+    assert prepared.validation and len(prepared.validation.samples) == len(lines.splitlines())
