@@ -7,18 +7,13 @@ from typing import Annotated
 import typer
 
 from planner_ft.cli.bench import bench, score
-from planner_ft.cli.candidates import candidates
-from planner_ft.cli.compare import compare
-from planner_ft.cli.doctor import doctor
+from planner_ft.cli.candidates import candidates, doctor
+from planner_ft.cli.compare import compare, report
+from planner_ft.cli.data import gen_data, validate, vocabulary
 from planner_ft.cli.export import export
-from planner_ft.cli.gen_data import gen_data
 from planner_ft.cli.plan import plan
-from planner_ft.cli.report import report
-from planner_ft.cli.review import review
+from planner_ft.cli.review import review, verify
 from planner_ft.cli.train import train
-from planner_ft.cli.validate import validate
-from planner_ft.cli.verify import verify
-from planner_ft.cli.vocabulary import vocabulary
 
 app = typer.Typer(
     name="plannerft",
@@ -44,32 +39,16 @@ def _version(value: bool) -> None:
         raise typer.Exit
 
 
+VERSION = typer.Option(
+    "--version", callback=_version, is_eager=True, help="Show the version and exit."
+)
+
+
 @app.callback()
-def options(
-    version: Annotated[
-        bool,
-        typer.Option(
-            "--version", callback=_version, is_eager=True, help="Show the version and exit."
-        ),
-    ] = False,
-) -> None:
+def options(version: Annotated[bool, VERSION] = False) -> None:
     """Options of every command."""
 
 
-for command in (
-    plan,
-    review,
-    verify,
-    gen_data,
-    validate,
-    candidates,
-    train,
-    bench,
-    score,
-    compare,
-    report,
-    export,
-    vocabulary,
-    doctor,
-):
+MEASURING = (candidates, train, bench, score, compare, report)
+for command in (plan, review, verify, gen_data, validate, *MEASURING, export, vocabulary, doctor):
     app.command(command.__name__.replace("_", "-"))(command)

@@ -8,207 +8,62 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from planner_ft.cli.endpoint import with_endpoint
-from planner_ft.cli.progress import interruptible
+from planner_ft.cli.options import command, given, typed
+from planner_ft.cli.progress import interruptible, resume_command, status
 
 if TYPE_CHECKING:
     from planner_ft.benchmark.results import Results
     from planner_ft.benchmark.settings import BenchSettings
+    from planner_ft.benchmark.sources.endpoint_settings import EndpointSettings
+    from planner_ft.benchmark.suite.session import State
 
-VOCABULARY = Annotated[str, typer.Option(help="Vocabulary: a bundled name or a TOML file.")]
-SEED = Annotated[int, typer.Option(help="Seed of the bootstrap intervals and of sampled answers.")]
+RUN = (
+    *("level", "candidates", "configurations", "data", "limit", "adapter", "quantization"),
+    *("max_new_tokens", "latency_samples", "planning_samples", "vocabulary"),
+    *("repeats", "temperature", "top_p"),
+)
+"""Options that say what is run; a suite or gate file says it itself."""
+SERVER = ("endpoint", "model", "api_key_env", "concurrency", "timeout", "retries")
+OUTPUT = "give --overwrite or another --out"
 
 
+@command
 def bench(
-    level: Annotated[
-        str | None,
-        typer.Option(
-            help="mission (commands to tasks) or task (tasks to skills).", show_default=False
-        ),
-    ] = None,
-    candidates: Annotated[
-        str | None,
-        typer.Option(
-            help=(
-                "Names, folders or hub ids, separated by commas; `plannerft candidates` lists them."
-            ),
-            show_default=False,
-        ),
-    ] = None,
-    configurations: Annotated[
-        str | None,
-        typer.Option(
-            help=(
-                "base (prompted with the vocabulary) or lora (fine-tuned), each alone or with"
-                " +schema, +state or +grounded; separated by commas."
-            ),
-            show_default="base,lora",
-        ),
-    ] = None,
-    data: Annotated[
-        Path | None,
-        typer.Option(
-            help=(
-                "Test data: any JSONL with id, prompt and expected (task level: also task and"
-                " parameters)."
-            ),
-            show_default="data/LEVEL/test.jsonl",
-        ),
-    ] = None,
-    limit: Annotated[
-        int | None, typer.Option(help="Only the first samples of the data.", show_default="all")
-    ] = None,
-    adapter: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="Adapter folder; with several candidates NAME=DIR, once for each.",
-            show_default="adapters/CANDIDATE/LEVEL",
-        ),
-    ] = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            help="Folder for predictions, results and tables.", show_default="eval/runs/LEVEL"
-        ),
-    ] = None,
-    resume: Annotated[
-        bool,
-        typer.Option(
-            "--resume", help="Go on with an interrupted run; what is there is not generated again."
-        ),
-    ] = False,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Remove an earlier run from --out first.")
-    ] = False,
-    device: Annotated[str, typer.Option(help="auto, cpu, cuda or cuda:N.")] = "auto",
-    quantization: Annotated[
-        str | None,
-        typer.Option(
-            help="nf4 (4-bit base) or none.", show_default="as the candidate is trained: nf4"
-        ),
-    ] = None,
-    batch_size: Annotated[
-        str,
-        typer.Option(
-            help=(
-                "Queries generated together (quality; latency is always one at a time): a number,"
-                " or auto. Halved when memory runs out."
-            )
-        ),
-    ] = "auto",
-    max_new_tokens: Annotated[
-        int | None,
-        typer.Option(
-            help="Limit of generated tokens per answer; cut answers are counted.",
-            show_default="1024 mission, 2048 task",
-        ),
-    ] = None,
-    latency_samples: Annotated[
-        int | None,
-        typer.Option(
-            help="Time the queries of this many samples, one at a time; 0: none.", show_default="50"
-        ),
-    ] = None,
-    planning_samples: Annotated[
-        int | None,
-        typer.Option(
-            help=(
-                "Mission level: also time planning with both agents, this many missions of each"
-                " length from 1 to 10 tasks."
-            ),
-            show_default="0",
-        ),
-    ] = None,
-    vocabulary: Annotated[
-        str | None,
-        typer.Option(help="Vocabulary: a bundled name or a TOML file.", show_default="usv"),
-    ] = None,
-    repeats: Annotated[
-        int | None,
-        typer.Option(
-            help="Sampled answers per sample: gives pass^k; needs --temperature.", show_default="1"
-        ),
-    ] = None,
-    temperature: Annotated[
-        float | None,
-        typer.Option(help="Sample answers at this temperature.", show_default="0: greedy"),
-    ] = None,
-    top_p: Annotated[
-        float | None,
-        typer.Option(
-            help=(
-                "With --temperature: sample from the likeliest tokens that together hold this"
-                " probability."
-            ),
-            show_default="1",
-        ),
-    ] = None,
-    seed: SEED = 0,
-    endpoint: Annotated[
-        str | None,
-        typer.Option(
-            help=(
-                "Root of a server's OpenAI chat API, such as http://127.0.0.1:8000/v1, instead of"
-                " --candidates."
-            ),
-            show_default=False,
-        ),
-    ] = None,
-    model: Annotated[
-        str | None,
-        typer.Option(
-            help="With --endpoint: the name by which the server knows the model.",
-            show_default=False,
-        ),
-    ] = None,
-    api_key_env: Annotated[
-        str | None,
-        typer.Option(
-            help="With --endpoint: the environment variable that holds the server's key.",
-            show_default=False,
-        ),
-    ] = None,
-    concurrency: Annotated[
-        int | None,
-        typer.Option(help="With --endpoint: questions that are open at a time.", show_default="4"),
-    ] = None,
-    timeout: Annotated[
-        float | None,
-        typer.Option(help="With --endpoint: seconds that an answer may take.", show_default="60"),
-    ] = None,
-    retries: Annotated[
-        int | None,
-        typer.Option(
-            help="With --endpoint: how often a question is asked again after a failure.",
-            show_default="5",
-        ),
-    ] = None,
-    suite: Annotated[
-        Path | None,
-        typer.Option(
-            help=(
-                "Suite file (TOML): run every candidate on every data set that it names, each in a"
-                " process."
-            ),
-            show_default=False,
-        ),
-    ] = None,
+    level: str | None = None,
+    candidates: str | None = None,
+    configurations: str | None = None,
+    data: Path | None = None,
+    limit: int | None = None,
+    adapter: list[str] | None = None,
+    out: Path | None = None,
+    resume: bool = False,
+    overwrite: bool = False,
+    device: str = "auto",
+    quantization: str | None = None,
+    batch_size: str = "auto",
+    max_new_tokens: int | None = None,
+    latency_samples: int | None = None,
+    planning_samples: int | None = None,
+    vocabulary: str | None = None,
+    repeats: int | None = None,
+    temperature: float | None = None,
+    top_p: float | None = None,
+    seed: int = 0,
+    endpoint: str | None = None,
+    model: str | None = None,
+    api_key_env: str | None = None,
+    concurrency: int | None = None,
+    timeout: float | None = None,
+    retries: int | None = None,
+    suite: Path | None = None,
     processes: Annotated[
         int,
         typer.Option(
             help="With --suite: processes that share each run, started by accelerate.", min=1
         ),
     ] = 1,
-    gate: Annotated[
-        Path | None,
-        typer.Option(
-            help="Gate file (TOML): run what it names and exit with 1 when a figure falls short.",
-            show_default=False,
-        ),
-    ] = None,
-    no_report: Annotated[
-        bool, typer.Option("--no-report", help="Leave out report.html and its figures.")
-    ] = False,
+    gate: Path | None = None,
+    no_report: bool = False,
 ) -> None:
     """Benchmark candidates: F1, hallucination, validity, latency and tokens with 95 % intervals,
     beside the published figures.
@@ -216,133 +71,51 @@ def bench(
     Greedy decoding. --out holds predictions.jsonl (written as answers are made), results.json,
     scores.jsonl, latency.jsonl and the table as Markdown, CSV and LaTeX.
     """
-    named = {
-        "level": level,
-        "candidates": candidates,
-        "configurations": configurations,
-        "data": data,
-        "limit": limit,
-        "adapter": adapter,
-        "quantization": quantization,
-        "max_new_tokens": max_new_tokens,
-        "latency_samples": latency_samples,
-        "vocabulary": vocabulary,
-        "planning_samples": planning_samples,
-        "repeats": repeats,
-        "temperature": temperature,
-        "top_p": top_p,
-    }
-    named = {name: value for name, value in named.items() if value is not None}
-    common = {
-        "device": device,
-        "batch_size": _batch_size(batch_size),
-        "seed": seed,
-        "resume": resume,
-        "overwrite": overwrite,
-    }
-    served = {
-        "endpoint": endpoint,
-        "model": model,
-        "api_key_env": api_key_env,
-        "concurrency": concurrency,
-        "timeout": timeout,
-        "retries": retries,
-    }
-    served = {name: value for name, value in served.items() if value is not None}
-    if suite is not None or gate is not None:
-        _check_alone("--suite" if suite is not None else "--gate")
+    named, served = given(locals(), *RUN), given(locals(), *SERVER)
+    generation = {"device": device, "batch_size": _batch_size(batch_size), "seed": seed}
+    rerun = {"resume": resume, "overwrite": overwrite}
     if suite is not None:
-        _run_suite(suite, out, named | served, common, processes, report=not no_report)
-        return
-    if gate is not None:
-        _run_gate(gate, out, named | served, common)
-        return
-    named, server = with_endpoint(named, served)
-    settings = _settings(named, out=out, endpoint=server, **common)
-    from planner_ft.benchmark.ranks import join_ranks
-    from planner_ft.benchmark.runner import help_bench, run_bench
-
-    ranks = join_ranks()
-    if not ranks.leads:
-        help_bench(settings, ranks)
-        return
-    with interruptible(settings.folder) as progress:
-        results = run_bench(settings, progress, ranks)
-    _show(results, settings.folder)
-    if not no_report:
-        _report(settings.folder)
+        _check_file_alone("suite", suite, named | served, ("limit", "latency_samples"))
+        flags = generation | named | {"processes": processes}
+        _run_suite(suite, out, flags, rerun, report=not no_report)
+    elif gate is not None:
+        _check_file_alone("gate", gate, named | served)
+        _run_gate(gate, out, generation | rerun)
+    else:
+        _run(_settings(named, served, out=out, **generation, **rerun), report=not no_report)
 
 
+@command
 def score(
-    level: Annotated[
-        str | None,
-        typer.Option(
-            help="mission (commands to tasks) or task (tasks to skills).", show_default=False
-        ),
-    ] = None,
-    predictions: Annotated[
-        Path | None,
-        typer.Option(
-            help=(
-                "JSONL with id and output per line; candidate, configuration, tokens and latency_s"
-                " are used if given."
-            ),
-            show_default=False,
-        ),
-    ] = None,
-    run: Annotated[
-        Path | None,
-        typer.Option(
-            help="Folder of a bench run to score again: it knows its level, data and vocabulary.",
-            show_default=False,
-        ),
-    ] = None,
-    data: Annotated[
-        Path | None,
-        typer.Option(
-            help="Test data that the predictions were made for.",
-            show_default="data/LEVEL/test.jsonl",
-        ),
-    ] = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            help="Folder for results.json and the tables; without it the table is only printed.",
-            show_default=False,
-        ),
-    ] = None,
-    limit: Annotated[
-        int | None, typer.Option(help="Only the first samples of the data.", show_default="all")
-    ] = None,
-    name: Annotated[
-        str | None,
-        typer.Option(
-            help="The system's name in the table, where lines name no candidate.",
-            show_default="the file's name",
-        ),
-    ] = None,
-    vocabulary: VOCABULARY = "usv",
-    seed: SEED = 0,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace results that are in --out already.")
-    ] = False,
+    level: str | None = None,
+    predictions: Path | None = None,
+    run: Path | None = None,
+    data: Path | None = None,
+    out: Path | None = None,
+    limit: int | None = None,
+    name: str | None = None,
+    vocabulary: str = "usv",
+    seed: int = 0,
+    overwrite: bool = False,
 ) -> None:
     """Score any system's outputs, or a bench run again. No model is needed; a sample without a
     prediction counts as an empty output.
     """
     from planner_ft.benchmark import folder
+    from planner_ft.benchmark.samples import default_data, load_bench_data
+    from planner_ft.benchmark.submission import score_predictions, score_run
     from planner_ft.support.errors import PlannerError
+    from planner_ft.vocabulary import load_vocabulary
+    from planner_ft.vocabulary.plans import check_level
 
     if out is not None:
-        folder.check_folder(
-            out, () if overwrite else folder.SCORED, "give --overwrite or another --out"
-        )
+        folder.check_folder(out, () if overwrite else folder.SCORED, OUTPUT)
     if run is not None and predictions is None and level is None:
-        from planner_ft.benchmark.submission import score_run
-
         results = score_run(run, data, seed=seed)
     elif level is not None and predictions is not None and run is None:
-        results = _score_predictions(level, predictions, data, limit, name, vocabulary, seed)
+        checked, definition = check_level(level), load_vocabulary(vocabulary)
+        samples = load_bench_data(data or default_data(checked), checked, definition, limit)
+        results = score_predictions(predictions, samples, definition, seed=seed, name=name)
     else:
         raise PlannerError(
             "score needs either --level and --predictions, or --run alone; try: plannerft score"
@@ -353,115 +126,154 @@ def score(
     _show(results, out)
 
 
-def _score_predictions(
-    level: str,
-    predictions: Path,
-    data: Path | None,
-    limit: int | None,
-    name: str | None,
-    vocabulary: str,
-    seed: int,
-) -> Results:
-    from planner_ft.benchmark.samples import default_data, load_bench_data
-    from planner_ft.benchmark.submission import score_predictions
-    from planner_ft.vocabulary import load_vocabulary
-    from planner_ft.vocabulary.plans import check_level
-
-    checked, definition = check_level(level), load_vocabulary(vocabulary)
-    samples = load_bench_data(data or default_data(checked), checked, definition, limit)
-    return score_predictions(predictions, samples, definition, seed=seed, name=name)
-
-
 def _batch_size(text: str) -> int | None:
     from planner_ft.support.errors import PlannerError
 
-    if text == "auto":
-        return None
     try:
-        return int(text)
+        return None if text == "auto" else int(text)
     except ValueError:
         raise PlannerError(f"--batch-size {text}: must be a number or auto") from None
 
 
-def _split(text: str) -> tuple[str, ...]:
-    return tuple(part.strip() for part in text.split(",") if part.strip())
-
-
-def _settings(named: dict[str, Any], **common: Any) -> BenchSettings:
+def _settings(named: dict[str, Any], served: dict[str, Any], **common: Any) -> BenchSettings:
     """Settings from the flags that were given."""
     from planner_ft.benchmark.settings import BenchSettings
     from planner_ft.support.errors import PlannerError
     from planner_ft.vocabulary.plans import check_level
 
-    if "level" not in named or "candidates" not in named:
+    values, server = _with_endpoint(named, served)
+    if "level" not in values or "candidates" not in values:
         raise PlannerError(
             "bench needs --level and --candidates (or --gate FILE); try: plannerft bench --level"
             " mission --candidates embedded"
         )
-    values = {**named, "level": check_level(named["level"])}
-    values |= {
-        name: _split(values[name]) for name in ("candidates", "configurations") if name in values
-    }
-    return BenchSettings(adapters=tuple(values.pop("adapter", ())), **values, **common)
+    level, adapters = check_level(values.pop("level")), tuple(values.pop("adapter", ()))
+    for name in {"candidates", "configurations"} & set(values):
+        values[name] = tuple(part.strip() for part in values[name].split(",") if part.strip())
+    return BenchSettings(level=level, adapters=adapters, endpoint=server, **values, **common)
 
 
-def _check_alone(flag: str) -> None:
+def _with_endpoint(
+    named: dict[str, Any], served: dict[str, Any]
+) -> tuple[dict[str, Any], EndpointSettings | None]:
+    """The run's flags with the served model as its only candidate, and the server, if --endpoint is
+    given. Raises PlannerError.
+    """
+    if not served:
+        return named, None
+    from planner_ft.benchmark.sources.endpoint_settings import EndpointSettings
+    from planner_ft.support.errors import PlannerError
+
+    if "endpoint" not in served or "model" not in served:
+        raise PlannerError(f"{typed(served)}: a server needs both --endpoint URL and --model NAME")
+    if "candidates" in named:
+        raise PlannerError(
+            "--candidates are loaded here and --endpoint is asked over the network: give one of"
+            " them"
+        )
+    # Only the user knows whether a server's model was fine-tuned, and so needs no vocabulary.
+    model = {"candidates": served["model"].replace(",", " ")}
+    url = served.pop("endpoint")
+    return {"configurations": "base", **named, **model}, EndpointSettings(url, **served)
+
+
+def _run(settings: BenchSettings, *, report: bool) -> None:
+    from planner_ft.benchmark.ranks import join_ranks
+    from planner_ft.benchmark.runner import help_bench, run_bench
+
+    ranks = join_ranks()
+    if not ranks.leads:
+        help_bench(settings, ranks)
+        return
+    with interruptible(lambda: _kept(settings.folder)) as progress:
+        results = run_bench(settings, progress, ranks)
+    _show(results, settings.folder)
+    if report:
+        _report(settings.folder)
+
+
+def _check_file_alone(
+    kind: str, path: Path, named: dict[str, Any], allowed: tuple[str, ...] = ()
+) -> None:
+    """Raise PlannerError for flags that a suite or gate file sets itself, and under accelerate."""
     from planner_ft.benchmark.ranks import started_with_others
     from planner_ft.support.errors import PlannerError
 
     if started_with_others():
         raise PlannerError(
-            f"{flag} is started once, not by accelerate; a suite shares its runs itself with"
+            f"--{kind} is started once, not by accelerate; a suite shares its runs itself with"
             " --processes N"
+        )
+    extra = [name for name in named if name not in allowed]
+    if extra:
+        raise PlannerError(
+            f"--{kind} {path} says itself what is run; leave out {typed(extra)} or change the file"
         )
 
 
 def _run_suite(
-    path: Path,
-    out: Path | None,
-    named: dict[str, Any],
-    common: dict[str, Any],
-    processes: int,
-    *,
-    report: bool,
+    path: Path, out: Path | None, flags: dict[str, Any], rerun: dict[str, bool], *, report: bool
 ) -> None:
-    from planner_ft.cli.suite import bench_suite
-    from planner_ft.support.errors import PlannerError
+    """Run a suite, and exit with 1 when a candidate could not be measured."""
+    from planner_ft.benchmark.suite.definition import load_suite
+    from planner_ft.benchmark.suite.run import run_suite
+    from planner_ft.benchmark.suite.units import Flags
+    from planner_ft.support.errors import IncompleteError, PlannerError
 
-    flags: dict[str, Any] = {
-        name: named.pop(name) for name in ("limit", "latency_samples") if name in named
-    }
-    if named:
-        given = ", ".join(f"--{name.replace('_', '-')}" for name in named)
+    if all(rerun.values()):
         raise PlannerError(
-            f"--suite {path} says itself what is run; leave out {given} or change the file"
+            "--resume keeps former results and --overwrite removes them: give one of them"
         )
-    flags |= {name: common[name] for name in ("device", "batch_size", "seed")}
-    bench_suite(
-        path,
-        out,
-        flags | {"processes": processes},
-        resume=common["resume"],
-        overwrite=common["overwrite"],
-        finish=_report if report else None,
+    suite = load_suite(path)
+    folder = out or Path("eval/runs") / path.stem
+    with status(lambda: f"go on with: {resume_command()}") as show:
+
+        def shown(state: State) -> None:
+            show(state.unit, _state_line(state))
+
+        parts = run_suite(suite, folder, Flags(**flags), shown, **rerun)
+    typer.echo((folder / "table.md").read_text(encoding="utf-8"))
+    names = ", ".join(part.part.name for part in parts)
+    typer.echo(
+        f"{folder}/: table.md, table.csv, table.tex, results.json; a folder for each of {names}"
     )
-
-
-def _run_gate(path: Path, out: Path | None, named: dict[str, Any], common: dict[str, Any]) -> None:
-    from planner_ft.benchmark.gate import load_gate, run_gate
-    from planner_ft.support.errors import PlannerError
-
-    if named:
-        flags = ", ".join(f"--{name.replace('_', '-')}" for name in named)
-        raise PlannerError(
-            f"--gate {path} says itself what is run; leave out {flags} or change the file"
+    if report:
+        _report(folder)
+    failed = [
+        f"{entry.candidate} {entry.configuration} ({part.part.name})"
+        for part in parts
+        for entry in part.failed
+    ]
+    if failed:
+        raise IncompleteError(
+            f"{len(failed)} of the suite could not be measured: {', '.join(failed)}; the reasons"
+            f" are in {folder / 'table.md'}"
         )
+
+
+def _state_line(state: State) -> str:
+    """The progress of a suite, in a line."""
+    from planner_ft.support.resources import clock
+
+    left = f", {clock(state.left)} left in all" if state.left is not None else ""
+    return f"({state.unit}/{state.units}) {state.name}: {state.done}/{state.total} queries{left}"
+
+
+def _run_gate(path: Path, out: Path | None, common: dict[str, Any]) -> None:
+    from planner_ft.benchmark.gate import load_gate, run_gate
+
     gate = load_gate(path)
     with tempfile.TemporaryDirectory() as temporary:
         target = out or Path(temporary) / "gate"
-        with interruptible(target if out else None) as progress:
+        with interruptible((lambda: _kept(target)) if out else None) as progress:
             run_gate(gate, target, progress, lambda results: _show(results, out), **common)
     typer.echo(f"{path}: passed ({', '.join(threshold.metric for threshold in gate.thresholds)})")
+
+
+def _kept(folder: Path) -> str:
+    from planner_ft.benchmark.runner import resume_hint
+
+    return f"{resume_hint(folder)}; go on with: {resume_command()}"
 
 
 def _report(folder: Path) -> None:
@@ -472,7 +284,7 @@ def _report(folder: Path) -> None:
 
 
 def _show(results: Results, out: Path | None) -> None:
-    """Print the table, the samples without a prediction and where the files lie."""
+    """Print the table, the samples without a prediction and the names of the files."""
     from rich.console import Console
 
     from planner_ft.benchmark.folder import TABLES

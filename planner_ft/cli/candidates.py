@@ -1,83 +1,92 @@
-"""`plannerft candidates`: which models there are, what they need and where they are."""
+"""`plannerft candidates` and `plannerft doctor`: the models, and the installation."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
+from planner_ft.cli.options import command
+
 if TYPE_CHECKING:
-    from rich.console import Console
     from rich.table import Table
 
+ESTIMATES = (
+    "Estimates: 4-bit weights, batch size 1; to train an adapter on 1024 tokens, to run it on 2048"
+    " tokens. * with gradient checkpointing."
+)
+GATED = (
+    " (gated ones: first accept the licence at https://huggingface.co/REPOSITORY and run `hf auth"
+    " login`)"
+)
+OFFLINE = "Without a network, copy it to a sub-folder of its name in a folder that PLANNERFT_MODELS names."
+SHORTENED = (" Community", " License", " (non-commercial)")
 
-def candidates(
-    names: Annotated[
-        list[str] | None,
-        typer.Argument(
-            help="Only these: names, hub ids (org/name) or folders. Default: every registered one.",
-            show_default=False,
-        ),
-    ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
-) -> None:
+
+@command
+def candidates(names: list[str] | None = None, json: bool = False) -> None:
     """List the models that can be trained and benchmarked: size, licence, estimated memory, and
     where they are or how to get them.
     """
     from planner_ft.candidates import all_candidates, resolve_candidate
     from planner_ft.candidates.listing import describe
+    from planner_ft.support.files import indented_json
 
-    descriptions = [
-        describe(candidate)
-        for candidate in (
-            [resolve_candidate(name) for name in names] if names else all_candidates()
-        )
-    ]
+    chosen = [resolve_candidate(name) for name in names] if names else all_candidates()
+    rows = [describe(candidate) for candidate in chosen]
     if json:
-        from json import dumps
-
-        print(dumps(descriptions, indent=2, ensure_ascii=False))
+        typer.echo(indented_json(rows), nl=False)
         return
     from rich.console import Console
 
-    console = Console(highlight=False)
-    console.print(_table(descriptions))
-    console.print(
-        "Estimates: 4-bit weights, batch size 1; to train an adapter on 1024 tokens, to run it on"
-        " 2048 tokens. * with gradient checkpointing."
-    )
-    for description in descriptions:
-        if note := description["problem"] or (
-            description["get"] if not description["command"] else None
-        ):
-            console.print(f"{description['name']}: {note}", style="yellow", soft_wrap=True)
-    _print_downloads(
-        console, [description for description in descriptions if description["command"]]
-    )
+    console = Console(highlight=False, soft_wrap=True)
+    console.print(_table(rows), soft_wrap=False)
+    console.print(ESTIMATES, soft_wrap=False)
+    missing = [row for row in rows if row["command"]]
+    for row in rows:
+        if note := row["problem"] or (row["get"] if row not in missing else None):
+            console.print(f"{row['name']}: {note}", style="yellow")
+    if missing:
+        gated = GATED if any(row["gated"] for row in missing) else ""
+        console.print(f"\nTo get one that is not here{gated}:")
+        for row in missing:
+            console.print(f"  {row['command']}", markup=False)
+        console.print(OFFLINE)
 
 
-def _print_downloads(console: Console, missing: list[dict[str, Any]]) -> None:
-    if not missing:
+@command
+def doctor(json: bool = False) -> None:
+    """Check this installation: versions, devices, 4-bit support (tried, not assumed), disk, caches,
+    vocabulary, candidates.
+
+    The report is plain text to paste into an issue. It exits with 0; warnings stand at the end.
+    """
+    from planner_ft.candidates.diagnosis import diagnose
+    from planner_ft.support.files import indented_json
+
+    found = diagnose()
+    if json:
+        typer.echo(indented_json({**found.sections, "warnings": found.warnings}), nl=False)
         return
-    gated = (
-        " (gated ones: first accept the licence at https://huggingface.co/REPOSITORY and run `hf"
-        " auth login`)"
-    )
-    console.print(
-        "\nTo get one that is not"
-        f" here{gated if any(description['gated'] for description in missing) else ''}:",
-        soft_wrap=True,
-    )
-    for description in missing:
-        console.print(f"  {description['command']}", soft_wrap=True, markup=False)
-    console.print(
-        "Without a network, copy it to a sub-folder of its name in a folder that PLANNERFT_MODELS"
-        " names.",
-        soft_wrap=True,
-    )
+    for title, entries in found.sections.items():
+        print(title)
+        for name, value in entries.items():
+            print(f"  {name}: {_text(value)}")
+    print(f"warnings: {len(found.warnings) or 'none'}")
+    for warning in found.warnings:
+        print(f"  - {warning}")
 
 
-def _table(descriptions: list[dict[str, Any]]) -> Table:
+def _text(value: Any) -> str:
+    if isinstance(value, dict):
+        shown = {
+            name: item for name, item in value.items() if item is not None and item is not False
+        }
+        return ", ".join(f"{name} {_text(item)}" for name, item in shown.items())
+    return "not set" if value is None else "yes" if value is True else str(value)
+
+
+def _table(rows: list[dict[str, Any]]) -> Table:
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
@@ -87,33 +96,23 @@ def _table(descriptions: list[dict[str, Any]]) -> Table:
         table.add_column(heading, justify="right", no_wrap=True)
     table.add_column("licence", overflow="fold")
     table.add_column("here", overflow="fold")
-    for description in descriptions:
-        licence = (
-            description["licence"]
-            .replace(" Community", "")
-            .replace(" License", "")
-            .replace(" (non-commercial)", "")
-        )
-        table.add_row(
-            description["name"],
-            _count(description["parameters"]),
-            *_memory(description["memory"]),
-            licence,
-            _here(description),
-        )
+    for row in rows:
+        licence = row["licence"]
+        for part in SHORTENED:
+            licence = licence.replace(part, "")
+        count = _count(row["parameters"])
+        table.add_row(row["name"], count, *_memory(row["memory"]), licence, _here(row))
     return table
 
 
-def _here(description: dict[str, Any]) -> str:
-    if description["problem"]:
+def _here(row: dict[str, Any]) -> str:
+    if row["problem"]:
         return "[red]incomplete[/red]"
-    if description["standin"]:
+    if row["standin"]:
         return "[yellow]stand-in[/yellow]"
-    return (
-        f"[green]{description['source']}[/green]"
-        if description["here"]
-        else f"no{', gated' if description['gated'] else ''}"
-    )
+    if row["here"]:
+        return f"[green]{row['source']}[/green]"
+    return "no, gated" if row["gated"] else "no"
 
 
 def _count(parameters: int | None) -> str:
@@ -126,14 +125,16 @@ def _memory(memory: dict[str, Any] | None) -> tuple[str, str, str, str]:
     """Cells: GiB to train, the smallest GPU for it, GiB to run, the smallest GPU for that."""
     if memory is None:
         return "?", "?", "?", "?"
-    train = [gpu for gpu, fits in memory["train_fits"].items() if fits == "yes"][:1]
-    saving = [f"{gpu}*" for gpu, fits in memory["train_fits"].items() if fits != "no"][:1]
-    gpus = train if saving == [f"{gpu}*" for gpu in train] else [*train, *saving]
-    infer = [gpu for gpu, fits in memory["infer_fits"].items() if fits == "yes"][:1]
-    amount = f"{memory['train_gib']:.1f} {memory['train_checkpointing_gib']:.1f}*"
+
+    def smallest(kind: str, *unfit: str) -> str:
+        fits = (gpu for gpu, fit in memory[f"{kind}_fits"].items() if fit not in unfit)
+        return next(fits, "").replace(" GB", "")
+
+    plain, saving = smallest("train", "no", "checkpointing"), smallest("train", "no")
+    gpus = plain if saving == plain else f"{plain} {saving}*".strip()
     return (
-        amount,
-        " ".join(gpus).replace(" GB", "") or "larger",
+        f"{memory['train_gib']:.1f} {memory['train_checkpointing_gib']:.1f}*",
+        gpus or "larger",
         f"{memory['infer_gib']:.1f}",
-        "".join(infer).replace(" GB", "") or "larger",
+        smallest("infer", "no") or "larger",
     )

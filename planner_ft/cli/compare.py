@@ -1,58 +1,25 @@
-"""`plannerft compare`."""
+"""`plannerft compare` and `plannerft report`."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
 import typer
 
+from planner_ft.cli.options import command
 
+
+@command
 def compare(
-    runs: Annotated[
-        list[Path],
-        typer.Argument(
-            help="Folders of `plannerft bench` or `plannerft score --out`.", show_default=False
-        ),
-    ],
-    metric: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="Metric of results.json; once for each.",
-            show_default="f1, exact_sequence, parameters, whole_plan, hallucination, strict_valid",
-        ),
-    ] = None,
-    against: Annotated[
-        str | None,
-        typer.Option(
-            help="The row that all others are compared with, or a part of its name.",
-            show_default="the first row of the first run",
-        ),
-    ] = None,
-    same: Annotated[
-        bool,
-        typer.Option(
-            "--same",
-            help="Compare each row with the row of the same name in the first run instead.",
-        ),
-    ] = False,
-    common: Annotated[
-        bool,
-        typer.Option(
-            "--common", help="Allow different data files: compare the samples whose ids all have."
-        ),
-    ] = False,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            help="Folder for comparison.json, .md, .csv and .tex.", show_default="print only"
-        ),
-    ] = None,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace a comparison that is in --out already.")
-    ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
-    seed: Annotated[int, typer.Option(help="Seed of the resamples.")] = 0,
+    runs: list[Path],
+    metric: list[str] | None = None,
+    against: str | None = None,
+    same: bool = False,
+    common: bool = False,
+    out: Path | None = None,
+    overwrite: bool = False,
+    json: bool = False,
+    seed: int = 0,
 ) -> None:
     """Compare rows of finished runs, paired by sample: difference, 95 % interval, p adjusted after
     Holm, and a verdict in words.
@@ -74,17 +41,48 @@ def compare(
             " one of them"
         )
     if out is not None:
-        check_folder(
-            out, () if overwrite else ("comparison.json",), "give --overwrite or another --out"
-        )
-    report = compare_runs(
-        CompareSettings(tuple(runs), tuple(metric or DEFAULT_METRICS), against, same, common, seed)
-    )
+        former = () if overwrite else ("comparison.json",)
+        check_folder(out, former, "give --overwrite or another --out")
+    metrics = tuple(metric or DEFAULT_METRICS)
+    report = compare_runs(CompareSettings(tuple(runs), metrics, against, same, common, seed))
     if out is not None:
         for name, text in render_report(report).items():
             write_text(out / name, text)
         write_json(out / "comparison.json", report.to_json())
-    if as_json:
+    if json:
         typer.echo(indented_json(report.to_json()), nl=False)
     else:
         print_report(report, Console())
+
+
+@command
+def report(
+    runs: list[Path],
+    out: Path | None = None,
+    data: list[Path] | None = None,
+    title: str = "",
+    pictures: str = "all",
+    card: Path | None = None,
+    overwrite: bool = False,
+) -> None:
+    """Write report.html (one file, opens offline), the figures as PNG and SVG, and the tables as
+    Markdown, CSV and LaTeX.
+    """
+    from planner_ft.support.errors import PlannerError
+
+    if card is not None:
+        from planner_ft.report.card import write_card
+
+        count = write_card(card, runs)
+        typer.echo(f"{card / 'README.md'}: {count} measured figures")
+        return
+    if out is None and len(runs) > 1:
+        raise PlannerError("--out is missing: with several runs, name a folder for the report")
+    from planner_ft.report.write import check_pictures, write_report
+
+    target, shown = out or runs[0], check_pictures(pictures)
+    written = write_report(
+        runs, target, data=data or (), overwrite=overwrite, title=title, pictures=shown
+    )
+    counts = [sum(path.parent.name == name for path in written) for name in ("figures", "tables")]
+    typer.echo(f"{target}/: report.html, figures/ ({counts[0]} files), tables/ ({counts[1]} files)")

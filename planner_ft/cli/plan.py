@@ -5,129 +5,40 @@ from __future__ import annotations
 import sys
 import threading
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
+from planner_ft.cli.options import command
 from planner_ft.cli.progress import Report, interruptible
 
 if TYPE_CHECKING:
     from planner_ft.document import PlanDocument
 
 PATIENCE = 3.0
-"""Seconds without an answer after which progress is worth telling."""
-AGENTS = "One agent alone"
+"""Seconds without an answer before progress is shown: a short wait needs none."""
 
 
+@command
 def plan(
-    command: Annotated[
-        str,
-        typer.Argument(
-            help="What the vehicle is to do, in your own words; - reads it from standard input.",
-            show_default=False,
-        ),
-    ],
-    locate: Annotated[
-        list[str] | None,
-        typer.Option(
-            help=(
-                '"NAME=x,y": where a place lies that the plan leaves open (metres east, north).'
-                " Repeatable."
-            ),
-            show_default=False,
-        ),
-    ] = None,
-    json: Annotated[
-        bool,
-        typer.Option(
-            "--json", help="Print the plan document (schemas/plan.schema.json) instead of a tree."
-        ),
-    ] = False,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            help="Also write the plan document into this file: what review and export take.",
-            show_default=False,
-        ),
-    ] = None,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace a file that --out names.")
-    ] = False,
-    mission_only: Annotated[
-        bool,
-        typer.Option(
-            "--mission-only", help="Ask the Mission Agent alone: tasks without their skills."
-        ),
-    ] = False,
-    candidate: Annotated[
-        str,
-        typer.Option(
-            help=(
-                "Candidate of both agents: a name that `plannerft candidates` lists, a folder, or a"
-                " hub id."
-            )
-        ),
-    ] = "embedded",
-    configuration: Annotated[
-        str | None,
-        typer.Option(
-            help="base, lora, and +schema, +state or +grounded; of both agents.",
-            show_default="lora+grounded with an adapter, else base+grounded",
-        ),
-    ] = None,
-    vocabulary: Annotated[
-        str, typer.Option(help="Vocabulary: a bundled name or a TOML file.")
-    ] = "usv",
-    device: Annotated[str, typer.Option(help="auto, cpu, cuda or cuda:N.")] = "auto",
-    quantization: Annotated[
-        str | None,
-        typer.Option(
-            help="nf4 (4-bit base) or none.", show_default="as the candidate is trained: nf4"
-        ),
-    ] = None,
-    vehicle: Annotated[
-        Path | None,
-        typer.Option(
-            help="TOML file with cruise speed, endurance and operating area of the vehicle.",
-            show_default="the vocabulary's",
-        ),
-    ] = None,
-    mission_candidate: Annotated[
-        str | None,
-        typer.Option(help="Instead of --candidate.", show_default=False, rich_help_panel=AGENTS),
-    ] = None,
-    task_candidate: Annotated[
-        str | None,
-        typer.Option(help="Instead of --candidate.", show_default=False, rich_help_panel=AGENTS),
-    ] = None,
-    mission_adapter: Annotated[
-        Path | None,
-        typer.Option(
-            help="Adapter folder.",
-            show_default="adapters/CANDIDATE/mission, else the package's",
-            rich_help_panel=AGENTS,
-        ),
-    ] = None,
-    task_adapter: Annotated[
-        Path | None,
-        typer.Option(
-            help="Adapter folder.",
-            show_default="adapters/CANDIDATE/task, else the package's",
-            rich_help_panel=AGENTS,
-        ),
-    ] = None,
-    mission_configuration: Annotated[
-        str | None,
-        typer.Option(
-            help="Instead of --configuration.", show_default=False, rich_help_panel=AGENTS
-        ),
-    ] = None,
-    task_configuration: Annotated[
-        str | None,
-        typer.Option(
-            help="Instead of --configuration.", show_default=False, rich_help_panel=AGENTS
-        ),
-    ] = None,
+    command: str,
+    locate: list[str] | None = None,
+    json: bool = False,
+    out: Path | None = None,
+    overwrite: bool = False,
+    mission_only: bool = False,
+    candidate: str = "embedded",
+    configuration: str | None = None,
+    vocabulary: str = "usv",
+    device: str = "auto",
+    quantization: str | None = None,
+    vehicle: Path | None = None,
+    mission_candidate: str | None = None,
+    task_candidate: str | None = None,
+    mission_adapter: Path | None = None,
+    task_adapter: Path | None = None,
+    mission_configuration: str | None = None,
+    task_configuration: str | None = None,
 ) -> None:
     """Plan a command with both agents: tasks, the skills of each, what is taken for granted and
     what it cost.
@@ -136,6 +47,10 @@ def plan(
     in. Exits with 1 when an answer is not valid: it is shown with what is wrong. A person approves
     a plan before anything moves.
     """
+    from planner_ft.document import write_document
+    from planner_ft.document.tree import plan_tree
+    from planner_ft.support.files import indented_json
+
     named = {
         "candidate": candidate,
         "mission_candidate": mission_candidate,
@@ -151,10 +66,8 @@ def plan(
         "mission_only": mission_only,
     }
     document = _plan(command, locate or [], out, overwrite, vehicle, named)
-    _print(document, json)
+    typer.echo(indented_json(document) if json else plan_tree(document), nl=not json)
     if out is not None:
-        from planner_ft.document import write_document
-
         write_document(out, document)
         typer.echo(f"{out}: next, plannerft review {out}", err=True)
     if not document["valid"]:
@@ -169,7 +82,7 @@ def _plan(
     vehicle: Path | None,
     named: dict[str, Any],
 ) -> PlanDocument:
-    """Check what was said, then plan."""
+    """Check the options, then plan."""
     from planner_ft.document import build
     from planner_ft.document.ontology import check
     from planner_ft.document.vehicle import load_vehicle
@@ -182,7 +95,7 @@ def _plan(
     locations = parse_locations(locate)
     text = check_command(read_command(sys.stdin.buffer) if command == "-" else command)
     with (
-        interruptible(None) as report,
+        interruptible() as report,
         Patient(report) as patient,
         Planner(PlanSettings(**named), patient) as planner,
     ):
@@ -192,19 +105,8 @@ def _plan(
         return build(planner.plan(text, locations), planner.vocabulary, profile)
 
 
-def _print(document: PlanDocument, json: bool) -> None:
-    if json:
-        from planner_ft.support.files import indented_json
-
-        typer.echo(indented_json(document), nl=False)
-        return
-    from planner_ft.document.tree import plan_tree
-
-    typer.echo(plan_tree(document))
-
-
 class Patient:
-    """Progress that is told once PATIENCE is over: a short wait needs no words."""
+    """Progress that is shown once PATIENCE is over."""
 
     def __init__(self, report: Report) -> None:
         self.report = report

@@ -1,5 +1,5 @@
-"""Progress of a benchmark run: bars with the time left on a terminal, lines now and then
-elsewhere.
+"""Progress of a long command: bars with the time left on a terminal, lines now and then elsewhere;
+and what Ctrl-C leaves.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
@@ -25,79 +24,90 @@ EVERY = 30.0
 
 
 @contextlib.contextmanager
-def interruptible(folder: Path | None) -> Iterator[Report]:
-    """Show progress of the block; after Ctrl-C say what is kept and how to go on, and exit with
-    130.
+def interruptible(kept: Callable[[], str] | None = None, *, lines: bool = True) -> Iterator[Report]:
+    """Show progress of the block; after Ctrl-C print what is `kept`, and exit with 130. Without
+    `lines` nothing is shown where there is no terminal.
     """
-    from rich.console import Console
+    with (
+        _interruptible(kept) as (console, stopped),
+        (_bars if console.is_terminal else _lines)(console) as report,
+    ):
 
-    console = Console(stderr=True, highlight=False)
-    try:
-        with (
-            _not_swallowed() as stopped,
-            _bars(console) if console.is_terminal else _lines(console) as report,
-        ):
-
-            def reporting(label: str, done: int, total: int) -> None:
-                if stopped():
-                    raise KeyboardInterrupt
+        def reporting(label: str, done: int, total: int) -> None:
+            if stopped.is_set():
+                raise KeyboardInterrupt
+            if lines or console.is_terminal:
                 report(label, done, total)
 
-            yield reporting
-    except KeyboardInterrupt:
-        console.print(
-            f"interrupted{f'; {_kept(folder)}' if folder else ''}", soft_wrap=True, markup=False
-        )
-        raise typer.Exit(130) from None
+        yield reporting
 
 
 @contextlib.contextmanager
-def _not_swallowed() -> Iterator[Callable[[], bool]]:
-    """Yield a function that says whether Ctrl-C was pressed: libraries swallow a KeyboardInterrupt
+def status(kept: Callable[[], str]) -> Iterator[Callable[[int, str], None]]:
+    """As `interruptible`, with one line of text that changes, for the step of a number."""
+    with _interruptible(kept) as (console, _stopped):
+        if console.is_terminal:
+            with console.status("starting") as line:
+                yield lambda _step, text: line.update(text)
+            return
+        due = _Due()
+
+        def report(step: int, text: str) -> None:
+            if due(step):
+                console.print(text, soft_wrap=True, markup=False)
+
+        yield report
+
+
+def resume_command() -> str:
+    """The command line of this process with --resume instead of --overwrite."""
+    words = [word for word in sys.argv[1:] if word not in ("--overwrite", "--resume")]
+    return shlex.join(["plannerft", *words, "--resume"])
+
+
+@contextlib.contextmanager
+def _interruptible(kept: Callable[[], str] | None) -> Iterator[tuple[Console, threading.Event]]:
+    """A console for the block, and an event that Ctrl-C sets: libraries swallow a KeyboardInterrupt
     while they load.
     """
-    pressed = threading.Event()
-    if threading.current_thread() is not threading.main_thread():
-        yield pressed.is_set
-        return
-    before = signal.getsignal(signal.SIGINT)
+    from rich.console import Console
+
+    console, pressed = Console(stderr=True, highlight=False), threading.Event()
 
     def press(_number: int, _frame: object) -> None:
         pressed.set()
         raise KeyboardInterrupt
 
-    if before is not signal.SIG_IGN:
+    before = signal.getsignal(signal.SIGINT)
+    is_ours = threading.current_thread() is threading.main_thread() and before != signal.SIG_IGN
+    if is_ours:
         signal.signal(signal.SIGINT, press)
     try:
-        yield pressed.is_set
+        yield console, pressed
+    except KeyboardInterrupt:
+        text = f"interrupted{f'; {kept()}' if kept else ''}"
+        console.print(text, soft_wrap=True, markup=False)
+        raise typer.Exit(130) from None
     finally:
-        signal.signal(signal.SIGINT, before)
+        if is_ours:
+            signal.signal(signal.SIGINT, before)
 
 
 @contextlib.contextmanager
 def _bars(console: Console) -> Iterator[Report]:
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        SpinnerColumn,
-        TaskID,
-        TextColumn,
-        TimeElapsedColumn,
-        TimeRemainingColumn,
-    )
+    from rich import progress
 
     columns = (
-        SpinnerColumn(),
-        TextColumn("{task.description}"),
-        BarColumn(bar_width=20),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TextColumn("left"),
-        TimeRemainingColumn(),
+        progress.SpinnerColumn(),
+        progress.TextColumn("{task.description}"),
+        progress.BarColumn(bar_width=20),
+        progress.MofNCompleteColumn(),
+        progress.TimeElapsedColumn(),
+        progress.TextColumn("left"),
+        progress.TimeRemainingColumn(),
     )
-    bars: dict[str, TaskID] = {}
-    with Progress(*columns, console=console, transient=True) as shown:
+    bars: dict[str, progress.TaskID] = {}
+    with progress.Progress(*columns, console=console, transient=True) as shown:
 
         def report(label: str, done: int, total: int) -> None:
             if label not in bars:
@@ -112,29 +122,32 @@ def _bars(console: Console) -> Iterator[Report]:
 @contextlib.contextmanager
 def _lines(console: Console) -> Iterator[Report]:
     begun: dict[str, tuple[float, int]] = {}
-    last = 0.0
+    due = _Due()
 
     def report(label: str, done: int, total: int) -> None:
-        nonlocal last
-        now = time.monotonic()
-        first = label not in begun
-        started, before = begun.setdefault(label, (now, done))
-        if not (first or done == total or now - last >= EVERY):
+        started, before = begun.setdefault(label, (time.monotonic(), done))
+        if not due(label, always=done == total):
             return
-        last = now
-        left = (now - started) / (done - before) * (total - done) if done > before else None
+        seconds = time.monotonic() - started
+        left = seconds / (done - before) * (total - done) if done > before else 0
+        count = f" {done}/{total}" if total else ""
         rest = f", {left:.0f} s left" if left else ""
-        console.print(
-            f"{label}{f' {done}/{total}' if total else ''}{rest}", soft_wrap=True, markup=False
-        )
+        console.print(f"{label}{count}{rest}", soft_wrap=True, markup=False)
 
     yield report
 
 
-def _kept(folder: Path) -> str:
-    from planner_ft.benchmark.runner import resume_hint
+class _Due:
+    """Whether a line is due: the first of a step, and one in EVERY seconds."""
 
-    arguments = [
-        argument for argument in sys.argv[1:] if argument not in ("--overwrite", "--resume")
-    ]
-    return f"{resume_hint(folder)}; go on with: {shlex.join(['plannerft', *arguments, '--resume'])}"
+    def __init__(self) -> None:
+        self.steps: set[object] = set()
+        self.last = 0.0
+
+    def __call__(self, step: object, *, always: bool = False) -> bool:
+        now = time.monotonic()
+        if step in self.steps and not always and now - self.last < EVERY:
+            return False
+        self.steps.add(step)
+        self.last = now
+        return True

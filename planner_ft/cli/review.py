@@ -1,223 +1,92 @@
-"""`plannerft review`."""
+"""`plannerft review` and `plannerft verify`."""
 
 from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Any
 
 import typer
 
-if TYPE_CHECKING:
-    from planner_ft.review.desk import Desk
+from planner_ft.cli.options import command, typed
 
-DECIDE, WEB, HARVEST, AGENTS = (
-    "Without a conversation",
-    "In the browser",
-    "Training data from reviewed plans",
-    "Agents",
-)
+DECISIONS = ("show", "adopt", "edit", "approve", "acknowledge", "reject")
+SERVING = ("port", "host", "no_browser")
+HARVESTING = ("out", "overwrite")
 
 
+@command
 def review(
-    plans: Annotated[
-        list[Path] | None,
-        typer.Argument(help="Plan document; with --harvest several.", show_default=False),
-    ] = None,
-    log: Annotated[
-        Path | None,
-        typer.Option(help="Approval log.", show_default="approvals.jsonl beside the plan"),
-    ] = None,
-    name: Annotated[
-        str | None, typer.Option(help="Who reviews; stands in the log.", show_default=False)
-    ] = None,
-    vocabulary: Annotated[
-        str | None,
-        typer.Option(
-            help="Vocabulary: a bundled name or a TOML file.",
-            show_default="the plan's, if it is bundled",
-        ),
-    ] = None,
-    show: Annotated[
-        bool, typer.Option("--show", help="Show the plan and ask nothing.", rich_help_panel=DECIDE)
-    ] = False,
-    adopt: Annotated[
-        bool,
-        typer.Option(
-            "--adopt",
-            help="Take over what was changed in the file by hand, as an edit.",
-            rich_help_panel=DECIDE,
-        ),
-    ] = False,
-    edit: Annotated[
-        list[str] | None,
-        typer.Option(
-            help='Such as "2.radius=15", "remove 3", "locate green buoy=120,-35". Repeatable.',
-            show_default=False,
-            rich_help_panel=DECIDE,
-        ),
-    ] = None,
-    approve: Annotated[
-        bool,
-        typer.Option("--approve", help="Approve the plan (needs --name).", rich_help_panel=DECIDE),
-    ] = False,
-    acknowledge: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="Id of a warning, or all. Repeatable.", show_default=False, rich_help_panel=DECIDE
-        ),
-    ] = None,
-    reject: Annotated[
-        str | None,
-        typer.Option(
-            help="Reject the plan for this reason (needs --name).",
-            show_default=False,
-            rich_help_panel=DECIDE,
-        ),
-    ] = None,
-    web: Annotated[
-        bool,
-        typer.Option(
-            "--web",
-            help="Review in the browser; a new mission can be planned there, too.",
-            rich_help_panel=WEB,
-        ),
-    ] = False,
-    port: Annotated[
-        int | None,
-        typer.Option(help="Port of the page.", show_default="a free one", rich_help_panel=WEB),
-    ] = None,
-    host: Annotated[
-        str | None,
-        typer.Option(
-            help="Address of the page.",
-            show_default="127.0.0.1: this machine alone",
-            rich_help_panel=WEB,
-        ),
-    ] = None,
-    no_browser: Annotated[
-        bool,
-        typer.Option(
-            "--no-browser", help="Print the address and open nothing.", rich_help_panel=WEB
-        ),
-    ] = False,
-    harvest: Annotated[
-        bool,
-        typer.Option(
-            "--harvest",
-            help="Make training samples of plans that were edited and approved.",
-            rich_help_panel=HARVEST,
-        ),
-    ] = False,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            help="JSONL file for the samples.", show_default=False, rich_help_panel=HARVEST
-        ),
-    ] = None,
-    overwrite: Annotated[
-        bool,
-        typer.Option(
-            "--overwrite", help="Replace a file that --out names.", rich_help_panel=HARVEST
-        ),
-    ] = False,
-    candidate: Annotated[
-        str | None,
-        typer.Option(
-            help="Candidate that plans.",
-            show_default="the one that planned",
-            rich_help_panel=AGENTS,
-        ),
-    ] = None,
-    device: Annotated[
-        str, typer.Option(help="auto, cpu, cuda or cuda:N.", rich_help_panel=AGENTS)
-    ] = "auto",
+    plans: list[Path] | None = None,
+    log: Path | None = None,
+    name: str | None = None,
+    vocabulary: str | None = None,
+    show: bool = False,
+    adopt: bool = False,
+    edit: list[str] | None = None,
+    approve: bool = False,
+    acknowledge: list[str] | None = None,
+    reject: str | None = None,
+    web: bool = False,
+    port: int | None = None,
+    host: str | None = None,
+    no_browser: bool = False,
+    harvest: bool = False,
+    out: Path | None = None,
+    overwrite: bool = False,
+    candidate: str | None = None,
+    device: str = "auto",
 ) -> None:
     """Read a plan, edit it, approve or reject it. A decision is kept in the approval log, with the
     plan.
 
     In a terminal it asks; with --edit, --approve or --reject, or without a terminal, it does not.
     """
-    decided = {
-        "--show": show,
-        "--adopt": adopt,
-        "--edit": edit,
-        "--approve": approve,
-        "--acknowledge": acknowledge,
-        "--reject": reject is not None,
-    }
-    served = {"--port": port is not None, "--host": host, "--no-browser": no_browser}
-    harvested = {"--out": out, "--overwrite": overwrite}
+    options = locals()
     if harvest:
-        _refuse("--harvest", {"--web": web, **decided, **served})
-        _harvest(plans or [], log, out, overwrite, vocabulary)
+        _refuse("--harvest", options, "web", *DECISIONS, *SERVING)
+        _harvest(options)
     elif web:
-        _refuse("--web", {**decided, **harvested})
-        _serve(
-            plans or [],
-            log,
-            vocabulary,
-            candidate,
-            device,
-            {"host": host, "port": port, "open_browser": False if no_browser else None},
-        )
+        _refuse("--web", options, *DECISIONS, *HARVESTING)
+        _serve(options)
     else:
-        _refuse("a review in the terminal", {**served, **harvested})
-        desk = _desk(plans or [], log, name, vocabulary, candidate, device)
-        _review(desk, show, adopt, edit or [], approve, acknowledge or [], reject)
+        _refuse("a review in the terminal", options, *SERVING, *HARVESTING)
+        _review(options)
 
 
-def _refuse(mode: str, given: dict[str, Any]) -> None:
-    """Raise PlannerError for flags that this kind of review has no use for."""
+def _refuse(mode: str, options: dict[str, Any], *names: str) -> None:
+    """Raise PlannerError for options that this kind of review has no use for."""
     from planner_ft.support.errors import PlannerError
 
-    unused = [flag for flag, value in given.items() if value]
-    if unused:
-        raise PlannerError(f"{unused[0]} does not go with {mode}; leave one of them out")
+    for name in names:
+        if options[name] not in (None, False, []):
+            raise PlannerError(f"{typed([name])} does not go with {mode}; leave one of them out")
 
 
-def _desk(
-    plans: list[Path],
-    log: Path | None,
-    name: str | None,
-    vocabulary: str | None,
-    candidate: str | None,
-    device: str,
-) -> Desk:
-    """The plan with its log and Task Agent."""
+def _review(options: dict[str, Any]) -> None:
     from planner_ft.review.desk import open_desk
+    from planner_ft.review.terminal import Conversation, terminal
     from planner_ft.support.errors import PlannerError
 
+    plans = options["plans"] or []
     if len(plans) != 1:
         raise PlannerError(
             f"{len(plans)} plans are given; one is reviewed at a time, such as plannerft review"
             " plan.json"
         )
-    return open_desk(plans[0], log, vocabulary, name, candidate, device)
-
-
-def _review(
-    desk: Desk,
-    show: bool,
-    adopt: bool,
-    edits: list[str],
-    approve: bool,
-    acknowledged: list[str],
-    reason: str | None,
-) -> None:
-    from planner_ft.review.terminal import Conversation, terminal
-    from planner_ft.support.errors import PlannerError
-
+    named = [options[key] for key in ("log", "vocabulary", "name", "candidate", "device")]
+    adopt, approve, reason = options["adopt"], options["approve"], options["reject"]
+    edits, acknowledged = options["edit"] or [], options["acknowledge"] or []
+    reviewer = Conversation(open_desk(plans[0], *named), terminal())
     if approve and reason is not None:
         raise PlannerError("--approve and --reject exclude each other; leave one of them out")
-    reviewer = Conversation(desk, terminal())
     if adopt or edits or approve or reason is not None:
         reviewer.decide(
             adopt=adopt, edits=edits, approve=approve, acknowledged=acknowledged, reason=reason
         )
     elif acknowledged:
         raise PlannerError("--acknowledge goes with --approve; give both")
-    elif show or not (sys.stdin.isatty() and sys.stdout.isatty()):
+    elif options["show"] or not (sys.stdin.isatty() and sys.stdout.isatty()):
         reviewer.show()
     else:
         try:
@@ -227,40 +96,93 @@ def _review(
             raise typer.Exit(130) from None
 
 
-def _serve(
-    plans: list[Path],
-    log: Path | None,
-    vocabulary: str | None,
-    candidate: str | None,
-    device: str,
-    given: dict[str, Any],
-) -> None:
+def _serve(options: dict[str, Any]) -> None:
     from planner_ft.review.desk import planning_of
     from planner_ft.review.web import WebSettings, serve
     from planner_ft.support.errors import PlannerError
 
+    plans = options["plans"] or []
     if len(plans) > 1:
         raise PlannerError(
             f"{len(plans)} plans are given; one is opened, and the page offers the others of its"
             " folder"
         )
     plan = plans[0] if plans else None
-    planning = planning_of(plan, vocabulary, candidate, device)
-    serve(
-        plan,
-        WebSettings(
-            log=log,
-            planning=planning,
-            **{name: value for name, value in given.items() if value is not None},
-        ),
-    )
+    planning = planning_of(plan, *(options[key] for key in ("vocabulary", "candidate", "device")))
+    given = {key: options[key] for key in ("host", "port", "log") if options[key] is not None}
+    serve(plan, WebSettings(planning=planning, open_browser=not options["no_browser"], **given))
 
 
-def _harvest(
-    plans: list[Path], log: Path | None, out: Path | None, overwrite: bool, vocabulary: str | None
-) -> None:
+def _harvest(options: dict[str, Any]) -> None:
     from planner_ft.review.harvest import harvest_files
 
-    done = harvest_files(plans, log, out, overwrite=overwrite, vocabulary=vocabulary)
-    for line in done.lines():
+    files = options["plans"] or [], options["log"], options["out"]
+    settings = {key: options[key] for key in ("overwrite", "vocabulary")}
+    for line in harvest_files(*files, **settings).lines():
         typer.echo(line)
+
+
+@command
+def verify(
+    plan: Path | None = None,
+    log: Path | None = None,
+    json: bool = False,
+    vocabulary: str | None = None,
+) -> None:
+    """Check that a plan is exactly what a person approved, and that nothing was removed from the
+    log or changed in it.
+
+    Exits with 0 for a plan that is approved and unchanged, with 1 otherwise (what was altered is
+    named), with 2 for a file that cannot be read or a log that is broken.
+    """
+    from planner_ft.support.errors import PlannerError
+
+    if plan is not None:
+        _verify_plan(plan, log, json, vocabulary)
+    elif log is not None:
+        _verify_log(log, json)
+    else:
+        raise PlannerError(
+            "nothing to verify: give a plan, such as plannerft verify plan.json, or a log with"
+            " --log"
+        )
+
+
+def _verify_plan(plan: Path, log: Path | None, json: bool, vocabulary: str | None) -> None:
+    from planner_ft.document import read_document
+    from planner_ft.review.log import existing_log, log_beside
+    from planner_ft.review.terminal import approval_text
+    from planner_ft.review.verify import approval_of
+    from planner_ft.support.files import indented_json
+    from planner_ft.vocabulary import load_vocabulary
+
+    document = read_document(plan, load_vocabulary(vocabulary) if vocabulary else None)
+    approval = approval_of(document, existing_log(log) if log else log_beside(plan))
+    if json:
+        typer.echo(indented_json({"plan": str(plan), **approval.as_json()}), nl=False)
+    else:
+        typer.echo("\n".join(approval_text(approval)))
+    raise typer.Exit(0 if approval.status == "approved" else 1)
+
+
+def _verify_log(log: Path, json: bool) -> None:
+    from planner_ft.review.log import check_log, existing_log, way_out
+    from planner_ft.support.files import indented_json
+
+    chain = check_log(existing_log(log))
+    torn = len(chain.torn)
+    if json:
+        problems = [problem._asdict() for problem in chain.problems]
+        found = {"records": chain.lines, "problems": problems, "unfinished_bytes": torn}
+        typer.echo(indented_json({"log": str(log), **found}), nl=False)
+    else:
+        for problem in chain.problems:
+            typer.echo(f"{log}:{problem.line}: {problem.text}")
+        broken = f"broken; {way_out(log)}"
+        state = broken if chain.problems else "nothing removed, changed or reordered"
+        unfinished = (
+            f"; the last line was never finished ({torn} bytes), and the next decision moves it"
+            " aside"
+        )
+        typer.echo(f"{log}: {chain.lines} records: {state}{unfinished if torn else ''}")
+    raise typer.Exit(2 if chain.problems else 0)

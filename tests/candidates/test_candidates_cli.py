@@ -12,8 +12,7 @@ from typer.testing import CliRunner
 
 from planner_ft.candidates import diagnosis
 from planner_ft.candidates.diagnosis import FourBitProbe, probe_four_bit
-from planner_ft.cli.candidates import candidates
-from planner_ft.cli.doctor import doctor
+from planner_ft.cli.candidates import candidates, doctor
 
 
 @pytest.fixture

@@ -1,0 +1,130 @@
+"""`plannerft gen-data`, `plannerft validate` and `plannerft vocabulary`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import typer
+
+from planner_ft.cli.options import command
+from planner_ft.cli.progress import interruptible
+
+
+@command
+def gen_data(
+    level: str = "all",
+    out: Path = Path("data"),
+    seed: int = 0,
+    train: int | None = None,
+    validation: int | None = None,
+    test: int | None = None,
+    synthetic: int | None = None,
+    vocabulary: str = "usv",
+    source: Path | None = None,
+    overwrite: bool = False,
+    chat: bool = False,
+) -> None:
+    """Make the training data: the curated mission set, checked and converted, and the sampled task
+    set.
+
+    Each level gets train, validation and test (task also test_unseen, whose phrasings occur nowhere
+    else) as JSONL, a dataset card (README.md), a leakage report (leakage.json) and a manifest.
+    """
+    from planner_ft.data.generate import GenerationSettings, generate
+    from planner_ft.prompts.chat import chat_messages
+
+    settings = GenerationSettings(
+        level, out, seed, train, validation, test, vocabulary, source, overwrite, chat, synthetic
+    )
+    with interruptible(lines=False) as progress:
+        results = generate(settings, progress, chat_messages)
+    for result in results:
+        counts = ", ".join(f"{split} {count}" for split, count in result.counts.items())
+        typer.echo(f"{result.folder}: {counts}{'' if result.written else ' (up to date)'}")
+        total = sum(result.counts.values())
+        stages = (_stage(stage, seconds, total) for stage, seconds in result.seconds.items())
+        typer.echo(f"  {', '.join(stages)}")
+
+
+def _stage(stage: str, seconds: float, count: int) -> str:
+    sampled = stage.startswith("sampling") and seconds
+    rate = f" ({count / seconds:.0f} records/s)" if sampled else ""
+    return f"{stage} {seconds:.1f} s{rate}"
+
+
+@command
+def validate(
+    files: list[Path], vocabulary: str = "usv", level: str | None = None, complete: bool = False
+) -> None:
+    """Check files against form, vocabulary and the labelling rules that a program can check.
+
+    Every problem is printed as FILE:LINE: what is wrong. Exits with 0 when there is none, 1 when
+    there are some, 2 when a file cannot be read.
+    """
+    from planner_ft.data.validation import validate_file
+    from planner_ft.support.errors import PlannerError
+    from planner_ft.vocabulary import load_vocabulary
+    from planner_ft.vocabulary.plans import check_level
+
+    definition, checked = load_vocabulary(vocabulary), check_level(level) if level else None
+    status = 0
+    for path in files:
+        try:
+            report = validate_file(path, definition, checked, complete=complete)
+        except PlannerError as error:
+            typer.echo(f"plannerft: {error}", err=True)
+            status = 2
+            continue
+        for problem in report.problems:
+            typer.echo(str(problem))
+        held = [
+            f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in report.counts.items()
+        ]
+        found = f"{len(report.problems) or 'no'} problems"
+        typer.echo(f"{path}: {', '.join(held) or 'nothing'}: {found}", err=True)
+        status = max(status, 1 if report.problems else 0)
+    raise typer.Exit(status)
+
+
+@command
+def vocabulary(
+    vocabulary: str = "usv",
+    schemas: Path | None = None,
+    docs: Path | None = None,
+    check: bool = False,
+) -> None:
+    """Show the vocabulary, or write the schemas and the documentation page that derive from it."""
+    from planner_ft.support.files import write_text
+    from planner_ft.vocabulary import load_vocabulary
+    from planner_ft.vocabulary.schema import stale_schemas, write_schemas
+    from planner_ft.vocabulary.text import documentation_page, stale_page
+
+    definition = load_vocabulary(vocabulary)
+    if check:
+        folder, page = schemas or Path("schemas"), docs or Path("docs") / "vocabulary.md"
+        stale = [str(folder / name) for name in stale_schemas(folder, definition)]
+        stale += [str(page)] if stale_page(page, definition) else []
+        again = f"plannerft vocabulary --schemas {folder} --docs {page}"
+        for name in stale:
+            typer.echo(f"{name}: stale; write it again with {again}")
+        raise typer.Exit(1 if stale else 0)
+    if schemas is not None:
+        for path in write_schemas(schemas, definition):
+            typer.echo(str(path))
+    text = documentation_page(definition)
+    if docs is not None:
+        write_text(docs, text)
+        typer.echo(str(docs))
+    elif schemas is None:
+        _show_page(text)
+
+
+def _show_page(page: str) -> None:
+    if not sys.stdout.isatty():
+        typer.echo(page, nl=False)
+        return
+    from rich.console import Console
+    from rich.markdown import Markdown
+
+    Console().print(Markdown(page.replace("<br>", "; ")))

@@ -1,0 +1,99 @@
+"""Options of the commands: their help texts are in help.toml, their types and defaults in the
+signatures.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Annotated, Any, NamedTuple, TypeVar
+
+import typer
+
+Command = TypeVar("Command", bound=Callable[..., None])
+ARGUMENTS = "arguments"
+
+
+class Help(NamedTuple):
+    """A help text, the default that is shown instead of the value, and the panel of the option."""
+
+    text: str
+    default: str | bool = True
+    panel: str | None = None
+
+
+def command(function: Command) -> Command:
+    """Give every parameter of a command without an option of its own its help from help.toml, and
+    join the lines of its paragraphs.
+    """
+    parameters = list(inspect.signature(function, eval_str=True).parameters.values())
+    help_of = helps(function.__name__)
+    set_parameters(
+        function,
+        [
+            item.replace(annotation=_described(item, help_of[item.name]))
+            if item.name in help_of and not hasattr(item.annotation, "__metadata__")
+            else item
+            for item in parameters
+        ],
+    )
+    paragraphs = (inspect.getdoc(function) or "").split("\n\n")
+    function.__doc__ = "\n\n".join(" ".join(text.split()) for text in paragraphs)
+    return function
+
+
+def set_parameters(function: Callable[..., None], parameters: list[inspect.Parameter]) -> None:
+    """Have typer see these parameters, all given by name."""
+    named = [
+        item.replace(kind=inspect.Parameter.KEYWORD_ONLY)
+        for item in parameters
+        if item.kind is not item.VAR_KEYWORD
+    ]
+    function.__signature__ = inspect.Signature(named)  # type: ignore[attr-defined]
+    function.__annotations__ = {item.name: item.annotation for item in named}
+
+
+def helps(name: str) -> dict[str, Help]:
+    """The help of a command's parameters by name; what it lacks is that of all commands."""
+    texts = _texts()
+    found = {key: _help(value) for key, value in texts["shared"].items()}
+    for key, value in texts.get(name, {}).items():
+        if isinstance(value, dict):
+            found |= {option: _help(text, key) for option, text in value.items()}
+        else:
+            found[key] = _help(value)
+    return found
+
+
+@functools.cache
+def _texts() -> dict[str, Any]:
+    return tomllib.loads(Path(__file__).with_name("help.toml").read_text(encoding="utf-8"))
+
+
+def _help(value: str | list[str], panel: str | None = None) -> Help:
+    text, *default = [value] if isinstance(value, str) else value
+    return Help(text, default[0] if default else True, panel)
+
+
+def _described(item: inspect.Parameter, help: Help) -> Any:
+    if help.panel == ARGUMENTS:
+        return Annotated[item.annotation, typer.Argument(help=help.text, show_default=False)]
+    # A flag has no --no- form.
+    names = (f"--{item.name.replace('_', '-')}",) if item.annotation is bool else ()
+    return Annotated[
+        item.annotation,
+        typer.Option(*names, help=help.text, show_default=help.default, rich_help_panel=help.panel),
+    ]
+
+
+def given(values: Mapping[str, Any], *names: str) -> dict[str, Any]:
+    """Those of the named options that were given, by name."""
+    return {name: values[name] for name in names if values[name] is not None}
+
+
+def typed(names: Iterable[str]) -> str:
+    """Options as they are typed: "--level, --batch-size"."""
+    return ", ".join(f"--{name.replace('_', '-')}" for name in names)
