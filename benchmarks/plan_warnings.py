@@ -19,11 +19,11 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from planner_ft.data.lexicon import corrections
 from planner_ft.data.mission.synthetic import sample_missions
 from planner_ft.document.build import revise
 from planner_ft.document.vehicle import load_vehicle
 from planner_ft.document.warnings import KINDS, SERIOUS
+from planner_ft.facts import corrections
 from planner_ft.support.files import read_jsonl, write_json
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import step_skills

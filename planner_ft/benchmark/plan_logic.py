@@ -10,7 +10,7 @@ from planner_ft.benchmark.metrics.abstention import right_refusal, wrong_refusal
 from planner_ft.benchmark.metrics.executability import executable
 from planner_ft.benchmark.metrics.groundedness import Groundedness, groundedness
 from planner_ft.benchmark.metrics.slots import KINDS, Reached, slot_propagation
-from planner_ft.benchmark.metrics.source import source_of
+from planner_ft.facts import read_input
 from planner_ft.vocabulary.replay import Stop
 
 
@@ -72,7 +72,7 @@ class PlanLogic:
 def plan_logic(answer: Answer) -> PlanLogic:
     """Judge an answer against its command and by itself."""
     level, vocabulary = answer.level, answer.vocabulary
-    source = source_of(level, answer.sample.record, vocabulary)
+    source = read_input(answer.sample.record, vocabulary)
     return PlanLogic(
         answer,
         groundedness(level, answer.given, source, vocabulary),

@@ -8,7 +8,9 @@ import itertools
 from collections.abc import Iterator
 from typing import Any
 
-from planner_ft.data.quantities import close, positions, quantities
+from planner_ft.facts import near
+from planner_ft.facts.numbers import read_numbers
+from planner_ft.facts.places import read_positions
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import MISSION_KEYS, Level
@@ -69,11 +71,15 @@ def _invented_numbers(record: dict[str, Any], vocabulary: Vocabulary) -> Iterato
     )
     known = {
         abs(number)
-        for quantity in (*quantities(record["prompt"]), *quantities(said))
+        for quantity in (*read_numbers(record["prompt"]), *read_numbers(said))
         for number in (quantity.value, quantity.said)
     }
     for where, text in texts.items():
-        digits = [quantity for quantity in quantities(text) if text[quantity.start].isdigit()]
+        digits = [
+            quantity
+            for quantity in read_numbers(text)
+            if text[quantity.start : quantity.end].lstrip("-−–")[:1].isdigit()
+        ]
         invented = [
             quantity.said
             for quantity in digits
@@ -100,15 +106,16 @@ def _lost_values(record: dict[str, Any]) -> Iterator[str]:
     numbers += [
         quantity.value
         for text in (*expected["assumptions"], *expected["constraints"])
-        for quantity in quantities(text)
+        for quantity in read_numbers(text)
     ]
-    for quantity in quantities(prompt):
-        if quantity.unit and not any(close(quantity.value, number) for number in numbers):
+    for quantity in read_numbers(prompt):
+        if quantity.unit and not any(near(number, quantity.value) for number in numbers):
             yield (
                 f"expected: {prompt[quantity.start : quantity.end]!r} of the command stands in no"
                 " parameter and no constraint"
             )
-    for x, y, start, end in positions(prompt):
+    for place in read_positions(prompt):
+        x, y, start, end = place.x, place.y, place.start, place.end
         if prompt[start - 1 : start] in ("[", "(") and not (
             [x, y] in values or {x, y} <= set(numbers)
         ):

@@ -10,6 +10,7 @@ and word pairs, cosine): a model has to be better than that.
 from __future__ import annotations
 
 import itertools
+import re
 import zlib
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
@@ -19,7 +20,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from planner_ft.data.words import mask, shingle_words
+from planner_ft.facts.lists import SMALL
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.plans import Level, named_entries
 
@@ -316,3 +317,45 @@ def _nearest(
         neighbours.append(best)
         similarities.append(float(scores[best]))
     return neighbours, similarities
+
+
+# ---------------------------------------------------------------- phrasings of a text
+
+NUMBER, NAME = "#", "@"
+_NUMBER_WORDS = frozenset(
+    [
+        *(word for word in SMALL if word not in ("oh", "couple")),
+        "hundred",
+        "thousand",
+        "half",
+        "quarter",
+    ]
+)
+_SHINGLE = re.compile(r"[#@]|-?\d+(?:\.\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)?")
+_CODE = re.compile(r"\b(?=\w*\d)(?=\w*[A-Za-z])[\w-]+\b")
+_NAME = re.compile(r"(?<![.!?:;]\s)(?<!^)(?<![\w\"])[A-Z][\w'’-]*(?:\s+(?:[A-Z][\w'’-]*|#))*")
+_NUMBER = re.compile(r"-?\d+(?:[.,]\d+)*")
+
+
+def shingle_words(text: str) -> list[str]:
+    """Words and numbers of a text in lower case, a sign kept with its number."""
+    return _SHINGLE.findall(text.lower())
+
+
+def mask(text: str) -> str:
+    """The text with its numbers, in figures or words, and its names replaced: what is left is the
+    phrasing.
+
+    Names are capitalised words inside a sentence and codes of letters and digits; runs of numbers
+    become one.
+    """
+    text = _NAME.sub(NAME, _NUMBER.sub(NUMBER, _CODE.sub(NAME, text)))
+    masked = [
+        NUMBER if word.lower() in _NUMBER_WORDS else word
+        for word in re.findall(r"[#@]|[^\W_]+(?:['’][^\W_]+)*", text)
+    ]
+    return " ".join(
+        word
+        for index, word in enumerate(masked)
+        if index == 0 or word not in (NUMBER, NAME) or word != masked[index - 1]
+    )

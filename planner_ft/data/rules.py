@@ -13,9 +13,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.data.quantities import positions, quantities
-from planner_ft.data.stated import states_number, states_position
-from planner_ft.data.words import says, words
+from planner_ft.facts import WAYPOINT, missing_words, read, read_input, words
+from planner_ft.facts.numbers import read_numbers
+from planner_ft.facts.places import read_positions
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
 from planner_ft.vocabulary.plans import value_problem
 from planner_ft.vocabulary.replay import START
@@ -182,9 +182,9 @@ def _has_coordinates(prompt: str, target: str) -> bool:
         return False
     end = place + len(target)
     pairs = [
-        start
-        for _x, _y, start, behind in positions(prompt)
-        if not AREA.search(prompt[start:behind])
+        place.start
+        for place in read_positions(prompt)
+        if not AREA.search(prompt[place.start : place.end])
     ]
     return any(start >= end and PLACED.fullmatch(prompt[end:start]) is not None for start in pairs)
 
@@ -263,7 +263,7 @@ def _return_problems(steps: list[Step], vocabulary: Vocabulary, command: Command
     ]
     if command.tags is not None and "rule.return" in command.tags and not ends:
         yield f"the tag rule.return needs a {vocabulary.transit} to {home} or a docking"
-    if command.prompt is not None and states_position(command.prompt, home):
+    if command.prompt is not None and read(command.prompt).evidence(home, WAYPOINT).given:
         return
     returns = [
         number
@@ -299,24 +299,21 @@ def _value_problem(
     value: Any, parameter: Parameter, vocabulary: Vocabulary, command: Command
 ) -> Iterator[str]:
     prompt = str(command.prompt)
-    if parameter.type in ("number", "integer") and not states_number(prompt, value, parameter.unit):
-        yield (
-            f"{value!r}{f' {parameter.unit}' if parameter.unit else ''} does not follow from the"
-            " command"
-        )
-    elif (
-        parameter.type == "position"
-        and value not in (list(vocabulary.home), list(vocabulary.unresolved))
-        and not states_position(prompt, value)
-    ):
-        yield f"the coordinates {value!r} are not in the command"
+    if parameter.type in ("number", "integer", "position"):
+        if read_input({"prompt": prompt}, vocabulary).evidence(value, parameter).given is False:
+            unit = f" {parameter.unit}" if parameter.unit else ""
+            yield (
+                f"the coordinates {value!r} are not in the command"
+                if parameter.type == "position"
+                else f"{value!r}{unit} does not follow from the command"
+            )
     elif parameter.type in ("text", "id", "texts"):
         for text in value if isinstance(value, list) else [str(value)]:
             yield from _text_problem(text, prompt, command.tags)
 
 
 def _text_problem(text: str, prompt: str, tags: frozenset[str] | None) -> Iterator[str]:
-    missing = says(prompt, text, misspelt=tags is None or "param.spelling" in tags)
+    missing = missing_words(prompt, text, misspelt=tags is None or "param.spelling" in tags)
     if missing:
         yield (
             f"{', '.join(map(repr, missing))} of {text!r} not in the command (spelling put right"
@@ -333,7 +330,7 @@ def _order_problems(step: Step, prompt: str) -> Iterator[str]:
     if not {"width", "length"} <= set(step.parameters) or NAMED_SIDES.search(prompt):
         return
     width, length = step.parameters["width"], step.parameters["length"]
-    numbers = quantities(prompt)
+    numbers = read_numbers(prompt)
     for first, second in itertools.pairwise(numbers):
         between = prompt[first.end : second.start].strip().lower()
         if (

@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from planner_ft.data.words import mask, words
+from planner_ft.data.leakage import mask
+from planner_ft.facts import words
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, list_key, plan_names, step_skills

@@ -11,9 +11,7 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
-from planner_ft.data.quantities import close
-from planner_ft.data.stated import states_number
-from planner_ft.data.words import says, words
+from planner_ft.facts import Input, missing_words, read_input, words
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills, value_problem
 
@@ -27,6 +25,7 @@ def step_problems(record: dict[str, Any], vocabulary: Vocabulary) -> Iterator[st
     expected, prompt = record["expected"], str(record["prompt"])
     parameters = record.get("parameters")
     given = list(parameters.values()) if isinstance(parameters, dict) else []
+    source = read_input(record, vocabulary)
     steps = expected.get("skill_sequence")
     often = Counter(
         entry.get("name")
@@ -57,31 +56,24 @@ def step_problems(record: dict[str, Any], vocabulary: Vocabulary) -> Iterator[st
                     continue
                 yield from (
                     f"skill_sequence[{index}] {skill.name}, {name}: {problem}"
-                    for problem in _value_problem(value, parameter, prompt, given)
+                    for problem in _value_problem(
+                        value, parameter, source, " ".join([prompt, *map(str, given)])
+                    )
                 )
 
 
-def _value_problem(
-    value: Any, parameter: Parameter, prompt: str, given: list[Any]
-) -> Iterator[str]:
+def _value_problem(value: Any, parameter: Parameter, source: Input, said: str) -> Iterator[str]:
     if parameter.type in ("number", "integer"):
-        known = [
-            number
-            for item in given
-            for number in (item if isinstance(item, list) else [item])
-            if isinstance(number, int | float)
-        ]
         # Turning left is a negative angle, and the prompt says it without the sign.
-        stated = any(states_number(prompt, number, parameter.unit) for number in (value, -value))
-        if not stated and not any(close(number, abs(value)) for number in known):
+        found = [source.evidence(number, parameter).given for number in (value, -value)]
+        if found == [False, False]:
             yield (
                 f"{value!r}{f' {parameter.unit}' if parameter.unit else ''} follows neither from"
                 " the prompt nor from a task parameter"
             )
     elif parameter.type in ("text", "id", "texts"):
-        source = " ".join([prompt, *(str(item) for item in given)])
         for text in value if isinstance(value, list) else [str(value)]:
-            missing = says(source, text, misspelt=True)
+            missing = missing_words(said, text, misspelt=True)
             if missing:
                 yield (
                     f"{', '.join(map(repr, missing))} of {text!r} neither in the prompt nor in a"

@@ -15,15 +15,13 @@ from typing import Any
 
 from planner_ft.data.completeness import completeness_problems
 from planner_ft.data.leakage import near_duplicate
-from planner_ft.data.lexicon import is_known
 from planner_ft.data.mission.source import find_source
-from planner_ft.data.stated import states_position
 from planner_ft.data.validation import canonical_record, record_problems
-from planner_ft.data.words import says
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.grounded import TOO_LONG
 from planner_ft.document import PlanDocument
 from planner_ft.document.differences import compare
+from planner_ft.facts import WAYPOINT, is_known, missing_words, read_input
 from planner_ft.planning.agents import CUT_NOTE
 from planner_ft.planning.planner import new_file
 from planner_ft.review.desk import read_plan
@@ -180,7 +178,7 @@ def text_problems(record: dict[str, Any], proposed: Sequence[str]) -> Iterator[s
     for text in [*prompts, *expected["assumptions"], *expected["constraints"]]:
         unknown = [
             word
-            for word in says(known, text, misspelt=False)
+            for word in missing_words(known, text, misspelt=False)
             if len(word) > 1 and not all(map(is_known, re.findall(r"[^\W\d_]+", word)))
         ]
         if unknown:
@@ -207,8 +205,9 @@ def _texts_of(tasks: Sequence[dict[str, Any]]) -> list[str]:
 def _as_commanded(task: dict[str, Any], command: str, vocabulary: Vocabulary) -> dict[str, Any]:
     """The task as the command alone gives it: places that only the operator knew are open again."""
     parameters = dict(task["parameters"])
+    source = read_input({"prompt": command}, vocabulary)
     for name in task.get("located", {}):
-        if not states_position(command, parameters[name]):
+        if not source.stated(parameters[name], WAYPOINT).given:
             parameters[name] = list(vocabulary.unresolved)
     return {**task, "parameters": parameters}
 

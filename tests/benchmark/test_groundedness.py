@@ -11,9 +11,9 @@ import pytest
 
 from planner_ft.benchmark.metrics.entries import plan_entries
 from planner_ft.benchmark.metrics.groundedness import Groundedness, groundedness
-from planner_ft.benchmark.metrics.source import source_of
 from planner_ft.data.mission.synthetic import sample_missions
 from planner_ft.data.task.sampler import sample_tasks
+from planner_ft.facts import read_input
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -23,7 +23,7 @@ DATA = Path(__file__).parents[2] / "data" / "mission"
 
 def judged(level: Level, record: dict[str, Any], plan: Any, vocabulary: Any = USV) -> Groundedness:
     return groundedness(
-        level, plan_entries(level, plan), source_of(level, record, vocabulary), vocabulary
+        level, plan_entries(level, plan), read_input(record, vocabulary), vocabulary
     )
 
 

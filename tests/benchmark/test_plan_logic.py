@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark.metrics.entries import plan_entries
-from planner_ft.benchmark.metrics.source import source_of
 from planner_ft.benchmark.results import Results, System, score_system
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.sections import sections_markdown, stops_markdown
+from planner_ft.facts import read_input
 from planner_ft.vocabulary import load_vocabulary
 
 USV = load_vocabulary()
@@ -111,9 +111,7 @@ def test_values_that_nobody_gave_and_facts_that_got_lost_are_counted_by_kind() -
         for record in RECORDS
     }
     # Where the numbers of a command cannot be read with certainty, none is called invented.
-    unread = {
-        record["id"] for record in RECORDS if source_of("mission", record, USV).reading.numbers_free
-    }
+    unread = {record["id"] for record in RECORDS if read_input(record, USV).facts.unread}
     moved = sum(radii.values())
     assert {score["id"]: len(score["ungrounded"]) for score in scores} == {
         name: 0 if name in unread else count for name, count in radii.items()

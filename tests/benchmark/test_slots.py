@@ -16,7 +16,7 @@ from planner_ft.benchmark.metrics.alignment import align
 from planner_ft.benchmark.metrics.entries import plan_entries
 from planner_ft.benchmark.metrics.skill_slots import SkillSlots, skill_slots
 from planner_ft.benchmark.metrics.slots import Reached, slot_propagation
-from planner_ft.benchmark.metrics.source import source_of
+from planner_ft.facts import read_input
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -53,7 +53,7 @@ ALL = Counter(coordinates=2, lengths=1, speeds=1, names=1, durations=1)
 
 def follow(plan: Any, level: Level = "mission", record: dict[str, Any] = RECORD) -> Reached:
     pairs = align(level, plan_entries(level, record["expected"]), plan_entries(level, plan), USV)
-    return slot_propagation(level, plan, pairs, source_of(level, record, USV), USV)
+    return slot_propagation(level, plan, pairs, read_input(record, USV), USV)
 
 
 def changed(index: int, **task: Any) -> dict[str, Any]:

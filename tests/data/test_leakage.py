@@ -8,8 +8,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.data.leakage import leakage_report, nearest_neighbour, set_f1
-from planner_ft.data.words import mask
+from planner_ft.data.leakage import leakage_report, mask, nearest_neighbour, set_f1
 
 WORDS = (
     *(

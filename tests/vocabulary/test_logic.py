@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from planner_ft.data.lexicon import known_words
+from planner_ft.facts.words import known_words
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.definition import BUNDLED

@@ -2,9 +2,13 @@
 
 A value is grounded when the command states it (at task level the task prompt or the task's
 parameters), in any unit and wording, when the vocabulary gives it (home, the unresolved location),
-or when it follows from what is stated (at task level: waypoints of a grid, a square or a ring,
-points a stated way off, angles of equal turns). It need not be the right value: a value in the
-wrong place is grounded, too.
+or when it follows from what is stated by arithmetic (points a stated way off; at task level
+waypoints of a grid, a square or a ring, angles of equal turns). It need not be the right value: a
+value in the wrong place is grounded, too.
+
+Values are judged by `planner_ft.facts`, which the decoding strength `grounded` holds answers to as
+well. Decoder and metric share the reader, so that the groundedness of `+grounded` configurations
+is 100 % by construction; tables of this metric compare the other strengths.
 """
 
 from __future__ import annotations
@@ -14,8 +18,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from planner_ft.benchmark.metrics.entries import Entry
-from planner_ft.benchmark.metrics.source import WAYPOINT, Source
-from planner_ft.benchmark.metrics.values import is_number, known_parameters
+from planner_ft.benchmark.metrics.values import known_parameters
+from planner_ft.facts import SCORING, WAYPOINT, Input, is_number, is_place
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -38,15 +42,17 @@ class Groundedness:
 
 
 def groundedness(
-    level: Level, entries: Sequence[Entry], source: Source, vocabulary: Vocabulary
+    level: Level, entries: Sequence[Entry], source: Input, vocabulary: Vocabulary
 ) -> Groundedness:
     """Judge every value of a plan's entries; what cannot be judged, since the input cannot be read
     with certainty, is left out.
     """
-    verdicts = [
-        (given, source.gives(given.value, given.parameter))
-        for given in given_values(level, entries, vocabulary)
-    ]
+    verdicts, before = [], list[tuple[float, float]]()
+    for given in given_values(level, entries, vocabulary):
+        evidence = source.evidence(given.value, given.parameter, SCORING, before)
+        verdicts.append((given, evidence.given))
+        if given.parameter is WAYPOINT:
+            before.append((given.value[0], given.value[1]))
     return Groundedness(
         sum(verdict is not None for _given, verdict in verdicts),
         tuple(given for given, verdict in verdicts if verdict is False),
@@ -74,7 +80,5 @@ def by_form(name: str, value: Any) -> Parameter:
     if is_number(value):
         return Parameter(name, "number")
     if isinstance(value, list):
-        return Parameter(
-            name, "position" if len(value) == 2 and all(map(is_number, value)) else "texts"
-        )
+        return Parameter(name, "position" if is_place(value) else "texts")
     return Parameter(name, "text")

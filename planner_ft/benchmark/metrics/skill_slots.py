@@ -21,9 +21,8 @@ from planner_ft.benchmark.metrics.alignment import align
 from planner_ft.benchmark.metrics.entries import plan_entries
 from planner_ft.benchmark.metrics.groundedness import Given, given_values
 from planner_ft.benchmark.metrics.slots import slot_kind, stated_slots
-from planner_ft.benchmark.metrics.source import WAYPOINT, source_of
 from planner_ft.benchmark.metrics.values import is_number, normalised, tolerance, values_agree
-from planner_ft.data.words import says
+from planner_ft.facts import WAYPOINT, missing_words, read_input
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
 
 Point = Sequence[float]
@@ -61,7 +60,7 @@ def skill_slots(
     partner = dict(align("mission", expected, predicted, vocabulary).pairs)
     slots = SkillSlots(Counter(), Counter(), Counter(), Counter())
     for slot in stated_slots(
-        "mission", expected, source_of("mission", record, vocabulary), vocabulary
+        "mission", expected, read_input({"prompt": record["prompt"]}, vocabulary), vocabulary
     ):
         kind, task = slot_kind(slot.parameter), vocabulary.task[expected[slot.entry].name]
         slots.stated[kind] += 1
@@ -114,7 +113,7 @@ def skills_carry(slot: Given, steps: Any, vocabulary: Vocabulary) -> bool:
             for text in _listed(given.value)
         ]
         return all(
-            any(not says(text, normalised(str(wanted)), misspelt=False) for text in texts)
+            any(not missing_words(text, normalised(str(wanted)), misspelt=False) for text in texts)
             for wanted in _listed(slot.value)
         )
     if kind == "coordinates":

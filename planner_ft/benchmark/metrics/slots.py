@@ -20,9 +20,8 @@ from typing import Any
 from planner_ft.benchmark.metrics.alignment import Alignment
 from planner_ft.benchmark.metrics.entries import Entry
 from planner_ft.benchmark.metrics.groundedness import Given, given_values
-from planner_ft.benchmark.metrics.source import Source
 from planner_ft.benchmark.metrics.values import normalised, values_agree
-from planner_ft.data.words import says
+from planner_ft.facts import SCORING, Input, missing_words, read
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -53,7 +52,7 @@ def slot_kind(parameter: Parameter) -> str:
 
 
 def stated_slots(
-    level: Level, expected: Sequence[Entry], source: Source, vocabulary: Vocabulary
+    level: Level, expected: Sequence[Entry], source: Input, vocabulary: Vocabulary
 ) -> list[Given]:
     """The values of an expected plan that the input states; home, the unresolved location and
     derived waypoints are none.
@@ -61,12 +60,12 @@ def stated_slots(
     return [
         given
         for given in given_values(level, expected, vocabulary)
-        if source.states(given.value, given.parameter)
+        if source.stated(given.value, given.parameter, SCORING).given
     ]
 
 
 def slot_propagation(
-    level: Level, plan: Any, alignment: Alignment, source: Source, vocabulary: Vocabulary
+    level: Level, plan: Any, alignment: Alignment, source: Input, vocabulary: Vocabulary
 ) -> Reached:
     """Follow every slot of the expected plan into the answer; a slot of an expected entry without a
     partner is lost.
@@ -88,7 +87,7 @@ def slot_propagation(
         )
         if level == "mission":
             reached.in_prompt[kind] += prompt_says(
-                task_prompt(plan, alignment.predicted[place[0]]), slot, vocabulary
+                task_prompt(plan, alignment.predicted[place[0]]), slot
             )
     return reached
 
@@ -99,13 +98,12 @@ def task_prompt(plan: Any, entry: Entry) -> str:
     return prompt if isinstance(prompt, str) else ""
 
 
-def prompt_says(prompt: str, slot: Given, vocabulary: Vocabulary) -> bool:
+def prompt_says(prompt: str, slot: Given) -> bool:
     """Whether a task prompt states a value: a number in any unit and wording, coordinates as a
     pair, every word of a text.
     """
     if slot_kind(slot.parameter) != "names":
-        return (
-            bool(prompt) and Source(prompt, vocabulary).states(slot.value, slot.parameter) is True
-        )
+        found = read(prompt).evidence(slot.value, slot.parameter, SCORING)
+        return bool(prompt) and found.given is True
     texts = slot.value if isinstance(slot.value, list) else [slot.value]
-    return all(not says(prompt, normalised(str(text)), misspelt=False) for text in texts)
+    return all(not missing_words(prompt, normalised(str(text)), misspelt=False) for text in texts)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 from typing import Any
 
-from planner_ft.data.quantities import quantities
+from planner_ft.facts import is_number as is_number
+from planner_ft.facts import normalised as normalised
+from planner_ft.facts.numbers import read_numbers
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -122,23 +123,13 @@ def agreeing_keys(
     ]
 
 
-def normalised(text: str) -> str:
-    """A text in lower case, with single spaces and without a leading article."""
-    return re.sub(r"^(the|a|an) ", "", " ".join(text.casefold().split()))
-
-
-def is_number(value: Any) -> bool:
-    """Whether a JSON value is a number; true and false are none."""
-    return isinstance(value, int | float) and not isinstance(value, bool)
-
-
 def _measured(text: str, unit: str | None) -> float | None:
     """What a text that is one quantity means in `unit`; None when it is something else or in
     another unit.
     """
     text = text.strip()
-    found = quantities(text) if len(text) <= LONGEST else ()
-    if len(found) != 1 or found[0].end != len(text) or text[: found[0].start] not in ("", "-"):
+    found = read_numbers(text) if len(text) <= LONGEST else ()
+    if len(found) != 1 or (found[0].start, found[0].end) != (0, len(text)):
         return None
     return found[0].value if found[0].unit in (None, unit) else None
 

@@ -11,7 +11,7 @@ from planner_ft.data.mission.synthetic import sample_missions
 from planner_ft.data.rules import rule_problems
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.task.steps import plan_step
-from planner_ft.data.words import says
+from planner_ft.facts import missing_words
 from planner_ft.prompts.text import completion_text
 from planner_ft.support.files import compact_json, read_jsonl
 from planner_ft.vocabulary import load_vocabulary
@@ -203,7 +203,9 @@ def test_any_command_gives_valid_answers_that_end(tokenizer: Any, level: Level, 
             for text in (value if isinstance(value, list) else [value])
         ]
         assert not any(
-            says(ADVERSARIAL[name], text, misspelt=True) for text in texts if isinstance(text, str)
+            missing_words(ADVERSARIAL[name], text, misspelt=True)
+            for text in texts
+            if isinstance(text, str)
         )
 
 
