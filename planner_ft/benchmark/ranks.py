@@ -13,7 +13,7 @@ from typing import TypeVar
 from planner_ft.benchmark.folder import PREDICTIONS
 from planner_ft.benchmark.predictions import RecordLog
 from planner_ft.benchmark.settings import BenchSettings
-from planner_ft.support.processes import end_with_parent
+from planner_ft.support.resources import end_with_parent
 
 Item = TypeVar("Item")
 LONGEST_WAIT = timedelta(days=14)

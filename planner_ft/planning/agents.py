@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.candidates.loading import resolve_device
@@ -57,10 +57,9 @@ class Agents:
         """The engine that answers for an agent, loaded if it is not. Raises PlannerError."""
         if self._engine is None or level not in self._serves:
             self.release()
+            base = self.agents[level].base
             self._serves = tuple(
-                other
-                for other, agent in self.agents.items()
-                if agent.base == self.agents[level].base
+                other for other, agent in self.agents.items() if agent.base == base
             )
             started = time.perf_counter()
             self._engine = self._loaded(self.agents[level])
@@ -78,20 +77,22 @@ class Agents:
         engine, agent = self.load(level), self.agents[level]
         query = engine.query(level, record, with_vocabulary=agent.with_vocabulary)
         generation = engine.answer(query, agent.configuration)
-        return read_answer(
-            level, engine.text(generation), generation, len(query.prompt), self.vocabulary
-        )
+        text, prompt_tokens = engine.text(generation), len(query.prompt)
+        return read_answer(level, text, generation, prompt_tokens, self.vocabulary)
 
-    def use(self, level: Level, answers: list[Answer]) -> AgentUse:
+    def use(self, level: Level, answers: Sequence[Answer]) -> AgentUse:
         """What the agent did to give these answers."""
         agent = self.agents[level]
-        adapter = str(agent.adapter) if agent.adapter else None
-        return AgentUse.of(
+        return AgentUse(
             agent.candidate.row_name,
             agent.configuration.name,
-            adapter,
-            self.load_seconds[level],
-            answers,
+            str(agent.adapter) if agent.adapter else None,
+            round(self.load_seconds[level], 3),
+            len(answers),
+            sum(answer.prompt_tokens for answer in answers),
+            sum(answer.tokens for answer in answers),
+            sum(answer.forward_passes for answer in answers),
+            round(sum(answer.seconds for answer in answers), 3),
         )
 
     def peak_memory(self) -> int:
@@ -121,26 +122,22 @@ def read_answer(
     """The plan of a generated text, None with the problems when it does not parse or is not
     strictly valid.
     """
-    parsed = parse_output(text)
-    problems = (
-        plan_problems(level, parsed.plan, vocabulary, strict=True)
-        if parsed.plan is not None
-        else [parsed.problem or "no plan"]
-    )
+    parsed, tokens = parse_output(text), len(generation.ids)
+    problems = [parsed.problem or "no plan"]
+    if parsed.plan is not None:
+        problems = plan_problems(level, parsed.plan, vocabulary, strict=True)
     if generation.finish_reason == "length":
-        problems.insert(0, f"cut at the limit of {len(generation.ids)} tokens")
+        problems.insert(0, f"cut at the limit of {tokens} tokens")
     notes = list(generation.notes)
     if generation.cut:
-        notes.append(
-            f"{CUT_NOTE} and was ended after {len(generation.ids)}; something may be missing."
-        )
+        notes.append(f"{CUT_NOTE} and was ended after {tokens}; something may be missing.")
     return Answer(
         text,
         None if problems else parsed.plan,
         (generation.error,) if generation.error else tuple(problems),
         tuple(notes),
         prompt_tokens,
-        len(generation.ids),
+        tokens,
         generation.forward_passes,
         generation.seconds,
         generation.cut or generation.finish_reason == "length",

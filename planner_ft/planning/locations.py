@@ -14,15 +14,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.data.rules import DOCKING
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import canonical_value
+from planner_ft.vocabulary.replay import target
 
 Position = tuple[float, float]
 
 PLACE_WORDS = re.compile(
-    r"\b(?:at|to|alongside|into|for|on|in)\s+(?P<place>.+?)(?=\s+(?:once|before|after|and|then|with|by)\b|[.,;:]|$)",
+    r"\b(?:at|to|alongside|into|for|on|in)\s+(?P<place>.+?)"
+    r"(?=\s+(?:once|before|after|and|then|with|by)\b|[.,;:]|$)",
     re.IGNORECASE,
 )
 ARTICLE = re.compile(r"^(?:the|an?|our|your|that|this)\s+", re.IGNORECASE)
@@ -36,29 +37,36 @@ class OpenPlace:
     tasks: tuple[int, ...]
 
 
-def open_places(plan: dict[str, Any], vocabulary: Vocabulary) -> list[OpenPlace]:
+def open_places(plan: Mapping[str, Any], vocabulary: Vocabulary) -> list[OpenPlace]:
     """The places that a mission plan leaves open, in the order of the first task that needs
     each.
     """
     needed: dict[str, list[int]] = {}
     searched: list[str] = []
     for number, entry in enumerate(plan["tasks"], start=1):
-        if entry["title"] == vocabulary.locate:
-            searched.append(_search_target(entry, vocabulary))
+        title = entry["title"]
+        if title == vocabulary.locate:
+            searched.append(target(vocabulary.task[title], entry["parameters"]) or title)
         elif is_open(entry, vocabulary):
             needed.setdefault(_name_of(entry, searched, vocabulary), []).append(number)
     return [OpenPlace(name, tuple(numbers)) for name, numbers in needed.items()]
 
 
+def is_open(entry: Mapping[str, Any], vocabulary: Vocabulary) -> bool:
+    """Whether a task is at a place that nobody has given coordinates for."""
+    known = vocabulary.task.get(entry["title"])
+    name = known.position_parameter if known else None
+    return name is not None and entry["parameters"].get(name) == list(vocabulary.unresolved)
+
+
 def parse_location(text: str) -> tuple[str, Position]:
     """Read "NAME=x,y" (metres). Raises PlannerError that says what was expected."""
-    name, equals, place = text.rpartition("=")
-    parts = place.strip().strip("[]()").split(",")
+    name, _equals, place = text.rpartition("=")
     try:
-        x, y = (float(part) for part in parts)
+        x, y = (float(part) for part in place.strip().strip("[]()").split(","))
     except ValueError:
         x = y = math.nan
-    if not equals or not name.strip() or not (math.isfinite(x) and math.isfinite(y)):
+    if not name.strip() or not (math.isfinite(x) and math.isfinite(y)):
         raise PlannerError(
             f'--locate {text}: expected "NAME=x,y" in metres east and north of home, such as "green'
             ' buoy=120,-35"'
@@ -88,76 +96,51 @@ def resolve(
     filled = copy.deepcopy(plan)
     named: dict[OpenPlace, str] = {}
     for name, position in locations.items():
-        if tuple(position) == tuple(vocabulary.unresolved):
+        flag, at = f"--locate {name}:", [float(value) for value in position]
+        if at == list(vocabulary.unresolved):
             raise PlannerError(
-                f"--locate {name}: {list(vocabulary.unresolved)} stands for an unknown place; give"
-                " where it is"
+                f"{flag} {list(vocabulary.unresolved)} stands for an unknown place; give where it is"
             )
         place = _matching(name, places)
         if (other := named.setdefault(place, name)) != name:
             raise PlannerError(
-                f'--locate {name}: "{place.name}" is located by "{other}" already; leave one of'
-                " them out"
+                f'{flag} "{place.name}" is located by "{other}" already; leave one of them out'
             )
         for number in place.tasks:
             entry = filled["tasks"][number - 1]
-            entry["parameters"][vocabulary.task[entry["title"]].position_parameter] = (
-                canonical_value([float(value) for value in position])
-            )
+            parameter = vocabulary.task[entry["title"]].position_parameter
+            entry["parameters"][parameter] = canonical_value(at)
     return filled
 
 
 def _matching(name: str, places: Sequence[OpenPlace]) -> OpenPlace:
     wanted = _plain(name)
-    found = [place for place in places if _plain(place.name) == wanted] or [
-        place for place in places if wanted in _plain(place.name)
-    ]
+    exact = [place for place in places if _plain(place.name) == wanted]
+    found = exact or [place for place in places if wanted in _plain(place.name)]
     if len(found) == 1:
         return found[0]
-    names = ", ".join(f'"{place.name}"' for place in found or places)
     if not places:
         raise PlannerError(
             f"--locate {name}: the plan of this command leaves no place open; plan without it"
             " to see"
         )
-    raise PlannerError(
-        f"--locate {name}: {'fits several places' if found else 'no such place is open'}; there is"
-        f" {names}"
-    )
+    names = ", ".join(f'"{place.name}"' for place in found or places)
+    problem = "fits several places" if found else "no such place is open"
+    raise PlannerError(f"--locate {name}: {problem}; there is {names}")
 
 
-def is_open(entry: Mapping[str, Any], vocabulary: Vocabulary) -> bool:
-    """Whether a task is at a place that nobody has given coordinates for."""
-    parameter = vocabulary.task[entry["title"]].position_parameter
-    return parameter is not None and list(entry["parameters"].get(parameter, ())) == list(
-        vocabulary.unresolved
-    )
-
-
-def _search_target(entry: dict[str, Any], vocabulary: Vocabulary) -> str:
-    texts = [
-        parameter.name
-        for parameter in vocabulary.task[entry["title"]].parameters
-        if parameter.type == "text"
-    ]
-    return next(
-        (str(entry["parameters"][name]) for name in texts if name in entry["parameters"]),
-        entry["title"],
-    )
-
-
-def _name_of(entry: dict[str, Any], searched: Sequence[str], vocabulary: Vocabulary) -> str:
+def _name_of(entry: Mapping[str, Any], searched: Sequence[str], vocabulary: Vocabulary) -> str:
     """The searched target that the task prompt speaks of, else the last one; a berth, which is
     never searched, in the prompt's own words.
     """
     prompt = entry["task_prompt"]
-    spoken = [target for target in searched if target.lower() in prompt.lower()]
-    if spoken:
-        return max(spoken, key=len)
-    if searched and vocabulary.task[entry["title"]].pattern != DOCKING:
+    mentioned = [name for name in searched if name.lower() in prompt.lower()]
+    if mentioned:
+        return max(mentioned, key=len)
+    if searched and not vocabulary.task[entry["title"]].docks:
         return searched[-1]
-    said = PLACE_WORDS.search(prompt)
-    return ARTICLE.sub("", said["place"]) if said else str(entry["title"])
+    words = PLACE_WORDS.search(prompt)
+    return ARTICLE.sub("", words["place"]) if words else str(entry["title"])
 
 
 def _plain(name: str) -> str:

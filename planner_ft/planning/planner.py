@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import TracebackType
@@ -14,8 +14,8 @@ from planner_ft.planning.locations import OpenPlace, Position, is_open, open_pla
 from planner_ft.planning.result import Answer, Planned, PlannedTask
 from planner_ft.planning.settings import PlanSettings, choose_agents
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import nearest_folder
 from planner_ft.support.manifest import build_manifest
-from planner_ft.training.output import nearest_folder
 from planner_ft.vocabulary import load_vocabulary
 
 
@@ -57,9 +57,8 @@ class Planner:
         """Checks the settings and loads nothing yet. Raises PlannerError."""
         self.settings = settings
         self.vocabulary = load_vocabulary(settings.vocabulary)
-        self.agents = Agents(
-            choose_agents(settings, self.vocabulary), self.vocabulary, settings.device, progress
-        )
+        agents = choose_agents(settings, self.vocabulary)
+        self.agents = Agents(agents, self.vocabulary, settings.device, progress)
         self._progress = progress
 
     @classmethod
@@ -94,7 +93,9 @@ class Planner:
         mission = self._mission(check_command(command))
         tasks: tuple[PlannedTask, ...] = ()
         places: list[OpenPlace] = []
+        located = {}
         if mission.plan is not None:
+            located = {name: list(position) for name, position in (locations or {}).items()}
             filled = resolve(mission.plan, locations or {}, self.vocabulary)
             places = open_places(filled, self.vocabulary)
             tasks = self._tasks(filled, places, on_event)
@@ -104,9 +105,7 @@ class Planner:
             mission,
             tasks,
             tuple(places),
-            located={name: list(position) for name, position in (locations or {}).items()}
-            if mission.plan is not None
-            else {},
+            located,
             usage={level: self.agents.use(level, answers[level]) for level in self.agents.agents},
             peak_memory=self.agents.peak_memory(),
             manifest=self._manifest(),
@@ -129,7 +128,8 @@ class Planner:
                 " say where it is first"
             )
         self.agents.load("task")
-        return self._skills(task)
+        record = {"task": task["title"], "parameters": task["parameters"]}
+        return self.agents.ask("task", {**record, "prompt": task["task_prompt"]})
 
     def close(self) -> None:
         """Give the memory back; a later `plan` loads again."""
@@ -158,58 +158,35 @@ class Planner:
         return answer
 
     def _tasks(
-        self, plan: dict[str, Any], places: Sequence[OpenPlace], on_event: OnEvent
+        self, plan: dict[str, Any], places: list[OpenPlace], on_event: OnEvent
     ) -> tuple[PlannedTask, ...]:
         """Every task, with its skills unless it waits for a place or there is no Task Agent."""
         waiting = {number: place.name for place in places for number in place.tasks}
         planned = [
-            PlannedTask(
-                entry["title"],
-                entry["parameters"],
-                entry["task_prompt"],
-                waits_for=waiting.get(number),
-            )
+            PlannedTask(**entry, waits_for=waiting.get(number))
             for number, entry in enumerate(plan["tasks"], start=1)
         ]
         on_event(TasksKnown(tuple(planned)))
-        asked = (
-            [number for number in range(1, len(planned) + 1) if number not in waiting]
-            if "task" in self.agents.agents
-            else []
-        )
-        for done, number in enumerate(asked):
+        agent = "task" in self.agents.agents
+        asked = [at for at, task in enumerate(planned) if agent and task.waits_for is None]
+        for done, at in enumerate(asked):
             self.agents.load("task")
             self._progress("Task Agent", done, len(asked))
-            answer = self._skills(plan["tasks"][number - 1])
-            planned[number - 1] = replace(planned[number - 1], answer=answer)
-            on_event(SkillsKnown(number, answer))
+            answer = self.skills(plan["tasks"][at])
+            planned[at] = replace(planned[at], answer=answer)
+            on_event(SkillsKnown(at + 1, answer))
             self._progress("Task Agent", done + 1, len(asked))
         return tuple(planned)
 
-    def _skills(self, entry: Mapping[str, Any]) -> Answer:
-        return self.agents.ask(
-            "task",
-            {
-                "task": entry["title"],
-                "parameters": entry["parameters"],
-                "prompt": entry["task_prompt"],
-            },
-        )
-
     def _manifest(self) -> dict[str, Any]:
         """What the plan depended on."""
-        vocabulary = self.vocabulary
-        configuration = {
-            "decoding": "greedy",
-            "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
-        }
-        agents = {level: agent.record() for level, agent in self.agents.agents.items()}
+        named = {"name": self.vocabulary.name, "sha256": self.vocabulary.sha256}
         return build_manifest(
             "plan",
             seed=None,
-            configuration=configuration,
+            configuration={"decoding": "greedy", "vocabulary": named},
             device=str(self.agents.device),
-            agents=agents,
+            agents={level: agent.record() for level, agent in self.agents.agents.items()},
         )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -47,29 +46,6 @@ class AgentUse:
     forward_passes: int
     seconds: float
 
-    @classmethod
-    def of(
-        cls,
-        candidate: str,
-        configuration: str,
-        adapter: str | None,
-        load_seconds: float,
-        answers: Iterable[Answer],
-    ) -> AgentUse:
-        """Sums over `answers`."""
-        given = list(answers)
-        return cls(
-            candidate,
-            configuration,
-            adapter,
-            round(load_seconds, 3),
-            len(given),
-            prompt_tokens=sum(answer.prompt_tokens for answer in given),
-            tokens=sum(answer.tokens for answer in given),
-            forward_passes=sum(answer.forward_passes for answer in given),
-            seconds=round(sum(answer.seconds for answer in given), 3),
-        )
-
 
 @dataclass(frozen=True)
 class PlannedTask:
@@ -108,9 +84,8 @@ class Planned:
     @property
     def valid(self) -> bool:
         """Whether every answer parses and is strictly valid."""
-        return self.mission.plan is not None and all(
-            task.answer is None or task.answer.plan is not None for task in self.tasks
-        )
+        answers = [self.mission, *(task.answer for task in self.tasks if task.answer is not None)]
+        return all(answer.plan is not None for answer in answers)
 
     @property
     def complete(self) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,6 +19,8 @@ from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import LEVELS, Level
 
 DEFAULT_CANDIDATE = "embedded"
+OWN = ("candidate", "adapter", "configuration")
+"""Settings that each agent may have for itself."""
 
 
 @dataclass(frozen=True)
@@ -93,72 +94,44 @@ def choose_agents(settings: PlanSettings, vocabulary: Vocabulary) -> dict[Level,
     """The agents that the settings ask for, checked as far as that goes without loading a model.
     Raises PlannerError.
     """
+    if settings.mission_only:
+        unused = [f"--task-{what}" for what in OWN if getattr(settings, f"task_{what}") is not None]
+        if unused:
+            raise PlannerError(
+                f"{', '.join(unused)}: there is no Task Agent with --mission-only; leave one of"
+                " them out"
+            )
     levels = LEVELS[:1] if settings.mission_only else LEVELS
-    asked = _asked(settings)
-    unused = [
-        f"--{level}-{what}"
-        for level in LEVELS
-        if level not in levels
-        for what, value in asked[level].items()
-        if value is not None
-    ]
-    if unused:
-        raise PlannerError(
-            f"{', '.join(unused)}: there is no Task Agent with --mission-only; leave one of"
-            " them out"
-        )
-    return {level: _agent(level, settings, asked[level], vocabulary) for level in levels}
+    return {level: _agent(level, settings, vocabulary) for level in levels}
 
 
-def _asked(settings: PlanSettings) -> dict[Level, dict[str, Any]]:
-    return {
-        level: {
-            what: getattr(settings, f"{level}_{what}")
-            for what in ("candidate", "adapter", "configuration")
-        }
-        for level in LEVELS
-    }
-
-
-def _agent(
-    level: Level, settings: PlanSettings, asked: Mapping[str, Any], vocabulary: Vocabulary
-) -> Agent:
-    candidate = resolve_candidate(asked["candidate"] or settings.candidate)
-    require_folder(candidate)
-    wanted = asked["configuration"] or settings.configuration
-    configuration = parse_configuration(wanted) if wanted else None
-    if asked["adapter"] and configuration and not configuration.adapter:
-        raise PlannerError(
-            f"--{level}-adapter {asked['adapter']}: configuration {configuration.name} uses no"
-            " adapter; leave one of them out"
-        )
-    adapter = (
-        None
-        if configuration and not configuration.adapter
-        else _adapter(level, candidate, asked["adapter"], vocabulary)
+def _agent(level: Level, settings: PlanSettings, vocabulary: Vocabulary) -> Agent:
+    own_candidate, own_adapter, own_configuration = (
+        getattr(settings, f"{level}_{what}") for what in OWN
     )
+    candidate = resolve_candidate(own_candidate or settings.candidate)
+    require_folder(candidate)
+    wanted = own_configuration or settings.configuration
+    configuration = parse_configuration(wanted) if wanted else None
+    adapter = None
+    if configuration is None or configuration.adapter:
+        adapter = Path(own_adapter) if own_adapter else find_adapter(candidate, level, vocabulary)
+    elif own_adapter:
+        raise PlannerError(
+            f"--{level}-adapter {own_adapter}: configuration {configuration.name} uses no adapter;"
+            " leave one of them out"
+        )
+    if adapter is not None:
+        check_adapter(adapter, candidate, level=level, vocabulary=vocabulary)
     chosen = configuration or Configuration(adapter is not None, STRENGTHS[-1])
     if chosen.adapter and adapter is None:
-        train = (
-            f"train one with `plannerft train --level {level} --candidate {candidate.name}`, name"
-            f" one with --{level}-adapter"
-        )
-        base = Configuration(False, chosen.strength).name
         raise PlannerError(
             f"configuration {chosen.name}: {candidate.name} has no adapter of the {level} level"
-            f" here; {train}, or give --configuration {base}"
+            f" here; train one with `plannerft train --level {level} --candidate {candidate.name}`,"
+            f" name one with --{level}-adapter, or give --configuration"
+            f" {Configuration(False, chosen.strength).name}"
         )
     # A fine-tuned model has learned the vocabulary, and so has one that was pretrained on it.
     with_vocabulary = not chosen.adapter and not candidate.knows(vocabulary)
     quantization = settings.quantization or candidate.adapter_defaults(level).quantization or "nf4"
     return Agent(level, candidate, chosen, adapter, quantization, with_vocabulary)
-
-
-def _adapter(
-    level: Level, candidate: Candidate, asked: Path | str | None, vocabulary: Vocabulary
-) -> Path | None:
-    """The adapter of an agent, checked; None where none is asked for and none is there."""
-    adapter = Path(asked) if asked else find_adapter(candidate, level, vocabulary)
-    if adapter is not None:
-        check_adapter(adapter, candidate, level=level, vocabulary=vocabulary)
-    return adapter

@@ -55,6 +55,12 @@ def atomic_writer(path: Path | str, mode: str = "w") -> Iterator[IO[Any]]:
             temporary.unlink(missing_ok=True)
 
 
+def nearest_folder(path: Path) -> Path:
+    """The folder itself, or the nearest one above that exists."""
+    path = path.absolute()
+    return next(folder for folder in (path, *path.parents) if folder.exists())
+
+
 def write_text(path: Path | str, text: str) -> None:
     """Write `text` to `path` atomically."""
     with atomic_writer(path) as stream:

@@ -16,27 +16,21 @@ import planner_ft
 from planner_ft.support.files import sha256_file
 
 LIBRARIES = (
-    "torch",
-    "transformers",
-    "peft",
-    "bitsandbytes",
-    "accelerate",
-    "datasets",
-    "tokenizers",
-    "safetensors",
-    "jsonschema",
+    *("torch", "transformers", "peft", "bitsandbytes", "accelerate", "datasets"),
+    *("tokenizers", "safetensors", "jsonschema"),
 )
 
 
 def library_versions() -> dict[str, str | None]:
     """Installed versions of the libraries that results depend on, without importing them."""
-    versions: dict[str, str | None] = {}
-    for name in LIBRARIES:
-        try:
-            versions[name] = importlib.metadata.version(name)
-        except importlib.metadata.PackageNotFoundError:
-            versions[name] = None
-    return versions
+    return {name: _version(name) for name in LIBRARIES}
+
+
+def _version(name: str) -> str | None:
+    try:
+        return importlib.metadata.version(name)
+    except importlib.metadata.PackageNotFoundError:
+        return None
 
 
 @functools.cache
@@ -45,21 +39,18 @@ def source_commit() -> dict[str, Any]:
     None when installed.
     """
     root = Path(planner_ft.__file__).resolve().parent.parent
-    if not (root / ".git").exists():
-        return {"commit": None, "dirty": None}
-
-    def git(*arguments: str) -> str:
-        return subprocess.run(
-            ["git", "-C", str(root), *arguments], capture_output=True, text=True, check=True
-        ).stdout.strip()
-
     try:
-        return {
-            "commit": git("rev-parse", "HEAD"),
-            "dirty": bool(git("status", "--porcelain", "--untracked-files=no")),
-        }
+        if (root / ".git").exists():
+            changes = _git(root, "status", "--porcelain", "--untracked-files=no")
+            return {"commit": _git(root, "rev-parse", "HEAD"), "dirty": bool(changes)}
     except (OSError, subprocess.CalledProcessError):
-        return {"commit": None, "dirty": None}
+        pass
+    return {"commit": None, "dirty": None}
+
+
+def _git(root: Path, *arguments: str) -> str:
+    command = ["git", "-C", str(root), *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 
 
 def hardware() -> dict[str, Any]:
@@ -68,13 +59,12 @@ def hardware() -> dict[str, Any]:
         memory: int | None = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     except (ValueError, OSError):
         memory = None
+    machine, allowed = platform.machine(), getattr(os, "sched_getaffinity", None)
     return {
         # Without the kernel's release, which says more about a host than about a result.
-        "platform": "-".join((platform.system(), platform.machine(), *platform.libc_ver())),
-        "processor": platform.machine(),
-        "cores": (
-            len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-        ),
+        "platform": "-".join((platform.system(), machine, *platform.libc_ver())),
+        "processor": machine,
+        "cores": len(allowed(0)) if allowed else os.cpu_count(),
         "memory_bytes": memory,
     }
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from planner_ft.candidates.adapters import adapter_record
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_json, sha256_file, write_json, write_text
+from planner_ft.support.files import nearest_folder, read_json, sha256_file, write_json, write_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.resources import peak_memory
 from planner_ft.training.card import model_card
@@ -76,12 +76,6 @@ def writable_problem(output: Path) -> str | None:
             return None
     except OSError as error:
         return f"--output {output}: cannot be written ({error.strerror}); choose another folder"
-
-
-def nearest_folder(path: Path) -> Path:
-    """The folder itself, or the nearest one above that exists."""
-    path = path.absolute()
-    return next(folder for folder in (path, *path.parents) if folder.exists())
 
 
 def clear(output: Path) -> None:

@@ -16,9 +16,10 @@ from planner_ft.candidates.loading import (
 from planner_ft.candidates.memory import MemoryEstimate, adapter_parameters, training_memory
 from planner_ft.prompts import end_of_turn_ids
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import nearest_folder
 from planner_ft.support.resources import memory_size
 from planner_ft.training.model import LOGIT_VALUES, memory_levers, uses_gradient_checkpointing
-from planner_ft.training.output import folder_problems, nearest_folder, writable_problem
+from planner_ft.training.output import folder_problems, writable_problem
 from planner_ft.training.report import tracker_problems
 from planner_ft.training.request import TrainRequest
 from planner_ft.training.samples import (

@@ -9,7 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from planner_ft.support.processes import end_with_parent
+from planner_ft.support.resources import end_with_parent
 
 LOG = "log.txt"
 PATIENCE = 20.0

@@ -46,7 +46,7 @@ def planned(command: str = COMMAND) -> Planned:
         for index, task in enumerate(FIND_AND_ORBIT["tasks"])
     )
     mission = answer(FIND_AND_ORBIT)
-    usage = {"mission": AgentUse.of("embedded", "base", None, 0.5, [mission])}
+    usage = {"mission": AgentUse("embedded", "base", None, 0.5, 1, 1, 1, 1, 1.0)}
     return Planned(
         command,
         mission,

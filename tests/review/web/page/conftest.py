@@ -117,7 +117,7 @@ def planned(
         )
         for title, parameters, prompt, skills in tasks
     )
-    usage = {"mission": AgentUse.of("embedded", "lora+grounded", None, 0.5, [mission])}
+    usage = {"mission": AgentUse("embedded", "lora+grounded", None, 0.5, 1, 1, 1, 1, 1.0)}
     return Planned(
         command,
         mission,
