@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from planner_ft.benchmark.metrics.entries import Entry, plan_entries
-from planner_ft.report.differences import Difference, differences, entries_of, shown
+from planner_ft.report.differences import differences, entries_of
 from planner_ft.report.runs import Record, System, TestSet
 from planner_ft.vocabulary.outputs import parse_output
 from planner_ft.vocabulary.plans import Level
@@ -34,46 +34,46 @@ def script_json(value: Any) -> str:
 def packed(value: Any) -> str:
     """JSON, compressed with gzip and written in base64."""
     text = json.dumps(value, ensure_ascii=False, separators=(",", ":"))
-    return base64.b64encode(gzip.compress(text.encode("utf-8", "replace"), 6, mtime=0)).decode(
-        "ascii"
-    )
+    compressed = gzip.compress(text.encode("utf-8", "replace"), 6, mtime=0)
+    return base64.b64encode(compressed).decode("ascii")
 
 
 def sample_ids(tests: TestSet) -> list[str]:
     """The samples in the order of the data, else of the scores."""
-    return list(tests.samples) or list(
-        dict.fromkeys(name for system in tests.systems for name in system.scores)
-    )
+    scored = dict.fromkeys(name for system in tests.systems for name in system.scores)
+    return list(tests.samples or scored)
 
 
 def index(tests: TestSet) -> dict[str, Any]:
-    """What the page filters by: systems, outcomes, names, and per sample id, command, group, family
+    """The page filters by it: systems, outcomes, names, and per sample id, command, group, family
     and (outcome, F1, names) per system.
     """
-    outcomes, names = _Numbers([RIGHT]), _Numbers()
+    outcomes, names = {RIGHT: 0}, dict[str, int]()
+
+    def brief(system: System, sample: str) -> list[Any] | None:
+        score = system.scores.get(sample)
+        if score is None:
+            return None
+        outcome = outcomes.setdefault(str(score.get("failure") or RIGHT), len(outcomes))
+        found = {
+            names.setdefault(entry.name, len(names)) for entry in entries_of(tests, sample, system)
+        }
+        f1 = score.get("f1")
+        return [outcome, round(f1, 3) if isinstance(f1, int | float) else None, sorted(found)]
+
     rows = []
     for name in sample_ids(tests):
         record = tests.samples.get(name, {})
-        answers = [_brief(tests, system, name, outcomes, names) for system in tests.candidates]
-        group = record.get("group") or next(
-            (system.scores[name].get("group") for system in tests.systems if name in system.scores),
-            None,
-        )
-        rows.append(
-            [
-                name,
-                _command(tests.level, record),
-                str(group or ""),
-                str(record.get("family") or ""),
-                answers,
-            ]
-        )
+        scores = [system.scores[name] for system in tests.systems if name in system.scores]
+        group = record.get("group") or next((score.get("group") for score in scores), None)
+        words = [_command(tests.level, record), str(group or ""), str(record.get("family") or "")]
+        rows.append([name, *words, [brief(system, name) for system in tests.candidates]])
     return {
         "title": tests.title,
         "level": tests.level,
         "systems": [system.name for system in tests.candidates],
-        "outcomes": outcomes.values,
-        "names": names.values,
+        "outcomes": list(outcomes),
+        "names": list(names),
         "samples": rows,
         "part": PART,
     }
@@ -88,45 +88,15 @@ def parts(tests: TestSet) -> Iterator[str]:
         yield packed([_details(tests, name) for name in ids[start : start + PART]])
 
 
-class _Numbers:
-    """Texts by number, so that the index says each once."""
-
-    def __init__(self, values: list[str] | None = None) -> None:
-        self.values = values or []
-        self.known = {value: number for number, value in enumerate(self.values)}
-
-    def of(self, value: str) -> int:
-        if value not in self.known:
-            self.known[value] = len(self.values)
-            self.values.append(value)
-        return self.known[value]
-
-
 def _command(level: Level, record: Record) -> str:
     prompt = str(record.get("prompt") or "")
     return f"{record['task']}: {prompt}" if level == "task" and record.get("task") else prompt
 
 
-def _brief(
-    tests: TestSet, system: System, name: str, outcomes: _Numbers, names: _Numbers
-) -> list[Any] | None:
-    score = system.scores.get(name)
-    if score is None:
-        return None
-    f1 = score.get("f1")
-    found = {names.of(entry.name) for entry in entries_of(tests, name, system)}
-    return [
-        outcomes.of(str(score.get("failure") or RIGHT)),
-        round(f1, 3) if isinstance(f1, int | float) else None,
-        sorted(found),
-    ]
-
-
 def _details(tests: TestSet, name: str) -> list[Any]:
-    record = tests.samples.get(name, {})
-    expected = entries_of(tests, name)
+    record, expected = tests.samples.get(name, {}), entries_of(tests, name)
     given = {key: record[key] for key in ("task", "parameters") if key in record}
-    entries = [shown(tests.level, record.get("expected"), entry) for entry in expected]
+    entries = [_shown(tests.level, record.get("expected"), entry) for entry in expected]
     return [entries, [_answer(tests, system, name, expected) for system in tests.candidates], given]
 
 
@@ -140,19 +110,21 @@ def _answer(
     raw = output if isinstance(output, str) else json.dumps(output, ensure_ascii=False)
     parsed = parse_output(output)
     entries = plan_entries(tests.level, parsed.plan)
-    lines = (
-        differences(tests.level, expected, entries, tests.vocabulary)
-        if name in tests.samples and tests.vocabulary
-        else []
-    )
-    cut = raw if len(raw) <= LONGEST_OUTPUT else f"{raw[:LONGEST_OUTPUT]}… ({len(raw)} characters)"
+    lines = []
+    if name in tests.samples and tests.vocabulary:
+        lines = differences(tests.level, expected, entries, tests.vocabulary)
     return [
-        [shown(tests.level, parsed.plan, entry) for entry in entries],
-        [_line(line) for line in lines],
+        [_shown(tests.level, parsed.plan, entry) for entry in entries],
+        [[line.mark, line.expected, line.predicted, list(line.changed)] for line in lines],
         parsed.problem,
-        cut,
+        raw if len(raw) <= LONGEST_OUTPUT else f"{raw[:LONGEST_OUTPUT]}… ({len(raw)} characters)",
     ]
 
 
-def _line(line: Difference) -> list[Any]:
-    return [line.mark, line.expected, line.predicted, list(line.changed)]
+def _shown(level: Level, plan: Any, entry: Entry) -> list[Any]:
+    """An entry as the page shows it: name, parameters, place, and the task prompt of a task."""
+    if level == "task":
+        return [entry.name, entry.parameters, f"{entry.step + 1} {entry.role}", ""]
+    prompt = plan["tasks"][entry.step].get("task_prompt")
+    text = prompt if isinstance(prompt, str) else ""
+    return [entry.name, entry.parameters, str(entry.step + 1), text]

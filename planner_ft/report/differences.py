@@ -1,16 +1,19 @@
-"""An expected and a predicted plan side by side: what is the same, changed, missing, added, in
-another place.
+"""An expected and a predicted plan side by side: the same, changed, missing, added, in another
+place; and how often each name is right over a whole test set.
 """
 
 from __future__ import annotations
 
 import bisect
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 from planner_ft.benchmark.metrics.alignment import Alignment, Pair, align
+from planner_ft.benchmark.metrics.counts import Counts
 from planner_ft.benchmark.metrics.entries import Entry, plan_entries
+from planner_ft.benchmark.metrics.names import counts_by_name
 from planner_ft.benchmark.metrics.substitutions import substitutions
 from planner_ft.benchmark.metrics.values import known_parameters, values_agree
 from planner_ft.report.runs import System, TestSet
@@ -33,22 +36,58 @@ class Difference:
     changed: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True)
+class Confusion:
+    """Occurrences by name, and how often one name (expected) has another (predicted) in its place;
+    None stands for nothing.
+    """
+
+    names: dict[str, Counts]
+    substitutions: Counter[tuple[str | None, str | None]]
+
+
 def entries_of(tests: TestSet, sample: str, system: System | None = None) -> tuple[Entry, ...]:
     """The entries of a sample's expected plan, or of a system's answer to it: none where it does
     not parse.
     """
     if system is None:
         return plan_entries(tests.level, tests.samples.get(sample, {}).get("expected"))
-    return plan_entries(
-        tests.level, parse_output(system.answers.get(sample, {}).get("output")).plan
-    )
+    output = system.answers.get(sample, {}).get("output")
+    return plan_entries(tests.level, parse_output(output).plan)
+
+
+def confusion(tests: TestSet, system: System) -> Confusion | None:
+    """Counts of one system: those that the run recorded, else counted here; None where its answers,
+    the data or the vocabulary are not there.
+    """
+    names, replaced = system.row.get("per_name"), system.row.get("substitutions")
+    if isinstance(names, list) and isinstance(replaced, list):
+        keys = ("right", "predicted", "expected")
+        return Confusion(
+            {str(line["name"]): Counts(*(line[key] for key in keys)) for line in names},
+            Counter({(line["expected"], line["predicted"]): line["n"] for line in replaced}),
+        )
+    if not tests.samples or not system.answers or tests.vocabulary is None:
+        return None
+    found = Confusion({}, Counter())
+    for sample in tests.samples:
+        expected, predicted = entries_of(tests, sample), entries_of(tests, sample, system)
+        ours, theirs = [one.name for one in expected], [one.name for one in predicted]
+        for name, more in counts_by_name(theirs, ours).items():
+            old = found.names.get(name, Counts(0, 0, 0))
+            found.names[name] = Counts(
+                old.right + more.right, old.predicted + more.predicted, old.expected + more.expected
+            )
+        alignment = align(tests.level, expected, predicted, tests.vocabulary)
+        found.substitutions.update(substitutions(alignment))
+    return found
 
 
 def differences(
     level: Level, expected: tuple[Entry, ...], predicted: tuple[Entry, ...], vocabulary: Vocabulary
 ) -> list[Difference]:
-    """The lines of a side-by-side view, in the expected order; what was added stands where the
-    answer has it.
+    """The lines of a side-by-side view, in the expected order; additions stand where the answer has
+    them.
     """
     alignment = align(level, expected, predicted, vocabulary)
     steady = _in_order(alignment.pairs)
@@ -56,7 +95,7 @@ def differences(
         pair[0]: _matched(level, alignment, pair, pair in steady, vocabulary)
         for pair in alignment.pairs
     }
-    replaced = _replaced(alignment)
+    replaced = list(_replaced(alignment))
     lines |= {ours: Difference("substituted", ours, theirs) for ours, theirs in replaced}
     taken = {theirs: ours for ours, theirs in [*alignment.pairs, *replaced]}
     after: dict[int, list[Difference]] = {}
@@ -67,33 +106,20 @@ def differences(
             after.setdefault(row, []).append(Difference("extra", None, index))
     ordered = after.get(-1, [])
     for index in range(len(expected)):
-        ordered = [
-            *ordered,
-            lines.get(index, Difference("missing", index, None)),
-            *after.get(index, []),
-        ]
+        line = lines.get(index, Difference("missing", index, None))
+        ordered = [*ordered, line, *after.get(index, [])]
     return ordered
 
 
-def _replaced(alignment: Alignment) -> list[Pair]:
+def _replaced(alignment: Alignment) -> Iterator[Pair]:
     """Indices of missing entries with those that stand for them."""
     free = list(alignment.extra)
-    found = []
-    for index, (_expected, predicted) in zip(
-        alignment.missing, substitutions(alignment), strict=False
-    ):
-        other = next(
-            (
-                other
-                for other in free
-                if predicted is not None and alignment.predicted[other].name == predicted
-            ),
-            None,
-        )
-        if other is not None:
-            free.remove(other)
-            found.append((index, other))
-    return found
+    pairs = zip(alignment.missing, substitutions(alignment), strict=False)
+    for index, (_expected, name) in pairs:
+        named = [other for other in free if alignment.predicted[other].name == name]
+        if name is not None and named:
+            free.remove(named[0])
+            yield index, named[0]
 
 
 def _matched(
@@ -103,10 +129,9 @@ def _matched(
     changed = changed_parameters(level, ours, theirs, vocabulary)
     if changed:
         return Difference("changed", *pair, changed)
-    same_place = (
-        steady if level == "mission" else (ours.step, ours.role) == (theirs.step, theirs.role)
-    )
-    return Difference("same" if same_place else "moved", *pair)
+    if level == "task":
+        steady = (ours.step, ours.role) == (theirs.step, theirs.role)
+    return Difference("same" if steady else "moved", *pair)
 
 
 def changed_parameters(
@@ -120,18 +145,13 @@ def changed_parameters(
     if not expected.stated:
         return ()
     known = known_parameters(level, expected.name, vocabulary)
+    ours, theirs = expected.parameters, predicted.parameters
 
     def agree(name: str) -> bool:
-        both = name in expected.parameters and name in predicted.parameters
-        return both and values_agree(
-            predicted.parameters[name], expected.parameters[name], known.get(name), vocabulary
-        )
+        both = name in ours and name in theirs
+        return both and values_agree(theirs[name], ours[name], known.get(name), vocabulary)
 
-    return tuple(
-        name
-        for name in dict.fromkeys([*expected.parameters, *predicted.parameters])
-        if not agree(name)
-    )
+    return tuple(name for name in dict.fromkeys([*ours, *theirs]) if not agree(name))
 
 
 def _in_order(pairs: Sequence[Pair]) -> set[Pair]:
@@ -152,16 +172,3 @@ def _in_order(pairs: Sequence[Pair]) -> set[Pair]:
         kept.add(pairs[current])
         current = before[current]
     return kept
-
-
-def shown(level: Level, plan: Any, entry: Entry) -> list[Any]:
-    """An entry as the page shows it: name, parameters, place, and the task prompt of a task."""
-    if level == "task":
-        return [entry.name, entry.parameters, f"{entry.step + 1} {entry.role}", ""]
-    prompt = plan["tasks"][entry.step].get("task_prompt")
-    return [
-        entry.name,
-        entry.parameters,
-        str(entry.step + 1),
-        prompt if isinstance(prompt, str) else "",
-    ]

@@ -12,8 +12,8 @@ from planner_ft.benchmark.layout import heading
 from planner_ft.benchmark.metrics import FAILURES
 from planner_ft.benchmark.metrics.failures import PUBLISHED
 from planner_ft.report.charts import Bar, Bars, Chart, DotRow, Dots, Lines, Matrix, Point, Series
+from planner_ft.report.differences import Confusion, confusion
 from planner_ft.report.metrics import estimate, published_label, published_rows
-from planner_ft.report.names import Confusion, confusion
 from planner_ft.report.runs import Record, System, TestSet
 from planner_ft.vocabulary.plans import list_key
 

@@ -5,7 +5,6 @@ without timed queries give a report, too.
 from __future__ import annotations
 
 import functools
-import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,6 +17,10 @@ from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level, check_level
 
 Record = dict[str, Any]
+Key = tuple[str, str]
+"""Candidate and configuration."""
+Lines = dict[Key, dict[str, list[Record]]]
+"""Lines by system, then by sample: several where a sample was repeated."""
 DEEPEST = 3
 """How far below a folder its runs are looked for (a suite has one folder per level, data set and
 candidate).
@@ -30,8 +33,8 @@ class System:
     `name` tells it from all others.
 
     Where a system answered several times, `repeats` has all scores and `answers` the first answers.
-    `jobs` are what the run's answers depend on (digests of model, adapter, data ...), by job name.
-    `alias` is the candidate, told from that of other runs where several have the same row.
+    `jobs` are the digests (of model, adapter, data ...) that the run's answers depend on, by job
+    name. `alias` is the candidate, told from that of other runs where several have the same row.
     """
 
     name: str
@@ -52,6 +55,11 @@ class System:
         """Whether it is no candidate but something that a candidate must beat."""
         return bool(self.row.get("is_baseline"))
 
+    @property
+    def configuration(self) -> str:
+        """Its configuration, such as lora+grounded."""
+        return str(self.row.get("configuration"))
+
     def metric(self, name: str) -> Record:
         """Value and bounds of a metric, None where it was not measured."""
         found = self.row.get("metrics", {}).get(name)
@@ -60,8 +68,8 @@ class System:
 
 @dataclass(frozen=True)
 class TestSet:
-    """What was measured on the same data: systems of one or more runs. `samples` is empty where the
-    data is not there any more.
+    """Measurements on the same data: systems of one or more runs. `samples` is empty where the data
+    is not there any more.
     """
 
     __test__ = False
@@ -97,9 +105,27 @@ class TestSet:
 class _Run:
     folder: Path
     results: Record
-    scores: list[Record]
-    answers: list[Record]
+    scores: Lines
+    answers: Lines
     notes: list[str]
+
+    @property
+    def manifest(self) -> Record:
+        found: Record = self.results.get("manifest", {})
+        return found
+
+    @property
+    def predictions(self) -> Record:
+        """Path and digest of the file that `plannerft score` read."""
+        found: Record = self.manifest.get("inputs", {}).get("predictions", {})
+        return found
+
+    @property
+    def vocabulary(self) -> str:
+        """The vocabulary's file where the run names one, else its name."""
+        known = self.manifest.get("configuration", {}).get("vocabulary", {})
+        record = _optional(self.folder / RUN)
+        return str(record.get("settings", {}).get("vocabulary") or known.get("name", ""))
 
 
 def load_test_sets(folders: Sequence[Path], data: Sequence[Path] = ()) -> list[TestSet]:
@@ -110,20 +136,12 @@ def load_test_sets(folders: Sequence[Path], data: Sequence[Path] = ()) -> list[T
     recorded SHA-256 is used. Raises PlannerError for a folder without results and for damaged
     files.
     """
-    runs = [_load(folder) for folder in _run_folders(folders)]
     groups: dict[tuple[str, str, int, str], list[_Run]] = {}
-    for run in runs:
-        found = run.results["data"]
+    for run in map(_load, _run_folders(folders)):
+        found, level = run.results["data"], run.results["level"]
         # The same file with --limit is another test set: its figures are not of the same samples.
-        groups.setdefault(
-            (
-                run.results["level"],
-                found.get("sha256", ""),
-                found.get("n", 0),
-                _vocabulary_name(run),
-            ),
-            [],
-        ).append(run)
+        key = (level, found.get("sha256", ""), found.get("n", 0), run.vocabulary)
+        groups.setdefault(key, []).append(run)
     return [_test_set(members, data) for members in groups.values()]
 
 
@@ -141,141 +159,116 @@ def _run_folders(folders: Sequence[Path]) -> list[Path]:
 
 
 def _below(folder: Path, depth: int) -> Iterator[Path]:
-    if (folder / RESULTS).is_file() and not _is_overview(folder / RESULTS):
+    """Folders of runs; the data sets of a suite in its own order."""
+    parts = _parts(folder / RESULTS)
+    if parts is None:
         yield folder
     elif depth and folder.is_dir():
-        for child in sorted(
-            folder.iterdir(),
-            key=lambda child: (_order(folder).get(child.name, math.inf), child.name),
-        ):
-            if child.is_dir() and not child.is_symlink():
+        children = [child for child in folder.iterdir() if child.is_dir()]
+        order = {name: number for number, name in enumerate(parts)}
+        for child in sorted(children, key=lambda one: (order.get(one.name, len(order)), one.name)):
+            if not child.is_symlink():
                 yield from _below(child, depth - 1)
 
 
-def _order(folder: Path) -> dict[str, int]:
-    """The data sets of a suite by its own order: the published sizes stand before what is reported
-    apart.
+def _parts(path: Path) -> list[str] | None:
+    """The data sets of a suite that a results.json sums up, none where there is no such file; None
+    for the results of a run.
     """
-    path = folder / RESULTS
-    parts = read_json(path)["parts"] if path.is_file() and _is_overview(path) else []
-    return {
-        str(part.get("name")): number for number, part in enumerate(parts) if isinstance(part, dict)
-    }
-
-
-def _is_overview(path: Path) -> bool:
-    """Whether it sums up a suite, whose results lie in a folder for each data set."""
-    results = read_json(path)
-    return (
-        isinstance(results, dict)
-        and "rows" not in results
-        and isinstance(results.get("parts"), list)
-    )
+    results = read_json(path) if path.is_file() else {"parts": []}
+    if not isinstance(results, dict) or "rows" in results:
+        return None
+    parts = results.get("parts")
+    if not isinstance(parts, list):
+        return None
+    return [str(part.get("name")) for part in parts if isinstance(part, dict)]
 
 
 def _load(folder: Path) -> _Run:
-    path = folder / RESULTS
-    results = read_json(path)
-    if (
-        not isinstance(results, dict)
-        or not isinstance(results.get("rows"), list)
-        or not isinstance(results.get("data"), dict)
-    ):
+    results = read_json(folder / RESULTS)
+    fits = isinstance(results, dict) and isinstance(results.get("rows"), list)
+    if not fits or not isinstance(results.get("data"), dict):
         raise PlannerError(
-            f"{path}: no results of a run (an object with level, data and rows is expected)"
+            f"{folder / RESULTS}: no results of a run (an object with level, data and rows is"
+            " expected)"
         )
     check_level(results.get("level", ""))
-    notes: list[str] = []
-    scores = [
-        line
-        for name in (SCORES, BASELINES)
-        if (folder / name).is_file()
-        for line in _lines(folder / name)
-    ]
-    if not (folder / SCORES).is_file():
-        notes.append(
-            f"{folder / SCORES} is not there: failures, confusions and single samples cannot be"
-            " shown."
+    run = _Run(folder, results, {}, {}, [])
+    paths = [folder / name for name in (SCORES, BASELINES)]
+    run.scores.update(_lines([path for path in paths if path.is_file()]))
+    if not paths[0].is_file():
+        run.notes.append(
+            f"{paths[0]} is not there: failures, confusions and single samples cannot be shown."
         )
-    return _Run(folder, results, scores, _answers(folder, results, notes), notes)
+    run.answers.update(_lines(_answer_files(run)))
+    return run
 
 
-def _answers(folder: Path, results: Record, notes: list[str]) -> list[Record]:
+def _answer_files(run: _Run) -> list[Path]:
     """The predictions of a run: its own, those of a suite's candidates, or the file that `plannerft
     score` read, if it is still the same.
     """
-    named = results.get("manifest", {}).get("inputs", {}).get("predictions", {})
-    paths = (
-        [folder / PREDICTIONS]
-        if (folder / PREDICTIONS).is_file()
-        else sorted(folder.glob(f"*/{PREDICTIONS}"))
-    )
+    own, named = run.folder / PREDICTIONS, run.predictions
+    paths = [own] if own.is_file() else sorted(run.folder.glob(f"*/{PREDICTIONS}"))
     if not paths and named.get("path"):
-        paths = [Path(named["path"])]
-        if paths[0].is_file() and sha256_file(paths[0]) != named.get("sha256"):
-            notes.append(f"{paths[0]} has changed since it was scored: answers are not shown.")
+        own = Path(named["path"])
+        paths = [own] if own.is_file() else []
+        if paths and sha256_file(own) != named.get("sha256"):
+            run.notes.append(f"{own} has changed since it was scored: answers are not shown.")
             return []
-    if not any(path.is_file() for path in paths):
-        notes.append(
-            f"{paths[0] if paths else folder / PREDICTIONS} is not there: answers are not shown."
-        )
-    return [line for path in paths if path.is_file() for line in _lines(path)]
+    if not paths:
+        run.notes.append(f"{own} is not there: answers are not shown.")
+    return paths
 
 
-def _lines(path: Path) -> list[Record]:
-    records = []
+def _records(path: Path) -> Iterator[Record]:
     for number, value, problem in iterate_jsonl(path):
         if problem or not isinstance(value, dict):
             raise PlannerError(f"{path}:{number}: {problem or 'a JSON object is expected'}")
-        records.append(value)
-    return records
+        yield value
 
 
-def _vocabulary_name(run: _Run) -> str:
-    """The vocabulary's file where the run names one, else its name."""
-    name = (
-        run.results.get("manifest", {})
-        .get("configuration", {})
-        .get("vocabulary", {})
-        .get("name", "")
-    )
-    record = read_json(run.folder / RUN) if (run.folder / RUN).is_file() else {}
-    return str(record.get("settings", {}).get("vocabulary") or name)
+def _lines(paths: Iterable[Path]) -> Lines:
+    found: Lines = {}
+    for path in paths:
+        for line in _records(path):
+            of_system = found.setdefault(_key(line), {})
+            of_system.setdefault(str(line.get("id")), []).append(line)
+    return found
+
+
+def _key(line: Record) -> Key:
+    return str(line.get("candidate")), str(line.get("configuration"))
+
+
+def _optional(path: Path) -> Record:
+    found: Record = read_json(path) if path.is_file() else {}
+    return found
 
 
 def _test_set(runs: list[_Run], data: Sequence[Path]) -> TestSet:
     first = runs[0].results
-    notes = [note for run in runs for note in run.notes]
-    samples = _samples(
-        [Path(first["data"].get("path", "")), *data], first["data"].get("sha256", ""), notes
-    )
-    systems = _systems(runs)
-    if samples:
-        scored = {name for system in systems for name in system.scores}
-        samples = {name: record for name, record in samples.items() if not scored or name in scored}
-    return TestSet(
-        first["level"],
-        str(first["data"].get("path", "")),
-        str(first["data"].get("sha256", "")),
-        int(first["data"].get("n", 0)),
-        _vocabulary(_vocabulary_name(runs[0]), notes),
-        tuple(systems),
-        tuple(run.results for run in runs),
-        samples,
-        tuple(dict.fromkeys(notes)),
-    )
+    found, notes = first["data"], [note for run in runs for note in run.notes]
+    path, sha256 = str(found.get("path", "")), str(found.get("sha256", ""))
+    samples = _samples([Path(path), *data], sha256, notes)
+    systems = tuple(_systems(runs))
+    scored = {name for system in systems for name in system.scores}
+    samples = {name: record for name, record in samples.items() if not scored or name in scored}
+    vocabulary = _vocabulary(runs[0].vocabulary, notes)
+    results = tuple(run.results for run in runs)
+    count, said = int(found.get("n", 0)), tuple(dict.fromkeys(notes))
+    return TestSet(first["level"], path, sha256, count, vocabulary, systems, results, samples, said)
 
 
-def _samples(paths: Iterable[Path], sha256: str, notes: list[str]) -> dict[str, Record]:
+def _samples(paths: Sequence[Path], sha256: str, notes: list[str]) -> dict[str, Record]:
     """The test samples by id, from the first of the files that has the digest."""
-    first: Path | None = None
     for path in paths:
-        first = first or path
         if path.is_file() and sha256_file(path) == sha256:
-            return {str(line.get("id")): line for line in _lines(path)}
-    state = "has changed since the run" if first and first.is_file() else "is not there"
+            return {str(line.get("id")): line for line in _records(path)}
+    state = "has changed since the run" if paths[0].is_file() else "is not there"
     notes.append(
-        f"{first} {state}: commands and expected plans are not shown (give the file with --data)."
+        f"{paths[0]} {state}: commands and expected plans are not shown (give the file with"
+        " --data)."
     )
     return {}
 
@@ -291,7 +284,7 @@ def _vocabulary(name: str, notes: list[str]) -> Vocabulary | None:
         return None
 
 
-def _systems(runs: list[_Run]) -> list[System]:
+def _systems(runs: list[_Run]) -> Iterator[System]:
     """The rows of all runs, baselines once and last."""
     folders = [run.folder for run in runs]
     rows = [(run, row) for run in runs for row in run.results["rows"]]
@@ -301,75 +294,48 @@ def _systems(runs: list[_Run]) -> list[System]:
         for run in reversed(runs)
         for row in run.results.get("baselines", [])
     }
-    systems = []
     for run, row in [*rows, *reversed(baselines.values())]:
-        key, label = (str(row.get("candidate")), str(row.get("configuration"))), _label(row)
-        told = f" ({_tail(run.folder, folders)})" if labels.count(label) > 1 else ""
-        scores, answers = (
-            _all_by_system(run.scores).get(key, {}),
-            _by_system(run.answers).get(key) or _nameless(run),
+        key, label = _key(row), _label(row)
+        place = f" ({_tail(run.folder, folders)})" if labels.count(label) > 1 else ""
+        answers = run.answers.get(key) or _nameless(run)
+        yield System(
+            f"{label}{place}",
+            run.folder,
+            row,
+            run.scores.get(key, {}),
+            {name: lines[0] for name, lines in answers.items()},
+            _jobs(run),
+            f"{key[0]}{place}",
         )
-        systems.append(
-            System(
-                f"{label}{told}", run.folder, row, scores, answers, _jobs(run), f"{key[0]}{told}"
-            )
-        )
-    return systems
 
 
 def _jobs(run: _Run) -> dict[str, Any]:
     """The jobs of the manifest; for predictions that were scored again, those of the run that made
     them.
     """
-    named = run.results.get("manifest", {}).get("inputs", {}).get("predictions", {}).get("path")
-    folders = [
-        run.folder,
-        *(path.parent for path in sorted(run.folder.glob(f"*/{RUN}"))),
-        *([Path(named).parent] if named else []),
-    ]
-    found: dict[str, Any] = dict(run.results.get("manifest", {}).get("jobs") or {})
-    for path in (folder / RUN for folder in folders if not found or folder != run.folder):
-        found |= read_json(path).get("jobs", {}) if path.is_file() else {}
+    found: dict[str, Any] = dict(run.manifest.get("jobs") or {})
+    paths = [] if found else [run.folder / RUN]
+    paths += sorted(run.folder.glob(f"*/{RUN}"))
+    if run.predictions.get("path"):
+        paths.append(Path(run.predictions["path"]).parent / RUN)
+    for path in paths:
+        found |= _optional(path).get("jobs", {})
     return found
 
 
 def _label(row: Record) -> str:
     from planner_ft.benchmark.layout import heading
 
-    label, configuration = (
-        str(row.get("label") or row.get("candidate")),
-        str(row.get("configuration")),
-    )
-    return (
-        label
-        if row.get("is_baseline") or configuration == "submitted"
-        else f"{label}, {heading(configuration)}"
-    )
+    label, configuration = str(row.get("label") or row.get("candidate")), _key(row)[1]
+    plain = row.get("is_baseline") or configuration == "submitted"
+    return label if plain else f"{label}, {heading(configuration)}"
 
 
-def _all_by_system(lines: Iterable[Record]) -> dict[tuple[str, str], dict[str, list[Record]]]:
-    """Lines by candidate and configuration, then by sample: several where a sample was repeated."""
-    found: dict[tuple[str, str], dict[str, list[Record]]] = {}
-    for line in lines:
-        found.setdefault(
-            (str(line.get("candidate")), str(line.get("configuration"))), {}
-        ).setdefault(str(line.get("id")), []).append(line)
-    return found
-
-
-def _by_system(lines: Iterable[Record]) -> dict[tuple[str, str], dict[str, Record]]:
-    """Like `_all_by_system`, with the first line of each sample."""
-    return {
-        key: {name: of_sample[0] for name, of_sample in found.items()}
-        for key, found in _all_by_system(lines).items()
-    }
-
-
-def _nameless(run: _Run) -> dict[str, Record]:
+def _nameless(run: _Run) -> dict[str, list[Record]]:
     """Answers that name no candidate or configuration belong to the only row that can have made
     them.
     """
-    rest = [lines for key, lines in _by_system(run.answers).items() if "None" in key]
+    rest = [lines for key, lines in run.answers.items() if "None" in key]
     return rest[0] if len(run.results["rows"]) == len(rest) == 1 else {}
 
 
