@@ -8,7 +8,7 @@ from pathlib import Path
 from planner_ft.benchmark.sampled import repeats_problems
 from planner_ft.benchmark.sources.endpoint_settings import EndpointSettings
 from planner_ft.candidates.registry import Quantization
-from planner_ft.decoding.limits import MAX_NEW_TOKENS
+from planner_ft.decoding.configurations import MAX_NEW_TOKENS
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.plans import Level
 

@@ -2,7 +2,6 @@
 
 `engine.Engine` loads a candidate and answers as both agents; `configurations` says with which
 adapter and how strongly constrained, `constraints` what a strength allows. `generate` is the loop:
-each `row` asks for tokens to be fed, forced and drafted ones (`drafting`, `phrases`) among them,
-and takes what the forward pass decides. `passes` computes that pass with transformers, `lean` for
-small models on dense weights (`dense`), read by `direct` without transformers.
+each sequence (`sequence`) asks for tokens to be fed, forced ones and those of the prompt look-up
+(`lookup`) among them, and takes what the forward pass decides.
 """

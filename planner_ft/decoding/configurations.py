@@ -1,4 +1,6 @@
-"""Configurations: with or without the adapter, and how strongly decoding is constrained."""
+"""Configurations: with or without the adapter, how strongly decoding is constrained, and what ends
+an answer.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +8,7 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary.plans import Level
 
 Strength = Literal["free", "schema", "state", "grounded"]
 STRENGTHS: tuple[Strength, ...] = get_args(Strength)
@@ -14,6 +17,21 @@ enforced, the published protocol; schema: the strict schema; state: the logic of
 the facts of the command.
 """
 WEIGHTS = ("base", "lora")
+MAX_NEW_TOKENS: dict[Level, int] = {"mission": 1024, "task": 2048}
+"""Default limits per answer. The longest expected plan takes well below half of it with the
+published tokenizers.
+"""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What ends an answer: a token of `end_ids`, or `max_new_tokens`. `pad_id` fills shorter
+    prompts on the left.
+    """
+
+    end_ids: tuple[int, ...]
+    pad_id: int
+    max_new_tokens: int
 
 
 @dataclass(frozen=True)
@@ -36,18 +54,15 @@ def parse_configuration(text: str) -> Configuration:
     """Read "base", "lora", "base+STRENGTH" or "lora+STRENGTH". Raises PlannerError that names what
     there is.
     """
-    weights, _, wanted = text.strip().partition("+")
-    strength = next((known for known in STRENGTHS if known == (wanted or "free")), None)
-    if weights not in WEIGHTS or strength is None or text.strip().endswith("+"):
+    known = {
+        Configuration(adapter, strength).name: Configuration(adapter, strength)
+        for strength in STRENGTHS
+        for adapter in (False, True)
+    }
+    known |= {f"{weights}+free": Configuration(weights == "lora") for weights in WEIGHTS}
+    if text.strip() not in known:
+        named = [name for name in known if not name.endswith("+free")]
         raise PlannerError(
-            f"--configurations {text.strip()}: unknown; there are"
-            f" {', '.join(known_configurations())}"
+            f"--configurations {text.strip()}: unknown; there are {', '.join(named)}"
         )
-    return Configuration(weights == "lora", strength)
-
-
-def known_configurations() -> list[str]:
-    """Every configuration's name."""
-    return [
-        Configuration(adapter, strength).name for strength in STRENGTHS for adapter in (False, True)
-    ]
+    return known[text.strip()]

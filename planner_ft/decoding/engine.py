@@ -12,19 +12,23 @@ from typing import Any
 from planner_ft.candidates import Candidate
 from planner_ft.candidates.loading import load_model, load_tokenizer, resolve_device
 from planner_ft.candidates.registry import Quantization
-from planner_ft.decoding.configurations import Configuration, Strength
-from planner_ft.decoding.constraints import ConstraintFactory
+from planner_ft.decoding.configurations import MAX_NEW_TOKENS, Configuration, Limits, Strength
 from planner_ft.decoding.constraints.factory import Factory, constraint_factory
+from planner_ft.decoding.constraints.grammar import TASK_OPENS
+from planner_ft.decoding.constraints.steps import STEP_OPENS
 from planner_ft.decoding.direct import read_directly
-from planner_ft.decoding.drafting import Likeness, PhraseBook
-from planner_ft.decoding.generate import Generation, Method, Query, generate_unordered
-from planner_ft.decoding.latency import Latency, measure_latency
+from planner_ft.decoding.generate import (
+    Generation,
+    Latency,
+    Method,
+    Query,
+    generate_unordered,
+    measure_latency,
+)
 from planner_ft.decoding.lean import LeanDecoder
-from planner_ft.decoding.limits import MAX_NEW_TOKENS, Limits
+from planner_ft.decoding.lookup import Likeness, Lookup, usual_plans
 from planner_ft.decoding.passes import Decoder, ModelDecoder
-from planner_ft.decoding.phrases import phrase_book
 from planner_ft.decoding.sampling import Sampling
-from planner_ft.decoding.second_look import SecondLook
 from planner_ft.prompts import end_of_turn_ids, render_prompt
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
@@ -36,7 +40,7 @@ class Speed:
     """What saves forward passes; an answer does not depend on it.
 
     `fast_forward` feeds tokens that a constraint forces together with the choice before them,
-    `drafting` has likely tokens verified by the model (see `drafting`).
+    `drafting` has likely tokens verified by the model (see `lookup`).
     """
 
     fast_forward: bool = True
@@ -51,9 +55,7 @@ class Engine:
     `lean` holds the lean forms of a small model (see `lean`) by adapter, None for the base; where
     it is empty, `model` decodes, a model of transformers. `width` is the size of the logits.
     `adapters` are the levels that have one, `threads` the CPU threads that it decodes with; None
-    leaves torch's number. At strength grounded a mission plan that lacks something of its command
-    gets a `second_look`, and a skill sequence that leaves out a skill which is asked for is written
-    again.
+    leaves torch's number.
     """
 
     model: Any
@@ -65,9 +67,8 @@ class Engine:
     adapters: frozenset[Level]
     threads: int | None = None
     speed: Speed = field(default_factory=Speed)
-    second_look: bool = True
     factories: dict[tuple[Level, Strength], Factory | None] = field(default_factory=dict)
-    books: dict[Level, PhraseBook] = field(default_factory=dict)
+    bases: dict[Level, Lookup] = field(default_factory=dict)
 
     @classmethod
     def load(
@@ -202,33 +203,17 @@ class Engine:
         self, level: Level, configuration: Configuration, sampling: Sampling | None = None
     ) -> Method:
         """How the answers of a configuration are generated."""
-        constraint, drafting = self._factory(level, configuration.strength), self.speed.drafting
-        look = (
-            self._second_look
-            if self.second_look and level == "mission" and configuration.strength == "grounded"
-            else None
-        )
-        mend = (
-            functools.partial(self._mending, constraint)
-            if self.second_look and constraint is not None
-            else None
-        )
+        constraint = self._factory(level, configuration.strength)
+        opens = TASK_OPENS if level == "mission" else STEP_OPENS
         return Method(
             constraint,
             self.speed.fast_forward,
-            drafting,
+            self.speed.drafting,
             self._likeness,
-            self._book(level) if drafting else None,
+            self._base(level) if self.speed.drafting else None,
             sampling,
-            look,
-            mend,
+            lambda ids: self._decoded(ids).count(opens),
         )
-
-    def _mending(
-        self, factory: Factory, record: dict[str, Any], ids: Sequence[int]
-    ) -> ConstraintFactory | None:
-        """What an answer is to be written again with, if it is."""
-        return factory.mending(record, self._decoded(ids[:-1]))
 
     def text(self, answer: Generation) -> str:
         """The raw text of an answer, without the token that ended it and without its working; other
@@ -299,24 +284,15 @@ class Engine:
             )
         return self.factories[level, strength]
 
-    def _book(self, level: Level) -> PhraseBook:
-        if level not in self.books:
-            self.books[level] = phrase_book(
-                level, self.tokenizer, self.vocabulary, self.limits[level].end_ids[0]
-            )
-        return self.books[level]
-
-    @functools.cached_property
-    def _second_look(self) -> SecondLook:
-        """A look at how much of its command a mission plan lacks."""
-        from planner_ft.document.lacking import count_lacking
-
-        def lacks(record: dict[str, Any], ids: Sequence[int]) -> int | None:
-            return count_lacking(
-                str(record.get("prompt", "")), self._decoded(ids[:-1]), self.vocabulary
-            )
-
-        return SecondLook(lacks)
+    def _base(self, level: Level) -> Lookup:
+        """How plans of a level are put together, to draft from."""
+        if level not in self.bases:
+            texts = usual_plans(level, self.vocabulary)
+            end = self.limits[level].end_ids[0]
+            plans = self.tokenizer(texts, add_special_tokens=False)["input_ids"]
+            tokens = [token for plan in plans for token in (*plan, end)]
+            self.bases[level] = Lookup(tokens, self._likeness)
+        return self.bases[level]
 
     @functools.cached_property
     def _likeness(self) -> Likeness:

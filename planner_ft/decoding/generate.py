@@ -2,8 +2,8 @@
 brings are ignored.
 
 The loop is our own and not `model.generate`: tokens that need no choice or were drafted rightly
-share a forward pass, rows that have ended leave the batch instead of being computed to its end, the
-cache is not copied at every token, and every answer is handed over the moment that it is complete.
+share a forward pass, sequences that have ended leave the batch, the cache is not copied at every
+token, and every answer is handed over the moment that it is complete.
 """
 
 from __future__ import annotations
@@ -15,18 +15,16 @@ from typing import Any
 
 import torch
 
+from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.constraints import ConstraintFactory
-from planner_ft.decoding.drafting import Drafter, Likeness, PhraseBook
-from planner_ft.decoding.limits import Limits
+from planner_ft.decoding.lookup import Likeness, Lookup
 from planner_ft.decoding.passes import Decoder
-from planner_ft.decoding.row import FinishReason, Row
 from planner_ft.decoding.sampling import Sampling
-from planner_ft.decoding.second_look import SecondLook
+from planner_ft.decoding.sequence import FinishReason, SequenceState
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.plans import Level
 
-MOST_BACK = 8
-"""Times that an answer goes back to a choice before."""
+RAN_ON = "The facts of the command led to a plan that ran on; this one is held to the schema alone."
 
 
 @dataclass(frozen=True)
@@ -41,7 +39,7 @@ class Query:
 
     @property
     def name(self) -> str:
-        """What tells the query from others: the record's id, or the prompt's."""
+        """The record's id, or its prompt's tokens: tells the query from others."""
         return str(self.record.get("id") or self.prompt)
 
 
@@ -52,10 +50,9 @@ class Generation:
 
     `finish_reason`: "stop" (an end-of-turn token), "length" (cut at the limit) or "error" (`error`
     says why). `first_token_s` is the time from the batch's begin until its first tokens were known.
-    `forward_passes` are those that the answer took part in, those of a second look and of going
-    back included. Of its tokens, `forced_tokens` left no choice and `drafted_tokens` were drafted
-    rightly. `notes` and `cut` are the constraint's (see `constraints`), `alternatives` the answers
-    that a second look weighed against it.
+    `forward_passes` are those that the answer took part in, those of answers that it was compared
+    with included; `alternatives` counts these. Of its tokens, `forced_tokens` left no choice and
+    `drafted_tokens` were drafted rightly. `notes` and `cut` are the constraint's.
     """
 
     ids: tuple[int, ...]
@@ -72,55 +69,64 @@ class Generation:
 
 
 @dataclass(frozen=True)
+class Latency:
+    """Seconds from prompt ids to the complete answer, the number of generated tokens, and the
+    forward passes that they took.
+
+    `first_token_s` are the seconds until the first token was known.
+    """
+
+    seconds: float
+    tokens: int
+    forward_passes: int
+    first_token_s: float | None = None
+
+
+@dataclass(frozen=True)
 class Method:
     """How tokens are chosen, and what saves forward passes; an answer depends on `constraint`,
-    `sampling` and `second_look` alone.
+    `sampling` and `entries` alone.
 
-    Without `sampling` the most probable token is taken, and `second_look` decides which answers are
-    weighed against others. `constraint` is enforced, and with `fast_forward` the tokens that it
-    forces are fed together. With `drafting` likely tokens are verified in one pass, from the
-    prompt, the answer so far and `book` (see `drafting`). `mend(record, ids)` gives what an answer
-    that leaves out something is written again with, or None.
+    Without `sampling` the most probable token is taken. `constraint` is enforced, and with
+    `fast_forward` the tokens that it forces are fed together. With `drafting` likely tokens are
+    verified in one pass, from the prompt, the answer so far and `base` (see `lookup`). `entries` counts the tasks or steps of an answer's tokens:
+    a constrained answer with more than twice as many as the free one, and two, is given up.
     """
 
     constraint: ConstraintFactory | None = None
     fast_forward: bool = True
     drafting: bool = True
     likeness: Likeness = lambda token: token
-    book: PhraseBook | None = None
+    base: Lookup | None = None
     sampling: Sampling | None = None
-    second_look: SecondLook | None = None
-    mend: Callable[[dict[str, Any], Sequence[int]], ConstraintFactory | None] | None = None
+    entries: Callable[[Sequence[int]], int] | None = None
 
-    def row(
+    def state(
         self,
         query: Query,
         limits: Limits,
         longest: int,
         begun: Sequence[int] = (),
-        *,
-        goes_back: bool = True,
-    ) -> Row:
-        """The beginning of an answer, its first tokens `begun`; it `goes_back` where a choice
-        proves wrong.
+        most: int | None = None,
+        enough: Callable[[Sequence[int]], bool] | None = None,
+    ) -> SequenceState:
+        """The beginning of an answer of at most `most` entries, its first tokens `begun`.
 
         Raises PlannerError when the constraint needs more room than `longest` tokens.
         """
-        constraint = self.constraint.start(query.record, longest) if self.constraint else None
-        drafter = Drafter(query.prompt, self.likeness, self.book) if self.drafting else None
-        sampler = self.sampling.sampler(query.name, longest) if self.sampling else None
-        remembers = self.second_look is not None and sampler is None
-        return Row(
+        record, constraint = query.record, None
+        if self.constraint is not None:
+            constraint = self.constraint.start(record, longest, most)
+        return SequenceState(
             query.prompt,
             limits,
             longest,
             constraint,
-            drafter,
+            Lookup(query.prompt, self.likeness, self.base) if self.drafting else None,
             fast_forward=self.fast_forward,
-            sampler=sampler,
+            sampler=self.sampling.sampler(query.name, longest) if self.sampling else None,
             begun=begun,
-            remembers=remembers,
-            goes_back=goes_back and sampler is None,
+            enough=enough,
         )
 
 
@@ -158,20 +164,20 @@ def generate_unordered(
     """
     order = sorted(range(len(queries)), key=lambda index: -len(queries[index].prompt))
     for start in range(0, len(order), batch_size):
-        rows: dict[int, Row] = {}
+        states: dict[int, SequenceState] = {}
         began = time.perf_counter()
         for index in order[start : start + batch_size]:
+            query = queries[index]
             try:
-                rows[index] = _begin(decoder, queries[index], limits, method)
+                states[index] = method.state(query, limits, _room(decoder, query, limits))
             except PlannerError as error:
                 yield index, Generation((), "error", 0.0, str(error))
         try:
-            for index, answer in _generate_batch(decoder, dict(rows), began):
-                row, whole = _gone_back(
-                    decoder, queries[index], limits, method, rows[index], answer
+            for index, answer in _run(decoder, dict(states), began):
+                yield (
+                    index,
+                    _bounded(decoder, queries[index], limits, method, states[index], answer),
                 )
-                looked = _look_again(decoder, queries[index], limits, method, row, whole)
-                yield index, _mended(decoder, queries[index], limits, method, looked)
         except torch.OutOfMemoryError as error:
             raise PlannerError(
                 f"the device has too little memory for --batch-size {batch_size}; give a smaller"
@@ -179,158 +185,128 @@ def generate_unordered(
             ) from error
 
 
-def _begin(
-    decoder: Decoder,
-    query: Query,
-    limits: Limits,
-    method: Method,
-    begun: Sequence[int] = (),
-    *,
-    goes_back: bool = True,
-) -> Row:
-    room = (
-        limits.max_new_tokens
-        if decoder.context is None
-        else min(limits.max_new_tokens, decoder.context - len(query.prompt))
-    )
+def measure_latency(
+    decoder: Decoder, queries: Sequence[Query], limits: Limits, method: Method = PLAIN
+) -> Iterator[tuple[int, Latency]]:
+    """Yield (index of the query, latency), one query after the other.
+
+    A whole query runs first and is not counted: kernels are chosen, 4-bit weights packed and
+    grammars compiled then.
+    """
+    if queries:
+        generate(decoder, queries[:1], limits, method)
+    for index, query in enumerate(queries):
+        started = time.perf_counter()
+        (answer,) = generate(decoder, [query], limits, method)
+        # `generate` has read the last token from the device: nothing is left running.
+        seconds = time.perf_counter() - started
+        yield (
+            index,
+            Latency(seconds, len(answer.ids), answer.forward_passes, answer.first_token_s),
+        )
+
+
+def _room(decoder: Decoder, query: Query, limits: Limits) -> int:
+    """Tokens that an answer may have."""
+    if decoder.context is None:
+        return limits.max_new_tokens
+    room = min(limits.max_new_tokens, decoder.context - len(query.prompt))
     if room < 1:
         raise PlannerError(
             f"the prompt of {len(query.prompt)} tokens leaves no room in the model's context of"
             f" {decoder.context}"
         )
-    return method.row(query, limits, room, begun, goes_back=goes_back)
+    return room
 
 
-def _gone_back(
-    decoder: Decoder, query: Query, limits: Limits, method: Method, row: Row, answer: Generation
-) -> tuple[Row, Generation]:
-    """The whole answer, where one was left in the middle because a choice before proved wrong, and
-    its row; with the cost of every beginning.
-    """
-    for left in range(MOST_BACK - 1, -1, -1):
-        if row.back is None:
-            break
-        row = _begin(decoder, query, limits, method, row.back, goes_back=left > 0)
-        ((_index, again),) = _generate_batch(decoder, {0: row}, time.perf_counter())
-        passes, seconds = (
-            answer.forward_passes + again.forward_passes,
-            answer.seconds + again.seconds,
-        )
-        answer = replace(
-            again, seconds=seconds, forward_passes=passes, first_token_s=answer.first_token_s
-        )
-    return row, answer
-
-
-def _look_again(
-    decoder: Decoder, query: Query, limits: Limits, method: Method, row: Row, answer: Generation
+def _bounded(
+    decoder: Decoder,
+    query: Query,
+    limits: Limits,
+    method: Method,
+    state: SequenceState,
+    answer: Generation,
 ) -> Generation:
-    """The answer, or an alternative to it that a second look prefers; with the cost of all that
-    were tried.
-    """
-    look = method.second_look
-    if look is None or not row.choices or not look.asked(query.record, row):
-        return answer
-    began, passes = time.perf_counter(), answer.forward_passes
-    rows, chosen = [(row, 0.0)], 0
-    for _round in range(look.rounds):
-        beginnings = look.beginnings(*rows[chosen])
-        others = [
-            _begin(decoder, query, limits, method, beginning.ids, goes_back=False)
-            for beginning in beginnings
-        ]
-        for _index, _answer in _generate_batch(
-            decoder,
-            {index: other for index, other in enumerate(others) if not other.finished},
-            began,
-        ):
-            pass
-        passes += max((other.forward_passes for other in others), default=0)
-        rows += [
-            (other, beginning.logprob) for other, beginning in zip(others, beginnings, strict=True)
-        ]
-        before, chosen = chosen, look.best(query.record, rows)
-        if chosen == before or not look.asked(query.record, rows[chosen][0]):
-            break
-    seconds = answer.seconds + time.perf_counter() - began
-    answer = (
-        _generation(rows[chosen][0], seconds, answer.first_token_s or 0.0) if chosen else answer
-    )
-    return replace(answer, seconds=seconds, forward_passes=passes, alternatives=len(rows) - 1)
+    """The answer, or where it ran on beyond the free one, an answer of bounded length that is held
+    to the schema alone; with the cost of all.
 
-
-def _mended(
-    decoder: Decoder, query: Query, limits: Limits, method: Method, answer: Generation
-) -> Generation:
-    """The answer, or one that was written again because it left something out; with the cost of
-    both.
+    The free answer begins as this one does up to where they diverged, and is only generated until
+    it is long enough.
     """
-    if method.mend is None or method.sampling is not None or answer.finish_reason != "stop":
+    entries, diverged = method.entries, state.diverged
+    if entries is None or diverged is None or method.constraint is None:
         return answer
-    constraint = method.mend(query.record, answer.ids)
-    if constraint is None:
+    made = entries(answer.ids)
+    if made <= 2 * entries(answer.ids[:diverged]) + 2 and not answer.cut:
         return answer
-    method = replace(method, constraint=constraint)
-    row = _begin(decoder, query, limits, method)
-    ((_index, begun),) = _generate_batch(decoder, {0: row}, time.perf_counter())
-    _row, again = _gone_back(decoder, query, limits, method, row, begun)
-    if again.finish_reason != "stop":
-        return answer
-    passes, seconds = answer.forward_passes + again.forward_passes, answer.seconds + again.seconds
+
+    def enough(ids: Sequence[int]) -> bool:
+        return not answer.cut and made <= 2 * entries(ids) + 2
+
+    def run(way: Method, **settings: Any) -> Generation:
+        other = way.state(query, limits, state.longest, **settings)
+        return next(found for _index, found in _run(decoder, {0: other}, time.perf_counter()))
+
+    free = run(replace(method, constraint=None), begun=answer.ids[:diverged], enough=enough)
+    count, others = entries(free.ids), [free]
+    ran_on = made > 2 * count + 2 or (answer.cut and free.finish_reason == "stop")
+    kept = answer
+    if ran_on:
+        kept = run(method, most=2 * count + 2)
+        kept = replace(kept, notes=(*kept.notes, RAN_ON), first_token_s=answer.first_token_s)
+        others.append(answer)
     return replace(
-        again,
-        seconds=seconds,
-        forward_passes=passes,
-        first_token_s=answer.first_token_s,
-        alternatives=1,
+        kept,
+        seconds=kept.seconds + sum(other.seconds for other in others),
+        forward_passes=kept.forward_passes + sum(other.forward_passes for other in others),
+        alternatives=len(others),
     )
 
 
 @torch.inference_mode()
-def _generate_batch(
-    decoder: Decoder, batch: dict[int, Row], began: float
+def _run(
+    decoder: Decoder, batch: dict[int, SequenceState], began: float
 ) -> Iterator[tuple[int, Generation]]:
-    """Yield (index, answer) as rows end. `began` is when the work on the batch did."""
-    share, rows, first = 0.0, dict(batch), 0.0
-    passes = decoder.start(len(rows)) if rows else None
-    while passes and rows:
-        fed = [row.feed(wide=passes.wide) for row in rows.values()]
+    """Yield (index, answer) as sequences end. `began` is when the work on the batch did."""
+    share, states, first = 0.0, batch, 0.0
+    passes = decoder.start(len(states)) if states else None
+    while passes and states:
+        fed = [state.feed(wide=passes.wide) for state in states.values()]
         wanted = [count for _ids, count in fed]
         logits = passes.run([ids for ids, _count in fed], wanted)
         # Reading the tokens waits for the device, so the time below is that of the whole step.
         best = logits.argmax(-1).tolist()
         starts = [sum(wanted[:place]) for place in range(len(wanted))]
         wrong = [
-            row.choose(best[start : start + count], logits[start : start + count])
-            for row, start, count in zip(rows.values(), starts, wanted, strict=True)
+            state.choose(best[start : start + count], logits[start : start + count])
+            for state, start, count in zip(states.values(), starts, wanted, strict=True)
         ]
         now = time.perf_counter()
         first = first or now - began
-        share, began = share + (now - began) / len(rows), now
-        kept = [place for place, row in enumerate(rows.values()) if not row.finished]
-        for index, row in list(rows.items()):
-            if row.finished:
-                yield index, _generation(rows.pop(index), share, first)
+        share, began = share + (now - began) / len(states), now
+        kept = [place for place, state in enumerate(states.values()) if not state.finished]
+        for index, state in list(states.items()):
+            if state.finished:
+                yield index, _generation(states.pop(index), share, first)
         began = time.perf_counter()
-        if rows:
+        if states:
             passes.forget(wrong)
             if len(kept) < len(wanted):
                 passes.select(kept)
 
 
-def _generation(row: Row, seconds: float, first: float) -> Generation:
-    assert row.finished is not None
-    constraint = row.constraint
-    notes, cut = (tuple(constraint.notes), constraint.cut) if constraint else ((), False)
+def _generation(state: SequenceState, seconds: float, first: float) -> Generation:
+    assert state.finished is not None
+    constraint = state.constraint
     return Generation(
-        tuple(row.ids),
-        row.finished,
+        tuple(state.ids),
+        state.finished,
         seconds,
         None,
-        row.forward_passes,
-        row.forced_tokens,
-        row.drafted_tokens,
-        notes,
-        cut,
+        state.forward_passes,
+        state.forced_tokens,
+        state.drafted_tokens,
+        tuple(constraint.notes) if constraint else (),
+        constraint.cut if constraint else False,
         first,
     )

@@ -13,9 +13,9 @@ from typing import Any
 
 from planner_ft.benchmark.metrics.values import is_number
 from planner_ft.data.quantities import Quantity, close, positions, quantities
-from planner_ft.decoding.constraints.reading.missions.offsets import read_offsets
 from planner_ft.document.clauses import Clause, read_clauses
 from planner_ft.document.language import language
+from planner_ft.document.offsets import read_offsets
 from planner_ft.document.said import Piece, Said, is_place
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import step_skills

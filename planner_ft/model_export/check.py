@@ -103,9 +103,9 @@ class Answers:
 
     def of(self, model: Any) -> list[tuple[int, ...]]:
         """The ids of the model's answers."""
+        from planner_ft.decoding.configurations import MAX_NEW_TOKENS, Limits
         from planner_ft.decoding.engine import end_ids, named_ends
         from planner_ft.decoding.generate import generate
-        from planner_ft.decoding.limits import MAX_NEW_TOKENS, Limits
         from planner_ft.decoding.passes import ModelDecoder
 
         ends, pad = end_ids(self.tokenizer, named_ends(model)), int(self.tokenizer.pad_token_id)

@@ -2,14 +2,15 @@ from __future__ import annotations
 
 import pytest
 
-from planner_ft.decoding.configurations import known_configurations, parse_configuration
+from planner_ft.decoding.configurations import STRENGTHS, parse_configuration
 from planner_ft.support.errors import PlannerError
 
 
 def test_names_read_back() -> None:
-    assert [
-        parse_configuration(name).name for name in known_configurations()
-    ] == known_configurations()
+    for weights in ("base", "lora"):
+        for strength in STRENGTHS:
+            name = weights if strength == "free" else f"{weights}+{strength}"
+            assert parse_configuration(name).name == name
     assert parse_configuration(" lora ").adapter
     assert not parse_configuration("base").adapter
 

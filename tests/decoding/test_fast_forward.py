@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 import torch
 
+from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.constraints import Mask
-from planner_ft.decoding.generate import Method, Query, generate
-from planner_ft.decoding.limits import Limits
+from planner_ft.decoding.generate import RAN_ON, Method, Query, generate
 from planner_ft.decoding.passes import Decoder
-from planner_ft.decoding.row import Row
+from planner_ft.decoding.sequence import SequenceState
 from planner_ft.support.errors import PlannerError
 
 VOCABULARY, END = 64, 2
@@ -68,22 +68,15 @@ class Toy:
             ahead.accept(token)
         return len(tokens)
 
-    def akin(self, token: int) -> list[int]:
-        return []
-
-    def declined(self, token: int) -> list[int] | None:
-        return None
-
-    def instead(self, token: int) -> list[int] | None:
-        return None
-
 
 class ToyFactory:
     """Starts sentences with as many rounds as the record says."""
 
     least_tokens = 1
 
-    def start(self, record: dict[str, Any], limit: int | None = None) -> Toy:
+    def start(
+        self, record: dict[str, Any], limit: int | None = None, most: int | None = None
+    ) -> Toy:
         return Toy(record["rounds"])
 
 
@@ -168,7 +161,7 @@ def test_a_token_is_allowed_whatever_the_logits_are() -> None:
         torch.full((1, VOCABULARY), -torch.inf),
         torch.full((1, VOCABULARY), torch.inf),
     ):
-        row = Row((3,), LIMITS, 9, Toy(1))
+        row = SequenceState((3,), LIMITS, 9, Toy(1))
         row.feed(wide=True)
         row.choose(logits.argmax(-1).tolist(), logits.half())
         assert row.ids[:2] in ([10, 11], [10, 12])
@@ -176,7 +169,9 @@ def test_a_token_is_allowed_whatever_the_logits_are() -> None:
 
 def test_a_constraint_that_needs_more_room_than_there_is_says_so(decoder: Decoder) -> None:
     class Large(ToyFactory):
-        def start(self, record: dict[str, Any], limit: int | None = None) -> Toy:
+        def start(
+            self, record: dict[str, Any], limit: int | None = None, most: int | None = None
+        ) -> Toy:
             if limit is not None and limit < 30:
                 raise PlannerError(f"needs room for 30 tokens, not {limit}")
             return super().start(record, limit)
@@ -198,54 +193,40 @@ def test_what_forced_the_end_is_the_token_that_is_trained(
             return [END, 5] if self.ended else super().allowed()
 
     class Factory(ToyFactory):
-        def start(self, record: dict[str, Any], limit: int | None = None) -> Toy:
+        def start(
+            self, record: dict[str, Any], limit: int | None = None, most: int | None = None
+        ) -> Toy:
             return Two(record["rounds"])
 
     (answer,) = generate(decoder, QUERIES[:1], Limits(ends, 0, 60), Method(Factory()))
     assert answer.ids[-1] == ends[0]
 
 
-class Willing(Toy):
-    """The toy language, whose answer may be the end alone where the model would go on with 40."""
+class Long:
+    """Sentences of 9 rounds; with `most`, of so many."""
 
-    def instead(self, token: int) -> list[int] | None:
-        return [END] if token == 40 else None
+    least_tokens = 1
 
-
-class Declining(Toy):
-    """The toy language, in which 11 was wrong where the model would go on with 40 behind it."""
-
-    def declined(self, token: int) -> list[int] | None:
-        return [10] if token == 40 else None
+    def start(
+        self, record: dict[str, Any], limit: int | None = None, most: int | None = None
+    ) -> Toy:
+        return Toy(9 if most is None else most)
 
 
-@pytest.mark.parametrize(
-    ("share", "goes_back", "expected"),
-    [(0.001, True, [10]), (0.1, True, None), (0.001, False, None)],
-)
-def test_an_answer_is_begun_anew_where_a_choice_before_was_wrong(
-    share: float, goes_back: bool, expected: list[int] | None
+@pytest.mark.parametrize("free", [0, 1, 3, 4, 9])
+@pytest.mark.parametrize("batch_size", [1, 8])
+def test_an_answer_that_runs_on_beyond_the_free_one_is_bounded(
+    decoder: Decoder, free: int, batch_size: int
 ) -> None:
-    row = Row([7, 8], LIMITS, 60, Declining(2), goes_back=goes_back)
-    _fed, count = row.feed(wide=True)
-    logits = torch.full((count, VOCABULARY), -30.0)
-    logits[-1, 40], logits[-1, 11] = 0.0, float(np.log(share))
-    row.choose(logits.argmax(-1).tolist(), logits)
-    assert row.back == expected and (row.finished == "stop") == (expected is not None)
+    """Rounds are counted as tens; the model without constraint is taken to write `free`."""
 
+    def entries(ids: Sequence[int]) -> int:
+        constrained = list(ids[:2]) in ([10, 11], [10, 12])
+        return list(ids).count(10) if constrained and len(ids) > 9 else free
 
-@pytest.mark.parametrize(
-    ("wanted", "share", "expected"),
-    [(40, 0.001, [END]), (40, 0.1, [10, 11, 20, 21, 22]), (41, 0.001, [10, 11, 20, 21, 22])],
-)
-def test_an_answer_ends_where_nothing_allowed_is_a_substitute_for_what_the_model_means(
-    wanted: int, share: float, expected: list[int]
-) -> None:
-    row = Row([7, 8], LIMITS, 60, Willing(2))
-    _fed, count = row.feed(wide=True)
-    logits = torch.full((count, VOCABULARY), -30.0)
-    logits[-1, wanted], logits[-1, 11] = 0.0, float(np.log(share))
-    wrong = row.choose(logits.argmax(-1).tolist(), logits)
-    assert row.ids[: len(expected)] == expected and wrong == 0
-    assert (row.finished == "stop") == (expected == [END])
-    assert row.forced_tokens <= len(row.ids)
+    method = Method(Long(), entries=entries)
+    for answer in generate(decoder, QUERIES, LIMITS, method, batch_size=batch_size):
+        rounds = 9 if free >= 4 else 2 * free + 2
+        assert len(answer.ids) == 5 * rounds + 1
+        assert (RAN_ON in answer.notes) is (free < 4)
+        assert answer.alternatives == (2 if free < 4 else 1 if free < 9 else answer.alternatives)

@@ -9,13 +9,13 @@ from typing import Any
 import pytest
 import torch
 
+from planner_ft.decoding import generate as generate_module
 from planner_ft.decoding.cache import BLOCK, BlockLayer, new_cache
+from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.engine import end_ids, named_ends
-from planner_ft.decoding.generate import Generation, Query
+from planner_ft.decoding.generate import Generation, Query, measure_latency
 from planner_ft.decoding.generate import generate as generate_answers
 from planner_ft.decoding.generate import generate_unordered as generate_answers_unordered
-from planner_ft.decoding.latency import measure_latency
-from planner_ft.decoding.limits import Limits
 from planner_ft.decoding.passes import ModelDecoder
 from planner_ft.support.errors import PlannerError
 
@@ -201,15 +201,13 @@ def test_too_little_memory_names_the_flag(model: Any, monkeypatch: pytest.Monkey
 def test_latency_is_of_single_queries_after_one_that_is_not_counted(
     model: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from planner_ft.decoding import latency
-
     calls: list[list[Query]] = []
 
     def counting(*args: Any) -> Any:
         calls.append(args[1])
         return generate_answers(*args)
 
-    monkeypatch.setattr(latency, "generate", counting)
+    monkeypatch.setattr(generate_module, "generate", counting)
     queries, decoder = prompts(3), ModelDecoder(model, 0)
     measured = dict(measure_latency(decoder, asked(queries), limits(5, 9)))
     assert calls == [asked([query]) for query in (queries[0], *queries)]

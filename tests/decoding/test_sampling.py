@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 import torch
 
+from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.constraints import Mask
 from planner_ft.decoding.generate import Method, Query, generate
-from planner_ft.decoding.limits import Limits
 from planner_ft.decoding.passes import Decoder
-from planner_ft.decoding.row import Row
 from planner_ft.decoding.sampling import Sampler, Sampling
+from planner_ft.decoding.sequence import SequenceState
 from planner_ft.support.errors import PlannerError
 
 VOCABULARY = 64
@@ -112,7 +112,7 @@ def test_forced_tokens_do_not_shift_the_random_numbers() -> None:
             self.count += 1
 
     def sampled(*, fast_forward: bool) -> list[int]:
-        row = Row(
+        row = SequenceState(
             (1,),
             LIMITS,
             12,

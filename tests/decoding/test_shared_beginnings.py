@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.generate import Generation, Query, generate
-from planner_ft.decoding.limits import Limits
 from planner_ft.decoding.passes import SHARED, ModelDecoder
 
 LIMITS = Limits((2,), 0, 30)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from planner_ft.decoding.limits import MAX_NEW_TOKENS
+from planner_ft.decoding.configurations import MAX_NEW_TOKENS
 from planner_ft.model_export import Exported, ExportSettings, check, export
 
 LLAMA, QWEN = "Llama-3.2-1B-Instruct", "Qwen2.5-3B-Instruct"

@@ -18,7 +18,6 @@ from typing import Any
 from planner_ft.benchmark.metrics.values import is_number, normalised, positions_agree, tolerance
 from planner_ft.data.quantities import bearings, close, positions, quantities
 from planner_ft.data.stated import stated_positions
-from planner_ft.data.task import geometry as g
 from planner_ft.data.words import says
 from planner_ft.decoding.constraints.facts import (
     MEASURES,
@@ -31,8 +30,7 @@ from planner_ft.decoding.constraints.facts import (
     without_counts,
     without_pairs,
 )
-from planner_ft.decoding.constraints.ground import Ground
-from planner_ft.decoding.constraints.waypoints import read_ground
+from planner_ft.decoding.constraints.waypoints import Waypoints, read_waypoints
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -161,10 +159,11 @@ class Source:
             return _is_place(point)
         # Any waypoint may be meant where the geometry cannot be read, also one that looks like a
         # stated place.
-        if self._ground.free:
+        if not isinstance(self._waypoints, Waypoints):
             return None
-        return tuple(point) in self._derived or any(
-            positions_agree(point, place, self.vocabulary) for place in self._derived
+        derived = self._waypoints.derived
+        return tuple(point) in derived or any(
+            positions_agree(point, place, self.vocabulary) for place in derived
         )
 
     def _plain(self, unit: str | None) -> Iterator[float]:
@@ -186,22 +185,8 @@ class Source:
         return read(self.text, self.vocabulary)
 
     @functools.cached_property
-    def _ground(self) -> Ground:
-        return read_ground(self.record or {}, self.vocabulary)
-
-    @functools.cached_property
-    def _derived(self) -> frozenset[Place]:
-        """Stated places, waypoints of the paths that follow from the facts, and points a stated way
-        off one of them in a stated direction.
-        """
-        ground = self._ground
-        off = (
-            g.offset(base, bearing, length)
-            for base in ground.places
-            for bearing in ground.bearings
-            for length in ground.lengths
-        )
-        return frozenset(itertools.chain(ground.places, off, ground.itinerary or (), *ground.paths))
+    def _waypoints(self) -> Waypoints | str:
+        return read_waypoints(self.record or {}, self.vocabulary)
 
 
 def source_of(level: Level, record: dict[str, Any], vocabulary: Vocabulary) -> Source:

@@ -25,10 +25,11 @@ Mask = NDArray[np.int32]
 class Constraint(Protocol):
     """The state of one answer."""
 
-    notes: list[str]
-    """What could not be read from the command with certainty, in words for the plan's assumptions;
-    complete from the start.
-    """
+    @property
+    def notes(self) -> list[str]:
+        """Sentences for the plan's assumptions: what could not be read from the command, and values
+        without evidence in it that were left to the model.
+        """
 
     @property
     def ended(self) -> bool:
@@ -54,29 +55,6 @@ class Constraint(Protocol):
     def admits(self, tokens: Sequence[int]) -> int:
         """How many of these tokens in a row are allowed from here. The state is unchanged."""
 
-    def akin(self, token: int) -> list[int]:
-        """The allowed tokens that spell most of what `token`, which is not allowed, would have
-        spelt; empty where any allowed token will do.
-
-        A tokenizer that joins members of an object writes `[],"perception_skills":[{"name":"` as
-        one token. Where no skill may follow, the model knows
-        `[],"perception_skills":[],"stop_conditions":["`, and nothing that comes behind the pieces
-        of it.
-        """
-
-    def declined(self, token: int) -> list[int] | None:
-        """The beginning of the answer in which a list is closed, where the model would go on in
-        that list with `token`, which is not allowed, and need not have; None to choose another
-        token.
-        """
-
-    def instead(self, token: int) -> list[int] | None:
-        """The whole answer to give, end token included, where the model would go on with `token`,
-        which is not allowed; None to choose another token.
-
-        The state may change: what the model means can decide what else is allowed.
-        """
-
 
 class ConstraintFactory(Protocol):
     """What one answer after the other is constrained with."""
@@ -85,9 +63,12 @@ class ConstraintFactory(Protocol):
     def least_tokens(self) -> int:
         """The smallest limit within which every answer ends."""
 
-    def start(self, record: dict[str, Any], limit: int | None = None) -> Constraint:
+    def start(
+        self, record: dict[str, Any], limit: int | None = None, most: int | None = None
+    ) -> Constraint:
         """The state before the first token of the answer to `record` ({"prompt", ...}), which
         always ends within `limit` tokens, its end token included.
 
-        None takes the factory's limit. Raises PlannerError when `limit` is under `least_tokens`.
+        None takes the factory's limit. With `most`, the answer has at most that many tasks or steps
+        and is held to the schema alone. Raises PlannerError when `limit` is under `least_tokens`.
         """

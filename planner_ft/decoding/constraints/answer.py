@@ -4,15 +4,13 @@ before it.
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from planner_ft.decoding.constraints import Mask
 from planner_ft.decoding.constraints.budget import Closing
-from planner_ft.decoding.constraints.grammar import SKILL_OPENS
 from planner_ft.decoding.constraints.tokens import Tokens, allows
 
 if TYPE_CHECKING:
@@ -34,49 +32,8 @@ class Script(Protocol):
         None when the answer is complete.
         """
 
-    def closing(self) -> Script:
-        """The script for an answer that must come to its end: nothing that was begun has to be gone
-        on with.
-        """
 
-    def taken_back(self, text: str) -> tuple[str, str] | None:
-        """Where `text`, which begins here, may not follow, but the answer could have ended: what it
-        drops of its end, and what it writes for that.
-        """
-
-    def pressed(self, text: str) -> Script | None:
-        """Where `text`, which begins here, would end the answer too early: the script that goes on
-        with what is still asked for.
-        """
-
-    def declines(self, text: str) -> bool:
-        """Whether `text`, which begins here and may not follow, would be an item of a list that
-        need not have gone on.
-        """
-
-    def asks(self, text: str) -> int | None:
-        """The place in a text that must follow before which the model is asked for what it means
-        all the same.
-        """
-
-
-class Plain:
-    """A script that does not depend on what the model means where it may not write it."""
-
-    def taken_back(self, text: str) -> tuple[str, str] | None:
-        return None
-
-    def pressed(self, text: str) -> Script | None:
-        return None
-
-    def declines(self, text: str) -> bool:
-        return False
-
-    def asks(self, text: str) -> int | None:
-        return None
-
-
-class Whole(Plain):
+class Whole:
     """A script of one grammar."""
 
     def __init__(self, grammar: str) -> None:
@@ -88,8 +45,9 @@ class Whole(Plain):
     def following(self, text: str) -> tuple[str, Script] | None:
         return None
 
-    def closing(self) -> Script:
-        return self
+
+Notes = Callable[[str], list[str]]
+"""Sentences on an answer so far, given as text."""
 
 
 class Answer:
@@ -98,17 +56,20 @@ class Answer:
     """
 
     def __init__(
-        self, tokens: Tokens, script: Script, limit: int, reserve: int, notes: Sequence[str] = ()
+        self, tokens: Tokens, script: Script, limit: int, reserve: int, notes: Notes = lambda _: []
     ) -> None:
-        self.notes = list(notes)
         self.cut = False
-        self._whole = script, limit
         self._tokens, self._script, self._left, self._reserve = tokens, script, limit, reserve
+        self._notes = notes
         self._matcher: LLMatcher | None = tokens.compile(script.opening())
         self._ids: list[int] = []
         self._text = b""
         self._closing = Closing(tokens)
         self._mask = tokens.new_mask()
+
+    @property
+    def notes(self) -> list[str]:
+        return self._notes(b"".join(map(self._tokens.bytes_of, self._ids)).decode(errors="ignore"))
 
     @property
     def ended(self) -> bool:
@@ -128,17 +89,7 @@ class Answer:
     def forced(self) -> list[int]:
         if self._matcher is None or self._hurried:
             return []
-        forced = self._tokens.spelt(self._ids, self._matcher)[: self._left - self._reserve - 1]
-        text = (self._text + bytes(self._matcher.compute_ff_bytes())).decode(errors="ignore")
-        place = self._script.asks(text)
-        if place is None or place < len(self._text.decode(errors="ignore")):
-            return forced
-        ends = itertools.accumulate(
-            (len(self._tokens.bytes_of(token)) for token in forced), initial=len(self._text)
-        )
-        return forced[
-            : sum(end <= len(text[:place].encode()) for end in itertools.islice(ends, 1, None))
-        ]
+        return self._tokens.spelt(self._ids, self._matcher)[: self._left - self._reserve - 1]
 
     def accept(self, token: int) -> None:
         if self._matcher is None:
@@ -162,9 +113,8 @@ class Answer:
     def admits(self, tokens: Sequence[int]) -> int:
         if self._matcher is None:
             return int(bool(tokens) and tokens[0] in self._tokens.end_ids)
-        within = self._matcher.validate_tokens(
-            list(tokens[: max(self._left - self._reserve - 1, 0)])
-        )
+        room = max(self._left - self._reserve - 1, 0)
+        within = self._matcher.validate_tokens(list(tokens[:room]))
         if within == len(tokens):
             return within
         # Behind the end of this grammar, or near the limit: step by step, on a copy.
@@ -178,56 +128,12 @@ class Answer:
                 return count + 1 + ahead.admits(tokens[count + 1 :][:1])
         return len(tokens)
 
-    def akin(self, token: int) -> list[int]:
-        return (
-            [] if self._matcher is None or self._hurried else self._tokens.akin(token, self.mask())
-        )
-
-    def instead(self, token: int) -> list[int] | None:
-        if self._matcher is None or self._hurried:
-            return None
-        meant = (self._text + self._tokens.bytes_of(token)).decode(errors="replace")
-        self._script = self._script.pressed(meant) or self._script
-        change = self._script.taken_back(meant)
-        if change is None:
-            return None
-        dropped, written = (part.encode() for part in change)
-        pieces = [self._tokens.bytes_of(one) for one in self._ids]
-        length = sum(map(len, pieces)) - len(self._text) - len(dropped)
-        kept = sum(end <= length for end in itertools.accumulate(map(len, pieces)))
-        rest = b"".join(pieces[kept:])[: length - sum(map(len, pieces[:kept]))] + written
-        return [*self._ids[:kept], *self._tokens.shortest(rest), self._tokens.end_ids[0]]
-
-    def declined(self, token: int) -> list[int] | None:
-        if (
-            self._matcher is None
-            or self._hurried
-            or not self._script.declines(
-                (self._text + self._tokens.bytes_of(token)).decode(errors="replace")
-            )
-        ):
-            return None
-        pieces = [self._tokens.bytes_of(one) for one in self._ids]
-        text = b"".join(pieces)[: sum(map(len, pieces)) - len(self._text)].removesuffix(
-            SKILL_OPENS.encode()
-        )
-        closed = text.removesuffix(b",") + b"]"
-        kept = sum(end < len(closed) for end in itertools.accumulate(map(len, pieces)))
-        earlier = Answer(self._tokens, *self._whole, self._reserve, self.notes)
-        for one in self._ids[:kept]:
-            earlier.accept(one)
-        behind = earlier._matcher and self._tokens.begun_with(
-            self._ids[:kept], closed[sum(map(len, pieces[:kept])) :], earlier._matcher
-        )
-        return [*self._ids[:kept], *behind] if behind else None
-
     @property
     def _hurried(self) -> bool:
         return self._left <= self._reserve
 
     def _advance(self) -> None:
-        script = self._script.closing() if self._hurried else self._script
-        following = script.following(self._text.decode())
+        following = self._script.following(self._text.decode())
         self._text = b""
         if following is None:
             self._matcher = None

@@ -32,14 +32,10 @@ class Budget:
     def __init__(self, level: Level, vocabulary: Vocabulary, tokens: Tokens) -> None:
         self._level, self._vocabulary, self._tokens = level, vocabulary, tokens
 
-    def reserve(self, *, steps: int = 1) -> int:
-        """Tokens that close a plan from wherever it stands.
-
-        `steps` are those that a skill sequence may have to write: the one that was begun, and one
-        more where a grammar asks for another one before it lets the answer end.
-        """
+    def reserve(self) -> int:
+        """Tokens that close a plan from wherever it stands: the task or step that was begun."""
         if self._level == "mission":
-            task = max(self._owner(task.title, task, begun=True) for task in self._vocabulary.tasks)
+            task = max(self._owner(task.title, task) for task in self._vocabulary.tasks)
             lists = sum(self._spelt(f",{key(name)}[") + 1 for name in MISSION_KEYS[1:])
             return (
                 task
@@ -49,19 +45,15 @@ class Budget:
                 + 6
                 + LONGEST_WORD
             )
-        begun = max(self._owner(skill.name, skill, begun=True) for skill in self._vocabulary.skills)
-        fresh = max(
-            self._owner(skill.name, skill, begun=False)
-            for skill in self._vocabulary.skills_in_role("navigation")
-        )
-        return begun + (steps - 1) * fresh + steps * self._step + LONGEST_WORD
+        begun = max(self._owner(skill.name, skill) for skill in self._vocabulary.skills)
+        return begun + self._step + LONGEST_WORD
 
-    def least_limit(self, *, steps: int = 1) -> int:
+    def least_limit(self) -> int:
         """The smallest limit within which every answer ends: what closes it, its beginning, and the
         end token.
         """
         opens = mission_opens() if self._level == "mission" else "{" + key("skill_sequence") + "["
-        return self.reserve(steps=steps) + self._spelt(opens) + 1
+        return self.reserve() + self._spelt(opens) + 1
 
     @property
     def _step(self) -> int:
@@ -72,17 +64,16 @@ class Budget:
             + 4
         )
 
-    def _owner(self, name: str, owner: Task | Skill, *, begun: bool) -> int:
+    def _owner(self, name: str, owner: Task | Skill) -> int:
         """Tokens of a task's or skill's name and parameters: those that must be written and may
         stand before them, or the one that was begun.
         """
         sizes = [self._spelt("," + key(item.name)) + _shortest(item) for item in owner.parameters]
         needed = bool(owner.require_any) or any(item.required for item in owner.parameters)
-        largest = max(sizes, default=0) if begun else 0
         return (
             len(compact_json(name).encode())
             + self._spelt(f'",{key("parameters")}{{')
-            + (sum(sizes) if needed else largest)
+            + (sum(sizes) if needed else max(sizes, default=0))
         )
 
     def _spelt(self, text: str) -> int:

@@ -12,11 +12,10 @@ from typing import Any
 
 from planner_ft.data.lexicon import is_known
 from planner_ft.data.numerals import AND, FRACTIONS, SCALES, SMALL, UNITS
-from planner_ft.data.quantities import Quantity, close, positions, quantities
+from planner_ft.data.quantities import Quantity, positions, quantities
 from planner_ft.data.stated import CABLES, rewritings, stated_numbers, stated_positions, unhyphened
 from planner_ft.data.words import edit_distance
 from planner_ft.decoding.constraints.patterns import WHOLE_DIGITS
-from planner_ft.decoding.constraints.reading.corrected import Corrections, read_corrections
 from planner_ft.vocabulary import Parameter, Vocabulary
 
 Position = tuple[float, float]
@@ -148,7 +147,6 @@ class Reading:
     loose: tuple[float, ...]
     numbers_free: bool
     notes: tuple[str, ...]
-    corrections: Corrections
 
     def numbers(self, parameter: Parameter) -> list[float] | None:
         """Values of a parameter that the text states; None where any can be meant."""
@@ -161,16 +159,8 @@ class Reading:
         """
         if self.numbers_free:
             return None
-        found = stated_numbers(self.measures if unit in MEASURES else self.bare, unit) | (
+        return stated_numbers(self.measures if unit in MEASURES else self.bare, unit) | (
             _durations(self.measures) if unit == "s" else frozenset()
-        )
-        return (
-            frozenset(
-                value
-                for value in found
-                if not any(close(value, other) for other in self.corrections.taken_back)
-            )
-            | self.corrections.instead
         )
 
 
@@ -197,7 +187,6 @@ def read(text: str, vocabulary: Vocabulary) -> Reading:
         loose,
         any("number" in note for note in notes),
         tuple(notes),
-        read_corrections(bare),
     )
 
 

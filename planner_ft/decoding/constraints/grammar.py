@@ -105,9 +105,6 @@ class Values(Protocol):
     def text(self, grammar: Grammar, without: Sequence[str]) -> str | None:
         """The symbol of a parameter's text, none of `without`."""
 
-    def item(self, grammar: Grammar, without: Sequence[str]) -> str | None:
-        """The terminal of a text of a list behind its first quotation mark, none of `without`."""
-
     def prose(self, grammar: Grammar) -> str:
         """The symbol of a task prompt, an assumption or a constraint."""
 
@@ -161,11 +158,6 @@ class SchemaValues:
             f"{patterns.string(LONGEST_TEXT, blank=False)}{none_of_texts(without)}"
         )
 
-    def item(self, grammar: Grammar, without: Sequence[str]) -> str | None:
-        return grammar.terminal(
-            f"{patterns.string(LONGEST_TEXT, blank=False, opened=True)}{none_of_texts(without, opened=True)}"
-        )
-
     def prose(self, grammar: Grammar) -> str:
         return grammar.terminal(patterns.string(LONGEST_PROSE, blank=True))
 
@@ -201,9 +193,6 @@ class Narrowed:
     def text(self, grammar: Grammar, without: Sequence[str]) -> str | None:
         return self._values.text(grammar, without)
 
-    def item(self, grammar: Grammar, without: Sequence[str]) -> str | None:
-        return self._values.item(grammar, without)
-
     def prose(self, grammar: Grammar) -> str:
         return self._values.prose(grammar)
 
@@ -221,13 +210,10 @@ def written(position: Sequence[float]) -> str:
     return compact_json(canonical_value(list(position)))
 
 
-def none_of_texts(texts: Sequence[str], *, opened: bool = False) -> str:
-    """What takes these texts, in capitals or not, out of a terminal of JSON strings, or of what
-    stands behind their first quotation marks.
-    """
+def none_of_texts(texts: Sequence[str]) -> str:
+    """What takes these texts, in capitals or not, out of a terminal of JSON strings."""
     return _none_of(
-        regex(f'(?i:{"" if opened else patterns.QUOTE}{patterns.escaped(patterns.quoted(text))}")')
-        for text in texts
+        regex(f'(?i:{patterns.QUOTE}{patterns.escaped(patterns.quoted(text))}")') for text in texts
     )
 
 
@@ -235,8 +221,10 @@ def _none_of(terminals: Iterable[str]) -> str:
     return "".join(f" & ~{terminal}" for terminal in terminals)
 
 
-def plan_grammar(level: Level, vocabulary: Vocabulary, values: Values) -> str:
-    """The grammar of a whole plan."""
+def plan_grammar(
+    level: Level, vocabulary: Vocabulary, values: Values, most: int | None = None
+) -> str:
+    """The grammar of a whole plan of at most `most` tasks or steps."""
     grammar = Grammar()
     if level == "mission":
         tasks = [
@@ -246,20 +234,20 @@ def plan_grammar(level: Level, vocabulary: Vocabulary, values: Values) -> str:
         ]
         task = grammar.rule(f"{literal(TASK_OPENS)} ({' | '.join(tasks)})")
         return grammar.text(
-            f"{literal(mission_opens())} {_some(task, MOST_TASKS)}"
+            f"{literal(mission_opens())} {_some(task, most or MOST_TASKS)}"
             f" {mission_closes(grammar, values)}"
         )
     step = _step(grammar, vocabulary, values)
-    return grammar.text(f"{sequence_opens(grammar)} {_some(step, MOST_STEPS)} {literal(']}')}")
+    return grammar.text(
+        f"{sequence_opens(grammar)} {_some(step, most or MOST_STEPS)} {literal(']}')}"
+    )
 
 
-def sequence_opens(grammar: Grammar, *, working: bool = True) -> str:
-    """The expression before the first step of a skill sequence, with a working before it or without
-    one.
+def sequence_opens(grammar: Grammar) -> str:
+    """The expression before the first step of a skill sequence, with or without a scratchpad of
+    sums in front.
     """
     opens = literal(key("skill_sequence") + "[")
-    if not working:
-        return f'"{{" {opens}'
     sums = grammar.terminal(regex(f'"{patterns.SUMS}{{1,{LONGEST_WORKING}}}"'))
     return f'"{{" ({literal(key(WORKING))} {sums} ",")? {opens}'
 
@@ -372,7 +360,7 @@ def _skills(grammar: Grammar, vocabulary: Vocabulary, role: Role, values: Values
 
 def _parameters(grammar: Grammar, owner: Task | Skill, values: Values) -> str | None:
     """The rule of an owner's parameters behind their opening brace, up to the closing one; None
-    when none can be written.
+    where none can be written.
     """
 
     @functools.cache

@@ -52,14 +52,12 @@ def escaped(text: str) -> str:
     )
 
 
-def string(longest: int, *, blank: bool, opened: bool = False) -> str:
+def string(longest: int, *, blank: bool) -> str:
     """A JSON string of at most `longest` characters; without `blank` it begins with one that is no
-    blank. `opened`: behind its first quotation mark.
+    blank.
     """
     rest = longest if blank else longest - 1
-    return regex(
-        rf'{"" if opened else QUOTE}{"" if blank else FIRST}({CHARACTER}|{ESCAPE}){{0,{rest}}}"'
-    )
+    return regex(rf'"{"" if blank else FIRST}({CHARACTER}|{ESCAPE}){{0,{rest}}}"')
 
 
 # ---------------------------------------------------------------- numbers

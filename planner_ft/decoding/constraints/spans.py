@@ -19,8 +19,8 @@ from planner_ft.data.words import edit_distance
 from planner_ft.decoding.constraints.budget import LONGEST_WORD
 from planner_ft.decoding.constraints.grammar import Grammar, none_of_texts
 from planner_ft.decoding.constraints.patterns import QUOTE, escaped, literal, quoted, regex
-from planner_ft.decoding.constraints.reading.values.named_values import IDENTIFIER
 
+IDENTIFIER = r"(?:[A-Za-z]+(?=[\w-]*[\d_])[\w-]*\w|\d+(?=[\w-]*[A-Za-z_])[\w-]*\w)"
 MOST_WORDS = 2000
 """Words of a command that spans are made of; compiling more takes longer than an answer."""
 BLOCK = 60
@@ -232,40 +232,29 @@ class Spans:
         """Whether the texts have more words than spans can be made of."""
         return len(self._pieces) > MOST_WORDS
 
-    def terminal(
-        self, grammar: Grammar, without: Sequence[str] = (), *, opened: bool = False
-    ) -> str | None:
+    def terminal(self, grammar: Grammar, without: Sequence[str] = ()) -> str | None:
         """The terminal of a span in quotation marks, none of `without`; None where there is no
         span, or no word beside these.
-
-        `opened`: the first quotation mark is written.
         """
         if without and not self._has_word_beside(without):
             return None
-        starts = (
-            self._chain(grammar, 0)
-            if len(self._pieces) <= BLOCK
-            else self._chain(grammar, 0) | self._chain(grammar, BLOCK // 2)
-        )
+        starts = self._chain(grammar, 0)
+        if len(self._pieces) > BLOCK:
+            starts |= self._chain(grammar, BLOCK // 2)
         if not starts:
             return None
-        span = grammar.terminal(" | ".join(sorted(starts)))
-        marks = literal('"')
+        span, marks = grammar.terminal(" | ".join(sorted(starts))), literal('"')
         joined = f'(" " {span})?' if self.loose else ""
-        whole = grammar.terminal(f"{'' if opened else marks} {span} {joined} {marks}")
+        whole = grammar.terminal(f"{marks} {span} {joined} {marks}")
         if self.loose and self._twice and len(self._pieces) <= BLOCK:
             words = "|".join(
                 dict.fromkeys(
                     f"{escaped(quoted(word))} {escaped(quoted(word))}" for word in self._twice
                 )
             )
-            stammer = regex(rf'(?i:{"" if opened else QUOTE}({words})( [^"]*)?")')
+            stammer = regex(rf'(?i:{QUOTE}({words})( [^"]*)?")')
             whole = grammar.terminal(f"{whole} & ~{stammer}")
-        return (
-            grammar.terminal(f"{whole}{none_of_texts(without, opened=opened)}")
-            if without
-            else whole
-        )
+        return grammar.terminal(f"{whole}{none_of_texts(without)}") if without else whole
 
     def _has_word_beside(self, without: Sequence[str]) -> bool:
         """Whether a single word is a span and none of these texts: what they leave is not empty

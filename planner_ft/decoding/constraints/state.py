@@ -10,15 +10,15 @@ says.
 
 from __future__ import annotations
 
-import functools
 import itertools
 import json
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
 from planner_ft.data.rules import DOCKING
 from planner_ft.decoding.constraints import patterns
-from planner_ft.decoding.constraints.answer import Plain, Script
+from planner_ft.decoding.constraints.answer import Script
 from planner_ft.decoding.constraints.grammar import (
     IDENTIFIED,
     MOST_TASKS,
@@ -37,7 +37,6 @@ from planner_ft.decoding.constraints.grammar import (
     written,
     written_number,
 )
-from planner_ft.decoding.constraints.grounded_mission import Told, ToldValues
 from planner_ft.decoding.constraints.patterns import literal
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.replay import START, Progress, target_parameter
@@ -142,20 +141,18 @@ def names_unresolved(record: dict[str, Any], vocabulary: Vocabulary) -> bool:
 
 
 @dataclass(frozen=True)
-class MissionScript(Plain):
+class MissionScript:
     """Grammars of a mission plan, made as it grows: the titles that may follow, then what stands
     behind the chosen title.
 
     They meet on both sides of a title, where letters follow signs and signs letters: tokenizers
-    keep the two apart. `chosen` is the task whose title was written last, `told` what the command
-    leaves no choice about.
+    keep the two apart. `chosen` is the task whose title was written last.
     """
 
     vocabulary: Vocabulary
     values: Values
     progress: Progress = START
     chosen: Task | None = None
-    told: Told | None = None
 
     def opening(self) -> str:
         grammar = Grammar()
@@ -182,9 +179,6 @@ class MissionScript(Plain):
         ahead = replace(self, progress=progress, chosen=None)
         return ahead._titles(), ahead
 
-    def closing(self) -> Script:
-        return self
-
     def _titles(self) -> str:
         """The titles that may follow; with their tasks where a title can be the beginning of
         another.
@@ -196,15 +190,11 @@ class MissionScript(Plain):
         ]
         # A vocabulary can be such that nothing fits; the schema alone holds then.
         offered = offered or list(self.vocabulary.tasks)
-        if _prefix_free(self.vocabulary):
+        if prefix_free(task.title for task in self.vocabulary.tasks):
             return Grammar().text(" | ".join(title(task) for task in offered))
         return self._tasks(offered, titles=True)
 
     def _possible(self, task: Task) -> bool:
-        if self.told and self.told.placed and task.title == self.vocabulary.locate:
-            return False
-        if self.told and not self.told.allows(task.title, self.progress):
-            return False
         needy = task.require_any or any(self._logical.needs(item, task) for item in task.parameters)
         return not needy or task_body(Grammar(), task, self._logical) is not None
 
@@ -223,14 +213,12 @@ class MissionScript(Plain):
 
     @property
     def _logical(self) -> LogicalValues:
-        values = ToldValues(self.values, self.told, self.progress) if self.told else self.values
-        return LogicalValues(values, self.vocabulary, self.progress)
+        return LogicalValues(self.values, self.vocabulary, self.progress)
 
 
-@functools.cache
-def _prefix_free(vocabulary: Vocabulary) -> bool:
-    """Whether no title begins another and none needs an escape."""
-    titles = sorted(patterns.quoted(task.title) for task in vocabulary.tasks)
-    return set(titles) == set(vocabulary.task) and not any(
-        longer.startswith(shorter) for shorter, longer in itertools.pairwise(titles)
-    )
+def prefix_free(names: Iterable[str]) -> bool:
+    """Whether no name begins another and none needs an escape."""
+    known = sorted(names)
+    return not any(
+        longer.startswith(shorter) for shorter, longer in itertools.pairwise(known)
+    ) and all(patterns.quoted(name) == name for name in known)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import functools
 import itertools
-from bisect import bisect_left, bisect_right
+from bisect import bisect_right
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -144,21 +144,6 @@ class Tokens:
         longer = self._joined(text, matcher)
         return [*longer, *self._spelling(before, text)[:1]] if longer else []
 
-    def begun_with(self, before: list[int], text: bytes, matcher: LLMatcher) -> list[int]:
-        """The tokens behind `before` that a text is spelt with when it is gone on with: the last
-        one may reach beyond it. Empty where it may not follow.
-        """
-        pieces, ahead = self.shortest(text), matcher.deep_copy()
-        if ahead.validate_tokens(pieces) < len(pieces):
-            return []
-        ahead.consume_tokens(pieces)
-        whole = text + bytes(ahead.compute_ff_bytes())
-        if longer := self._joined(whole, matcher):
-            return longer[:1]
-        ids = self._spelling(before, whole)
-        ends = itertools.accumulate(len(self.bytes_of(token)) for token in ids)
-        return ids[: sum(end < len(text) for end in ends) + 1]
-
     def _joined(self, text: bytes, matcher: LLMatcher) -> list[int]:
         """The tokens that may follow, begin with a text and go on."""
         return [token for token in self._longer(text) if matcher.validate_tokens([token]) == 1]
@@ -200,30 +185,6 @@ class Tokens:
                 itertools.islice(self._sorted, bisect_right(self._sorted, text), None),
             ):
                 yield known[other]
-
-    def akin(self, token: int, mask: Mask) -> list[int]:
-        """The allowed tokens that begin as `token` does for as long as any of them does; of two
-        that begin with each other, the longer one.
-
-        Empty where they share fewer bytes than `LEAST_GROWN`, or no quotation mark among them:
-        numbers and texts are not spelt for one another.
-        """
-        known = self._by_bytes[0]
-        text = self.bytes_of(token)
-        for length in range(len(text), LEAST_GROWN - 1, -1):
-            begun = text[:length]
-            if b'"' not in begun:
-                break
-            first, last = (bisect_left(self._sorted, edge) for edge in (begun, begun + b"\xff"))
-            found = [other for other in self._sorted[first:last] if allows(mask, known[other])]
-            # Sorted, what goes on from a token stands right behind it.
-            if ends := [
-                other
-                for other, longer in itertools.zip_longest(found, found[1:], fillvalue=b"")
-                if not longer.startswith(other)
-            ]:
-                return [known[other] for other in ends]
-        return []
 
     @functools.cached_property
     def _sorted(self) -> list[bytes]:

@@ -118,13 +118,9 @@ def test_durations_as_they_are_said(
     assert admitted(embedded, ("KeepStation", {"duration": seconds}), prompt=prompt) is possible
 
 
-def test_places_are_told_from_home(embedded: Any) -> None:
-    prompt = (
-        "A panorama from a spot forty metres due south of home, then go to the point 90 m east and"
-        " 20 m north of home."
-    )
-    for place in ([0, -40], [90, 20]):
-        assert admitted(embedded, ("Transit", {"target_position": place}), prompt=prompt)
+def test_places_lie_a_stated_way_off(embedded: Any) -> None:
+    prompt = "A panorama from a spot forty metres due south of home."
+    assert admitted(embedded, ("Transit", {"target_position": [0, -40]}), prompt=prompt)
     assert not admitted(embedded, ("Transit", {"target_position": [0, 40]}), prompt=prompt)
 
 
@@ -219,11 +215,9 @@ def test_right_plans_can_be_written(embedded: Any, level: Level) -> None:
         if level == "mission"
         else sample_tasks(vocabulary, 9, 200, "train")
     )
-    # Of the sampled task inputs every twelfth says something in a way that is misread: the
-    # templates are hard on purpose, each set of them harder.
     for records, share in (
         (curated if level == "mission" else [], 1.0),
-        (drawn, 0.98 if level == "mission" else 0.91),
+        (drawn, 0.99 if level == "mission" else 0.94),
     ):
         refused = []
         for record in records:

@@ -1,0 +1,99 @@
+"""Prompt look-up: tokens that are likely to follow, found where the last ones stood before.
+
+A plan copies names, phrases and numbers from the command and repeats its own structure. The model
+verifies a draft in one forward pass; where it chooses another token, the rest is taken back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Sequence
+from pathlib import Path
+from typing import Any
+
+from planner_ft.support.files import compact_json, read_jsonl
+from planner_ft.vocabulary import Skill, Task, Vocabulary
+from planner_ft.vocabulary.definition import DEFAULT
+from planner_ft.vocabulary.plans import STEP_KEYS, Level
+
+LONGEST_MATCH = 4
+"""Tokens at the end of the answer that are looked up at most. The longest match wins."""
+LONGEST_DRAFT = 7
+"""With the token that was chosen, eight positions: on a CPU a pass over eight costs little more
+than over one.
+"""
+
+Likeness = Callable[[int], Hashable]
+
+
+class Lookup:
+    """Drafts for one answer, from its prompt and the answer so far, then from `base`. `likeness`
+    maps a token to what is compared, so that a word at the start of a string matches the one after
+    a space.
+    """
+
+    def __init__(
+        self,
+        prompt: Sequence[int] = (),
+        likeness: Likeness = lambda token: token,
+        base: Lookup | None = None,
+    ) -> None:
+        self._likeness, self._base = likeness, base
+        self._likes: list[Hashable] = []
+        self._followers: dict[tuple[Hashable, ...], int] = {}
+        for token in prompt:
+            self.extend(token)
+
+    def extend(self, token: int) -> None:
+        """The text goes on with `token`."""
+        for length in range(1, min(LONGEST_MATCH, len(self._likes)) + 1):
+            self._followers[tuple(self._likes[-length:])] = token
+        self._likes.append(self._likeness(token))
+
+    def propose(self, count: int) -> list[int]:
+        """At most `count` tokens that may follow."""
+        likes, draft = self._likes[-LONGEST_MATCH:], list[int]()
+        while len(draft) < count and (token := self._likely(likes)) is not None:
+            draft.append(token)
+            likes = [*likes[1 - LONGEST_MATCH :], self._likeness(token)]
+        return draft
+
+    def _likely(self, likes: list[Hashable]) -> int | None:
+        for length in range(min(LONGEST_MATCH, len(likes)), 0, -1):
+            before = tuple(likes[-length:])
+            for known in (self, self._base):
+                if known is not None and before in known._followers:
+                    return known._followers[before]
+        return None
+
+
+def usual_plans(level: Level, vocabulary: Vocabulary) -> list[str]:
+    """Plans of a level as text, which show how answers are put together: a few training plans of
+    the default vehicle, of another one a plan that has every task or skill once.
+    """
+    if vocabulary.name == DEFAULT:
+        lines = read_jsonl(Path(__file__).with_name("plans.jsonl"))
+        return [line["plan"] for line in lines if line["level"] == level]
+    if level == "mission":
+        tasks = [
+            {"title": task.title, "parameters": _blank(task), "task_prompt": "."}
+            for task in vocabulary.tasks
+        ]
+        return [compact_json({"tasks": tasks, "assumptions": [], "constraints": []})]
+    steps = []
+    first = vocabulary.skills_in_role("navigation")[0]
+    for skill in vocabulary.skills:
+        named = {"name": skill.name, "parameters": _blank(skill)}
+        roles = {role: [named] if skill.role == role else [] for role in ("filter", "perception")}
+        moves = named if skill.role == "navigation" else {"name": first.name, "parameters": {}}
+        reports = [
+            [text] if (text := getattr(skill, field)) else []
+            for field in ("stop", "failure", "output")
+        ]
+        steps.append(dict(zip(STEP_KEYS, (moves, *roles.values(), *reports), strict=True)))
+    return [compact_json({"skill_sequence": steps})]
+
+
+def _blank(owner: Task | Skill) -> dict[str, Any]:
+    """The parameters of a task or skill, with values that say nothing."""
+    values = {"text": "", "id": "", "texts": [""], "position": [0, 0], "polygon": [[0, 0]]}
+    return {item.name: values.get(item.type, 0) for item in owner.parameters}

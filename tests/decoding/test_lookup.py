@@ -1,0 +1,125 @@
+"""Prompt look-up: what is proposed, and that no draft changes an answer."""
+
+from __future__ import annotations
+
+import random
+from typing import Any
+
+import pytest
+
+from planner_ft.decoding.configurations import Limits
+from planner_ft.decoding.generate import PLAIN, Method, Query, generate
+from planner_ft.decoding.lookup import LONGEST_DRAFT, Lookup
+from planner_ft.decoding.passes import Decoder, ModelDecoder
+
+
+def lookup(prompt: list[int], answer: list[int], **settings: Any) -> Lookup:
+    made = Lookup(prompt, **settings)
+    for token in answer:
+        made.extend(token)
+    return made
+
+
+def test_what_followed_the_last_tokens_is_proposed() -> None:
+    assert lookup([1, 2, 3, 4, 5], [2]).propose(2) == [3, 4]
+    assert lookup([1, 2, 3], [9, 8, 7, 9]).propose(3) == [8, 7, 9]
+    assert lookup([1, 2, 3], [4]).propose(3) == []
+    assert lookup([], []).propose(3) == []
+
+
+def test_the_longest_and_then_the_latest_match_wins() -> None:
+    assert lookup([1, 2, 3, 0, 7, 2, 4, 0], [1, 2]).propose(1) == [3]
+    assert lookup([1, 2, 3, 0, 7, 2, 4, 0], [2]).propose(1) == [4]
+
+
+def test_words_match_in_another_case_and_after_a_space() -> None:
+    words = {1: "red", 2: "red", 3: "buoy"}
+    assert lookup([2, 3], [1], likeness=words.__getitem__).propose(1) == [3]
+    assert lookup([2, 3], [1]).propose(1) == []
+
+
+QUERIES = [
+    Query("mission", {}, tuple(random.Random(seed).choices(range(3, 64), k=5 + 7 * seed)))
+    for seed in range(6)
+]
+LIMITS = Limits((5, 9), 0, 80)
+
+
+@pytest.fixture
+def answered(decoder: Decoder) -> tuple[list[Query], list[tuple[int, ...]]]:
+    """Queries whose prompts hold much of their answers, and these."""
+    queries = [
+        Query("mission", {}, query.prompt * 2 + generate(decoder, [query], LIMITS)[0].ids[:-1])
+        for query in QUERIES
+    ]
+    return queries, [answer.ids for answer in generate(decoder, queries, LIMITS, PLAIN)]
+
+
+@pytest.mark.parametrize("batch_size", [1, 6])
+def test_drafts_save_passes_and_change_nothing(
+    decoder: Decoder, answered: tuple[list[Query], list[tuple[int, ...]]], batch_size: int
+) -> None:
+    queries, plain = answered
+    drafted = generate(decoder, queries, LIMITS, Method(), batch_size=batch_size)
+    assert [answer.ids for answer in drafted] == plain
+    if batch_size == 1 or not isinstance(decoder, ModelDecoder):
+        # A pass gives the drafts that were right and a choice after them; the last choice may have
+        # been drafted, too.
+        for answer in drafted:
+            assert answer.forward_passes + answer.drafted_tokens - len(answer.ids) in (0, 1)
+        assert sum(answer.drafted_tokens for answer in drafted) > 0
+
+
+def test_drafts_do_not_reach_beyond_the_limit(decoder: Decoder) -> None:
+    fed: list[int] = []
+    start = type(decoder).start
+
+    class Recording:
+        context = decoder.context
+
+        def start(self, rows: int) -> Any:
+            passes = start(decoder, rows)
+            run = passes.run
+            passes.run = lambda feeds, wanted: fed.append(len(feeds[0])) or run(feeds, wanted)  # type: ignore[method-assign, func-returns-value]
+            return passes
+
+    query = Query("mission", {}, (7,) * 30)
+    generate(Recording(), [query], Limits((65,), 0, 3), Method())
+    assert fed[0] == len(query.prompt) + 2
+    assert max(fed[1:], default=1) <= 1 + LONGEST_DRAFT
+
+
+@pytest.mark.parametrize("kind", ["sliding window", "absolute positions"])
+def test_other_kinds_of_models_give_the_same_answers(kind: str) -> None:
+    import torch
+    from transformers import GPT2Config, GPT2LMHeadModel, MistralConfig, MistralForCausalLM
+
+    torch.manual_seed(0)
+    if kind == "sliding window":
+        sizes = {
+            "hidden_size": 32,
+            "intermediate_size": 64,
+            "num_hidden_layers": 2,
+            "num_attention_heads": 4,
+            "num_key_value_heads": 2,
+        }
+        model: Any = MistralForCausalLM(
+            MistralConfig(vocab_size=64, sliding_window=16, initializer_range=0.5, **sizes)
+        ).eval()
+    else:
+        model = GPT2LMHeadModel(
+            GPT2Config(
+                vocab_size=64,
+                n_embd=32,
+                n_layer=2,
+                n_head=4,
+                n_positions=512,
+                initializer_range=0.5,
+            )
+        ).eval()
+    decoder = ModelDecoder(model, 0)
+    plain = generate(decoder, QUERIES, LIMITS, PLAIN, batch_size=1)
+    drafted = generate(decoder, QUERIES, LIMITS, Method(), batch_size=1)
+    assert [answer.ids for answer in drafted] == [answer.ids for answer in plain]
+    # A window that has moved on cannot be taken back, so nothing is drafted.
+    assert (sum(answer.drafted_tokens for answer in drafted) == 0) is (kind == "sliding window")
