@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
+import functools
 import math
+import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+from planner_ft.support.files import read_text
 from planner_ft.vocabulary.logic import LISTS
-from planner_ft.vocabulary.motion import FILTER_KINDS, KINDS, PARAMETERS_OF, STANDOFF
 
 if TYPE_CHECKING:
     from planner_ft.vocabulary.definition import Parameter, Skill, Task, Vocabulary
 
-Role = Literal["navigation", "filter", "perception"]
-ParameterType = Literal["position", "polygon", "number", "integer", "text", "id", "texts"]
-Arrival = Literal["transit", "self", "none"]
-Motion = Literal["goto", "hold", "turn_to", "turn_by", "arc", "drift", "visual", "wait"]
-ROLES: tuple[Role, ...] = get_args(Role)
-
-Check = tuple[str, Callable[[Any], bool]]
-"""The kind of value that is expected, in words, and whether a value is of that kind."""
 Table = Mapping[str, Any]
+
+
+@functools.cache
+def _keys() -> dict[str, Any]:
+    """What may stand where (shapes/definition.toml)."""
+    return tomllib.loads(read_text(Path(__file__).parent / "shapes" / "definition.toml"))
 
 
 def _is_text(value: Any) -> bool:
@@ -44,43 +45,16 @@ def _are_tables(value: Any) -> bool:
     return isinstance(value, dict) and all(isinstance(entry, dict) for entry in value.values())
 
 
-def _one_of(choices: Iterable[str]) -> Check:
-    known = tuple(choices)
-    return f"one of {', '.join(known)}", lambda value: value in known
-
-
-TEXT: Check = ("a text", _is_text)
-FLAG: Check = ("true or false", lambda value: isinstance(value, bool))
-NUMBER: Check = ("a number", _is_number)
-POSITION: Check = ("a position [x, y]", _is_position)
-NAMES: Check = ("a list of names", _are_names)
-
-VEHICLE = {
-    **dict.fromkeys(("name", "title", "frame", "transit", "locate"), TEXT),
-    **dict.fromkeys(("home", "unresolved"), POSITION),
+KINDS: dict[str, tuple[str, Callable[[Any], bool]]] = {
+    "text": ("a text", _is_text),
+    "flag": ("true or false", lambda value: isinstance(value, bool)),
+    "number": ("a number", _is_number),
+    "position": ("a position [x, y]", _is_position),
+    "names": ("a list of names", _are_names),
 }
-PARAMETER = {
-    **dict.fromkeys(("name", "unit", "description"), TEXT),
-    **dict.fromkeys(("minimum", "maximum"), NUMBER),
-    "type": _one_of(get_args(ParameterType)),
-    "required": FLAG,
-}
-TASK = {
-    **dict.fromkeys(("title", "category", "description", "pattern"), TEXT),
-    "arrival": _one_of(get_args(Arrival)),
-    "leaves": FLAG,
-    "require_any": NAMES,
-}
-SKILL = {
-    **dict.fromkeys(("name", "category", "description", "stop", "failure", "output"), TEXT),
-    "role": _one_of(ROLES),
-    "motion": _one_of(get_args(Motion)),
-    "require_any": NAMES,
-}
-NEEDED = {
-    "task": ("title", "category", "description", "arrival", "pattern"),
-    "skill": ("name", "category", "role", "description"),
-}
+"""Per kind of value its name in words, and whether a value is of it."""
+NESTED = {"task": ("parameters", "skills"), "skill": ("parameters",)}
+"""Keys that hold tables themselves."""
 
 
 # ---------------------------------------------------------------- the shape of a definition
@@ -93,43 +67,49 @@ def shape_problems(raw: Table, phrases: Table) -> list[str]:
     problems = [f"unknown key {key!r}" for key in raw if key not in ("vehicle", "task", "skill")]
     vehicle = raw.get("vehicle")
     if isinstance(vehicle, dict):
-        problems += _table(vehicle, VEHICLE, VEHICLE, "[vehicle]")
+        problems += _table(vehicle, "vehicle", "[vehicle]")
         if not problems and vehicle["home"] == vehicle["unresolved"]:
             problems.append("[vehicle]: home and unresolved are the same position")
     else:
         problems.append("a table [vehicle] is needed")
-    problems += [*_entries(raw, "task", "title", TASK), *_entries(raw, "skill", "name", SKILL)]
+    problems += [*_entries(raw, "task", "title"), *_entries(raw, "skill", "name")]
     problems += [
         f"the phrase file needs tables [{kind}.NAME]"
-        for kind in NEEDED
+        for kind in NESTED
         if not _are_tables(phrases.get(kind, {}))
     ]
     return problems
 
 
-def _table(
-    table: Table, checks: Mapping[str, Check], needed: Iterable[str], where: str
-) -> Iterator[str]:
+def _table(table: Table, kind: str, where: str) -> Iterator[str]:
+    """Problems of the keys and values of a table; those that are tables themselves are not looked
+    at.
+    """
+    needed = _keys()[kind]["needed"]
+    known = {**needed, **_keys()[kind].get("optional", {})}
     missing = [name for name in needed if name not in table]
     if missing:
         yield f"{where}: lacks {', '.join(missing)}"
     for name, value in table.items():
-        if name not in checks:
+        if name in NESTED.get(kind, ()):
+            continue
+        choices = known.get(name)
+        if choices is None:
             yield f"{where}: unknown key {name!r}"
-        elif not checks[name][1](value):
-            yield f"{where}: {name} = {value!r} must be {checks[name][0]}"
+        elif isinstance(choices, list) and value not in choices:
+            yield f"{where}: {name} = {value!r} must be one of {', '.join(choices)}"
+        elif isinstance(choices, str) and not KINDS[choices][1](value):
+            yield f"{where}: {name} = {value!r} must be {KINDS[choices][0]}"
 
 
-def _entries(raw: Table, kind: str, key: str, checks: Mapping[str, Check]) -> Iterator[str]:
+def _entries(raw: Table, kind: str, key: str) -> Iterator[str]:
     entries = raw.get(kind)
     if not isinstance(entries, list) or not entries or not _are_tables(dict(enumerate(entries))):
         yield f"at least one [[{kind}]] is needed"
         return
-    nested = {"parameters", "skills"} if kind == "task" else {"parameters"}
     for number, entry in enumerate(entries, 1):
         where = f"{kind} {entry.get(key, number)}"
-        plain = {name: value for name, value in entry.items() if name not in nested}
-        yield from _table(plain, checks, NEEDED[kind], where)
+        yield from _table(entry, kind, where)
         yield from _parameters(entry.get("parameters", []), where)
         if kind == "task":
             yield from _fitting_skills(entry.get("skills"), where)
@@ -143,7 +123,7 @@ def _parameters(parameters: Any, where: str) -> Iterator[str]:
     yield from (f"{where}: parameter {name} is defined twice" for name in _repeated(names))
     for name, parameter in zip(names, parameters, strict=True):
         here = f"{where}, parameter {name}"
-        problems = list(_table(parameter, PARAMETER, ("name", "type"), here))
+        problems = list(_table(parameter, "parameter", here))
         yield from problems
         bounds = [parameter[bound] for bound in ("minimum", "maximum") if bound in parameter]
         if problems or not bounds:
@@ -158,9 +138,10 @@ def _fitting_skills(skills: Any, where: str) -> Iterator[str]:
     if not isinstance(skills, dict):
         yield f"{where}: skills must be a table of lists by role"
         return
+    roles = _keys()["skill"]["needed"]["role"]
     for role, names in skills.items():
-        if role not in ROLES:
-            yield f"{where}: skills.{role} is none of {', '.join(ROLES)}"
+        if role not in roles:
+            yield f"{where}: skills.{role} is none of {', '.join(roles)}"
         elif not _are_names(names):
             yield f"{where}: skills.{role} must be a list of names"
     if not skills.get("navigation"):
@@ -265,45 +246,40 @@ def motion_problems(
     for name, entry in raw.get("skill", {}).items():
         yield from _motion(entry, skills.get(name), f"{here}: skill {name}")
     for title, entry in raw.get("task", {}).items():
-        where, task = f"{here}: task {title}", tasks.get(title)
-        if task is None:
+        where = f"{here}: task {title}"
+        if title not in tasks:
             yield f"{where}: it is not defined"
-            continue
-        types = {role: "position" if role == "center" else "number" for role in STANDOFF}
-        yield from _roles(entry, ("center", "radius"), types, task.by_name, where, "a stand-off")
+        else:
+            known = tasks[title].by_name
+            yield from _roles(entry, _keys()["standoff"], known, where, "a stand-off")
 
 
 def _motion(entry: Table, skill: Skill | None, where: str) -> Iterator[str]:
-    kind = next((known for known in KINDS if known == entry.get("motion")), None)
+    kinds, kind = _keys()["motion"], entry.get("motion")
     if skill is None:
         yield f"{where}: it is not defined"
-    elif kind is None:
-        yield f"{where}: motion = {entry.get('motion')!r} must be one of {', '.join(KINDS)}"
+    elif not isinstance(kind, str) or kind not in kinds:
+        yield f"{where}: motion = {kind!r} must be one of {', '.join(kinds)}"
     else:
-        if (skill.role == "filter") != (kind in FILTER_KINDS):
+        if (skill.role == "filter") != kinds[kind].get("filter", False):
             yield f"{where}: motion = {kind!r} does not fit the role {skill.role}"
-        needed, allowed = PARAMETERS_OF[kind]
-        types = {role: "polygon" if role == "polygon" else "number" for role in (*needed, *allowed)}
         roles = {role: name for role, name in entry.items() if role != "motion"}
-        yield from _roles(roles, needed, types, skill.by_name, where, kind)
+        yield from _roles(roles, kinds[kind], skill.by_name, where, kind)
 
 
 def _roles(
-    entry: Table,
-    needed: tuple[str, ...],
-    types: Mapping[str, str],
-    parameters: Mapping[str, Parameter],
-    where: str,
-    owner: str,
+    entry: Table, keys: Table, parameters: Mapping[str, Parameter], where: str, owner: str
 ) -> Iterator[str]:
     """Problems of {role: name of a parameter}."""
+    needed, optional = keys.get("needed", []), keys.get("optional", [])
     missing = [role for role in needed if role not in entry]
     yield from (f"{where}: {owner} needs {role} = the name of a parameter" for role in missing)
     for role, name in entry.items():
-        if role not in types:
+        if role not in (*needed, *optional):
             yield f"{where}: unknown key {role!r}"
         else:
-            yield from _names_parameter(where, role, name, parameters, types[role])
+            kind = {"polygon": "polygon", "center": "position"}.get(role, "number")
+            yield from _names_parameter(where, role, name, parameters, kind)
 
 
 def _names_parameter(

@@ -6,16 +6,11 @@ import functools
 import tomllib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, get_args
 
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text, sha256_text
 from planner_ft.vocabulary.checks import (
-    ROLES,
-    Arrival,
-    Motion,
-    ParameterType,
-    Role,
     logic_problems,
     motion_problems,
     reference_problems,
@@ -24,20 +19,11 @@ from planner_ft.vocabulary.checks import (
 from planner_ft.vocabulary.logic import LOGIC, Logic, build_logic
 from planner_ft.vocabulary.motion import MOTION, Motions, build_motions
 
-__all__ = [
-    "BUNDLED",
-    "DEFAULT",
-    "ROLES",
-    "Parameter",
-    "ParameterType",
-    "Role",
-    "Skill",
-    "Task",
-    "Vocabulary",
-    "build_vocabulary",
-    "bundled_vocabularies",
-    "load_vocabulary",
-]
+Role = Literal["navigation", "filter", "perception"]
+ParameterType = Literal["position", "polygon", "number", "integer", "text", "id", "texts"]
+Arrival = Literal["transit", "self", "none"]
+SkillMotion = Literal["goto", "hold", "turn_to", "turn_by", "arc", "drift", "visual", "wait"]
+ROLES: tuple[Role, ...] = get_args(Role)
 
 BUNDLED = Path(__file__).parent
 DEFAULT = "usv"
@@ -108,7 +94,7 @@ class Skill(_Owner):
     category: str
     role: Role
     description: str
-    motion: Motion | None = None
+    motion: SkillMotion | None = None
     parameters: tuple[Parameter, ...] = ()
     require_any: tuple[str, ...] = ()
     stop: str | None = None

@@ -1,4 +1,4 @@
-"""The JSON Schema of a plan document (schemas/plan.schema.json): the frame of document.schema.json
+"""The JSON Schema of a plan document (schemas/plan.schema.json): the frame of shapes/document.schema.json
 with the tasks of a vocabulary.
 """
 
@@ -26,7 +26,7 @@ def frame_schema() -> Schema:
     """The schema of a document but for what the vocabulary says of tasks and skills: titles,
     parameters and steps are of any kind.
     """
-    frame: Schema = json.loads(read_text(Path(__file__).with_name("document.schema.json")))
+    frame: Schema = json.loads(read_text(Path(__file__).parent / "shapes" / "document.schema.json"))
     return frame
 
 

@@ -15,22 +15,6 @@ MOTION = ".motion.toml"
 MotionKind = Literal[
     "go", "hold", "turn-to", "turn-by", "arc", "drift", "wait", "boundary", "clearance", "heading"
 ]
-PARAMETERS_OF: dict[MotionKind, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    "go": (("x", "y"), ("heading", "altitude")),
-    "hold": ((), ("time", "radius")),
-    "turn-to": (("heading",), ()),
-    "turn-by": (("angle",), ()),
-    "arc": (("radius", "angle"), ()),
-    "drift": ((), ("time",)),
-    "wait": ((), ("time",)),
-    "boundary": (("polygon",), ()),
-    "clearance": ((), ("distance",)),
-    "heading": ((), ()),
-}
-"""Per kind of motion the roles of parameters that it must have, and those that it may have."""
-KINDS = tuple(PARAMETERS_OF)
-FILTER_KINDS = ("boundary", "clearance", "heading")
-STANDOFF = ("center", "radius", "arc")
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 
 from planner_ft.support.files import read_text
 from planner_ft.vocabulary.definition import Parameter, Role, Skill, Task, Vocabulary
 from planner_ft.vocabulary.plans import Level
 
+PAGE = Path(__file__).parent / "shapes" / "vocabulary.md.j2"
 ROLE_HEADINGS: dict[Role, str] = {
     "navigation": (
         "navigation skills (exactly one per step; it moves or holds the vehicle and its end ends"
@@ -53,55 +53,19 @@ def _written(parameter: Parameter) -> str:
 
 def documentation_page(vocabulary: Vocabulary) -> str:
     """docs/vocabulary.md: tasks by category, then skills by role, each with its parameters."""
-    file, tasks, skills = f"{vocabulary.name}.toml", vocabulary.tasks, vocabulary.skills
-    lines = [
-        f"# Vocabulary: {vocabulary.title}",
-        "",
-        f"Written by `plannerft vocabulary --docs` from `{file}`; edit that file, not this page.",
-        "",
-        f"Frame: {vocabulary.frame}. Home is `{list(vocabulary.home)}`;"
-        f" `{list(vocabulary.unresolved)}` is a place that is not known yet.",
-        "",
-        f"## {len(tasks)} tasks",
-    ]
-    for category in dict.fromkeys(task.category for task in tasks):
-        rows = [
-            (f"`{task.title}`", task.description, _cells(task))
-            for task in tasks
-            if task.category == category
-        ]
-        lines += _table(f"### {category}", ("task", "what it does", "parameters"), rows)
-    lines += ["", f"## {len(skills)} skills"]
-    for role, heading in ROLE_HEADINGS.items():
-        described = [
-            (f"`{skill.name}`", skill.category, skill.description, _cells(skill))
-            for skill in vocabulary.skills_in_role(role)
-        ]
-        columns = ("skill", "category", "what it does", "parameters")
-        lines += _table(f"### {heading[0].upper()}{heading[1:]}", columns, described)
-    fitting = [
-        (f"`{task.title}`", *(", ".join(task.skills.get(role, ())) for role in ROLE_HEADINGS))
-        for task in tasks
-    ]
-    lines += _table("## Which skills fit which task", ("task", *ROLE_HEADINGS), fitting)
-    return "\n".join(lines) + "\n"
+    import jinja2
+
+    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, keep_trailing_newline=True)
+    template = environment.from_string(read_text(PAGE))
+    categories = dict.fromkeys(task.category for task in vocabulary.tasks)
+    page = template.render(
+        vocabulary=vocabulary, categories=categories, headings=ROLE_HEADINGS, notes=_notes
+    )
+    return page.rstrip() + "\n"
 
 
-def stale_page(path: Path, vocabulary: Vocabulary) -> bool:
-    """Whether the page at `path` is missing or differs from what the vocabulary gives."""
-    return not path.is_file() or read_text(path) != documentation_page(vocabulary)
-
-
-def _table(heading: str, columns: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> list[str]:
-    table = [f"| {' | '.join(row)} |" for row in (columns, *rows)]
-    return ["", heading, "", table[0], "|---" * len(columns) + "|", *table[1:]]
-
-
-def _cells(owner: Task | Skill) -> str:
-    return "<br>".join(_cell(parameter, owner) for parameter in owner.parameters) or "none"
-
-
-def _cell(parameter: Parameter, owner: Task | Skill) -> str:
+def _notes(parameter: Parameter, owner: Task | Skill) -> str:
+    """Type, unit and range of a parameter, and whether it is required."""
     notes: list[str] = [parameter.type]
     if parameter.unit:
         notes.append(parameter.unit)
@@ -111,4 +75,9 @@ def _cell(parameter: Parameter, owner: Task | Skill) -> str:
         notes.append("required")
     elif parameter.name in owner.require_any:
         notes.append("one of these required")
-    return f"`{parameter.name}` ({', '.join(notes)}): {parameter.description}"
+    return ", ".join(notes)
+
+
+def stale_page(path: Path, vocabulary: Vocabulary) -> bool:
+    """Whether the page at `path` is missing or differs from what the vocabulary gives."""
+    return not path.is_file() or read_text(path) != documentation_page(vocabulary)
