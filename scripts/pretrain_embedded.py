@@ -13,7 +13,6 @@ import argparse
 import dataclasses
 import json
 from concurrent.futures import ProcessPoolExecutor
-from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -43,16 +42,13 @@ def tokenizer_of(work: Path, arguments: argparse.Namespace) -> Any:
     return PreTrainedTokenizerFast.from_pretrained(folder)
 
 
-def make_shard(
-    job: tuple[Path, Path, Path | None, int, int, float, int, float, float],
-) -> dict[str, int]:
+def make_shard(job: tuple[Path, Path, int, int, float, int, float, float]) -> dict[str, int]:
     """Write one shard of the corpus (worker process)."""
     from transformers import PreTrainedTokenizerFast
 
     from planner_ft.pretraining.corpus import encode_shard
-    from planner_ft.pretraining.emphasis import Emphasis
 
-    path, tokenizer, emphasis, seed, count, share, longest, drill_share, unfamiliar_share = job
+    path, tokenizer, seed, count, share, longest, drill_share, unfamiliar_share = job
     return encode_shard(
         path,
         PreTrainedTokenizerFast.from_pretrained(tokenizer),
@@ -61,56 +57,14 @@ def make_shard(
         count=count,
         mission_share=share,
         longest=longest,
-        emphasis=Emphasis.load(emphasis) if emphasis else None,
         drill_share=drill_share,
         unfamiliar_share=unfamiliar_share,
     )
 
 
-def emphasis_of(
-    work: Path, arguments: argparse.Namespace, settings: PretrainSettings
-) -> Path | None:
-    """The file that says which samples the corpus keeps, fitted to the losses of `--init` first
-    where there is none.
-    """
-    if arguments.hard_share >= 1:
-        return None
-    if not arguments.init:
-        raise SystemExit(
-            "--hard-share needs --init: the model whose losses tell hard samples from easy ones."
-        )
-    path = work / "emphasis.npz"
-    if not path.is_file():
-        import torch
-        from transformers import LlamaForCausalLM
-
-        from planner_ft.pretraining.corpus import encoded
-        from planner_ft.pretraining.emphasis import fit, weighted_losses
-        from planner_ft.pretraining.kernels import CAUSAL, register_attention
-
-        register_attention()
-        tokenizer = tokenizer_of(work, arguments)
-        drawn = encoded(
-            tokenizer,
-            load_vocabulary(),
-            seed=arguments.corpus_seed - 1,
-            mission_share=arguments.mission_share,
-            longest=settings.longest,
-        )
-        samples = [
-            sample for sample in islice(drawn, arguments.scored_samples) if sample is not None
-        ]
-        model = LlamaForCausalLM.from_pretrained(
-            arguments.init, dtype=torch.bfloat16, attn_implementation=CAUSAL
-        ).eval()
-        fit(samples, weighted_losses(model, samples, tokenizer), arguments.hard_share).save(path)
-    return path
-
-
 def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSettings) -> list[Path]:
     """The corpus as shard files, those that are missing written first."""
     paths = [work / "corpus" / f"shard-{index:03d}.npz" for index in range(arguments.shards)]
-    emphasis = emphasis_of(work, arguments, settings)
     drawn = (
         arguments.shard_samples,
         arguments.mission_share,
@@ -119,7 +73,7 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
         arguments.unfamiliar_share,
     )
     jobs = [
-        (path, work / "tokenizer", emphasis, arguments.corpus_seed + index, *drawn)
+        (path, work / "tokenizer", arguments.corpus_seed + index, *drawn)
         for index, path in enumerate(paths)
         if not path.is_file()
     ]
@@ -205,7 +159,7 @@ def corpus_summary(work: Path) -> dict[str, Any]:
     parts = [json.loads(path.read_text()) for path in sorted((work / "corpus").glob("*.json"))]
     sums = {
         key: sum(part.get(key, 0) for part in parts)
-        for key in ("samples", "tokens", "left_out", "passed_over", "drills")
+        for key in ("samples", "tokens", "left_out", "drills")
     }
     return {**sums, "generators": sorted({part["commit"] for part in parts if part.get("commit")})}
 
@@ -251,15 +205,6 @@ def main() -> None:
         type=float,
         default=0.0,
         help="samples whose targets go by words that the generators do not have",
-    )
-    parser.add_argument(
-        "--hard-share",
-        type=float,
-        default=1.0,
-        help="share of the drawn tokens that is kept, those hard for --init first",
-    )
-    parser.add_argument(
-        "--scored-samples", type=int, default=8000, help="samples whose losses tell hard from easy"
     )
     parser.add_argument("--corpus-seed", type=int, default=1000)
     parser.add_argument("--tokenizer-samples", type=int, default=20_000)

@@ -1,5 +1,4 @@
-"""The pretraining corpus: synthetic samples of both levels, rendered, tokenised and batched by
-length.
+"""The pretraining corpus: synthetic samples of both levels, rendered, tokenised, batched by length.
 
 Only the training families of the generators are drawn: the curated mission set and the task level's
 `test_unseen` families never enter.
@@ -7,6 +6,7 @@ Only the training families of the generators are drawn: the curated mission set 
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,7 +20,6 @@ from planner_ft.data.mission.synthetic import sample_missions
 from planner_ft.data.task.handed_down import handed_down_tasks
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.task.working import working_of
-from planner_ft.pretraining.emphasis import Emphasis, Encoded
 from planner_ft.pretraining.unfamiliar import with_unfamiliar_words
 from planner_ft.prompts.render import render_sample
 from planner_ft.prompts.text import answer_text, user_text
@@ -33,14 +32,10 @@ if TYPE_CHECKING:
 
 IGNORE = -100
 HANDED_DOWN, HANDED_DOWN_SEED = 0.1, 50_000_000
-"""Share of the task inputs that come from missions, and what keeps those missions apart from the
-mission samples.
-"""
+"""Share of the task inputs that come from missions, and the seed offset of those missions."""
 DRILL_SEED = 70_000_000
 CUT = 0.6
-"""Share of the samples with a working that end behind it: the plan takes most of the tokens and has
-little left to learn.
-"""
+"""Share of the samples with a working that end behind it: the plan itself has little to teach."""
 WIDTH_STEP = 8
 """Batches are this many positions wide, or a multiple."""
 Sample = tuple[NDArray[np.int64], int]
@@ -48,11 +43,22 @@ Sample = tuple[NDArray[np.int64], int]
 
 
 @dataclass(frozen=True)
-class Rows:
-    """A batch of samples, padded on the right: arrays int64 of shape (samples, width); `labels` are
-    IGNORE outside answers.
+class Encoded:
+    """A rendered sample: token ids (int64, 1-D) and the length of the prompt among them.
 
-    `tokens` counts what is no padding.
+    `worked` counts the tokens up to the plan; None where no working stands before it.
+    """
+
+    ids: NDArray[np.int64]
+    prompt: int
+    worked: int | None = None
+
+
+@dataclass(frozen=True)
+class Rows:
+    """A batch of samples, padded on the right: int64 arrays of shape (samples, width).
+
+    `labels` are IGNORE outside answers; `tokens` counts without padding.
     """
 
     input_ids: NDArray[np.int64]
@@ -63,29 +69,22 @@ class Rows:
 def stream(
     vocabulary: Vocabulary, seed: int, mission_share: float, unfamiliar_share: float = 0.0
 ) -> Iterator[tuple[Level, dict[str, Any]]]:
-    """Endless mixed samples of both levels; some of the task inputs are those that a Mission Agent
-    hands down.
+    """Endless mixed samples of both levels; some task inputs are those of synthetic missions.
 
     With a probability of `unfamiliar_share` a sample's target gets a name that the generators do
-    not know, where it has one that can be changed.
+    not know, where it has a word that can be changed.
     """
     missions, tasks = sample_missions(seed), sample_tasks(vocabulary, seed, None, "train")
     handed_down = handed_down_tasks(vocabulary, seed + HANDED_DOWN_SEED)
     draw, words = np.random.default_rng(seed), Random(f"{seed} unfamiliar")
     while True:
         level: Level = "mission" if draw.random() < mission_share else "task"
-        record = next(
-            missions
-            if level == "mission"
-            else handed_down
-            if draw.random() < HANDED_DOWN
-            else tasks
-        )
-        changed = (
-            with_unfamiliar_words(record, vocabulary, words)
-            if words.random() < unfamiliar_share
-            else None
-        )
+        source = missions
+        if level == "task":
+            source = handed_down if draw.random() < HANDED_DOWN else tasks
+        record, changed = next(source), None
+        if words.random() < unfamiliar_share:
+            changed = with_unfamiliar_words(record, vocabulary, words)
         yield level, changed or record
 
 
@@ -117,17 +116,12 @@ def encoded(
 def drills(
     tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary, *, seed: int, longest: int
 ) -> Iterator[Encoded]:
-    """Endless samples of the task level that have a working; up to its end they are practice in
-    sums for few tokens.
-    """
+    """Endless task samples with a working; up to its end they are practice in sums."""
     for record in sample_tasks(vocabulary, seed + DRILL_SEED, None, "train"):
-        sample = (
-            _encoded(tokenizer, vocabulary, "task", record, longest)
-            if working_of(record, vocabulary)
-            else None
-        )
-        if sample is not None and sample.worked is not None:
-            yield sample
+        if working_of(record, vocabulary):
+            sample = _encoded(tokenizer, vocabulary, "task", record, longest)
+            if sample is not None and sample.worked is not None:
+                yield sample
 
 
 def _encoded(
@@ -139,20 +133,14 @@ def _encoded(
 ) -> Encoded | None:
     rendered = render_sample(level, record, tokenizer, vocabulary)
     ids, prompt = np.array(rendered.input_ids, dtype=np.int64), rendered.prompt_length
+    if len(ids) > longest:
+        return None
     worked = _worked(tokenizer, answer_text(level, record, vocabulary), ids[prompt:])
-    return (
-        Encoded(
-            level, user_text(level, record, vocabulary), ids, prompt, worked and prompt + worked
-        )
-        if len(ids) <= longest
-        else None
-    )
+    return Encoded(ids, prompt, worked and prompt + worked)
 
 
 def _worked(tokenizer: PreTrainedTokenizerBase, answer: str, ids: NDArray[np.int64]) -> int | None:
-    """How many tokens of an answer are its working; None without one, or where a token spans its
-    end.
-    """
+    """Number of tokens of an answer's working; None without one, or where a token spans its end."""
     plan, working = without_working(answer)
     if not working:
         return None
@@ -169,20 +157,18 @@ def encode_shard(
     count: int,
     mission_share: float,
     longest: int,
-    emphasis: Emphasis | None = None,
     drill_share: float = 0.0,
     unfamiliar_share: float = 0.0,
 ) -> dict[str, int]:
     """Write `count` tokenised samples as one .npz file; return counts.
 
-    Samples over `longest` tokens are left out and counted, those that `emphasis` passes over are
-    drawn again and counted. Of those with a working, some end behind it (`CUT`); behind each sample
-    comes a drill, with a probability of `drill_share`, which is counted apart.
+    Samples over `longest` tokens are left out and counted. Of those with a working, some end behind
+    it (`CUT`); a drill follows each sample with a probability of `drill_share`, counted apart.
     """
     draw = np.random.default_rng(seed)
     ids: list[NDArray[np.uint16]] = []
     prompts: list[int] = []
-    left_out = passed_over = drilled = 0
+    left_out = drilled = 0
     practice = drills(tokenizer, vocabulary, seed=seed, longest=longest)
     drawn = encoded(
         tokenizer,
@@ -192,37 +178,24 @@ def encode_shard(
         longest=longest,
         unfamiliar_share=unfamiliar_share,
     )
-    for sample in drawn:
+    for sample in itertools.islice(drawn, count):
         if sample is None:
             left_out += 1
-        elif emphasis is not None and draw.random() >= emphasis.probability(sample):
-            passed_over += 1
-        else:
-            kept = sample.worked if draw.random() < CUT else None
-            ids.append(sample.ids[:kept].astype(np.uint16))
-            prompts.append(sample.prompt)
-            if draw.random() < drill_share:
-                drill = next(practice)
-                ids.append(drill.ids[: drill.worked].astype(np.uint16))
-                prompts.append(drill.prompt)
-                drilled += 1
-        if len(ids) - drilled + left_out == count:
-            break
+            continue
+        kept = sample.worked if draw.random() < CUT else None
+        ids.append(sample.ids[:kept].astype(np.uint16))
+        prompts.append(sample.prompt)
+        if draw.random() < drill_share:
+            drill = next(practice)
+            ids.append(drill.ids[: drill.worked].astype(np.uint16))
+            prompts.append(drill.prompt)
+            drilled += 1
     lengths = np.array([len(item) for item in ids], dtype=np.int32)
     with atomic_writer(path, "wb") as stream_:
-        np.savez(
-            stream_,
-            ids=np.concatenate(ids),
-            lengths=lengths,
-            prompts=np.array(prompts, dtype=np.int32),
-        )
-    return {
-        "samples": len(ids) - drilled,
-        "tokens": int(lengths.sum()),
-        "left_out": left_out,
-        "passed_over": passed_over,
-        "drills": drilled,
-    }
+        at = np.array(prompts, dtype=np.int32)
+        np.savez(stream_, ids=np.concatenate(ids), lengths=lengths, prompts=at)
+    samples, tokens = len(ids) - drilled, int(lengths.sum())
+    return {"samples": samples, "tokens": tokens, "left_out": left_out, "drills": drilled}
 
 
 def load_shard(path: Path) -> list[Sample]:
@@ -237,21 +210,18 @@ def load_shard(path: Path) -> list[Sample]:
 
 
 def batched(samples: list[Sample], batch_tokens: int, pad: int, seed: int) -> list[Rows]:
-    """All samples in batches of about `batch_tokens` tokens, samples of like length together, in an
-    order drawn from `seed`.
+    """Batches of about `batch_tokens` tokens, samples of like length together, in a drawn order.
 
-    Attention then costs what the samples cost: on a CPU, rows of many packed samples spend half of
-    the time on pairs of tokens that do not see each other.
+    On a CPU this beats packing: packed rows spend half of the time on tokens of other samples.
     """
     rng = np.random.default_rng(seed)
     by_width: dict[int, list[int]] = {}
-    for index in rng.permutation(len(samples)):
-        by_width.setdefault(-(-len(samples[index][0]) // WIDTH_STEP) * WIDTH_STEP, []).append(
-            int(index)
-        )
+    for index in map(int, rng.permutation(len(samples))):
+        width = -(-len(samples[index][0]) // WIDTH_STEP) * WIDTH_STEP
+        by_width.setdefault(width, []).append(index)
     rows, waiting = [], list[int]()
     for width in sorted(by_width):
-        # What fills no batch at its own width waits for the next one.
+        # Samples that fill no batch of their width wait for the next one.
         members = waiting + by_width[width]
         size = max(1, batch_tokens // width)
         whole = len(members) // size * size

@@ -1,16 +1,14 @@
-"""Samples whose targets go by words that the generators' lists do not have, so that copying is
-learnt and not the lists.
+"""Targets with words that the generators' lists lack, so that copying is learnt, not the lists.
 
-A model that has met every word of its targets many times writes those, and stumbles where an
-operator's word is none of them: it misspells it, or goes on with a piece of another text. Here a
-word that the input and the plan share, one of those that things are called or a name, is replaced
-in both.
+A model that knows every word of its targets misspells an operator's unknown word. Here a word that
+input and plan share, the name of a thing or a proper name, is replaced in both.
 """
 
 from __future__ import annotations
 
 import functools
 import re
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from random import Random
@@ -21,70 +19,11 @@ from planner_ft.data.mission.synthetic.names import NAME_ENDINGS, place_name, ps
 from planner_ft.vocabulary import Vocabulary
 
 _WORD = re.compile(r"(?<![\w-])[^\W\d_]{4,}(?![\w-])")
-_STAYING = """
-above aerial altimeter area back below bottom camera centre circular compass corner cross current detector deep east eastern edge face forward front
-gauge high hole home inboard infrared inner inspection laser left level line little long longer lower magnetic mark marker meter metre middle mobile near
-north northern number open outboard outer over part point port radar rear rectangular report right round safe second section sensor shallow shore side
-single small sound south southern square starboard stern stop stream surface swell tall temporary third three tide time upper video water west western
-wide wind yellow
-"""
-"""Words of places, directions, kinds and devices: they say what is to be done, and stay."""
-_PREFIXES = (
-    "inter",
-    "sub",
-    "over",
-    "under",
-    "hydro",
-    "electro",
-    "aero",
-    "mono",
-    "multi",
-    "semi",
-    "cross",
-    "fore",
-    "out",
-    "up",
-    "trans",
-    "photo",
+_TABLES: dict[str, Any] = tomllib.loads(
+    (Path(__file__).parent / "unfamiliar.toml").read_text(encoding="utf-8")
 )
-_SUFFIXES = (
-    "er",
-    "or",
-    "ing",
-    "ory",
-    "ette",
-    "ment",
-    "age",
-    "ler",
-    "ock",
-    "ard",
-    "ling",
-    "ship",
-    "work",
-    "house",
-    "stone",
-    "way",
-    "let",
-    "ine",
-    "ite",
-)
-_ACCENTS = {
-    "a": "àáâãäåæăą",
-    "c": "çčć",
-    "d": "đð",
-    "e": "èéêëęě",
-    "g": "ğ",
-    "i": "ìíîïı",
-    "l": "ł",
-    "n": "ñńň",
-    "o": "òóôõöøőœ",
-    "r": "ř",
-    "s": "šśşß",
-    "t": "țþ",
-    "u": "ùúûüűů",
-    "y": "ýÿ",
-    "z": "žźż",
-}
+_PREFIXES, _SUFFIXES = _TABLES["prefixes"].split(), _TABLES["suffixes"].split()
+_STAYING, _ACCENTS = frozenset(_TABLES["staying"].split()), _TABLES["accents"]
 
 
 def with_unfamiliar_words(
@@ -166,7 +105,7 @@ def _things() -> tuple[str, ...]:
             word
             for word in words
             if len(word) > 3
-            and word not in _STAYING.split()
+            and word not in _STAYING
             and not word.startswith(("u", "eu", "one", "hon"))
         )
     )
@@ -182,7 +121,7 @@ def _shared_words(record: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
         set(_WORD.findall(record["prompt"])),
     )
     found = dict.fromkeys(
-        word for text in _told(record["expected"]) for word in _WORD.findall(text)
+        word for text in _texts(record["expected"]) for word in _WORD.findall(text)
     )
     return [
         word
@@ -197,12 +136,12 @@ def _shared_words(record: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
 def _vocabulary_words(vocabulary: Vocabulary) -> frozenset[str]:
     """The words that the names of tasks and skills are made of, in lower case."""
     names = [task.title for task in vocabulary.tasks] + [skill.name for skill in vocabulary.skills]
-    return frozenset(_STAYING.split()) | {
+    return _STAYING | {
         part.lower() for name in names for part in re.findall(r"[A-Z]+(?![a-z])|[A-Z][a-z]+", name)
     }
 
 
-def _told(expected: dict[str, Any]) -> Iterator[str]:
+def _texts(expected: dict[str, Any]) -> Iterator[str]:
     for entry in expected.get("tasks", ()):
         yield from _strings(entry["parameters"])
     for step in expected.get("skill_sequence", ()):
