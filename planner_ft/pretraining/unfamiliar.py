@@ -22,8 +22,10 @@ _WORD = re.compile(r"(?<![\w-])[^\W\d_]{4,}(?![\w-])")
 _TABLES: dict[str, Any] = tomllib.loads(
     (Path(__file__).parent / "unfamiliar.toml").read_text(encoding="utf-8")
 )
-_PREFIXES, _SUFFIXES = _TABLES["prefixes"].split(), _TABLES["suffixes"].split()
-_STAYING, _ACCENTS = frozenset(_TABLES["staying"].split()), _TABLES["accents"]
+_PREFIXES: list[str] = _TABLES["prefixes"].split()
+_SUFFIXES: list[str] = _TABLES["suffixes"].split()
+_STAYING: frozenset[str] = frozenset(_TABLES["staying"].split())
+_ACCENTS: dict[str, str] = _TABLES["accents"]
 
 
 def with_unfamiliar_words(
