@@ -8,6 +8,7 @@ from typing import Any
 
 from planner_ft.benchmark.layout import heading
 from planner_ft.candidates.adapters import CONFIG, MANIFEST, WEIGHTS
+from planner_ft.report.contents import failure_words
 from planner_ft.report.metrics import MAIN, column, columns, estimate, figure_cell
 from planner_ft.report.runs import Record, System, TestSet, load_test_sets
 from planner_ft.report.tables import Table, TableRow, markdown_table
@@ -157,22 +158,16 @@ def _section(measured: Sequence[Measured]) -> str:
 
 
 def _limits(rows: Sequence[Measured]) -> list[str]:
-    """What the figures do not say, and how the wrong answers were wrong."""
+    """The limits of the figures, and how the wrong answers were wrong."""
     tests = rows[0][0]
     found = [
         f"{tests.n} samples of {Path(tests.path).name} (SHA-256 {tests.sha256[:12]}…): a difference"
         " smaller than the intervals is not known."
     ]
     for _tests, system in rows:
-        failures = {kind: count for kind, count in system.row.get("failures", {}).items() if count}
-        kinds = ", ".join(
-            f"{kind} {count}"
-            for kind, count in sorted(failures.items(), key=lambda entry: (-entry[1], entry[0]))
-        )
-        found.append(
-            f"{heading(str(system.row.get('configuration')))}: "
-            + (f"wrong answers by kind: {kinds}." if kinds else "no wrong answer.")
-        )
+        kinds = failure_words(system)
+        words = f"wrong answers by kind: {kinds}." if kinds else "no wrong answer."
+        found.append(f"{heading(system.configuration)}: {words}")
     return found
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -21,7 +21,7 @@ from planner_ft.report.tables import Table
 
 @dataclass(frozen=True)
 class Sentence:
-    """A sentence of the summary; `lead` is what it is about."""
+    """A sentence of the summary under the name of its subject."""
 
     lead: str
     text: str
@@ -45,64 +45,41 @@ class Section:
     @property
     def tables(self) -> tuple[Table, ...]:
         """Every table, in the order of the page."""
-        return (
-            self.main,
-            *self.extra,
-            *([self.differences] if self.differences else []),
-            *self.all_metrics,
-        )
+        differences = [self.differences] if self.differences else []
+        return (self.main, *self.extra, *differences, *self.all_metrics)
 
     @property
     def figures(self) -> tuple[Chart, ...]:
         """Every chart, in the order of the page."""
-        return (
-            *self.charts,
-            *(chart for _name, of_system in self.per_system for chart in of_system),
-        )
+        return (*self.charts, *(chart for _name, charts in self.per_system for chart in charts))
 
 
 def section(tests: TestSet) -> Section:
     """The content of a test set's section."""
     found = significance(tests)
-    extra = [table for table in (cost_table(tests), group_table(tests)) if table is not None]
-    of_systems = [
-        (system.name, tuple(system_charts(tests, system)))
-        for system in tests.systems
-        if not system.is_baseline
-    ]
+    of_systems = [(one.name, tuple(system_charts(tests, one))) for one in tests.candidates]
+    notes = [note for results in tests.results for note in table_notes(as_results(results))]
     return Section(
         tests,
         summary=tuple(_summary(tests, found)),
         main=main_table(tests, found.marks),
         legend=found.legend,
-        extra=tuple(extra),
+        extra=tuple(table for table in (cost_table(tests), group_table(tests)) if table),
         differences=found.table,
         all_metrics=tuple(metric_tables(tests)),
         charts=tuple(charts(tests)),
         per_system=tuple((name, of_system) for name, of_system in of_systems if of_system),
-        notes=tuple(_notes(tests)),
+        notes=tuple(dict.fromkeys([*notes, *tests.notes])),
     )
 
 
-def _summary(tests: TestSet, found: Significance) -> list[Sentence]:
-    systems = tests.candidates
-    failed = [entry for results in tests.results for entry in results.get("failed") or []]
-    return [
-        *(
-            Sentence(
-                f"{system.name}.",
-                f"{_in_words(tests, system)} {found.sentences.get(system.name, '')}".strip(),
-            )
-            for system in systems
-        ),
-        *(
-            Sentence(
-                f"{entry.get('label')}, {heading(str(entry.get('configuration')))}.",
-                f"Not measured: {entry.get('reason')}.",
-            )
-            for entry in failed
-        ),
-    ]
+def _summary(tests: TestSet, found: Significance) -> Iterator[Sentence]:
+    for system in tests.candidates:
+        text = f"{_in_words(tests, system)} {found.sentences.get(system.name, '')}"
+        yield Sentence(f"{system.name}.", text.strip())
+    for entry in (entry for results in tests.results for entry in results.get("failed") or []):
+        lead = f"{entry.get('label')}, {heading(str(entry.get('configuration')))}."
+        yield Sentence(lead, f"Not measured: {entry.get('reason')}.")
 
 
 def _in_words(tests: TestSet, system: System) -> str:
@@ -110,52 +87,37 @@ def _in_words(tests: TestSet, system: System) -> str:
     whole, n = estimate(system, "whole_plan"), int(system.row.get("n", tests.n))
     if whole.value is None:
         return f"{n} answers."
-    span = (
-        ""
-        if whole.low is None or whole.high is None
-        else f", 95 % interval {100 * whole.low:.0f} to {100 * whole.high:.0f} %"
-    )
+    span = ""
+    if whole.low is not None and whole.high is not None:
+        span = f", 95 % interval {100 * whole.low:.0f} to {100 * whole.high:.0f} %"
     n *= max((len(lines) for lines in system.repeats.values()), default=1)
     text = (
         f"{round(whole.value * n)} of {n} plans are right in every name, order and value"
         f" ({100 * whole.value:.0f} %{span})."
     )
-    failures = sorted(
-        ((count, kind) for kind, count in system.row.get("failures", {}).items() if count),
-        key=lambda entry: (-entry[0], entry[1]),
-    )
-    if failures:
-        text += " Wrong: " + ", ".join(f"{kind} {count}" for count, kind in failures) + "."
-    return text
+    kinds = failure_words(system)
+    return f"{text} Wrong: {kinds}." if kinds else text
 
 
-def _notes(tests: TestSet) -> list[str]:
-    return list(
-        dict.fromkeys(
-            [
-                *(note for results in tests.results for note in table_notes(as_results(results))),
-                *tests.notes,
-            ]
-        )
-    )
+def failure_words(system: System) -> str:
+    """Wrong answers by kind, the most frequent first: "wrong order 3, parameter propagation 1"."""
+    found = system.row.get("failures", {}).items()
+    order = sorted((-count, kind) for kind, count in found if count)
+    return ", ".join(f"{kind} {-count}" for count, kind in order)
 
 
 def as_results(record: Record) -> Results:
-    """results.json as an object, as far as the notes of tables need it; what another version
-    recorded beside is left out.
+    """results.json as an object, as far as the notes of tables need it; records of other versions
+    beside it are left out.
     """
-    rows = [Row(system=_row_system(row), **_row_values(row)) for row in record["rows"]]
-    return Results(record["level"], record["data"], tuple(rows), record.get("manifest", {}))
+    rows = tuple(Row(system=_row_system(row), **_row_values(row)) for row in record["rows"])
+    return Results(record["level"], record["data"], rows, record.get("manifest", {}))
 
 
 def _row_system(row: Record) -> RowSystem:
     known = {field.name for field in fields(RowSystem)}
-    return RowSystem(
-        **{
-            "label": str(row.get("candidate")),
-            **{name: value for name, value in row.items() if name in known},
-        }
-    )
+    values = {name: value for name, value in row.items() if name in known}
+    return RowSystem(**{"label": str(row.get("candidate")), **values})
 
 
 def _row_values(row: Record) -> dict[str, Any]:
@@ -184,23 +146,23 @@ def provenance(sets: Sequence[TestSet]) -> list[tuple[str, str]]:
 
 
 def _of_run(manifest: Record) -> list[tuple[str, str]]:
-    versions = ", ".join(
-        f"{name} {version}" for name, version in manifest.get("versions", {}).items()
-    )
-    hardware = ", ".join(f"{name} {value}" for name, value in manifest.get("hardware", {}).items())
+    def listed(key: str) -> str:
+        return ", ".join(f"{name} {value}" for name, value in manifest.get(key, {}).items())
+
     jobs = [
         (f"Adapter of {name}", f"SHA-256 {job['adapter']}")
         for name, job in manifest.get("jobs", {}).items()
         if isinstance(job, dict) and job.get("adapter")
     ]
-    commit = f"{manifest.get('commit') or 'unknown'}{' with local changes' if manifest.get('dirty') else ''}"
+    commit = str(manifest.get("commit") or "unknown")
+    commit += " with local changes" if manifest.get("dirty") else ""
     entries = [
         ("Command", str(manifest.get("command", ""))),
         ("Made", str(manifest.get("created", ""))),
         ("Seed", str(manifest.get("seed", ""))),
         ("planner_ft", f"{manifest.get('planner_ft', '')}, commit {commit}"),
-        ("Versions", versions),
-        ("Hardware", hardware),
+        ("Versions", listed("versions")),
+        ("Hardware", listed("hardware")),
         *jobs,
     ]
     return [(name, value) for name, value in entries if value]

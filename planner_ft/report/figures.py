@@ -17,34 +17,28 @@ from planner_ft.report.metrics import estimate, published_label, published_rows
 from planner_ft.report.runs import Record, System, TestSet
 from planner_ft.vocabulary.plans import list_key
 
-UNIT, AGENT = (
-    {"mission": "tasks", "task": "steps"},
-    {"mission": "Mission Agent", "task": "Task Agent"},
+UNIT = {"mission": "tasks", "task": "steps"}
+AGENT = {"mission": "Mission Agent", "task": "Task Agent"}
+COMPARED = (
+    " Pale bars are for comparison: baselines, and the published figures, which were measured"
+    " elsewhere, on other samples and hardware."
 )
 
 
 def charts(tests: TestSet) -> list[Chart]:
     """The figures over all systems for which the runs hold something, in the order of the page."""
-    found = [
-        f1_bars(tests),
-        failure_matrix(tests),
-        stop_matrix(tests),
-        latency_dots(tests),
-        planning_lines(tests),
-        latency_lines(tests),
-    ]
+    makers = (f1_bars, failure_matrix, stop_matrix, latency_dots, planning_lines, latency_lines)
+    found: list[Chart | None] = [maker(tests) for maker in makers]
     return [chart for chart in found if chart is not None]
 
 
 def system_charts(tests: TestSet, system: System) -> list[Chart]:
-    """The figures of one system: names one by one, and what stands for what."""
+    """The figures of one system: names one by one, and substitutions."""
     counts = confusion(tests, system)
-    found = (
-        []
-        if counts is None
-        else [name_dots(tests, system, counts), substitution_matrix(tests, system, counts)]
-    )
-    return [chart for chart in found if chart is not None]
+    if counts is None:
+        return []
+    replaced = substitution_matrix(tests, system, counts)
+    return [name_dots(tests, system, counts), *([replaced] if replaced else [])]
 
 
 def f1_bars(tests: TestSet) -> Bars | None:
@@ -54,140 +48,92 @@ def f1_bars(tests: TestSet) -> Bars | None:
     bars = []
     theirs = published_rows(tests)
     for system in tests.systems:
-        found = estimate(system, "f1")
-        bars.append(
-            Bar(
-                system.name,
-                found.value,
-                found.low,
-                found.high,
-                estimate(system, "latency_s").value,
-                system.is_baseline,
-                _group(system),
-            )
-        )
-        key = (str(system.row.get("published")), str(system.row.get("configuration")))
+        f1, seconds = estimate(system, "f1"), estimate(system, "latency_s").value
+        group = "baseline" if system.is_baseline else heading(system.configuration)
+        bound = f1.low, f1.high
+        bars.append(Bar(system.name, f1.value, *bound, seconds, system.is_baseline, group))
+        key = (str(system.row.get("published")), system.configuration)
         if key in theirs:
             bars.append(_published_bar(key, theirs.pop(key)))
     bars += [_published_bar(key, figures) for key, figures in theirs.items()]
     caption = "Bars: mean F1 over samples with its 95 % interval. Lines: mean seconds of one query."
-    if any(bar.muted for bar in bars):
-        caption += (
-            " Pale bars are for comparison: baselines, and the published figures, which were"
-            " measured elsewhere, on other samples and hardware."
-        )
-    return Bars(
-        f"{tests.key}-f1", "F1 and latency", caption, "F1", "seconds per query", tuple(bars)
-    )
+    caption += COMPARED if any(bar.muted for bar in bars) else ""
+    name, axes = f"{tests.key}-f1", ("F1", "seconds per query")
+    return Bars(name, "F1 and latency", caption, *axes, tuple(bars))
 
 
 def _published_bar(key: tuple[str, str], figures: dict[str, float]) -> Bar:
-    return Bar(
-        published_label(key),
-        figures.get("f1"),
-        second=figures.get("latency_s"),
-        muted=True,
-        group=heading(key[1]),
-    )
-
-
-def _group(system: System) -> str:
-    return "baseline" if system.is_baseline else heading(str(system.row.get("configuration")))
+    f1, seconds = figures.get("f1"), figures.get("latency_s")
+    return Bar(published_label(key), f1, second=seconds, muted=True, group=heading(key[1]))
 
 
 def failure_matrix(tests: TestSet) -> Matrix | None:
     """Wrong answers by kind and system; in the end the published analysis, where it is about this
     test set.
     """
-    rows = [system for system in tests.candidates if system.row.get("failures")]
-    if not rows:
+    found: dict[str, Mapping[str, int]] = {
+        system.name: system.row["failures"]
+        for system in tests.candidates
+        if system.row.get("failures")
+    }
+    if not found:
         return None
-    kinds = list(
-        dict.fromkeys([*FAILURES, *(kind for system in rows for kind in system.row["failures"])])
-    )
-    names = [system.name for system in rows]
-    columns: list[Mapping[str, int]] = [system.row["failures"] for system in rows]
+    every = dict.fromkeys([*FAILURES, *(kind for counts in found.values() for kind in counts)])
     if tests.level == "mission" and published_rows(tests):
-        names, columns = (
-            [*names, "Mission Agent (published, 25 answers)"],
-            [*columns, {str(kind): count for kind, count in PUBLISHED.items()}],
-        )
-    kinds = [kind for kind in kinds if any(column.get(kind) for column in columns)] or kinds
-    counts = tuple(tuple(column.get(kind, 0) for kind in kinds) for column in columns)
+        counts = {str(kind): count for kind, count in PUBLISHED.items()}
+        found["Mission Agent (published, 25 answers)"] = counts
+    kinds = [kind for kind in every if any(counts.get(kind) for counts in found.values())]
+    kinds = kinds or list(every)
+    cells = tuple(tuple(counts.get(kind, 0) for kind in kinds) for counts in found.values())
     caption = f"Every wrong answer, classified automatically; of {tests.n} answers per system."
-    return Matrix(
-        f"{tests.key}-failures",
-        "Kinds of failure",
-        caption,
-        "System",
-        tuple(names),
-        tuple(kinds),
-        counts,
-    )
+    name, title = f"{tests.key}-failures", "Kinds of failure"
+    return Matrix(name, title, caption, "System", tuple(found), tuple(kinds), cells)
 
 
 def latency_dots(tests: TestSet) -> Dots | None:
     """Median, 90th and 99th percentile of timed queries."""
     rows = []
     for system in tests.systems:
-        seconds = [
-            score["latency_s"]
-            for score in system.scores.values()
-            if isinstance(score.get("latency_s"), int | float)
-        ]
+        found = [_seconds(score) for score in system.scores.values()]
+        seconds = [value for value in found if value is not None]
         if seconds:
-            rows.append(
-                DotRow(
-                    system.name,
-                    tuple(quantile(seconds, share).value for _name, share in QUANTILES),
-                    f"n = {len(seconds)}",
-                )
-            )
+            values = tuple(quantile(seconds, share).value for _name, share in QUANTILES)
+            rows.append(DotRow(system.name, values, f"n = {len(seconds)}"))
     if not rows:
         return None
     caption = (
         "Seconds of one query, one at a time after a warm-up. With few queries the 99th percentile"
         " is the slowest one."
     )
-    return Dots(
-        f"{tests.key}-latency",
-        "Latency of one query",
-        caption,
-        "seconds",
-        tuple(name for name, _share in QUANTILES),
-        tuple(rows),
-    )
+    name, marks = f"{tests.key}-latency", tuple(name for name, _share in QUANTILES)
+    return Dots(name, "Latency of one query", caption, "seconds", marks, tuple(rows))
+
+
+def _seconds(score: Record) -> float | None:
+    found = score.get("latency_s")
+    return found if isinstance(found, int | float) else None
 
 
 def stop_matrix(tests: TestSet) -> Matrix | None:
     """Where replayed plans stop, and for want of what."""
-    found = [
-        (system, system.row.get("stops") or [])
-        for system in tests.candidates
-        if isinstance(system.row.get("stops"), list)
-    ]
+    found: dict[str, dict[str, int]] = {}
     total: Counter[str] = Counter()
-    for _system, stops in found:
-        for stop in stops:
-            total[_stop(stop)] += stop["n"]
+    for system in tests.candidates:
+        stops = system.row.get("stops")
+        if isinstance(stops, list):
+            found[system.name] = {_stop(stop): stop["n"] for stop in stops}
+            for stop in stops:
+                total[_stop(stop)] += stop["n"]
     if not total:
         return None
-    rows = [name for name, _count in total.most_common()]
-    counts = [{_stop(stop): stop["n"] for stop in stops} for _system, stops in found]
-    cells = tuple(tuple(of_system.get(row, 0) for of_system in counts) for row in rows)
+    rows = tuple(name for name, _count in total.most_common())
+    cells = tuple(tuple(counts.get(row, 0) for counts in found.values()) for row in rows)
     caption = (
         "Plans replayed against what each task needs and gives: where they stop first, and for want"
         " of what."
     )
-    return Matrix(
-        f"{tests.key}-stops",
-        "Plans that do not run to the end",
-        caption,
-        "Missing",
-        tuple(rows),
-        tuple(system.name for system, _stops in found),
-        cells,
-    )
+    name, title = f"{tests.key}-stops", "Plans that do not run to the end"
+    return Matrix(name, title, caption, "Missing", rows, tuple(found), cells)
 
 
 def _stop(stop: Record) -> str:
@@ -198,32 +144,20 @@ def planning_lines(tests: TestSet) -> Lines | None:
     """Seconds to plan a mission of m tasks with both agents, where a run has timed it."""
     series = []
     for system in tests.systems:
-        entries = (system.row.get("costs") or {}).get("planning") or []
-        points = tuple(
-            Point(
-                entry["tasks"],
-                entry["seconds"]["value"],
-                entry["seconds"]["low"],
-                entry["seconds"]["high"],
-                entry["n"],
-            )
-            for entry in entries
-        )
-        series += [Series(system.name, points)] if points else []
+        points = []
+        for entry in (system.row.get("costs") or {}).get("planning") or []:
+            found = entry["seconds"]
+            ends = found["low"], found["high"]
+            points.append(Point(entry["tasks"], found["value"], *ends, n=entry["n"]))
+        series += [Series(system.name, tuple(points))] if points else []
     if not series:
         return None
     caption = (
         "Mean seconds from a command to tasks and skills, both agents; upright strokes are 95 %"
         " intervals."
     )
-    return Lines(
-        f"{tests.key}-planning",
-        "Planning time by number of tasks",
-        caption,
-        "tasks in the plan",
-        "seconds",
-        tuple(series),
-    )
+    name, title = f"{tests.key}-planning", "Planning time by number of tasks"
+    return Lines(name, title, caption, "tasks in the plan", "seconds", tuple(series))
 
 
 def latency_lines(tests: TestSet) -> Lines | None:
@@ -233,8 +167,9 @@ def latency_lines(tests: TestSet) -> Lines | None:
         timed: dict[int, list[float]] = {}
         for name, score in system.scores.items():
             entries = tests.samples.get(name, {}).get("expected", {}).get(list_key(tests.level))
-            if isinstance(score.get("latency_s"), int | float) and isinstance(entries, list):
-                timed.setdefault(len(entries), []).append(score["latency_s"])
+            seconds = _seconds(score)
+            if seconds is not None and isinstance(entries, list):
+                timed.setdefault(len(entries), []).append(seconds)
         points = tuple(_point(size, timed[size]) for size in sorted(timed))
         series += [Series(system.name, points)] if points else []
     if not series:
@@ -244,84 +179,61 @@ def latency_lines(tests: TestSet) -> Lines | None:
         f"Mean seconds of a query of the {agent} by the number of {unit} in the expected plan;"
         " upright strokes reach from the fastest to the slowest."
     )
-    return Lines(
-        f"{tests.key}-latency-by-size",
-        f"Latency by number of {unit}",
-        caption,
-        f"{unit} in the expected plan",
-        "seconds",
-        tuple(series),
-    )
+    name, title = f"{tests.key}-latency-by-size", f"Latency by number of {unit}"
+    return Lines(name, title, caption, f"{unit} in the expected plan", "seconds", tuple(series))
 
 
 def _point(size: int, seconds: Sequence[float]) -> Point:
-    several = len(seconds) > 1
-    return Point(
-        size,
-        float(np.mean(seconds)),
-        min(seconds) if several else None,
-        max(seconds) if several else None,
-        len(seconds),
-    )
+    ends = (min(seconds), max(seconds)) if len(seconds) > 1 else (None, None)
+    return Point(size, float(np.mean(seconds)), *ends, n=len(seconds))
 
 
 def name_dots(tests: TestSet, system: System, counts: Confusion) -> Dots:
     """Precision and recall per task or skill, the most frequent first."""
-    order = sorted(counts.names.items(), key=lambda entry: (-entry[1].expected, entry[0]))
-    rows = tuple(
-        DotRow(
-            name,
-            (
-                found.precision if found.predicted else None,
-                found.recall if found.expected else None,
-            ),
-            f"{found.right} / {found.predicted} / {found.expected}",
-        )
-        for name, found in order
-    )
+    rows = []
+    for label, found in sorted(counts.names.items(), key=lambda one: (-one[1].expected, one[0])):
+        precision = found.precision if found.predicted else None
+        recall = found.recall if found.expected else None
+        note = f"{found.right} / {found.predicted} / {found.expected}"
+        rows.append(DotRow(label, (precision, recall), note))
     what = "task" if tests.level == "mission" else "skill"
     caption = (
         f"Precision: share of the planned {what}s of a name that were expected. Recall: share of"
         " the expected ones that were planned."
     )
-    title = f"Precision and recall per {what}: {system.name}"
     return Dots(
         f"{tests.key}-names-{slug(system.name)}",
-        title,
+        f"Precision and recall per {what}: {system.name}",
         caption,
         "share",
         ("precision", "recall"),
-        rows,
+        tuple(rows),
         "right / planned / expected",
         1.0,
     )
 
 
 def substitution_matrix(tests: TestSet, system: System, counts: Confusion) -> Matrix | None:
-    """What stands where something else was expected; the last column is what was left out, the last
-    row what was added.
+    """Names in the place of expected ones; the last column is for omissions, the last row for
+    additions.
     """
-    if not counts.substitutions:
+    found = counts.substitutions
+    if not found:
         return None
-    rows, columns = _by_frequency(counts.substitutions, 0), _by_frequency(counts.substitutions, 1)
+    rows, columns = _by_frequency(found, 0), _by_frequency(found, 1)
     cells = tuple(
-        tuple(
-            None if row is column is None else counts.substitutions.get((row, column), 0)
-            for column in columns
-        )
+        tuple(None if row is column is None else found.get((row, column), 0) for column in columns)
         for row in rows
     )
-    names = (
+    return Matrix(
+        f"{tests.key}-substitutions-{slug(system.name)}",
+        f"Substitutions: {system.name}",
+        "Rows: what was expected. Columns: what the answer has in its place. Where both agree"
+        " nothing is counted.",
+        "Expected",
         tuple(row or "(added)" for row in rows),
         tuple(column or "(left out)" for column in columns),
-    )
-    caption = (
-        "Rows: what was expected. Columns: what the answer has in its place. Where both agree"
-        " nothing is counted."
-    )
-    title = f"Substitutions: {system.name}"
-    return Matrix(
-        f"{tests.key}-substitutions-{slug(system.name)}", title, caption, "Expected", *names, cells
+        cells,
     )
 
 
@@ -335,9 +247,5 @@ def _by_frequency(found: Counter[tuple[str | None, str | None]], side: int) -> l
 
 def slug(name: str) -> str:
     """A name for a file."""
-    return "-".join(
-        "".join(
-            letter if letter.isalnum() and letter.isascii() else " "
-            for letter in name.lower().replace("+", " ")
-        ).split()
-    )
+    kept = (letter if letter.isalnum() and letter.isascii() else " " for letter in name.lower())
+    return "-".join("".join(kept).split())

@@ -50,6 +50,10 @@ def column(metric: str, known: dict[str, Column]) -> Column:
     )
 
 
+BESIDE = {"load_s": 1, "adapter_swap_s": 1000, "peak_memory_bytes": 2**-20}
+"""Costs without an interval, with the factor to their unit in the table."""
+
+
 def estimate(system: System, metric: str) -> Estimate:
     """A system's figure with its interval."""
     found = system.metric(metric)
@@ -116,52 +120,30 @@ def cost_table(tests: TestSet) -> Table | None:
     """Quantiles of latency, time to first token, throughput, loading and memory, as far as they
     were measured.
     """
-    found = [
-        (system, system.row["costs"])
-        for system in tests.systems
-        if isinstance(system.row.get("costs"), dict) and system.row["costs"]
-    ]
-    if not found:
-        return None
     rows = []
-    for system, costs in found:
-        quantiles = costs.get("latency_s") or {}
-        figures = [
-            *(quantiles.get(name) for name, _share in QUANTILES),
-            costs.get("first_token_s"),
-            costs.get("tokens_per_s"),
-        ]
-        plain = [
-            costs.get("load_s"),
-            _scaled(costs.get("adapter_swap_s"), 1000),
-            _scaled(costs.get("peak_memory_bytes"), 2**-20),
-        ]
-        rows.append(
-            TableRow(
-                system.name,
-                (
-                    *(_cost(figure or {}) for figure in figures),
-                    *(_cost({"value": value}) for value in plain),
-                ),
-            )
-        )
+    for system in tests.systems:
+        costs = system.row.get("costs")
+        if not isinstance(costs, dict) or not costs:
+            continue
+        latency = costs.get("latency_s") or {}
+        figures = [latency.get(name) for name, _share in QUANTILES]
+        figures += [costs.get("first_token_s"), costs.get("tokens_per_s")]
+        for name, scale in BESIDE.items():
+            value = costs.get(name)
+            figures.append({"value": None if value is None else value * scale})
+        cells = tuple(_cost(figure or {}) for figure in figures)
+        rows.append(TableRow(system.name, cells))
+    if not rows:
+        return None
     heads = (
         *(f"Latency {name} (s)" for name, _share in QUANTILES),
-        "First token (s)",
-        "Tokens/s",
-        "Load (s)",
-        "Adapter switch (ms)",
-        "Peak memory (MiB)",
+        *("First token (s)", "Tokens/s", "Load (s)", "Adapter switch (ms)", "Peak memory (MiB)"),
     )
     caption = (
         "One query at a time after a warm-up. In brackets 95 % intervals; – where too few queries"
         " were timed to know a bound."
     )
     return Table(f"{tests.key}-cost", "Cost", caption, "System", heads, tuple(rows))
-
-
-def _scaled(value: float | None, factor: float) -> float | None:
-    return None if value is None else value * factor
 
 
 def _cost(figure: dict[str, Any]) -> Cell:

@@ -13,7 +13,7 @@ from planner_ft.benchmark.contrasts_text import BEST
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.benchmark.verdicts import EXPLAINED, MARKS, p_text, signed
 from planner_ft.report.metrics import column, columns
-from planner_ft.report.runs import Record, System, TestSet
+from planner_ft.report.runs import Record, TestSet
 from planner_ft.report.tables import Cell, Table, TableRow
 
 NOT_WORSE = ("better", "equal", "not told apart")
@@ -37,27 +37,19 @@ def significance(tests: TestSet) -> Significance:
     """The comparisons that a run has recorded; those of several runs together are made here, by the
     same tests.
     """
-    found = _recorded(tests) or _made(tests)
-    names = {
-        system_key((system.alias, str(system.row.get("configuration")))): system.name
-        for system in tests.systems
-    }
+    names = {system_key((one.alias, one.configuration)): one.name for one in tests.systems}
     known: dict[str, list[Record]] = {
         question: [
             {**one, "first": names[one["first"]], "second": names[one["second"]]}
             for one in lines
             if one["first"] in names and one["second"] in names
         ]
-        for question, lines in found.items()
+        for question, lines in (_recorded(tests) or _made(tests)).items()
     }
     if not any(known.values()):
         return Significance()
-    return Significance(
-        _marks(known),
-        _legend(known),
-        _table(tests, known),
-        _against_baselines(known.get("baseline", [])),
-    )
+    sentences = _by_baseline(known.get("baseline", []))
+    return Significance(_marks(known), _legend(known), _table(tests, known), sentences)
 
 
 def _recorded(tests: TestSet) -> Compared:
@@ -66,86 +58,54 @@ def _recorded(tests: TestSet) -> Compared:
 
 
 def _made(tests: TestSet) -> Compared:
-    lines = {
-        kind: [
-            _named(system, line)
-            for system in tests.systems
-            if system.is_baseline is kind
-            for line in _lines(system)
-        ]
-        for kind in (False, True)
-    }
-    found: dict[Question, list[Any]] = dict(
-        contrasts(
-            lines[False], lines[True], int(tests.results[0].get("manifest", {}).get("seed") or 0)
-        )
-    )
-    return {
-        question: [one.to_json() for one in comparisons] for question, comparisons in found.items()
-    }
-
-
-def _lines(system: System) -> list[Record]:
-    return [line for of_sample in system.repeats.values() for line in of_sample]
-
-
-def _named(system: System, line: Record) -> Record:
-    return {
-        **line,
-        "candidate": system.alias,
-        "configuration": str(system.row.get("configuration")),
-    }
+    lines: dict[bool, list[Record]] = {False: [], True: []}
+    for system in tests.systems:
+        named = {"candidate": system.alias, "configuration": system.configuration}
+        for of_sample in system.repeats.values():
+            lines[system.is_baseline] += [{**line, **named} for line in of_sample]
+    seed = int(tests.results[0].get("manifest", {}).get("seed") or 0)
+    found: dict[Question, list[Any]] = dict(contrasts(lines[False], lines[True], seed))
+    return {question: [one.to_json() for one in made] for question, made in found.items()}
 
 
 def _marks(found: Compared) -> dict[tuple[str, str], str]:
     """As beside the figures of table.md: against the configuration that a row is compared with, and
     a star for the best and its equals.
     """
-    marks = {
-        (one["second"], one["metric"]): MARKS.get(one["verdict"], "")
-        for one in found.get("configuration", [])
-    }
-    best = {(one["first"], one["metric"]) for one in found.get("best", [])}
-    best |= {
-        (one["second"], one["metric"])
-        for one in found.get("best", [])
-        if one["verdict"] in NOT_WORSE
-    }
-    return marks | {key: marks.get(key, "") + BEST for key in best}
+    compared, best = found.get("configuration", []), found.get("best", [])
+    marks = {(one["second"], one["metric"]): MARKS.get(one["verdict"], "") for one in compared}
+    starred = {(one["first"], one["metric"]) for one in best}
+    starred |= {(one["second"], one["metric"]) for one in best if one["verdict"] in NOT_WORSE}
+    return marks | {key: marks.get(key, "") + BEST for key in starred}
 
 
 def _legend(found: Compared) -> str:
-    parts = (
-        [
+    parts = []
+    if found.get("configuration"):
+        parts.append(
             "Marks, paired by sample with the model's first configuration (enforced with free):"
             f" {EXPLAINED}."
-        ]
-        if found.get("configuration")
-        else []
-    )
+        )
     if found.get("best"):
         parts.append(f"{BEST} the best of its column, or not shown to be worse.")
     return " ".join(parts)
 
 
-def _against_baselines(found: Sequence[Record]) -> dict[str, str]:
+def _by_baseline(found: Sequence[Record]) -> dict[str, str]:
     """Whether each system beats each baseline by F1: one that does not has learnt nothing that
     could be shown.
     """
+    verdicts: dict[str, dict[str, bool]] = {}
+    for one in found:
+        if one["metric"] == "f1":
+            verdicts.setdefault(one["second"], {})[one["first"]] = one["verdict"] == "better"
     sentences = {}
-    for name in dict.fromkeys(one["second"] for one in found):
-        by_f1 = {
-            one["first"]: one["verdict"] == "better"
-            for one in found
-            if one["second"] == name and one["metric"] == "f1"
-        }
-        beaten, others = (
-            [first for first, better in by_f1.items() if better is kind] for kind in (True, False)
-        )
+    for name, by_first in verdicts.items():
+        beaten = [first for first, better in by_first.items() if better]
+        others = [first for first, better in by_first.items() if not better]
         parts = [f"beats {' and '.join(beaten)}"] if beaten else []
         parts += [f"is not shown to beat {' or '.join(others)}"] if others else []
-        if parts:
-            sentences[name] = f"By F1 it {', but '.join(parts)}."
+        sentences[name] = f"By F1 it {', but '.join(parts)}."
     return sentences
 
 
