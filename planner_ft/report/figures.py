@@ -184,8 +184,8 @@ def latency_lines(tests: TestSet) -> Lines | None:
 
 
 def _point(size: int, seconds: Sequence[float]) -> Point:
-    ends = (min(seconds), max(seconds)) if len(seconds) > 1 else (None, None)
-    return Point(size, float(np.mean(seconds)), *ends, n=len(seconds))
+    low, high = (min(seconds), max(seconds)) if len(seconds) > 1 else (None, None)
+    return Point(size, float(np.mean(seconds)), low, high, len(seconds))
 
 
 def name_dots(tests: TestSet, system: System, counts: Confusion) -> Dots:
