@@ -15,7 +15,7 @@ import argparse
 import itertools
 from pathlib import Path
 
-from planner_ft.data.task.handed_down import handed_down_tasks
+from planner_ft.data.task.mission_tasks import mission_tasks
 from planner_ft.support.files import write_jsonl
 from planner_ft.vocabulary import load_vocabulary
 
@@ -32,7 +32,7 @@ def main() -> None:
     arguments = parser.parse_args()
     write_jsonl(
         arguments.out,
-        itertools.islice(handed_down_tasks(load_vocabulary(), arguments.seed), arguments.count),
+        itertools.islice(mission_tasks(load_vocabulary(), arguments.seed), arguments.count),
     )
 
 

@@ -15,13 +15,13 @@ from collections import defaultdict
 from collections.abc import Callable
 from typing import Any
 
-from planner_ft.data.task import geometry, sampler
+from planner_ft.data.task import frames, geometry, sampler
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.definition import Vocabulary, load_vocabulary
 
 PARTS: tuple[tuple[str, Any, str], ...] = (
     ("draw (geometry included)", sampler, "draw_script"),
-    ("phrasing", sampler, "say_it"),
+    ("phrasing", frames.Speaker, "script"),
     ("plan", sampler, "expected_plan"),
     ("validation", sampler, "plan_problems"),
     ("geometry", geometry, "survey_square"),

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from random import Random
-from typing import Any
+from typing import Any, TypeVar
 
 from planner_ft.data.task.geometry import Point, tidy
 
+T = TypeVar("T")
 ONES = [
     "zero",
     "one",
@@ -143,7 +144,7 @@ def count_text(value: float, rng: Random) -> str:
     return digits(value)
 
 
-def pick(options: tuple[str, ...], rng: Random) -> str:
+def pick(options: Sequence[T], rng: Random) -> T:
     """One of the options."""
     return options[int(rng.random() * len(options))]
 
@@ -379,6 +380,9 @@ SENSES: dict[str, Callable[[float, Random], Value]] = {
 }
 
 
-def plain_number(value: float, rng: Random, unit: str = "") -> Value:
-    """A number with its unit as it stands, in figures or words."""
-    return Value(value, f"{count_text(value, rng)}{f' {unit}' if unit else ''}")
+def say_number(value: float, sense: str | None, unit: str | None, rng: Random) -> Value:
+    """The number said in the way of its sense, or plainly with its unit."""
+    if sense in SENSES:
+        return SENSES[sense](value, rng)
+    number = count_text(value, rng)
+    return Value(value, number if unit in (None, "count") else f"{number} {unit}")

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner_ft.data.mission.synthetic import sample_missions
-from planner_ft.data.task.handed_down import handed_down_tasks
+from planner_ft.data.task.mission_tasks import mission_tasks
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.task.working import working_of
 from planner_ft.pretraining.unfamiliar import with_unfamiliar_words
@@ -75,7 +75,7 @@ def stream(
     not know, where it has a word that can be changed.
     """
     missions, tasks = sample_missions(seed), sample_tasks(vocabulary, seed, None, "train")
-    handed_down = handed_down_tasks(vocabulary, seed + HANDED_DOWN_SEED)
+    handed_down = mission_tasks(vocabulary, seed + HANDED_DOWN_SEED)
     draw, words = np.random.default_rng(seed), Random(f"{seed} unfamiliar")
     while True:
         level: Level = "mission" if draw.random() < mission_share else "task"

@@ -3,17 +3,34 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.data.numbers import Value, position
+from planner_ft.data.numbers import Value, pick, say_number
 from planner_ft.data.task.phrasebook import Call, Phrasebook, Saying, Slots
+from planner_ft.data.task.steps import Step
 from planner_ft.data.task.template import compile_template
-from planner_ft.data.task.values import draw_point, say_number, sense_of
+from planner_ft.data.task.values import Draw, draw_position, sense_of
 from planner_ft.vocabulary.definition import Task
 
-REPEATED = 0.08  # share of calls said with an interval, which no skill has
-REFER = 0.3  # share of values that stand in the task's parameters alone
-UNRESOLVED = 0.05  # share of samples whose position is not known yet
+REPEATED = 0.08
+"""Share of calls said with an interval, which no skill has."""
+REFER = 0.3
+"""Share of values that stand in the task's parameters alone."""
+UNRESOLVED = 0.05
+"""Share of samples whose position is not known yet."""
+
+
+@dataclass
+class Movement:
+    """Steps that are said together. `saying` is None where the prompt asks for no movement, so that
+    the vehicle holds.
+    """
+
+    kind: str
+    steps: list[Step]
+    saying: Saying | None
 
 
 class Context:
@@ -28,21 +45,16 @@ class Context:
         self.used: set[str] = set()
         for parameter in task.parameters:
             if parameter.required or rng.random() < 0.75:
-                self.values[parameter.name] = self.entry.draws[parameter.name](rng)
+                self.require(parameter.name)
         if task.require_any and not any(name in self.values for name in task.require_any):
-            name = task.require_any[int(rng.random() * len(task.require_any))]
-            self.values[name] = self.entry.draws[name](rng)
-        place = task.position_parameter
-        if place in self.values and rng.random() < (
-            UNRESOLVED if task.arrival == "self" else UNRESOLVED / 2
-        ):
+            self.require(pick(task.require_any, rng))
+        place, share = task.position_parameter, UNRESOLVED / (1 if task.arrival == "self" else 2)
+        if place in self.values and rng.random() < share:
             self.values[place] = Value(list(book.vocabulary.unresolved), "", "", "")
 
     def slots(self) -> Slots:
         """Empty slots that know the vehicle's words and the task's values."""
-        return Slots(
-            self.book, self.rng, {name: value for name, value in self.values.items() if value.text}
-        )
+        return Slots(self.book, self.rng, self.values)
 
     def require(self, name: str) -> Value:
         """The task parameter's value, drawn now if the task has none yet."""
@@ -59,94 +71,107 @@ class Context:
         name = self.entry.links.get(place)
         return name if name in self.values and name not in self.used else None
 
-    def fill(self, slots: Slots, slot: str, place: str, *, refer: bool | None = None) -> Any:
-        """Put the linked task parameter into `slot`, stated or only referred to; its value."""
+    def use(self, place: str) -> Any:
+        """The value of the task parameter that is linked to this place, which is used up now."""
         name = self.entry.links[place]
         self.used.add(name)
+        return self.values[name].value
+
+    def fill(self, slots: Slots, slot: str, place: str) -> Any:
+        """Put the linked task parameter into `slot`, stated or only referred to; its value."""
+        name = self.entry.links[place]
         value = self.values[name]
-        referred = name not in self.entry.stated and (
-            self.rng.random() < REFER if refer is None else refer
-        )
+        referred = name not in self.entry.stated and self.rng.random() < REFER
         if self.unresolved(value) or referred:
             slots.put_words(slot, self.refer(name))
         else:
             slots.put(slot, value)
-        return value.value
+        return self.use(place)
+
+    def take(self, slots: Slots, slot: str, place: str, draw: Draw) -> Any:
+        """The value of the linked task parameter, else a new one that only the prompt states."""
+        if self.linked(place):
+            return self.fill(slots, slot, place)
+        return slots.put(slot, draw(self.rng))
 
     def refer(self, name: str) -> str:
         """Words for the task parameter's value."""
         templates = self.entry.refer[name]
         if self.entry.unresolved and self.unresolved(self.values[name]) and self.rng.random() < 0.7:
             templates = self.entry.unresolved
-        return templates[int(self.rng.random() * len(templates))].render(self.slots(), self.rng)
+        return str(pick(templates, self.rng).render(self.slots(), self.rng))
 
     def call(self, name: str) -> Call:
         """A skill with drawn parameters, as it is said."""
         entry, rng, slots = self.book.skills[name], self.rng, self.slots()
         parameters: dict[str, Any] = {}
-        if entry.skill.motion == "goto":
-            parameters["x"], parameters["y"] = self.point(slots, f"{name}.xy")
-        for parameter in entry.skill.parameters:
-            key = parameter.name
-            place = f"{name}.{key}"
+        goto = entry.skill.motion == "goto"
+        if goto:
+            parameters["x"], parameters["y"] = self.take(slots, "xy", f"{name}.xy", draw_position)
+        for key in entry.skill.by_name:
             if key in parameters:
                 continue
-            if self.linked(place):
-                parameters[key] = self._linked_value(slots, key, place)
+            if self.linked(f"{name}.{key}"):
+                parameters[key] = self._linked_value(slots, name, key)
             elif rng.random() < entry.often[key]:
-                value = entry.draws[key](rng)
-                slots.put(key, value)
-                parameters[key] = value.value
+                parameters[key] = slots.put(key, entry.draws[key](rng))
         given = frozenset(slots.given)
         templates = entry.fitting(given)
-        if entry.skill.motion == "goto" and self.entry.goto_phrases and rng.random() < 0.6:
-            templates = [
-                template for template in self.entry.goto_phrases if template.fits(given)
-            ] or templates
-        elif name == self.entry.phrases_for and rng.random() < 0.6:
-            templates = [
-                template for template in self.entry.phrases if template.fits(given)
-            ] or templates
-        if entry.repeats and rng.random() < REPEATED and self.book.sentences.get("repeat"):
-            return Call(name, parameters, Saying(templates, slots, suffix=" " + self._repeat()))
-        after_with, nouns, passive = (
-            Saying(found, slots) if found else None
-            for found in (entry.after_with(given), entry.nouns(given), entry.passive(given))
-        )
-        return Call(name, parameters, Saying(templates, slots), after_with, nouns, passive)
+        if name == self.entry.phrases_for or goto:
+            own = self.entry.patterns.get("goto", []) if goto else self.entry.phrases
+            if rng.random() < 0.6:
+                templates = [template for template in own if template.fits(given)] or templates
+        repeat = self.book.sentences.get("repeat")
+        if entry.repeats and repeat and rng.random() < REPEATED:
+            words = compile_template(pick(repeat, rng)).render(self.slots(), rng)
+            return Call(name, parameters, Saying(templates, slots, f" {words}"), {})
+        other = {
+            kind: Saying(found, slots)
+            for kind in ("with", "nouns", "passive")
+            if (found := entry.fitting(given, kind))
+        }
+        return Call(name, parameters, Saying(templates, slots), other)
 
-    def _repeat(self) -> str:
-        phrases = self.book.sentences["repeat"]
-        return compile_template(phrases[int(self.rng.random() * len(phrases))]).render(
-            self.slots(), self.rng
-        )
-
-    def _linked_value(self, slots: Slots, key: str, place: str) -> Any:
+    def _linked_value(self, slots: Slots, name: str, key: str) -> Any:
         """The task parameter's value, said in the way of the skill's parameter ("an arc of 90" as
         "90 degrees to the right").
         """
-        skill_name = place.split(".")[0]
-        parameter = self.book.skills[skill_name].skill.by_name[key]
-        value = self.fill(slots, key, place)
-        config = self.book.raw.get("skill", {}).get(skill_name, {}).get("values", {}).get(key, {})
-        sense = sense_of(parameter, config)
+        entry = self.book.skills[name]
+        parameter = entry.skill.by_name[key]
+        value = self.fill(slots, key, f"{name}.{key}")
+        sense = sense_of(parameter, entry.values[key])
         if sense == "rotation" and f"{key}#" in slots:
             slots.put(key, say_number(value, sense, parameter.unit, self.rng))
         return [value] if parameter.type == "texts" and isinstance(value, str) else value
 
-    def point(self, slots: Slots, place: str) -> tuple[float, float]:
-        """A place to go to: the task's, if not used up, else one of its own."""
-        if self.linked(place):
-            x, y = self.fill(slots, "xy", place)
-            return x, y
-        value = position(draw_point(self.rng), self.rng)
-        slots.put("xy", value)
-        return value.value[0], value.value[1]
+    def simple(self, name: str) -> Movement:
+        """One navigation skill in one step."""
+        call = self.call(name)
+        kind = self.book.skills[name].skill.motion or name
+        return Movement(kind, [(name, call.parameters)], call.saying)
+
+    def movement(
+        self, pattern: str, steps: Sequence[Step], slots: Slots, kind: str | None = None
+    ) -> Movement | None:
+        """Steps said in a phrase of the pattern; None where no phrase says what is given."""
+        templates = self.book.pattern(pattern, self.task.title, frozenset(slots.given))
+        if not steps or not templates:
+            return None
+        return Movement(kind or pattern, list(steps), Saying(templates, slots))
+
+    def phrase(self, pattern: str, key: str, slots: Slots) -> str:
+        """A part of a pattern's phrase that says what is given; empty where none does."""
+        found = self.book.pattern(pattern, self.task.title, frozenset(slots.given), key)
+        return str(pick(found, self.rng).render(slots, self.rng)) if found else ""
+
+    def goto(self, points: Sequence[tuple[float, float]]) -> list[Step]:
+        """Steps to these points; none for a vehicle that cannot go to one."""
+        name = self.book.motions.get("goto")
+        return [(name, {"x": x, "y": y}) for x, y in points] if name else []
 
     def parameters(self) -> dict[str, Any]:
         """The task's parameters as they stand in the record, in the order of the definition."""
-        return {
-            parameter.name: self.values[parameter.name].value
-            for parameter in self.task.parameters
-            if parameter.name in self.values
-        }
+        return {name: self.values[name].value for name in self.task.by_name if name in self.values}
+
+
+Builder = Callable[[Context], Movement | None]

@@ -1,66 +1,42 @@
-"""What happens to a share of the task prompts on their way: slips of the fingers, hurry, telegrams,
-dictation; values are never touched.
+"""Noise in a share of the task prompts: slips of the fingers, hurry, telegrams, dictation; values
+are never touched.
 """
 
 from __future__ import annotations
 
+import itertools
 import random
 import re
 from collections.abc import Callable
 
 from planner_ft.data.mission.synthetic import commands_noise as sent
-from planner_ft.data.task.template import VALUE_CLOSE, VALUE_OPEN
+from planner_ft.data.templates.render import VALUE_CLOSE, VALUE_OPEN
 
 # A slip in one of these, or a figure in its place, could change what is asked for.
-_KEPT = [
-    "north",
-    "south",
-    "clockwise",
-    "anticlockwise",
-    "counter",
-    "right",
-    "starboard",
-    "corner",
-    "first",
-    "second",
-    "third",
-    "fourth",
-    "fifth",
-    "before",
-    "after",
-    "for",
-    "to",
-]
-_UNTOUCHED = re.compile(rf"{VALUE_OPEN}[^{VALUE_CLOSE}]*{VALUE_CLOSE}|\b(?:{'|'.join(_KEPT)})\b")
+_KEPT = (
+    "north|south|clockwise|anticlockwise|counter|right|starboard|corner|first|second|third|fourth"
+    "|fifth|before|after|for|to"
+)
+_UNTOUCHED = re.compile(rf"{VALUE_OPEN}[^{VALUE_CLOSE}]*{VALUE_CLOSE}|\b(?:{_KEPT})\b")
 _HIDDEN = re.compile(f"{VALUE_OPEN}(\\d+){VALUE_CLOSE}")
 
 
 def noisy(text: str, rng: random.Random, *, capitals: bool = True) -> str:
-    """The prompt, its values still marked, as it arrives: mostly unchanged; `capitals` tells
-    whether a telegram may be all in capitals.
-
-    The changes are those of commands written by hand
-    (`planner_ft.data.mission.synthetic.commands_noise`).
+    """The prompt, its values still marked, as it arrives: mostly unchanged; `capitals`: a telegram
+    may be all in capitals.
     """
     roll = rng.random()
-    for share, change in CHANGES:
-        if roll < share:
-            return _with_values_hidden(text, rng, change, capitals)
-        roll -= share
-    return text
-
-
-def _with_values_hidden(
-    text: str, rng: random.Random, change: Callable[[str, random.Random], str], capitals: bool
-) -> str:
-    """The text changed around its values and the words that are kept."""
+    limits = itertools.accumulate(share for share, _change in CHANGES)
+    place = next((place for place, limit in enumerate(limits) if roll < limit), None)
+    if place is None:
+        return text
     untouched: list[str] = []
 
     def hide(match: re.Match[str]) -> str:
         untouched.append(match[0])
         return f"{VALUE_OPEN}{len(untouched) - 1}{VALUE_CLOSE}"
 
-    changed = change(_UNTOUCHED.sub(hide, text), rng)
+    changed = CHANGES[place][1](_UNTOUCHED.sub(hide, text), rng)
     shouted = changed.isupper()
     if shouted and not capitals:
         return text
@@ -68,21 +44,21 @@ def _with_values_hidden(
     return restored.upper() if shouted else restored
 
 
-def careless(text: str, rng: random.Random) -> str:
+def _careless(text: str, rng: random.Random) -> str:
     """Without its capital, its full stop or both."""
     text = text[0].lower() + text[1:] if rng.random() < 0.6 else text
     return text.rstrip(".") if rng.random() < 0.7 else text
 
 
-def greeted(text: str, rng: random.Random) -> str:
+def _greeted(text: str, rng: random.Random) -> str:
     """With a greeting ahead; "Right" would be a side here."""
     changed = sent.greeted(text, rng)
     return text if changed.startswith("Right") else changed
 
 
 CHANGES: tuple[tuple[float, Callable[[str, random.Random], str]], ...] = (
-    (0.05, careless),
-    (0.03, greeted),
+    (0.05, _careless),
+    (0.03, _greeted),
     (0.02, sent.signed),
     (0.06, lambda text, rng: sent.slipped(text, rng, (), 1 if rng.random() < 0.65 else 2)),
     (0.02, lambda text, rng: sent.garbled(text, rng, ())),
@@ -91,4 +67,4 @@ CHANGES: tuple[tuple[float, Callable[[str, random.Random], str]], ...] = (
     (0.01, lambda text, rng: sent.dictated(text, rng, ())),
     (0.04, lambda text, rng: sent.telegraphed(text, rng, ())),
 )
-"""What happens to a prompt, and to what share of them."""
+"""Changes of a prompt, and the share of prompts that each is made to."""

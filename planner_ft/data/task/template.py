@@ -4,8 +4,9 @@
 
     (a|b)    one of the alternatives, which may be empty
     [text]   optional part: stands exactly when all slots in it are given
-    {slot}   a value as it is said or referred to ("the planned time"); with a mark, only a value that is stated: {slot#} in full,
-             {slot!} short, {slot^} as a noun, {slot+} as a direction (see numbers.Value)
+    {slot}   a value as it is said or referred to ("the planned time"); with a mark, only a value
+             that is stated: {slot#} in full, {slot!} short, {slot^} as a noun, {slot+} as a
+             direction (see numbers.Value)
     {_list}  an entry of a word list, or a value of the task, that is no value of the plan
     ~verb    inflected: base form in commands, -ing form after "while"
 
@@ -20,48 +21,20 @@ import random
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
+
+from planner_ft.data.templates.render import VALUE_CLOSE, VALUE_OPEN, article_for, tidied
 
 Form = Literal["base", "ing"]
-VALUE_OPEN, VALUE_CLOSE = "\x02", "\x03"
+Node = tuple[str, Any]
+"""("text", str), ("slot", name), ("verb", (base, gerund)), ("choice", branches) or ("optional",
+(slots, nodes)).
+"""
+MARKS = "#!^+"
 
 _TOKEN = re.compile(r"~[A-Za-z-]+|\{[a-z_]+[!^+#]?\}|[()\[\]|]|[^~{}()\[\]|]+")
-_DOUBLING = frozenset(
-    [
-        "begin",
-        "clip",
-        "cut",
-        "dip",
-        "drop",
-        "fit",
-        "flag",
-        "get",
-        "grab",
-        "hug",
-        "jot",
-        "let",
-        "log",
-        "map",
-        "pan",
-        "pin",
-        "plan",
-        "put",
-        "run",
-        "scan",
-        "set",
-        "shut",
-        "sit",
-        "skim",
-        "snap",
-        "spin",
-        "spot",
-        "step",
-        "stop",
-        "tag",
-        "trim",
-    ]
-)
-_GERUND = {"be": "being", "lie": "lying", "tie": "tying", "see": "seeing", "flee": "fleeing"}
+_EVERY = ("every", "each", "last", "past", "recent", "latest", "preceding")
+_GERUND = {"be": "being", "lie": "lying", "tie": "tying", "begin": "beginning"}
 
 
 def gerund(verb: str) -> str:
@@ -70,13 +43,10 @@ def gerund(verb: str) -> str:
     """
     if verb in _GERUND:
         return _GERUND[verb]
-    if verb in _DOUBLING:
+    vowels = [letter in "aeiou" for letter in verb]
+    if sum(vowels) == 1 and vowels[-2:] == [True, False] and verb[-1] not in "wxy":
         return verb + verb[-1] + "ing"
-    return (verb[:-1] if verb.endswith("e") and not verb.endswith("ee") else verb) + "ing"
-
-
-MARKS = "#!^+"
-Node = tuple[str, object]
+    return (verb[:-1] if verb[-1] == "e" and verb[-2:] != "ee" else verb) + "ing"
 
 
 @dataclass(frozen=True)
@@ -90,14 +60,18 @@ class Template:
     needed: frozenset[str]
     optional: tuple[frozenset[str], ...]
 
+    def says(self, given: frozenset[str]) -> frozenset[str] | None:
+        """The slots that are said where these are given; None when a needed one is missing."""
+        if not self.needed <= given:
+            return None
+        return self.needed.union(*(part for part in self.optional if part <= given))
+
     def fits(self, given: frozenset[str]) -> bool:
         """Whether the phrase says exactly the given slots: all that it needs can be said, and none
         is left unsaid.
         """
-        if not self.needed <= given:
-            return False
-        said = self.needed.union(*(part for part in self.optional if part <= given))
-        return all(slot in said for slot in given if slot[-1] not in MARKS)
+        said = self.says(given)
+        return said is not None and all(slot in said for slot in given if slot[-1] not in MARKS)
 
     def render(self, values: Mapping[str, str], rng: random.Random, form: Form = "base") -> str:
         """A wording with `values` (slot, or slot with its mark, to text) put in."""
@@ -115,63 +89,50 @@ def compile_template(source: str) -> Template:
     position, branches = _branches(tokens, 0)
     if position != len(tokens) or len(branches) != 1:
         raise ValueError(f"phrase {source!r}: unbalanced brackets")
-    nodes = branches[0]
     optional: list[frozenset[str]] = []
-    return Template(source, nodes, frozenset(_slots(nodes, optional)), tuple(optional))
+    return Template(source, branches[0], _slots(branches[0], optional), tuple(optional))
 
 
 def _branches(tokens: list[str], position: int) -> tuple[int, list[tuple[Node, ...]]]:
-    branches: list[tuple[Node, ...]] = []
-    nodes: list[Node] = []
+    """The alternatives from `position` on up to a closing bracket, and where that stands."""
+    branches: list[list[Node]] = [[]]
     while position < len(tokens) and tokens[position] not in ")]":
         token = tokens[position]
         if token == "|":
-            branches.append(tuple(nodes))
-            nodes = []
+            branches.append([])
         elif token in "([":
             position, inner = _branches(tokens, position + 1)
             if position >= len(tokens) or tokens[position] != {"(": ")", "[": "]"}[token]:
                 raise ValueError(f"phrase {''.join(tokens)!r}: unbalanced brackets")
-            if len({frozenset(_slots(branch, [])) for branch in inner}) > 1:
-                raise ValueError(
-                    f"phrase {''.join(tokens)!r}: all alternatives must say the same slots; write"
-                    " an optional part instead"
-                )
-            if token == "[" and len(inner) > 1:
-                raise ValueError(
-                    f"phrase {''.join(tokens)!r}: alternatives in an optional part need brackets of"
-                    " their own"
-                )
-            nodes.append(
-                ("choice", tuple(inner))
-                if token == "("
-                else ("optional", (frozenset(_slots(inner[0], [])), inner[0]))
-            )
+            slots = {_slots(branch, []) for branch in inner}
+            if len(slots) > 1 or (token == "[" and len(inner) > 1):
+                problem = "all alternatives must say the same slots; write optional parts, each of"
+                raise ValueError(f"phrase {''.join(tokens)!r}: {problem} one text")
+            content = tuple(inner) if token == "(" else (slots.pop(), inner[0])
+            branches[-1].append(("choice" if token == "(" else "optional", content))
         elif token[0] == "~":
-            nodes.append(("verb", (token[1:], gerund(token[1:]))))
+            branches[-1].append(("verb", (token[1:], gerund(token[1:]))))
         elif token[0] == "{":
-            nodes.append(("slot", token[1:-1]))
+            branches[-1].append(("slot", token[1:-1]))
         else:
-            nodes.append(("text", token))
+            branches[-1].append(("text", token))
         position += 1
-    branches.append(tuple(nodes))
-    return position, branches
+    return position, [tuple(nodes) for nodes in branches]
 
 
-def _slots(nodes: tuple[Node, ...], optional: list[frozenset[str]]) -> set[str]:
+def _slots(nodes: tuple[Node, ...], optional: list[frozenset[str]]) -> frozenset[str]:
     """Slots outside optional parts, those of all alternatives included; the slots of each optional
     part go to `optional`.
     """
     needed: set[str] = set()
     for kind, content in nodes:
-        if kind == "slot" and str(content)[0] != "_":
-            needed |= {str(content), str(content).rstrip(MARKS)}
+        if kind == "slot" and content[0] != "_":
+            needed |= {content, content.rstrip(MARKS)}
         elif kind == "choice":
-            for branch in content:  # type: ignore[attr-defined]
-                needed |= _slots(branch, optional)
+            needed.update(*(_slots(branch, optional) for branch in content))
         elif kind == "optional":
-            optional.append(content[0])  # type: ignore[index]
-    return needed
+            optional.append(content[0])
+    return frozenset(needed)
 
 
 def _render(
@@ -183,15 +144,15 @@ def _render(
 ) -> None:
     for kind, content in nodes:
         if kind == "text":
-            parts.append(content)  # type: ignore[arg-type]
+            parts.append(content)
         elif kind == "slot":
-            parts.append(values[content])  # type: ignore[index]
+            parts.append(values[content])
         elif kind == "verb":
-            parts.append(content[ing])  # type: ignore[index]
+            parts.append(content[ing])
         elif kind == "choice":
-            _render(content[int(rng.random() * len(content))], values, rng, ing, parts)  # type: ignore[arg-type,index]
-        elif all(slot in values for slot in content[0]):  # type: ignore[index]
-            _render(content[1], values, rng, ing, parts)  # type: ignore[index]
+            _render(content[int(rng.random() * len(content))], values, rng, ing, parts)
+        elif all(slot in values for slot in content[0]):
+            _render(content[1], values, rng, ing, parts)
 
 
 def mark(text: str) -> str:
@@ -199,34 +160,16 @@ def mark(text: str) -> str:
     return f"{VALUE_OPEN}{text}{VALUE_CLOSE}"
 
 
-_GAPS = re.compile(r" +(?=[ .,;])")
-
-
-# "a image", "an 8-second", "every a minute"
-_BEFORE_VOWEL = re.compile(
-    r"\b([Aa])(?="
-    r" \x02?(?:8\d?|11|18|8\d\d|eight\w*|eleven|hour|[aei]|o(?!ne\b)|u(?!s|ni))(?![A-Z]))"
-)
-_DOUBLE_ARTICLE = re.compile(
-    r"\b(every|each|last|past|recent|latest|preceding) (\x02?)an? (?=[a-z])"
-)
-
-
 def close_gaps(text: str) -> str:
     """The text without the double blanks that empty alternatives leave, and with articles that fit
-    what stands behind them.
+    what stands behind them: "an image", "every minute", "an 8-second hold".
     """
-    return _DOUBLE_ARTICLE.sub(r"\1 \2", _BEFORE_VOWEL.sub(r"\1n", _GAPS.sub("", text)))
-
-
-_VALUE = re.compile(f"{VALUE_OPEN}[^{VALUE_CLOSE}]*{VALUE_CLOSE}")
-
-
-def plain(text: str) -> str:
-    """The text without the marks."""
-    return text.replace(VALUE_OPEN, "").replace(VALUE_CLOSE, "")
-
-
-def skeleton(text: str) -> str:
-    """The text with each value replaced by an underscore."""
-    return _VALUE.sub("_", text)
+    text = tidied(text)
+    for word in _EVERY if f" {VALUE_OPEN}a" in text else ():
+        for article in ("a ", "an "):
+            text = text.replace(f"{word} {VALUE_OPEN}{article}", f"{word} {VALUE_OPEN}")
+    first, *rest = f" {text}".split(" a ")
+    text = first + "".join(f" {article_for(part.lstrip(VALUE_OPEN))} {part}" for part in rest)
+    if text.startswith(" A ") and article_for(text[3:].lstrip(VALUE_OPEN)) == "an":
+        text = f" An{text[2:]}"
+    return text[1:]

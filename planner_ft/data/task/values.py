@@ -12,30 +12,27 @@ import random
 from collections.abc import Callable
 from typing import Any
 
-from planner_ft.data.numbers import SENSES, Value, plain_number, polygon, position
+from planner_ft.data.numbers import Value, pick, polygon, position, say_number
 from planner_ft.data.task.geometry import Point, point, tidy
 from planner_ft.data.task.words import Lexicon
 from planner_ft.vocabulary.definition import Parameter
 
 Draw = Callable[[random.Random], Value]
 
-UNIT_SENSE = {
-    "m": "length",
-    "s": "duration",
-    "deg": "angle",
-    "degC": "temperature",
-    "%": "percent",
-    "m/s": "speed",
+UNITS: dict[str, tuple[str | None, tuple[float, float]]] = {
+    "m": ("length", (1, 60)),
+    "s": ("duration", (5, 900)),
+    "deg": ("angle", (5, 180)),
+    "degC": ("temperature", (20, 120)),
+    "%": ("percent", (10, 60)),
+    "m/s": ("speed", (0.5, 5)),
 }
-UNIT_TYPICAL = {
-    "m": (1, 60),
-    "s": (5, 900),
-    "deg": (5, 180),
-    "degC": (20, 120),
-    "%": (10, 60),
-    "m/s": (0.5, 5),
-}
-SPAN = 220  # metres from home within which most positions lie
+"""How a number of the unit is said, and its range where nothing else is stated."""
+ROUND_SECONDS = (5, 8, 10, 12, 15, 20, 25, 30, 40, 45, 50, 60, 75, 80, 90, 100, 110)
+MINUTES = (1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 20, 25, 30, 40, 45)
+ODD_SECONDS = (90, 150, 210, 270, 3600, 5400, 7200, 10800, 200, 250, 400, 500)
+SPAN = 220
+"""Metres from home within which most positions lie."""
 
 
 def value_space(parameter: Parameter, config: dict[str, Any], lexicon: Lexicon) -> Draw:
@@ -43,20 +40,17 @@ def value_space(parameter: Parameter, config: dict[str, Any], lexicon: Lexicon) 
     if parameter.type in ("number", "integer"):
         return number_space(parameter, config)
     if parameter.type == "position":
-        return lambda rng: position(draw_point(rng), rng)
+        return draw_position
     if parameter.type == "polygon":
         return lambda rng: polygon(draw_polygon(rng), rng)
     words = config.get("words", "things" if parameter.type == "texts" else "thing")
     if parameter.type == "texts":
+        most, article = config.get("most", 4), config.get("article", False)
         return lambda rng: lexicon.several(
-            words,
-            rng,
-            1 + int(rng.random() ** 1.5 * config.get("most", 4)),
-            article=config.get("article", False),
+            words, rng, 1 + int(rng.random() ** 1.5 * most), article=article
         )
-    if config.get("quote"):
-        return lambda rng: lexicon.quoted(words, rng)
-    return lambda rng: lexicon.noun(words, rng)
+    say = lexicon.quoted if config.get("quote") else lexicon.noun
+    return lambda rng: say(words, rng)
 
 
 def sense_of(parameter: Parameter, config: dict[str, Any]) -> str | None:
@@ -68,46 +62,39 @@ def sense_of(parameter: Parameter, config: dict[str, Any]) -> str | None:
             return "bearing"
         if parameter.minimum is not None and parameter.minimum < 0:
             return "rotation"
-    return UNIT_SENSE.get(parameter.unit or "")
+    return UNITS.get(parameter.unit or "", (None, None))[0]
 
 
 def number_space(parameter: Parameter, config: dict[str, Any]) -> Draw:
     """A function that draws a number of this parameter."""
     sense = sense_of(parameter, config)
     low, high = config.get("typical") or _default_range(parameter, sense)
-    whole = parameter.type == "integer"
     choices = config.get("choices")
 
     def draw(rng: random.Random) -> Value:
+        number: float
         if sense == "bearing":
             number = draw_bearing(rng)
         elif sense == "rotation":
             number = draw_rotation(rng, high)
         elif choices and rng.random() < 0.5:
-            number = choices[int(rng.random() * len(choices))]
+            number = pick(choices, rng)
         elif sense == "duration":
             number = draw_duration(rng, low, high)
         else:
-            number = draw_number(rng, low, high, whole=whole)
+            number = draw_number(rng, low, high, whole=parameter.type == "integer")
         return say_number(number, sense, parameter.unit, rng)
 
     return draw
 
 
-def say_number(number: float, sense: str | None, unit: str | None, rng: random.Random) -> Value:
-    """The number as a value said in the way of its sense, or plainly with its unit."""
-    if sense in SENSES:
-        return SENSES[sense](number, rng)
-    return plain_number(number, rng, "" if unit in (None, "count") else str(unit))
-
-
 def _default_range(parameter: Parameter, sense: str | None) -> tuple[float, float]:
-    low, high = UNIT_TYPICAL.get(parameter.unit or "", (1, 20))
     if sense == "rotation":
         return 5, 180
+    low, high = UNITS.get(parameter.unit or "", (None, (1, 20)))[1]
     if parameter.minimum is not None:
         low = max(low, parameter.minimum)
-    return low, max(low, min(high, parameter.maximum)) if parameter.maximum is not None else high
+    return low, high if parameter.maximum is None else max(low, min(high, parameter.maximum))
 
 
 def draw_number(rng: random.Random, low: float, high: float, *, whole: bool = False) -> float:
@@ -116,10 +103,9 @@ def draw_number(rng: random.Random, low: float, high: float, *, whole: bool = Fa
     roll = rng.random()
     if not whole and ((raw < 5 and roll < 0.3) or roll > 0.97):
         number = round(raw * 2) / 2 if rng.random() < 0.7 else round(raw, 1)
-    elif raw > 100 and roll < 0.8:
-        number = round(raw / 50) * 50 if rng.random() < 0.5 else round(raw / 10) * 10
-    elif raw > 10 and roll < 0.6:
-        number = round(raw / 5) * 5
+    elif raw > 10 and roll < (0.8 if raw > 100 else 0.6):
+        step = 5 if raw < 100 else pick((10, 50), rng)
+        number = step * round(raw / step)
     else:
         number = round(raw)
     return tidy(min(high, max(low, number)))
@@ -130,18 +116,14 @@ def draw_duration(rng: random.Random, low: float, high: float) -> int:
     for _ in range(8):
         roll = rng.random()
         if roll < 0.45:
-            number = rng.choice(
-                (5, 8, 10, 12, 15, 20, 25, 30, 40, 45, 50, 60, 75, 80, 90, 100, 110)
-            )
+            number = pick(ROUND_SECONDS, rng)
         elif roll < 0.85:
-            number = 60 * rng.choice((1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 20, 25, 30, 40, 45))
-        elif roll < 0.93:
-            number = rng.choice((90, 150, 210, 270, 3600, 5400, 7200, 10800, 200, 250, 400, 500))
+            number = 60 * pick(MINUTES, rng)
         else:
-            number = rng.randrange(3, 1000)
+            number = pick(ODD_SECONDS, rng) if roll < 0.93 else rng.randrange(3, 1000)
         if low <= number <= high:
-            return number
-    return int(tidy(round(low + (high - low) * rng.random())))
+            return int(number)
+    return round(low + (high - low) * rng.random())
 
 
 def draw_bearing(rng: random.Random) -> float:
@@ -149,16 +131,17 @@ def draw_bearing(rng: random.Random) -> float:
     roll = rng.random()
     if roll < 0.5:
         return rng.randrange(8) * 45
-    if roll < 0.58:
-        return tidy(22.5 + 45 * rng.randrange(8)) if rng.random() < 0.3 else rng.randrange(36) * 10
-    return rng.randrange(24) * 15 if roll < 0.75 else rng.randrange(360)
+    if roll < 0.53:
+        return tidy(22.5 + 45 * rng.randrange(8))
+    step = 10 if roll < 0.58 else 15 if roll < 0.75 else 1
+    return step * rng.randrange(360 // step)
 
 
 def draw_rotation(rng: random.Random, high: float) -> float:
     """A signed angle up to `high` degrees, never zero."""
     roll = rng.random()
     if high >= 360 and roll < 0.3:
-        size: float = rng.choice((360, 180, 90, 270, 360, 180))
+        size: float = pick((360, 180, 90, 270, 360, 180), rng)
     elif roll < 0.7:
         size = 5 * rng.randrange(1, max(2, int(high // 5) + 1))
     else:
@@ -168,17 +151,22 @@ def draw_rotation(rng: random.Random, high: float) -> float:
 
 def draw_point(rng: random.Random) -> Point:
     """A position, mostly with whole coordinates near home."""
-    span = SPAN if rng.random() < 0.85 else 1200 if rng.random() < 0.4 else 30
-    coordinates = []
+    span = SPAN if rng.random() < 0.85 else pick((1200, 30), rng)
+    coordinates: list[float] = []
     for _ in range(2):
         number = rng.randrange(-span, span + 1)
         roll = rng.random()
         if roll < 0.45:
             number = 5 * round(number / 5)
         coordinates.append(
-            number if roll < 0.93 else round(number + rng.choice((0.5, 0.25, 0.1, 0.75, -0.4)), 2)
+            number if roll < 0.93 else number + pick((0.5, 0.25, 0.1, 0.75, -0.4), rng)
         )
     return point(coordinates[0], coordinates[1])
+
+
+def draw_position(rng: random.Random) -> Value:
+    """A position as it is said."""
+    return position(draw_point(rng), rng)
 
 
 def draw_polygon(rng: random.Random) -> list[Point]:
@@ -187,14 +175,15 @@ def draw_polygon(rng: random.Random) -> list[Point]:
     width, height = 10 * rng.randrange(2, 20), 10 * rng.randrange(2, 20)
     if rng.random() < 0.15:
         height = width
-    ring = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
+    first, second, third, fourth = (
+        point(x, y),
+        point(x + width, y),
+        point(x + width, y + height),
+        point(x, y + height),
+    )
     roll = rng.random()
     if roll < 0.2:
-        return [point(*corner) for corner in (ring[0], ring[1], rng.choice((ring[2], ring[3])))]
+        return [first, second, pick((third, fourth), rng)]
     if roll < 0.3:
-        return [
-            point(*corner) for corner in (*ring[:3], (x + width // 2, y + height + 20), ring[3])
-        ]
-    if roll < 0.5:
-        ring = [ring[0], *reversed(ring[1:])]
-    return [point(*corner) for corner in ring]
+        return [first, second, third, point(x + width // 2, y + height + 20), fourth]
+    return [first, fourth, third, second] if roll < 0.5 else [first, second, third, fourth]

@@ -10,87 +10,61 @@ is an entry of the list of that name.
 from __future__ import annotations
 
 import random
-import re
 from collections.abc import Callable, Mapping, Sequence
 
-from planner_ft.data.numbers import Value
+from planner_ft.data.numbers import Value, pick
+from planner_ft.data.templates.render import bare
 
-_SLOT = re.compile(r"\{([a-z_]+)\}")
-_ARTICLE = re.compile(r"^(the|a|an) ")
 _ONSETS = "b br c d dr f fl g gr h j k kl l m n p pr r s sk st t tr v w z th sch v".split()  # noqa: SIM905
 _VOWELS = "a e i o u a e i o ei au y oa ie".split()  # noqa: SIM905
 _CODAS = "n r l s t m d ck nd rk st x lm ff  ng rn".split(" ")  # noqa: SIM905
 _ENDINGS = ("", "", "a", "o", "en", "berg", "vik", "sund", "ton", "i", "ey", "holm")
-_QUOTED = re.compile(r"(['\"])(.+?)\1")
+_STEMS = [
+    "run",
+    "pass",
+    "leg",
+    "survey",
+    "dive",
+    "hull",
+    "pier",
+    "test",
+    "log",
+    "video",
+    "scan",
+    "site",
+    "day",
+    "mission",
+    "base",
+    "night",
+]
+_TAILS = "north south east west a b am pm final raw left right upper close".split()  # noqa: SIM905
 LETTERS = "ABCDEFGHJKLMNPRSTVWXZ"
-
 FALLBACK: Mapping[str, Sequence[str]] = {
-    "thing": (
-        "the {name}",
-        "the {name} tower",
-        "unit {code}",
-        "the {name} panel",
-        "{name} {n}",
-        "the {name} gate",
-    ),
+    "thing": ("the {name}", "the {name} tower", "unit {code}", "the {name} panel", "{name} {n}"),
     "things": ("boats", "people", "birds", "vehicles", "{name}s", "poles", "signs"),
 }
 
 
-def _pick(items: Sequence[str], rng: random.Random) -> str:
-    return items[int(rng.random() * len(items))]
-
-
 def made_up_name(rng: random.Random) -> str:
     """A pronounceable name that means nothing: "Skarberg", "Tolvik"."""
-    word = "".join(
-        _pick(_ONSETS, rng) + _pick(_VOWELS, rng) + _pick(_CODAS, rng)
-        for _ in range(1 if rng.random() < 0.5 else 2)
-    )
-    return (word + _pick(_ENDINGS, rng)).capitalize()
+    syllables = 1 if rng.random() < 0.5 else 2
+    parts = [pick(part, rng) for _ in range(syllables) for part in (_ONSETS, _VOWELS, _CODAS)]
+    return ("".join(parts) + pick(_ENDINGS, rng)).capitalize()
 
 
 def made_up_code(rng: random.Random) -> str:
     """A code as structures bear them: "KX-07", "B12", "T-4"."""
-    roll = rng.random()
-    letters = _pick(LETTERS, rng) + (_pick(LETTERS, rng) if roll < 0.5 else "")
-    number = rng.randrange(1, 100)
-    if roll < 0.35:
-        return f"{letters}-{number:02d}"
-    return f"{letters}{number}" if roll < 0.7 else f"{letters}-{number}"
+    letters = pick(LETTERS, rng) + pick((pick(LETTERS, rng), ""), rng)
+    return letters + pick(("-{:02d}", "{}", "-{}"), rng).format(rng.randrange(1, 100))
 
 
 def made_up_tag(rng: random.Random) -> str:
     """A file tag: "run_4", "skarberg-07", "dive12"."""
-    stem = _pick(
-        (
-            "run",
-            "pass",
-            "leg",
-            "survey",
-            "dive",
-            "hull",
-            "pier",
-            "test",
-            "log",
-            "video",
-            "scan",
-            "site",
-            "day",
-            "mission",
-            "base",
-            "night",
-        ),
-        rng,
-    )
-    if rng.random() < 0.45:
-        stem = made_up_name(rng).lower()
-    joint = _pick(("_", "-", "", "_"), rng)
+    stem = made_up_name(rng).lower() if rng.random() < 0.45 else pick(_STEMS, rng)
     roll = rng.random()
-    if roll < 0.5:
-        return f"{stem}{joint}{rng.randrange(1, 100)}"
     if roll < 0.75:
-        return f"{stem}{joint}{_pick(('north', 'south', 'east', 'west', 'a', 'b', 'am', 'pm', 'final', 'raw', 'left', 'right', 'upper', 'close'), rng)}"
+        tail = str(rng.randrange(1, 100)) if roll < 0.5 else pick(_TAILS, rng)
+        return stem + pick(("_", "-", "", "_"), rng) + tail
     return made_up_code(rng) if roll < 0.85 else stem
 
 
@@ -99,8 +73,8 @@ MADE_UP: dict[str, Callable[[random.Random], str]] = {
     "code": made_up_code,
     "tag": made_up_tag,
     "n": lambda rng: str(rng.randrange(1, 10) if rng.random() < 0.75 else rng.randrange(10, 100)),
-    "letter": lambda rng: _pick("ABCDEF", rng),
-    "low": lambda rng: _pick("abcdef", rng),
+    "letter": lambda rng: str(pick("ABCDEF", rng)),
+    "low": lambda rng: str(pick("abcdef", rng)),
 }
 
 
@@ -111,44 +85,46 @@ class Lexicon:
         self.lists = {**FALLBACK, **lists}
 
     def entry(self, name: str, rng: random.Random) -> str:
-        """A filled entry of the list, article included."""
-        text = _pick(self.lists[name], rng)
-        while "{" in text:
-            text = _SLOT.sub(lambda match: self._fill(match.group(1), rng), text)
-        return text
-
-    def _fill(self, name: str, rng: random.Random) -> str:
-        return MADE_UP[name](rng) if name in MADE_UP else _pick(self.lists[name], rng)
+        """A filled entry of the list, or a made-up word; article included."""
+        if name in MADE_UP and name not in self.lists:
+            return MADE_UP[name](rng)
+        first, *rest = str(pick(self.lists[name], rng)).split("{")
+        slots = (part.partition("}") for part in rest)
+        return first + "".join(
+            (MADE_UP[slot](rng) if slot in MADE_UP else self.entry(slot, rng)) + behind
+            for slot, _brace, behind in slots
+        )
 
     def noun(self, name: str, rng: random.Random) -> Value:
-        """A thing: stored without its article, said with it."""
-        return self.as_value(self.entry(name, rng))
-
-    @staticmethod
-    def as_value(entry: str) -> Value:
-        """An entry with its article as a value without; what stands before a bar is said alone."""
-        kind, bar, name = entry.partition("|")
+        """A thing: stored without its article, said with it; what stands before a bar is said
+        alone.
+        """
+        entry = self.entry(name, rng)
+        kind, bar, rest = entry.partition("|")
         if bar:
-            quoted_name = _QUOTED.match(name)
-            return Value(quoted_name[2] if quoted_name else name, kind + name)
-        bare = _ARTICLE.sub("", entry)
-        return Value(bare, entry, bare)
+            quoted = rest[:1] in ("'", '"') and rest[0] in rest[1:]
+            return Value(rest[1:].partition(rest[0])[0] if quoted else rest, kind + rest)
+        return Value(bare(entry), entry, bare(entry))
 
     def quoted(self, name: str, rng: random.Random) -> Value:
         """A text to be written down word for word: mostly in quotation marks, a single word also
         without.
         """
-        bare = self.as_value(self.entry(name, rng)).value
-        mark = _pick(("'", '"', "'", '"', ""), rng)
-        mark = mark or ("" if " " not in bare else '"')
-        return Value(bare, f"{mark}{bare}{mark}")
+        text = self.noun(name, rng).value
+        mark = pick(("'", '"', "'", '"', '"' if " " in text else ""), rng)
+        return Value(text, f"{mark}{text}{mark}")
 
     def several(self, name: str, rng: random.Random, count: int, *, article: bool = False) -> Value:
         """A list of different things as it is said: "boats, buoys and people"."""
-        entries = list(dict.fromkeys(self.entry(name, rng) for _ in range(count)))
-        bare = [self.as_value(entry).value for entry in entries]
-        said = entries if article else bare
+        found = {item.text: item for item in (self.noun(name, rng) for _ in range(count))}
+        values = [item.value for item in found.values()]
+        said = list(found) if article else values
         joint = " and " if rng.random() < 0.85 else " as well as "
         if len(said) > 2 and rng.random() < 0.3:
             joint = f",{joint}"
-        return Value(bare, ", ".join(said[:-1]) + joint + said[-1] if len(said) > 1 else said[0])
+        return Value(values, joined(said, joint))
+
+
+def joined(parts: Sequence[str], last: str = " and ") -> str:
+    """The parts with commas between and `last` before the last one."""
+    return ", ".join(parts[:-1]) + last + parts[-1] if len(parts) > 1 else "".join(parts)

@@ -5,10 +5,10 @@ import re
 
 import pytest
 
-from planner_ft.data.task.movements import Movement
-from planner_ft.data.task.phrasebook import Phrasebook, Saying
+from planner_ft.data.task.context import Movement
+from planner_ft.data.task.frames import Scopes
+from planner_ft.data.task.phrasebook import Phrasebook, Saying, Slots
 from planner_ft.data.task.sampler import sample_tasks
-from planner_ft.data.task.scopes import Scopes
 from planner_ft.data.task.template import close_gaps, compile_template
 from planner_ft.vocabulary.definition import load_vocabulary
 
@@ -37,7 +37,7 @@ def scope_words(kinds, chosen, *, numbered=False):
     steps.
     """
     rng = random.Random(5)
-    saying = Saying([compile_template("~move on")], BOOK.slots(rng))
+    saying = Saying([compile_template("~move on")], Slots(BOOK, rng))
     movements = [
         Movement(kind, [(SKILLS[kind], {})] * (2 if kind == "waypoints" else 1), saying)
         for kind in kinds

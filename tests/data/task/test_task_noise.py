@@ -8,7 +8,7 @@ from random import Random
 import pytest
 
 from planner_ft.data.task.noise import CHANGES, noisy
-from planner_ft.data.task.template import VALUE_CLOSE, VALUE_OPEN, plain
+from planner_ft.data.templates.render import VALUE_CLOSE, VALUE_OPEN, plain
 
 SAID = (
     "Turn to \x02the north-west\x03, then hold before the \x02Orca quay\x03 for \x02twenty-five"

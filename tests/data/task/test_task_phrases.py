@@ -5,7 +5,8 @@ import random
 import pytest
 
 from planner_ft.data.numbers import bearing, duration, polygon, position, rotation
-from planner_ft.data.task.template import compile_template, gerund, mark, plain, skeleton
+from planner_ft.data.task.template import compile_template, gerund, mark
+from planner_ft.data.templates.render import plain, skeleton
 from planner_ft.data.task.words import made_up_code, made_up_name
 
 

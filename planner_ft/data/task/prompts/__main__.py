@@ -15,7 +15,7 @@ from planner_ft.data.task.prompts.binding import Bound, bind
 from planner_ft.data.task.prompts.draw import draw_template
 from planner_ft.data.task.prompts.language import TemplateError, parse_line
 from planner_ft.data.task.prompts.library import FOLDER, numbered_lines, tasks_for
-from planner_ft.data.task.template import plain
+from planner_ft.data.templates.render import plain
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.definition import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems

@@ -11,8 +11,8 @@ from typing import Any
 
 from planner_ft.data.numbers import COMPASS, Value, bearing, count_text, length, position, rotation
 from planner_ft.data.task import geometry as g
-from planner_ft.data.task.movements import Step
 from planner_ft.data.task.prompts.language import COMPASS_WORDS, TURNS, TemplateError
+from planner_ft.data.task.steps import Step
 from planner_ft.data.task.values import Draw, draw_bearing, draw_number, draw_point, draw_rotation
 
 Values = Mapping[str, Any]

@@ -13,7 +13,7 @@ from planner_ft.data.task.prompts.draw import draw_template
 from planner_ft.data.task.prompts.language import TemplateError, parse_line
 from planner_ft.data.task.prompts.library import FOLDER, bound_lines
 from planner_ft.data.task.prompts.wordings import mask_key, wordings
-from planner_ft.data.task.template import plain, skeleton
+from planner_ft.data.templates.render import plain, skeleton
 from planner_ft.vocabulary.definition import load_vocabulary
 
 USV = load_vocabulary("usv")

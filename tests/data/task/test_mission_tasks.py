@@ -1,4 +1,4 @@
-"""Task inputs as the Mission Agent hands them down."""
+"""Task inputs as the Mission Agent writes them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from planner_ft.data.task.handed_down import handed_down, handed_down_tasks
+from planner_ft.data.task.mission_tasks import mission_tasks, task_record
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems
@@ -22,7 +22,7 @@ def steps(
     subject: str | None = None,
     place: tuple[int, int] = (10, 20),
 ) -> list[tuple[str, dict]] | None:
-    record = handed_down(
+    record = task_record(
         {"title": title, "parameters": parameters, "task_prompt": prompt},
         subject,
         list(place),
@@ -35,7 +35,7 @@ def steps(
 
 
 def test_records_are_valid_and_the_same_for_the_same_seed() -> None:
-    first, again = (list(itertools.islice(handed_down_tasks(VOCABULARY, 4), 200)) for _ in range(2))
+    first, again = (list(itertools.islice(mission_tasks(VOCABULARY, 4), 200)) for _ in range(2))
     assert first == again and len({record["task"] for record in first}) > 12
     assert all(
         plan_problems("task", record["expected"], VOCABULARY, strict=True) == [] for record in first
@@ -66,4 +66,4 @@ def test_a_grid_of_20_by_20_at_5_metres_has_ten_waypoints_and_without_spacing_no
 
 def test_another_vehicle_has_no_such_tasks(tmp_path: Path) -> None:
     with pytest.raises(PlannerError, match="inspection_drone"):
-        next(handed_down_tasks(load_vocabulary("inspection_drone"), 0))
+        next(mission_tasks(load_vocabulary("inspection_drone"), 0))
