@@ -127,7 +127,7 @@ def test_the_baseline_answers_with_the_nearest_plan() -> None:
         record(3, "hold at the quay", ("Transit", "KeepStation")),
     ]
     baseline = nearest_neighbour("mission", "test", train, test)
-    assert (baseline.f1, baseline.sequence) == (pytest.approx((1 + 2 / 3) / 2, abs=1e-4), 0.5)
+    assert (baseline["f1"], baseline["sequence"]) == (pytest.approx((1 + 2 / 3) / 2, abs=1e-4), 0.5)
 
 
 def test_f1_of_two_empty_sets_is_one() -> None:

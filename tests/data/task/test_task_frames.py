@@ -107,8 +107,8 @@ def test_one_skill_can_stand_twice_with_other_parameters(records):
 
 def test_articles_fit_what_stands_behind_them():
     assert (
-        close_gaps("Take a image every a minute in a \x028-second hold .")
-        == "Take an image every minute in an \x028-second hold."
+        close_gaps("Take a image every \x02a minute in a \x028-second hold .")
+        == "Take an image every \x02minute in an \x028-second hold."
     )
     assert close_gaps("a USV, a unit, a one-off, a hold") == "a USV, a unit, a one-off, a hold"
 
