@@ -103,8 +103,8 @@ def _introduction(level: Level, splits: Splits, vocabulary: Vocabulary, seed: in
         f"{counts}\n{RECORDS[level]}\n\n{ORIGIN[level]}\n\nPositions are in the {vocabulary.frame};"
         f" home is `{list(vocabulary.home)}`, and "
         f"`{list(vocabulary.unresolved)}` stands for a place that is not known yet.\n\n"
-        '```python\nfrom datasets import load_dataset\n\ndata = load_dataset("json",'
-        f" data_files={{{files}}})\n```\n"
+        '```python\nfrom datasets import load_dataset\n\ndata = load_dataset(\n    "json",\n'
+        f"    data_files={{{files}}},\n)\n```\n"
     )
 
 
