@@ -14,8 +14,8 @@ from typing import Any
 
 from planner_ft.document.clauses import Clause, read_clauses
 from planner_ft.document.language import Language, language
-from planner_ft.document.said import Span, pieces
-from planner_ft.document.said_numbers import find_places, is_place
+from planner_ft.facts import Span, pieces
+from planner_ft.facts.places import read_positions
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.schema import ELEMENTS
 
@@ -94,7 +94,7 @@ def _targets(command: str, spoken: Language) -> Iterator[Span]:
     """
     for offset, text in pieces(command):
         named = [*_noun_phrases(text, spoken), *_names(text, spoken)]
-        places = [span for _x, _y, span in find_places(text) if is_place(text, span[0], span[1])]
+        places = [(place.start, place.end) for place in read_positions(text) if place.certain]
         here = [match.span() for match in spoken.words["here"].finditer(text)]
         before = {start: _before(text, start, named) for start, _end in places}
         for start, end in (

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from planner_ft.document.language import language
-from planner_ft.document.said import Mention, Said, Span, read_command
+from planner_ft.facts import Evidence, Input, Span, read_input
 from planner_ft.vocabulary import Parameter, Vocabulary
 
 Source = dict[str, Any]
@@ -21,129 +21,108 @@ def sources(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[st
     A value that the command says in several places is from the one that is nearest to the other
     values of its task.
     """
-    said = read_command(document["command"], vocabulary)
+    command = read_input({"prompt": document["command"]}, vocabulary)
     proposed = {
         task["id"]: task["parameters"]
         for task in document.get("proposed", {"tasks": document["tasks"]})["tasks"]
     }
     found, place = [], 0
     for task in document["tasks"]:
-        of_task, place = _of_task(task, proposed.get(task["id"]), said, vocabulary, place)
+        of_task, place = _of_task(task, proposed.get(task["id"]), command, place)
         found.append(of_task)
     return found
 
 
 def _of_task(
-    task: Mapping[str, Any],
-    proposed: Mapping[str, Any] | None,
-    said: Said,
-    vocabulary: Vocabulary,
-    place: int,
+    task: Mapping[str, Any], proposed: Mapping[str, Any] | None, command: Input, place: int
 ) -> tuple[dict[str, Source], int]:
     """The sources of a task's parameters, and where in the command the task is spoken of."""
-    known = vocabulary.task[task["title"]].by_name
-    options: dict[str, list[Mention]] = {}
+    known = command.vocabulary.task[task["title"]].by_name
     fixed: dict[str, Source] = {}
+    open_values: dict[str, Evidence] = {}
     for name, value in task["parameters"].items():
-        source = (
-            _apart(task, name, proposed, said, vocabulary)
-            if name in known
-            else _from("model", note="no parameter of this task")
-        )
+        source = _edited(task, name, proposed)
+        if name not in known:
+            source = _from("model", note="no parameter of this task")
+        if source is None:
+            evidence = command.evidence(value, known[name])
+            source = _by_rule(value, known[name], evidence, command)
+            open_values[name] = evidence
         if source is not None:
             fixed[name] = source
-        else:
-            options[name] = (
-                said.mentions(value, known[name])
-                if said.states(value, known[name]) is not False
-                else []
-            )
-    certain = [mentions[0].start for mentions in options.values() if len(mentions) == 1]
+    mentions = {
+        name: evidence.mentions for name, evidence in open_values.items() if name not in fixed
+    }
+    certain = [found[0][0][0] for found in mentions.values() if len(found) == 1]
     certain += [source["spans"][0][0] for source in fixed.values() if source.get("spans")]
     anchor = sum(certain) / len(certain) if certain else place
-    chosen: dict[str, Source] = {}
-    for name, value in task["parameters"].items():
-        if name in fixed:
-            chosen[name] = fixed[name]
-        elif options[name]:
-            nearest = min(options[name], key=lambda mention: abs(mention.start - anchor))
-            chosen[name] = _from("command", nearest.spans)
+    for name, found in mentions.items():
+        if found:
+            nearest = min(found, key=lambda spans: abs(spans[0][0] - anchor))
+            fixed[name] = _from("command", nearest)
         else:
-            chosen[name] = _unplaced(value, known[name], said)
-    starts = [source["spans"][0][0] for source in chosen.values() if source.get("spans")]
-    return chosen, max(starts, default=place)
+            fixed[name] = _without_words(open_values[name])
+    starts = [source["spans"][0][0] for source in fixed.values() if source.get("spans")]
+    return {name: fixed[name] for name in task["parameters"]}, max(starts, default=place)
 
 
-def _apart(
-    task: Mapping[str, Any],
-    name: str,
-    proposed: Mapping[str, Any] | None,
-    said: Said,
-    vocabulary: Vocabulary,
+def _edited(
+    task: Mapping[str, Any], name: str, proposed: Mapping[str, Any] | None
 ) -> Source | None:
-    """The source of a value that is not looked for among the command's values; None for every
-    other.
-    """
-    value, parameter = task["parameters"][name], vocabulary.task[task["title"]].by_name[name]
+    """The source of a value that the model did not propose."""
     if name in task.get("located", {}):
         return _from("located", note=f"resolved location {task['located'][name]}")
     if proposed is None:
         return _from("operator", note="inserted")
-    if name not in proposed or proposed[name] != value:
-        return _from(
-            "operator", note=f"proposed: {_shown(proposed[name])}" if name in proposed else "added"
-        )
-    if parameter.type == "position" and tuple(value) == vocabulary.unresolved:
-        return _from("derived", note="unresolved location: the command gives no coordinates")
-    if (
-        parameter.type == "position"
-        and tuple(value) == vocabulary.home
-        and not said.mentions(value, parameter)
-    ):
-        return _home(said, vocabulary)
-    if parameter.unit == "deg" and not any(
-        mention.rank == 0 for mention in said.mentions(value, parameter)
-    ):
-        span = said.turn(abs(value))
-        return (
-            _from(
-                "derived",
-                (span,),
-                f"{said.command[span[0] : span[1]]} of a circle is {value:g} degrees",
-            )
-            if span
-            else None
-        )
+    if name not in proposed:
+        return _from("operator", note="added")
+    if proposed[name] != task["parameters"][name]:
+        return _from("operator", note=f"proposed: {_shown(proposed[name])}")
     return None
 
 
-def _home(said: Said, vocabulary: Vocabulary) -> Source:
-    words = [match.span() for match in language(vocabulary).words["home"].finditer(said.command)]
-    return (
-        _from("derived", tuple(words[-1:]), "home")
-        if words
-        else _from("model", note="home, which the command does not speak of")
-    )
+def _by_rule(value: Any, parameter: Parameter, evidence: Evidence, command: Input) -> Source | None:
+    """The source of a value that a rule gives: the vehicle's own places, parts of a circle, what
+    follows by arithmetic.
+    """
+    text = command.facts.text
+    if evidence.kind == "vehicle":
+        if tuple(value) == command.vocabulary.unresolved:
+            return _from("derived", note="unresolved location: the command gives no coordinates")
+        if command.facts.evidence(value, parameter).mentions:
+            return _from("command", command.facts.evidence(value, parameter).spans)
+        home = language(command.vocabulary).words["home"].finditer(text)
+        words = tuple(match.span() for match in home)[-1:]
+        if words:
+            return _from("derived", words, "home")
+        return _from("model", note="home, which the command does not speak of")
+    if evidence.kind == "derived" and parameter.unit == "deg" and evidence.spans:
+        start, end = evidence.spans[0]
+        note = f"{text[start:end]} of a circle is {abs(value):g} degrees"
+        return _from("derived", evidence.spans, note)
+    if evidence.kind == "derived" and not evidence.spans:
+        return _from("derived", note="follows from what the command says")
+    return None
 
 
-def _unplaced(value: Any, parameter: Parameter, said: Said) -> Source:
+def _without_words(evidence: Evidence) -> Source:
     """The source of a value of which no words were found."""
-    verdict = said.states(value, parameter)
-    if verdict:
+    if evidence.given:
         return _from("command")
-    return (
-        _from("model", note="the command could not be read with certainty")
-        if verdict is None
-        else _from("model", note="the command does not say it")
+    unread = evidence.given is None
+    return _from(
+        "model",
+        note="the command could not be read with certainty"
+        if unread
+        else "the command does not say it",
     )
 
 
 def _from(kind: str, spans: tuple[Span, ...] = (), note: str = "") -> Source:
-    return {
-        "kind": kind,
-        **({"spans": [list(span) for span in spans]} if spans else {}),
-        **({"note": note} if note else {}),
-    }
+    source: Source = {"kind": kind}
+    if spans:
+        source["spans"] = [list(span) for span in spans]
+    return {**source, "note": note} if note else source
 
 
 def _shown(value: Any) -> str:

@@ -33,7 +33,7 @@ from planner_ft.vocabulary import Parameter, Task, Vocabulary
 
 MOST_LENGTHS, MOST_PLACES = 9, 12
 """Stated lengths and places up to which waypoints are derived."""
-_UNREAD_SHAPES = re.compile(rf"\b(?:{'|'.join(WORDS['unread_shapes'])})", re.IGNORECASE)
+_UNREAD_SHAPES = re.compile(rf"\b(?:{'|'.join(WORDS['unread_shapes'])})s?\b", re.IGNORECASE)
 
 
 class Input:

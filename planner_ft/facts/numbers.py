@@ -116,17 +116,17 @@ def in_unit(text: str, unit: str | None) -> Iterator[Number]:
     ("two minutes and thirty seconds") included.
     """
     numbers = read_numbers(text)
-    sums = list(_sums(numbers, unit))
+    totals = list(_sums(numbers, unit))
     # "2 h 20 min" are no two hours.
-    parts = [span for number, whole in sums if whole for span in [(number.start, number.end)]]
+    parts = [total for total, whole in totals if whole]
     for number in numbers:
         if number.unit == unit:
-            if not any(start <= number.start and number.end <= end for start, end in parts):
+            if not any(total.start <= number.start < total.end for total in parts):
                 yield replace(number, rank=WRITTEN if unit else BARE)
         elif number.unit is None:
             yield replace(number, rank=BARE)
             yield from _without_unit(text, number, unit)
-    yield from (number for number, _whole in sums)
+    yield from (total for total, _whole in totals)
     yield from _as_before(text, numbers, unit)
     if unit == "m/s":
         yield from _speeds(text, numbers)
@@ -242,6 +242,11 @@ def _without_unit(text: str, number: Number, unit: str | None) -> Iterator[Numbe
         yield replace(number, value=number.value * POINT, unit="deg", end=points.end())
     elif unit == "%" and number.value < 1:
         yield replace(number, value=100 * number.value, unit="%", rank=BARE, counts=False)
+
+
+def neighbours(numbers: tuple[Number, ...], unit: str | None) -> list[Number]:
+    """The values that neighbouring numbers are together: "two minutes and thirty seconds"."""
+    return [total for total, _whole in _sums(numbers, unit)]
 
 
 def _sums(numbers: tuple[Number, ...], unit: str | None) -> Iterator[tuple[Number, bool]]:

