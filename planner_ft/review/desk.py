@@ -39,7 +39,9 @@ model.
 
 
 class Desk:
-    """A plan that is being reviewed. `by` is the reviewer's name, None while it is not known."""
+    """A plan that is being reviewed. `by` is the reviewer's name, None while it is not known;
+    `revision` the digest of the file's content, whatever its key `digest` says.
+    """
 
     def __init__(
         self, path: Path, log: Path, vocabulary: Vocabulary, ask: Ask, by: str | None = None
@@ -52,7 +54,7 @@ class Desk:
     def read(self) -> None:
         """Take the plan as it is in the file now."""
         self.document = read_document(self.path, self.vocabulary)
-        self._content = document_digest(self.document)
+        self.revision = document_digest(self.document)
 
     def approval(self) -> Approval:
         """The decision in the log about the plan as it is."""
@@ -65,12 +67,20 @@ class Desk:
         edit = parse_edit(text, self.document, self.vocabulary)
         before = self.document
         if edit["kind"] == "undo":
-            self._save(undo(self.document, self.vocabulary))
+            self.undo()
         elif edit["kind"] == "ask":
             self._ask_again(edit["tasks"])
         else:
-            self._save(apply(self.document, edit, self.vocabulary, self.by))
+            self.apply(edit)
         return compare(before, self.document)
+
+    def apply(self, edit: dict[str, Any]) -> None:
+        """Make an edit of planner_ft.document and save it. Raises PlannerError."""
+        self._save(apply(self.document, edit, self.vocabulary, self.by))
+
+    def undo(self) -> None:
+        """Take the last edit back and save. Raises PlannerError."""
+        self._save(undo(self.document, self.vocabulary))
 
     def adopt(self) -> None:
         """Take over what was changed by hand, as an edit. Raises PlannerError where nothing was, or
@@ -86,18 +96,18 @@ class Desk:
         """
         is_altered = altered(self.document)
         fresh = self.document if is_altered else revise(self.document, self.vocabulary)
-        if document_digest(fresh) != self._content:
+        if document_digest(fresh) != self.revision:
             self._save(fresh)
             raise PlannerError(
                 f"{self.path}: warnings and estimates were worked out anew and are others than in"
                 " the file; look at them, then approve"
             )
-        with unchanged(self.path, self._content):
+        with unchanged(self.path, self.revision):
             return approve(self.document, self.log, name, acknowledged)
 
     def reject(self, name: str, reason: str) -> Appended:
         """Reject the plan as it is in the file. Raises PlannerError."""
-        with unchanged(self.path, self._content):
+        with unchanged(self.path, self.revision):
             return reject(self.document, self.log, name, reason)
 
     def _ask_again(self, tasks: list[str]) -> None:
@@ -114,12 +124,11 @@ class Desk:
                     f"skills of {task['title']}: the Task Agent's answer is not valid"
                     f" ({'; '.join(answer.problems[:2])}); edit the task and ask again"
                 )
-            edit = skills_edit(name, answer.plan, answer)
-            self._save(apply(self.document, edit, self.vocabulary, self.by))
+            self.apply(skills_edit(name, answer.plan, answer))
 
     def _save(self, document: PlanDocument) -> None:
-        self.document = save(self.path, document, self._content)
-        self._content = document_digest(self.document)
+        self.document = save(self.path, document, self.revision)
+        self.revision = document_digest(self.document)
 
 
 def skills_edit(task: str, plan: Mapping[str, Any], answer: Answer) -> dict[str, Any]:

@@ -18,6 +18,13 @@ from planner_ft.support.files import read_json
 class ChangedError(PlannerError):
     """The plan's file is not what it was when it was read."""
 
+    @classmethod
+    def of(cls, path: Path) -> ChangedError:
+        return cls(
+            f"{path}: was changed by somebody else since it was read, so nothing was done; read it"
+            " again"
+        )
+
 
 @contextlib.contextmanager
 def exclusive(path: Path) -> Iterator[None]:
@@ -49,10 +56,7 @@ def unchanged(path: Path, digest: str) -> Iterator[None]:
     with exclusive(path):
         value = read_json(path)
         if not isinstance(value, dict) or document_digest(value) != digest:
-            raise ChangedError(
-                f"{path}: was changed by somebody else since it was read, so nothing was done; read"
-                " it again"
-            )
+            raise ChangedError.of(path)
         yield
 
 

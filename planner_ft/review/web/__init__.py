@@ -1,7 +1,7 @@
 """The review in the browser: `plannerft review --web`.
 
 `server` listens, `guard` keeps strangers out, `app` answers, `session` is the review itself, with
-the plan in `plan_file`, the agents in `planning` and the news for open pages in `events`. The
+the folder's plans in `plans`, the agents in `planning` and the news for open pages in `events`. The
 page's own files are in `page`.
 """
 

@@ -161,7 +161,7 @@ def _say_where(settings: WebSettings, door: Door) -> None:
 
 def _farewell(session: Session) -> str:
     """Where plan and decisions are, and unfinished work."""
-    path, busy = session.file.path, session.planning.busy
+    path, busy = session.path, session.planning.busy
     saved = f"the plan is saved in {path}, decisions in {session.log}"
     unfinished = f"; {busy['what']} was not finished" if busy else ""
     return f"\nended: {saved if path else 'there was no plan to save'}{unfinished}"

@@ -5,13 +5,12 @@ every page.
 from __future__ import annotations
 
 import ipaddress
-import threading
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.document import PlanDocument, apply, build, differences, undo
+from planner_ft.document import PlanDocument, altered, build, differences, read_document
 from planner_ft.document.track import track
 from planner_ft.document.vehicle import Vehicle
 from planner_ft.planning.locations import Position, is_open
@@ -20,10 +19,10 @@ from planner_ft.planning.result import Answer
 from planner_ft.planning.settings import PlanSettings
 from planner_ft.review.desk import Desk, skills_edit
 from planner_ft.review.log import log_beside
-from planner_ft.review.verify import approval_of
+from planner_ft.review.store import ChangedError
 from planner_ft.review.web.events import Events
-from planner_ft.review.web.plan_file import PlanFile, signature
 from planner_ft.review.web.planning import Planning
+from planner_ft.review.web.plans import add_plan, plan_names, signature
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 
@@ -84,16 +83,14 @@ class Session:
         vocabulary: Vocabulary,
         vehicle: Vehicle | None = None,
     ) -> None:
-        """`vehicle` is the one that new commands are planned for: the vocabulary's own by
-        default.
+        """`plan` is shown first. `vehicle` is the one that new commands are planned for: the
+        vocabulary's own by default.
         """
-        self.vocabulary, self.vehicle = vocabulary, vehicle
-        folder = settings.folder or (plan.parent if plan else Path())
-        self.file = PlanFile(plan, folder, vocabulary)
+        self.path, self.vocabulary, self.vehicle = plan, vocabulary, vehicle
+        self.folder = settings.folder or (plan.parent if plan else Path())
+        self.log = settings.log or log_beside(self.folder / "any")
         self.events = Events()
         self.planning = Planning(settings.planning, self.events, self.tell_state)
-        self.log = settings.log or log_beside(folder / "any")
-        self._lock = threading.Lock()
         self._known: Any = self._signature()
         self._shown: tuple[Any, State] = (None, {})
 
@@ -109,7 +106,7 @@ class Session:
             "planner": self.planning.as_json(),
             "busy": self.planning.busy,
             "vocabulary": vocabulary_json(self.vocabulary),
-            "plans": self.file.plans(),
+            "plans": plan_names(self.folder),
         }
 
     def look(self) -> None:
@@ -119,13 +116,12 @@ class Session:
 
     def tell_state(self) -> None:
         """Tell the pages to ask for the state anew."""
-        with self._lock:
-            self._known = self._signature()
+        self._known = self._signature()
         try:
-            now = self.file.current()
+            revision = self._desk().revision if self.path else None
         except PlannerError:
-            now = None
-        self.events.tell("state", {"revision": now.revision if now else None})
+            revision = None
+        self.events.tell("state", {"revision": revision})
 
     # ------------------------------------------------------------ actions of a page
 
@@ -136,12 +132,12 @@ class Session:
                 f"edit {str(edit.get('kind'))[:40]!r}: is none that a page makes; there is"
                 f" {', '.join(EDITS)}"
             )
-        self.file.change(revision, lambda document: apply(document, edit, self.vocabulary))
+        self._editable(revision).apply(edit)
         return self._changed()
 
     def undo(self, revision: str) -> State:
         """Take the last edit back."""
-        self.file.change(revision, lambda document: undo(document, self.vocabulary))
+        self._editable(revision).undo()
         return self._changed()
 
     def approve(self, revision: str, name: str, acknowledged: list[str]) -> State:
@@ -155,8 +151,13 @@ class Session:
         return self._changed()
 
     def open(self, name: str) -> State:
-        """Show another plan of the folder."""
-        self.file.open(name)
+        """Show another plan of the folder. Raises PlannerError when there is none of that name, or
+        it cannot be read.
+        """
+        if name not in plan_names(self.folder):
+            raise PlannerError(f"{name}: is no plan in {self.folder}; choose one that is listed")
+        read_document(self.folder / name, self.vocabulary)
+        self.path = self.folder / name
         return self._changed()
 
     def plan(self, command: str, locations: Mapping[str, Position]) -> None:
@@ -173,7 +174,8 @@ class Session:
 
         def work(planner: Planner) -> None:
             planned = planner.plan(command, places, self._watch)
-            self.file.add(build(planned, self.vocabulary, self.vehicle))
+            document = build(planned, self.vocabulary, self.vehicle)
+            self.path = add_plan(self.folder, document)
 
         self.planning.ask({"what": "planning", "label": "planning", "command": command}, work)
 
@@ -181,8 +183,8 @@ class Session:
         """Have the Task Agent asked again for one task; its answer becomes an edit. Raises
         BusyError, ChangedError.
         """
-        with self.file.held(revision) as now:
-            path, asked = now.path, _task(now.document, task)
+        desk = self._desk(revision)
+        asked = _task(desk.document, task)
         if is_open(asked, self.vocabulary):
             raise PlannerError(f"task {task}: its place is not known yet; say where it is first")
 
@@ -193,35 +195,49 @@ class Session:
                     f"task {task}: the Task Agent's answer is not valid ({answer.problems[0]}); the"
                     " task keeps the skills that it has"
                 )
-            self._take_skills(path, asked, skills_edit(task, answer.plan, answer))
+            self._take_skills(desk.path, asked, skills_edit(task, answer.plan, answer))
 
         self.planning.ask({"what": "skills", "label": f"skills of task {task}"}, work)
 
     # ------------------------------------------------------------ parts
 
-    def _desk(self, revision: str) -> Desk:
-        """The plan as the review in the terminal has it, where decisions are taken. Raises
-        ChangedError when it is of another revision.
+    def _desk(self, revision: str | None = None) -> Desk:
+        """The plan as the review in the terminal has it, as it is on the disk now. Raises
+        ChangedError when it is of another revision than the given one.
         """
-        with self.file.held(revision) as now:
-            return Desk(now.path, self.log, self.vocabulary, _no_agent)
+        if self.path is None:
+            raise ChangedError("there is no plan yet; plan a command first")
+        desk = Desk(self.path, self.log, self.vocabulary, _no_agent)
+        if revision not in (None, desk.revision):
+            raise ChangedError.of(self.path)
+        return desk
+
+    def _editable(self, revision: str) -> Desk:
+        desk = self._desk(revision)
+        if altered(desk.document):
+            name = desk.path.name
+            raise PlannerError(
+                f"{name} was changed by hand; take the changes over with `plannerft review {name}"
+                " --adopt` before you edit it"
+            )
+        return desk
 
     def _take_skills(self, path: Path, asked: dict[str, Any], edit: dict[str, Any]) -> None:
         """Put the skills of a task into the plan, which may have been edited elsewhere since they
         were asked for.
         """
-        now = self.file.current()
-        if now is None or now.path != path:
+        desk = self._desk()
+        if desk.path != path:
             raise PlannerError(
                 f"task {asked['id']}: another plan is shown since its skills were asked for; open"
                 f" {path.name} and ask again"
             )
-        task = _task(now.document, asked["id"])
+        task = _task(desk.document, asked["id"])
         if any(task[key] != asked[key] for key in ("title", "parameters", "task_prompt")):
             raise PlannerError(
                 f"task {asked['id']} was edited while its skills were planned; ask again"
             )
-        self.file.change(now.revision, lambda document: apply(document, edit, self.vocabulary))
+        desk.apply(edit)
 
     def _watch(self, event: TasksKnown | SkillsKnown) -> None:
         """Show a plan to the pages while it comes into being."""
@@ -248,24 +264,24 @@ class Session:
         return self.state()
 
     def _signature(self) -> Any:
-        return self.file.signature(), signature(self.log)
+        return self.path, signature(self.path), signature(self.log)
 
     def _plan_state(self) -> State:
-        now = self.file.current()
-        if now is None:
+        if self.path is None:
             approval = _undecided("there is no plan yet")
             return {**dict.fromkeys(NO_PLAN), "differences": [], "approval": approval}
+        desk = self._desk()
         try:
-            approval = approval_of(now.document, self.log).as_json()
+            approval = desk.approval().as_json()
         except PlannerError as error:
             # A log that is broken keeps nobody from looking at the plan.
             approval = _undecided(str(error))
         return {
-            "document": now.document,
-            "path": now.path.name,
-            "revision": now.revision,
-            "differences": [difference.as_json() for difference in differences(now.document)],
-            "track": track(now.document, self.vocabulary).as_json(),
+            "document": desk.document,
+            "path": desk.path.name,
+            "revision": desk.revision,
+            "differences": [difference.as_json() for difference in differences(desk.document)],
+            "track": track(desk.document, self.vocabulary).as_json(),
             "approval": approval,
         }
 

@@ -17,6 +17,7 @@ from starlette.testclient import TestClient
 from planner_ft.decoding.engine import Engine
 from planner_ft.document import read_document
 from planner_ft.review.web.events import MOST_WAITING, Events
+from planner_ft.review.web.plans import add_plan
 from planner_ft.support.errors import PlannerError
 from tests.planning.conftest import FIND_AND_ORBIT, HOLD, SKILLS, Known, KnownAnswers, mission, task
 from tests.review.web.conftest import COMMAND, MARKUP, REMOVE, Serve, post, state
@@ -157,9 +158,8 @@ def test_a_command_with_markup_comes_back_as_it_was_given(
     assert [read_document(path)["command"] for path in tmp_path.glob("plan-*.json")] == [MARKUP]
 
 
-def test_two_plans_of_one_second_do_not_meet(serve_plan: Serve, plan: Path) -> None:
-    file = serve_plan(plan).app_state["session"].file
-    written = [file.add(read_document(plan)) for _ in range(5)]
+def test_two_plans_of_one_second_do_not_meet(plan: Path) -> None:
+    written = [add_plan(plan.parent, read_document(plan)) for _ in range(5)]
     assert len({path.name for path in written}) == 5 and all(path.is_file() for path in written)
 
 
