@@ -10,6 +10,7 @@ import typer
 
 from planner_ft.cli.options import command, given, typed
 from planner_ft.cli.progress import interruptible, resume_command, status
+from planner_ft.support.errors import IncompleteError, PlannerError
 
 if TYPE_CHECKING:
     from planner_ft.benchmark.results import Results
@@ -104,7 +105,6 @@ def score(
     from planner_ft.benchmark import folder
     from planner_ft.benchmark.samples import default_data, load_bench_data
     from planner_ft.benchmark.submission import score_predictions, score_run
-    from planner_ft.support.errors import PlannerError
     from planner_ft.vocabulary import load_vocabulary
     from planner_ft.vocabulary.plans import check_level
 
@@ -127,7 +127,6 @@ def score(
 
 
 def _batch_size(text: str) -> int | None:
-    from planner_ft.support.errors import PlannerError
 
     try:
         return None if text == "auto" else int(text)
@@ -138,7 +137,6 @@ def _batch_size(text: str) -> int | None:
 def _settings(named: dict[str, Any], served: dict[str, Any], **common: Any) -> BenchSettings:
     """Settings from the flags that were given."""
     from planner_ft.benchmark.settings import BenchSettings
-    from planner_ft.support.errors import PlannerError
     from planner_ft.vocabulary.plans import check_level
 
     values, server = _with_endpoint(named, served)
@@ -162,7 +160,6 @@ def _with_endpoint(
     if not served:
         return named, None
     from planner_ft.benchmark.sources.endpoint_settings import EndpointSettings
-    from planner_ft.support.errors import PlannerError
 
     if "endpoint" not in served or "model" not in served:
         raise PlannerError(f"{typed(served)}: a server needs both --endpoint URL and --model NAME")
@@ -197,7 +194,6 @@ def _check_file_alone(
 ) -> None:
     """Raise PlannerError for flags that a suite or gate file sets itself, and under accelerate."""
     from planner_ft.benchmark.ranks import started_with_others
-    from planner_ft.support.errors import PlannerError
 
     if started_with_others():
         raise PlannerError(
@@ -218,7 +214,6 @@ def _run_suite(
     from planner_ft.benchmark.suite.definition import load_suite
     from planner_ft.benchmark.suite.run import run_suite
     from planner_ft.benchmark.suite.units import Flags
-    from planner_ft.support.errors import IncompleteError, PlannerError
 
     if all(rerun.values()):
         raise PlannerError(

@@ -7,6 +7,7 @@ from pathlib import Path
 import typer
 
 from planner_ft.cli.options import command
+from planner_ft.support.errors import PlannerError
 
 
 @command
@@ -32,7 +33,6 @@ def compare(
     from planner_ft.benchmark.compare import DEFAULT_METRICS, CompareSettings, compare_runs
     from planner_ft.benchmark.compare_text import print_report, render_report
     from planner_ft.benchmark.folder import check_folder
-    from planner_ft.support.errors import PlannerError
     from planner_ft.support.files import indented_json, write_json, write_text
 
     if same and against is not None:
@@ -68,7 +68,6 @@ def report(
     """Write report.html (one file, opens offline), the figures as PNG and SVG, and the tables as
     Markdown, CSV and LaTeX.
     """
-    from planner_ft.support.errors import PlannerError
 
     if card is not None:
         from planner_ft.report.card import write_card

@@ -9,6 +9,7 @@ import typer
 
 from planner_ft.cli.options import command
 from planner_ft.cli.progress import interruptible
+from planner_ft.support.errors import PlannerError
 
 
 @command
@@ -63,7 +64,6 @@ def validate(
     there are some, 2 when a file cannot be read.
     """
     from planner_ft.data.validation import validate_file
-    from planner_ft.support.errors import PlannerError
     from planner_ft.vocabulary import load_vocabulary
     from planner_ft.vocabulary.plans import check_level
 

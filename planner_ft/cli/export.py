@@ -8,6 +8,7 @@ from typing import Any
 import typer
 
 from planner_ft.cli.options import command, typed
+from planner_ft.support.errors import PlannerError
 
 PLAN_FLAGS = ("format", "origin", "log", "draft")
 MODEL_FLAGS = ("candidate", "merge", "level", "adapter", "gguf", "outtype", "checks", "check_data")
@@ -40,7 +41,6 @@ def export(
     with the adapter merged, and a GGUF file; answers are compared before and after, and when one
     differs, nothing is written.
     """
-    from planner_ft.support.errors import PlannerError
 
     given = {name for name in (*PLAN_FLAGS, *MODEL_FLAGS, "vocabulary") if _is_given(context, name)}
     _check_kind(plan, given)
@@ -70,7 +70,6 @@ def _check_kind(plan: Path | None, given: set[str]) -> None:
     """Raise PlannerError for flags of a model beside a plan, flags of a plan without one, and for
     neither plan nor model.
     """
-    from planner_ft.support.errors import PlannerError
 
     wrong = [name for name in (PLAN_FLAGS if plan is None else MODEL_FLAGS) if name in given][:1]
     if wrong and plan is not None:

@@ -15,6 +15,12 @@ from planner_ft.cli.progress import Report, interruptible
 if TYPE_CHECKING:
     from planner_ft.document import PlanDocument
 
+PLANNING = (
+    *("candidate", "mission_candidate", "task_candidate", "mission_adapter", "task_adapter"),
+    *("configuration", "mission_configuration", "task_configuration"),
+    *("vocabulary", "device", "quantization", "mission_only"),
+)
+"""Options that are settings of the planner."""
 PATIENCE = 3.0
 """Seconds without an answer before progress is shown: a short wait needs none."""
 
@@ -47,24 +53,12 @@ def plan(
     in. Exits with 1 when an answer is not valid: it is shown with what is wrong. A person approves
     a plan before anything moves.
     """
+    options = locals()
     from planner_ft.document import write_document
     from planner_ft.document.tree import plan_tree
     from planner_ft.support.files import indented_json
 
-    named = {
-        "candidate": candidate,
-        "mission_candidate": mission_candidate,
-        "task_candidate": task_candidate,
-        "mission_adapter": mission_adapter,
-        "task_adapter": task_adapter,
-        "configuration": configuration,
-        "mission_configuration": mission_configuration,
-        "task_configuration": task_configuration,
-        "vocabulary": vocabulary,
-        "device": device,
-        "quantization": quantization,
-        "mission_only": mission_only,
-    }
+    named = {name: options[name] for name in PLANNING}
     document = _plan(command, locate or [], out, overwrite, vehicle, named)
     typer.echo(indented_json(document) if json else plan_tree(document), nl=not json)
     if out is not None:

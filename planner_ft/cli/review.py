@@ -9,6 +9,7 @@ from typing import Any
 import typer
 
 from planner_ft.cli.options import command, typed
+from planner_ft.support.errors import PlannerError
 
 DECISIONS = ("show", "adopt", "edit", "approve", "acknowledge", "reject")
 SERVING = ("port", "host", "no_browser")
@@ -56,7 +57,6 @@ def review(
 
 def _refuse(mode: str, options: dict[str, Any], *names: str) -> None:
     """Raise PlannerError for options that this kind of review has no use for."""
-    from planner_ft.support.errors import PlannerError
 
     for name in names:
         if options[name] not in (None, False, []):
@@ -66,7 +66,6 @@ def _refuse(mode: str, options: dict[str, Any], *names: str) -> None:
 def _review(options: dict[str, Any]) -> None:
     from planner_ft.review.desk import open_desk
     from planner_ft.review.terminal import Conversation, terminal
-    from planner_ft.support.errors import PlannerError
 
     plans = options["plans"] or []
     if len(plans) != 1:
@@ -99,7 +98,6 @@ def _review(options: dict[str, Any]) -> None:
 def _serve(options: dict[str, Any]) -> None:
     from planner_ft.review.desk import planning_of
     from planner_ft.review.web import WebSettings, serve
-    from planner_ft.support.errors import PlannerError
 
     plans = options["plans"] or []
     if len(plans) > 1:
@@ -135,7 +133,6 @@ def verify(
     Exits with 0 for a plan that is approved and unchanged, with 1 otherwise (what was altered is
     named), with 2 for a file that cannot be read or a log that is broken.
     """
-    from planner_ft.support.errors import PlannerError
 
     if plan is not None:
         _verify_plan(plan, log, json, vocabulary)

@@ -40,53 +40,40 @@ def changes(approved: PlanDocument, now: PlanDocument) -> list[Change]:
 
 
 def _walk(path: str, words: Words, before: Any, after: Any) -> Iterator[Change]:
-    if isinstance(before, dict) and isinstance(after, dict):
-        yield from _walk_keys(path, words, before, after)
-    elif isinstance(before, list) and isinstance(after, list):
-        if _have_ids(before) and _have_ids(after):
-            yield from _walk_ids(path, words, before, after)
-        elif any(isinstance(item, dict) for item in [*before, *after]):
-            yield from _walk_keys(path, words, dict(enumerate(before)), dict(enumerate(after)))
-        elif before != after:
+    keyed = _keyed(before, after)
+    if keyed is None:
+        if before != after or isinstance(before, bool) != isinstance(after, bool):
             yield _change(path, words, before, after)
-    elif before != after or isinstance(before, bool) != isinstance(after, bool):
-        yield _change(path, words, before, after)
+        return
+    old, new = keyed
+    for key in {**old, **new}:
+        named = _named(words, path, key, keyed)
+        below = f"{path}.{key}" if path else str(key)
+        if key in old and key in new:
+            yield from _walk(below, named, old[key], new[key])
+        else:
+            yield _change(below, named, old.get(key), new.get(key))
+    if isinstance(before, list):
+        kept = [str(key) for key in old if key in new], [str(key) for key in new if key in old]
+        if kept[0] != kept[1]:
+            approved, now = (", ".join(names) for names in kept)
+            text = f"order of {', '.join(words)}: approved {approved}, now {now}"
+            yield Change(path, *kept, text)
 
 
-def _walk_keys(
-    path: str, words: Words, before: dict[Any, Any], after: dict[Any, Any]
-) -> Iterator[Change]:
-    for key in {**before, **after}:
-        named = (*words, *_words(path, key, before.get(key, after.get(key))))
-        yield from _walk_item(f"{path}.{key}" if path else str(key), named, key, before, after)
-
-
-def _walk_ids(path: str, words: Words, before: list[Any], after: list[Any]) -> Iterator[Change]:
-    """Two lists whose items have ids: changes of each item, then that of the order."""
-    old, new = ({item["id"]: item for item in items} for items in (before, after))
-    numbers = {name: number for items in (old, new) for number, name in enumerate(items, start=1)}
-    for name in {**old, **new}:
-        item = f"task {numbers[name]}" if path.endswith("tasks") else name
-        yield from _walk_item(f"{path}.{name}", (*words[:-1], item), name, old, new)
-    kept = [name for name in old if name in new], [name for name in new if name in old]
-    if kept[0] != kept[1]:
-        approved, now = (", ".join(names) for names in kept)
-        text = f"order of {', '.join(words)}: approved {approved}, now {now}"
-        yield Change(path, *kept, text)
-
-
-def _walk_item(
-    path: str, words: Words, key: Any, before: dict[Any, Any], after: dict[Any, Any]
-) -> Iterator[Change]:
-    if key in before and key in after:
-        yield from _walk(path, words, before[key], after[key])
-    else:
-        yield _change(path, words, before.get(key), after.get(key))
-
-
-def _change(path: str, words: Words, before: Any, after: Any) -> Change:
-    named = ", ".join(words) or "the plan"
-    return Change(path, before, after, f"{named}: approved {_shown(before)}, now {_shown(after)}")
+def _keyed(before: Any, after: Any) -> tuple[dict[Any, Any], dict[Any, Any]] | None:
+    """Both values as dictionaries: lists by the ids of their items, else by place. None for values
+    that are compared as a whole.
+    """
+    if isinstance(before, dict) and isinstance(after, dict):
+        return before, after
+    if not (isinstance(before, list) and isinstance(after, list)):
+        return None
+    if _have_ids(before) and _have_ids(after):
+        return {item["id"]: item for item in before}, {item["id"]: item for item in after}
+    if any(isinstance(item, dict) for item in [*before, *after]):
+        return dict(enumerate(before)), dict(enumerate(after))
+    return None
 
 
 def _have_ids(items: list[Any]) -> bool:
@@ -94,16 +81,25 @@ def _have_ids(items: list[Any]) -> bool:
     return len({name for name in ids if isinstance(name, str)}) == len(items)
 
 
-def _words(path: str, key: Any, value: Any) -> Words:
+def _named(words: Words, path: str, key: Any, keyed: tuple[dict[Any, Any], ...]) -> Words:
     """The name of a key below a path, for people."""
+    value = next(entries[key] for entries in keyed if key in entries)
+    holder, name = path.rpartition(".")[2], value.get("name") if isinstance(value, dict) else None
     if key in ("parameters", "skill_sequence"):
-        return ()
-    name = value.get("name") if isinstance(value, dict) else None
-    if path.rpartition(".")[2] == "skill_sequence":
-        return (f"step {key + 1}",)
+        return words
+    if isinstance(value, dict) and value.get("id") == key:
+        place = [*(keyed[1] if key in keyed[1] else keyed[0])].index(key)
+        return (*words[:-1], f"task {place + 1}" if holder == "tasks" else str(key))
     if isinstance(key, int):
-        return (str(name) if name else f"item {key + 1}",)
-    return (str(name) if key == "navigation_skill" and isinstance(value, dict) else str(key),)
+        if holder == "skill_sequence":
+            return (*words, f"step {key + 1}")
+        return (*words, str(name or f"item {key + 1}"))
+    return (*words, str(name) if name and key == "navigation_skill" else str(key))
+
+
+def _change(path: str, words: Words, before: Any, after: Any) -> Change:
+    named = ", ".join(words) or "the plan"
+    return Change(path, before, after, f"{named}: approved {_shown(before)}, now {_shown(after)}")
 
 
 def _shown(value: Any) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from planner_ft.document import PlanDocument
@@ -48,13 +48,26 @@ def parse_edit(text: str, document: PlanDocument, vocabulary: Vocabulary) -> Edi
     assigned = VALUE.fullmatch(text)
     if assigned:
         return _assignment(assigned[1].split("."), assigned[2].strip(), document, vocabulary)
-    word, *rest = text.split(maxsplit=1) or [""]
-    parse = WORDS.get(word.lower())
-    if parse is None:
-        raise PlannerError(
-            f"{text!r}: is no edit; there is {', '.join(example for example, _effect in HELP)}"
-        )
-    return parse("".join(rest), document, vocabulary)
+    word, rest = [*text.split(maxsplit=1), "", ""][:2]
+    match word.lower():
+        case "remove":
+            return {"kind": "remove", "task": _task(rest, document)["id"]}
+        case "move":
+            return _move(rest, document)
+        case "locate":
+            return _locate(rest, document)
+        case "prompt":
+            return _prompt(rest, document)
+        case "insert":
+            return _insert(rest, vocabulary)
+        case "skills":
+            return {"kind": "ask", "tasks": _asked(rest, document)}
+        case "undo" if not rest:
+            return {"kind": "undo"}
+        case "undo":
+            raise PlannerError(f"{text}: takes the last edit back and needs nothing after it")
+    examples = ", ".join(example for example, _effect in HELP)
+    raise PlannerError(f"{text!r}: is no edit; there is {examples}")
 
 
 # ---------------------------------------------------------------- NUMBER.NAME=VALUE
@@ -128,11 +141,7 @@ def _value(text: str, parameter: Parameter) -> Any:
 # ---------------------------------------------------------------- WORD ...
 
 
-def _remove(rest: str, document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
-    return {"kind": "remove", "task": _task(rest, document)["id"]}
-
-
-def _move(rest: str, document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
+def _move(rest: str, document: PlanDocument) -> Edit:
     number, _blank, place = rest.partition(" ")
     to = _number(place.strip())
     if to is None:
@@ -143,14 +152,14 @@ def _move(rest: str, document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
     return {"kind": "move", "task": _task(number, document)["id"], "to": to - 1}
 
 
-def _locate(rest: str, document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
+def _locate(rest: str, document: PlanDocument) -> Edit:
     name, position = parse_location(rest)
     known = [*(place["name"] for place in document["open_places"]), *document["located"]]
     same = [other for other in known if other.casefold() == name.casefold()]
     return {"kind": "locate", "name": same[0] if same else name, "position": list(position)}
 
 
-def _prompt(rest: str, document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
+def _prompt(rest: str, document: PlanDocument) -> Edit:
     number, equals, text = rest.partition("=")
     if not equals:
         raise PlannerError(
@@ -160,7 +169,7 @@ def _prompt(rest: str, document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
     return {"kind": "prompt", "task": _task(number.strip(), document)["id"], "text": text.strip()}
 
 
-def _insert(rest: str, _document: PlanDocument, vocabulary: Vocabulary) -> Edit:
+def _insert(rest: str, vocabulary: Vocabulary) -> Edit:
     place, title, given = [*rest.split(maxsplit=2), "", "", ""][:3]
     at = _number(place)
     if at is None or not title:
@@ -187,32 +196,15 @@ def _insert(rest: str, _document: PlanDocument, vocabulary: Vocabulary) -> Edit:
     return {"kind": "insert", "at": at - 1, **inserted}
 
 
-def _ask(rest: str, document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
+def _asked(rest: str, document: PlanDocument) -> list[str]:
+    """The task of a number; without one every task that waits for skills."""
     if rest:
-        return {"kind": "ask", "tasks": [_task(rest, document)["id"]]}
-    waiting = [
+        return [_task(rest, document)["id"]]
+    return [
         task["id"]
         for task in document["tasks"]
         if "waits_for" not in task and (task["skill_sequence"] is None or task.get("stale"))
     ]
-    return {"kind": "ask", "tasks": waiting}
-
-
-def _undo(rest: str, _document: PlanDocument, _vocabulary: Vocabulary) -> Edit:
-    if rest:
-        raise PlannerError(f"undo {rest}: takes the last edit back and needs nothing after it")
-    return {"kind": "undo"}
-
-
-WORDS: dict[str, Callable[[str, PlanDocument, Vocabulary], Edit]] = {
-    "remove": _remove,
-    "move": _move,
-    "locate": _locate,
-    "prompt": _prompt,
-    "insert": _insert,
-    "skills": _ask,
-    "undo": _undo,
-}
 
 
 def _task(number: str, document: PlanDocument) -> dict[str, Any]:

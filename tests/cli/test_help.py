@@ -1,0 +1,45 @@
+"""Every option of every command has its help."""
+
+from __future__ import annotations
+
+import inspect
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import planner_ft.cli
+from planner_ft.cli.app import app
+
+TEXTS: dict[str, Any] = tomllib.loads(
+    Path(planner_ft.cli.__file__).with_name("help.toml").read_text(encoding="utf-8")
+)
+
+
+def options() -> dict[str, dict[str, Any]]:
+    """What typer is given of each parameter, by command and name."""
+    return {
+        command.callback.__name__: {
+            name: item.annotation.__metadata__[0]
+            for name, item in inspect.signature(command.callback).parameters.items()
+            if hasattr(item.annotation, "__metadata__") or name != "context"
+        }
+        for command in app.registered_commands
+        if command.callback is not None
+    }
+
+
+def test_every_option_has_help() -> None:
+    found = options()
+    assert len(found) == 14
+    assert [
+        (name, key) for name, given in found.items() for key, item in given.items() if not item.help
+    ] == []
+
+
+def test_every_help_text_belongs_to_an_option() -> None:
+    for name, given in options().items():
+        texts = TEXTS.get(name, {})
+        keys = [key for key, value in texts.items() if not isinstance(value, dict)]
+        keys += [key for value in texts.values() if isinstance(value, dict) for key in value]
+        assert set(keys) <= set(given), name
+    assert set(TEXTS) <= {"shared", *options()}
