@@ -1,5 +1,5 @@
-"""The words that commands are checked by: english.toml, and beside a vocabulary's definition
-NAME.ontology.toml.
+"""The words that commands are checked by (english.toml, and NAME.ontology.toml beside a vocabulary's
+definition), and the clauses of a command with what it rules out or takes back.
 """
 
 from __future__ import annotations
@@ -18,13 +18,15 @@ from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import ONTOLOGY
 
 ENGLISH = Path(__file__).parent / "english.toml"
+ASK = ("words", "tasks")
 GAP = r"\W{1,3}(?:[\w'’-]{1,30}\W{1,3}){0,3}?"
-"""What ... stands for: up to three words."""
+"""The words that ... stands for: up to three."""
 CLAUSE_END = re.compile(
     r"(?<!\d)[.,](?=\s|$)|[.,](?=\s+[^\d\s−–-]|\s*$)|[;:!?\n]|\b(?:then|afterwards|after"
     r" that|and|but)\b",
     re.IGNORECASE,
 )
+NO = re.compile(r"^no\W+", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -40,16 +42,12 @@ class Ask:
 
 @dataclass(frozen=True)
 class Language:
-    """Patterns by their name in english.toml, what the vehicle can be asked for, its sensors, and
-    the questions per missing element.
-
-    `hints` are words per task title of which a command that asks for the task holds one; titles
-    without any are not told by words.
+    """Patterns by their name in english.toml, words for tasks of the vehicle, its sensors, and the
+    questions per missing element.
     """
 
     words: dict[str, re.Pattern[str]]
     asks: tuple[Ask, ...]
-    hints: dict[str, re.Pattern[str]]
     sensors: re.Pattern[str]
     questions: dict[str, str]
 
@@ -60,21 +58,18 @@ def language(vocabulary: Vocabulary) -> Language:
     file.
     """
     english = tomllib.loads(read_text(ENGLISH))
+    questions = english.pop("questions")
     own = vocabulary.beside(ONTOLOGY)
     problems = list(_problems(own, vocabulary))
     if problems:
         raise PlannerError(f"{vocabulary.name}{ONTOLOGY}: " + "; ".join(problems))
-    words = {
-        name: pattern(entry["words"]) for name, entry in english.items() if name != "questions"
-    }
-    asks = tuple(
+    asks = (
         Ask(pattern(entry["words"]), frozenset(entry["tasks"]), entry.get("sends", False))
         for entry in own.get("ask", ())
     )
-    hints = {title: pattern(phrases) for title, phrases in own.get("hint", {}).items()}
-    return Language(
-        words, asks, hints, pattern(own.get("sensor", {}).get("words", ())), english["questions"]
-    )
+    words = {name: pattern(entry["words"]) for name, entry in english.items()}
+    sensors = pattern(own.get("sensor", {}).get("words", ()))
+    return Language(words, tuple(asks), sensors, questions)
 
 
 def pattern(phrases: Sequence[str]) -> re.Pattern[str]:
@@ -83,17 +78,6 @@ def pattern(phrases: Sequence[str]) -> re.Pattern[str]:
     """
     written = "|".join(_phrase(phrase) for phrase in sorted(phrases, key=len, reverse=True))
     return re.compile(rf"(?<![\w-])(?:{written})(?![\w])" if written else r"(?!)", re.IGNORECASE)
-
-
-def clauses(text: str) -> Iterator[tuple[int, int]]:
-    """Where the clauses of a text begin and end: at commas, sentence ends, "and" and "then"."""
-    start = 0
-    for match in CLAUSE_END.finditer(text):
-        if text[start : match.start()].strip():
-            yield start, match.start()
-        start = match.end()
-    if text[start:].strip():
-        yield start, len(text)
 
 
 def _phrase(phrase: str) -> str:
@@ -107,40 +91,65 @@ def _phrase(phrase: str) -> str:
 
 
 def _problems(own: dict[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
+    asks, sensor = own.get("ask", []), own.get("sensor", {"words": ["any"]})
     yield from (f"unknown key {key!r}" for key in own if key not in ("ask", "sensor", "hint"))
-    asks = own.get("ask", [])
-    if not isinstance(asks, list) or not all(
-        isinstance(entry, dict)
-        and _are_words(entry.get("words"))
-        and _are_words(entry.get("tasks"))
-        for entry in asks
-    ):
-        yield "every [[ask]] needs the lists words and tasks"
-        return
-    yield from (
-        f"[[ask]] names {title!r}, which is no task"
-        for entry in asks
-        for title in entry["tasks"]
-        if title not in vocabulary.task
-    )
-    if "sensor" in own and not (
-        isinstance(own["sensor"], dict) and _are_words(own["sensor"].get("words"))
-    ):
+    if not isinstance(sensor, dict) or not _are_words(sensor.get("words")):
         yield "[sensor] needs the list words"
-    hints = own.get("hint", {})
-    if not isinstance(hints, dict) or not all(_are_words(words) for words in hints.values()):
-        yield "[hint] needs a list of words per task title"
-        return
-    yield from (
-        f"[hint] names {title!r}, which is no task"
-        for title in hints
-        if title not in vocabulary.task
-    )
+    for entry in asks if isinstance(asks, list) else [asks]:
+        if not isinstance(entry, dict) or not all(_are_words(entry.get(key)) for key in ASK):
+            yield "every [[ask]] needs the lists words and tasks"
+        else:
+            unknown = [title for title in entry["tasks"] if title not in vocabulary.task]
+            yield from (f"[[ask]] names {title!r}, which is no task" for title in unknown)
 
 
 def _are_words(value: Any) -> bool:
-    return (
-        isinstance(value, list)
-        and bool(value)
-        and all(isinstance(word, str) and word.strip() for word in value)
-    )
+    words = value if isinstance(value, list) else []
+    return bool(words) and all(isinstance(word, str) and word.strip() for word in words)
+
+
+# ---------------------------------------------------------------- clauses
+
+
+@dataclass(frozen=True)
+class Clause:
+    """A clause of a command from `start` to `end`.
+
+    `excluded`: where words that rule something out begin, before `start` where the clause only
+    tells of something; `corrected`: the next words take it back.
+    """
+
+    start: int
+    end: int
+    text: str
+    excluded: int | None
+    corrected: bool
+
+    def wants(self, place: int) -> bool:
+        """Whether words at a place of the command are not ruled out."""
+        return self.excluded is None or place <= self.excluded
+
+    def spans(self, words: re.Pattern[str]) -> Iterator[tuple[int, int]]:
+        """Where the clause says words that it does not rule out."""
+        for match in words.finditer(self.text):
+            if self.wants(self.start + match.start()):
+                yield self.start + match.start(), self.start + match.end()
+
+
+@functools.lru_cache(maxsize=64)
+def read_clauses(command: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
+    """The clauses of a command in order: between commas, sentence ends, "and" and "then"."""
+    words = language(vocabulary).words
+    ends = [(match.start(), match.end()) for match in CLAUSE_END.finditer(command)]
+    starts = [0, *(end for _start, end in ends)]
+    found = []
+    for start, end in zip(starts, [*(end for end, _next in ends), len(command)], strict=True):
+        text = command[start:end]
+        if text.strip():
+            exclusion = words["exclusion"].search(text)
+            excluded = start + exclusion.start() if exclusion else None
+            behind = command[end : end + 24].lstrip(" ,.;:!?-")
+            corrected = any(map(words["correction"].match, (behind, NO.sub("", behind))))
+            told = words["told"].search(text)
+            found.append(Clause(start, end, text, start - 1 if told else excluded, corrected))
+    return tuple(found)

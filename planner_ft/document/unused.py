@@ -9,8 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from planner_ft.document.clauses import Clause, read_clauses
-from planner_ft.document.language import language
+from planner_ft.document.language import Clause, language, read_clauses
 from planner_ft.facts import Number, Position, is_number, is_place, near, read_input
 from planner_ft.facts.numbers import neighbours, read_numbers
 from planner_ft.facts.places import read_positions, without_geographic

@@ -60,7 +60,7 @@ def mission_document(
         )
         for number, entry in enumerate(tasks, start=1)
     )
-    use = AgentUse.of("embedded", "lora+grounded", None, 0.0, [])
+    use = AgentUse("embedded", "lora+grounded", None, 0.0, 0, 0, 0, 0, 0.0)
     manifest = build_manifest(
         "plan",
         seed=None,

@@ -10,8 +10,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from planner_ft.document.clauses import said_apart
-from planner_ft.document.language import language
+from planner_ft.document.language import language, read_clauses
 from planner_ft.document.track import Leg, Point, TaskEntry, Track, place_of
 from planner_ft.document.warnings.warning import Warning, named, warning
 from planner_ft.facts.places import read_positions
@@ -198,7 +197,7 @@ def range_warnings(
     if away is None:
         return
     command, words = document["command"], language(vocabulary).words
-    if said_apart(command, words["home"], vocabulary):
+    if any(any(clause.spans(words["home"])) for clause in read_clauses(command, vocabulary)):
         text = f"coming home or back, and the plan ends with {named(away)} and no return."
         yield warning("missing-return", f"The command speaks of {text}")
     elif not words["stay"].search(command):
