@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-Point = tuple[float, float]
+from planner_ft.facts.geometry import Point, offset
 
 MOST_SECTORS = 36
 MOST_STARTS = 8
@@ -85,7 +85,7 @@ class Ground:
         """Whether a point is a stated way off another in a stated direction, or squarely to it."""
         length = math.dist(point, base)
         return any(abs(length - known) <= CLOSE for known in self.lengths) and any(
-            math.dist(point, _ahead(base, bearing + turn, length)) <= CLOSE
+            math.dist(point, offset(base, bearing + turn, length)) <= CLOSE
             for bearing in (*self.bearings, *self._courses)
             for turn in SQUARELY
         )
@@ -125,11 +125,6 @@ class Ground:
 
     def _spacings(self, width: float, length: float) -> set[float]:
         return {*self.lengths, *(side / (n - 1) for n in self.counts for side in (width, length))}
-
-
-def _ahead(base: Point, bearing: float, length: float) -> Point:
-    angle = math.radians(bearing)
-    return base[0] + length * math.sin(angle), base[1] + length * math.cos(angle)
 
 
 def _divides(point: Point, start: Point, end: Point, counts: Iterable[int]) -> bool:

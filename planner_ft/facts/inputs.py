@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from planner_ft.facts import derived
-from planner_ft.facts.derived import Point
+from planner_ft.facts.geometry import Point
 from planner_ft.facts.lists import MULTIPLES, WORDS
 from planner_ft.facts.reading import (
     EXACT,
