@@ -29,6 +29,8 @@ ROLES = {INK: "ink", SOFT: "soft", LINE: "line"} | {
     colour: f"s{index}" for index, colour in enumerate(PALETTE)
 }
 """Names of the style sheet's colours."""
+NOT_KEPT = ("", "font", "font-family", "font-size", "clip-path")
+"""Styles of a drawing that are the page's affair, or that name nothing there."""
 MARKERS = ("o", "s", "^", "D", "v")
 STYLES = ("-", "--", ":", "-.")
 SETTINGS = {
@@ -91,7 +93,7 @@ def _restyle(node: ElementTree.Element, prefix: str) -> None:
             found[name] = text.replace("#", f"#{prefix}")
         elif name == "id":
             found |= {} if node.tag == "g" else {"id": prefix + text}
-        elif name not in ("", "font", "clip-path"):
+        elif name not in NOT_KEPT:
             found[name] = text
     node.attrib.clear()
     node.attrib.update(found | ({"class": " ".join(classes)} if classes else {}))
