@@ -1,50 +1,29 @@
-"""The dataset card: README.md in the Hugging Face form, so that `load_dataset(FOLDER)` finds every
-split.
+"""The dataset card (card.md.j2): README.md in the Hugging Face form, so that `load_dataset(FOLDER)`
+finds every split, with the figures that describe the set.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import itertools
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
-from planner_ft.data.statistics import (
-    Splits,
-    diversity,
-    input_tasks,
-    length_rows,
-    name_counts,
-    pair_counts,
-    possible_pairs,
-)
-from planner_ft.data.tags import TAGS
-from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import Level
+import numpy as np
 
+from planner_ft.data.leakage import mask
+from planner_ft.data.tags import TAGS
+from planner_ft.facts import words
+from planner_ft.support.files import compact_json
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import Level, list_key, plan_names, step_skills
+
+Records = Sequence[Mapping[str, Any]]
+Splits = Mapping[str, Records]
 SIZES = ((1_000, "n<1K"), (10_000, "1K<n<10K"), (100_000, "10K<n<100K"), (1_000_000, "100K<n<1M"))
-RECORDS: dict[Level, str] = {
-    "mission": (
-        "`prompt` is an operator's command, `expected` the mission plan: tasks in the order of"
-        " execution with parameters and task prompt, assumptions and constraints. `family` names"
-        " the phrasing family, `spans` mark the ontology elements in the command, `tags` the"
-        " labelling rules that it exercises."
-    ),
-    "task": (
-        "`task`, `parameters` and `prompt` (the task prompt) are the input, `expected` is the skill"
-        " sequence: steps of one navigation skill with the filter and perception skills that run"
-        " beside it. `family` names the phrasing family."
-    ),
-}
-ORIGIN: dict[Level, str] = {
-    "mission": (
-        "The commands were written one by one, not from templates, in the voice of people who send"
-        " vehicles out. Phrasing families do not cross splits."
-    ),
-    "task": (
-        "The records are sampled by a program from the vocabulary; waypoints are computed from the"
-        " parameters. `train`, `validation` and `test` share phrasing families, but no phrasing;"
-        " the families of `test_unseen` occur in no other split."
-    ),
-}
+QUANTILES = (0, 50, 90, 100)
+OVERLAP = ("split", "other", "exact", "near", "exact_masked", "near_masked", "families")
 
 
 def dataset_card(
@@ -55,19 +34,63 @@ def dataset_card(
     seed: int | None,
 ) -> str:
     """The card's text: front matter, counts, coverage, lengths, diversity, leakage."""
-    sections = [
-        _front_matter(level, splits, vocabulary),
-        _introduction(level, splits, vocabulary, seed),
-        _coverage(level, splits, vocabulary),
-        "## Lengths\n\n"
-        + table(
-            ["", "split", "min", "median", "90 %", "max"],
-            [[what, split, *values] for what, split, values in length_rows(level, splits)],
-        ),
-        _diversity(splits),
-        _leakage(leakage),
+    import jinja2
+
+    environment = jinja2.Environment(
+        undefined=jinja2.StrictUndefined, keep_trailing_newline=True, autoescape=False
+    )
+    template = environment.from_string(Path(__file__).with_name("card.md.j2").read_text("utf-8"))
+    named = vocabulary.task if level == "mission" else vocabulary.skill
+    inputs = [
+        [str(record["task"]) for record in records if "task" in record]
+        for records in splits.values()
     ]
-    return "\n".join(sections)
+    tags = [
+        [tag for record in records for tag in record.get("tags", ())] for records in splits.values()
+    ]
+    pairs = {split: set(_pairs(level, records)) for split, records in splits.items()}
+    total = sum(map(len, splits.values()))
+    figures = {split: diversity(records) for split, records in splits.items() if records}
+    plans = [_names(level, records) for records in splits.values()]
+    return template.render(
+        table=table,
+        level=level,
+        vehicle=vocabulary.title,
+        frame=vocabulary.frame,
+        home=list(vocabulary.home),
+        unresolved=list(vocabulary.unresolved),
+        seed=seed,
+        size=next((name for limit, name in SIZES if total < limit), "n>1M"),
+        splits=list(splits),
+        counts=[[split, len(records)] for split, records in splits.items()],
+        names=_occurrences(named, plans),
+        inputs=_occurrences(vocabulary.task, inputs) if level == "task" else [],
+        possible_pairs=_possible_pairs(vocabulary),
+        pairs=[
+            [split, len(found), len(found - pairs.get("train", set()))]
+            for split, found in pairs.items()
+        ],
+        tags=[
+            [f"`{tag}`", TAGS[tag], *counts] for (tag, *counts) in _counted(TAGS, tags) if any(tags)
+        ],
+        lengths=_lengths(level, splits),
+        diverse_splits=list(figures),
+        diversity=[
+            [name, *(of_split[name] for of_split in figures.values())]
+            for name in next(iter(figures.values()), {})
+        ],
+        near=leakage["method"]["near"],
+        overlaps=[[item[key] for key in OVERLAP] for item in leakage["overlaps"]],
+        baselines=[
+            [
+                item["split"],
+                *(f"{100 * item[key]:.1f} %" for key in ("f1", "sequence", "plan")),
+                item["similarity"],
+            ]
+            for item in leakage["baseline"]
+        ],
+        memory=[split for split, found in leakage["memory_test"].items() if found],
+    )
 
 
 def table(header: Sequence[Any], rows: Iterable[Sequence[Any]]) -> str:
@@ -76,146 +99,82 @@ def table(header: Sequence[Any], rows: Iterable[Sequence[Any]]) -> str:
     return "".join(f"| {' | '.join(str(cell) for cell in line)} |\n" for line in lines)
 
 
-def _front_matter(level: Level, splits: Splits, vocabulary: Vocabulary) -> str:
-    total = sum(map(len, splits.values()))
-    size = next((name for limit, name in SIZES if total < limit), "n>1M")
-    files = "".join(f"  - split: {split}\n    path: {split}.jsonl\n" for split in splits)
-    return (
-        f"---\npretty_name: {vocabulary.title.capitalize()} {level} plans\nlanguage:\n-"
-        " en\nlicense: apache-2.0\ntask_categories:\n- text-generation\ntags:\n- planning\n-"
-        f" structured-output\n- robotics\nsize_categories:\n- {size}\nconfigs:\n- config_name:"
-        f" default\n  data_files:\n{files}---\n"
-    )
+def _counted(names: Iterable[str], found: Sequence[Sequence[str]]) -> Iterator[list[Any]]:
+    """Each name with how often it was found in each split."""
+    counts = [Counter(of_split) for of_split in found]
+    for name in names:
+        yield [name, *(count[name] for count in counts)]
 
 
-def _introduction(level: Level, splits: Splits, vocabulary: Vocabulary, seed: int | None) -> str:
-    files = ", ".join(f'"{split}": "{split}.jsonl"' for split in splits)
-    made = f"`plannerft gen-data --level {level}`" + (
-        f" with seed {seed}" if seed is not None else ""
-    )
-    counts = table(
-        ["split", "records"], [[split, len(records)] for split, records in splits.items()]
-    )
-    return (
-        f"# {level.capitalize()} plans of the {vocabulary.title}\n\nWritten by {made};"
-        " manifest.json has the SHA-256 of every file, "
-        "leakage.json the full leakage report.\n\n"
-        f"{counts}\n{RECORDS[level]}\n\n{ORIGIN[level]}\n\nPositions are in the {vocabulary.frame};"
-        f" home is `{list(vocabulary.home)}`, and "
-        f"`{list(vocabulary.unresolved)}` stands for a place that is not known yet.\n\n"
-        '```python\nfrom datasets import load_dataset\n\ndata = load_dataset(\n    "json",\n'
-        f"    data_files={{{files}}},\n)\n```\n"
-    )
+def _occurrences(names: Iterable[str], found: Sequence[Sequence[str]]) -> list[list[Any]]:
+    return [[f"`{name}`", *counts] for name, *counts in _counted(names, found)]
 
 
-def _coverage(level: Level, splits: Splits, vocabulary: Vocabulary) -> str:
-    counts = {split: name_counts(level, records) for split, records in splits.items()}
-    names = (
-        [task.title for task in vocabulary.tasks]
-        if level == "mission"
-        else [skill.name for skill in vocabulary.skills]
-    )
-    text = (
-        f"## Coverage\n\nOccurrences of each {'task' if level == 'mission' else 'skill'} in the"
-        " expected plans.\n\n"
-    )
-    text += table(
-        ["", *splits],
-        [[f"`{name}`", *(found[name] for found in counts.values())] for name in names],
-    )
-    if level == "task":
-        inputs = {split: input_tasks(records) for split, records in splits.items()}
-        rows = [
-            [f"`{task.title}`", *(found[task.title] for found in inputs.values())]
-            for task in vocabulary.tasks
+def _names(level: Level, records: Records) -> list[str]:
+    """The task titles, or skill names, of the expected plans."""
+    return [name for record in records for name in plan_names(level, record["expected"])]
+
+
+def _pairs(level: Level, records: Records) -> Iterator[tuple[str, str]]:
+    """Mission level: titles that follow each other. Task level: skills that run at the same time,
+    in alphabetical order.
+    """
+    for record in records:
+        if level == "mission":
+            yield from itertools.pairwise(plan_names(level, record["expected"]))
+            continue
+        for step in record["expected"]["skill_sequence"]:
+            names = sorted({str(skill["name"]) for _role, skill in step_skills(step)})
+            yield from itertools.combinations(names, 2)
+
+
+def _possible_pairs(vocabulary: Vocabulary) -> int:
+    """Skill pairs that can run at the same time: navigation with others, and others among
+    themselves.
+    """
+    alone = len(vocabulary.skills_in_role("navigation"))
+    beside = len(vocabulary.skills) - alone
+    return alone * beside + beside * (beside - 1) // 2
+
+
+def _lengths(level: Level, splits: Splits) -> list[list[Any]]:
+    """[measure, split, minimum, median, 90th percentile, maximum]."""
+    measures: dict[str, Callable[[Mapping[str, Any]], int]] = {
+        "words in the prompt": lambda record: len(words(record["prompt"])),
+        f"{'tasks' if level == 'mission' else 'steps'} in the plan": lambda record: len(
+            record["expected"][list_key(level)]
+        ),
+        "characters in the plan": lambda record: len(compact_json(record["expected"])),
+    }
+    return [
+        [
+            name,
+            split,
+            *map(round, np.percentile([measure(record) for record in records], QUANTILES)),
         ]
-        text += "\nRecords of each task.\n\n" + table(["", *splits], rows)
-    text += "\n" + _pairs(level, splits, vocabulary)
-    tagged = {
-        split: [tag for record in records for tag in record.get("tags", ())]
+        for name, measure in measures.items()
         for split, records in splits.items()
+        if records
+    ]
+
+
+def diversity(records: Records) -> dict[str, float]:
+    """Families, phrasings (prompts without numbers and names), vocabulary size, type-token ratio
+    and distinct-n of the prompts.
+
+    distinct-n is the share of word n-grams that are different (Li et al. 2016); distinct-1 is the
+    type-token ratio.
+    """
+    tokens = [words(str(record["prompt"])) for record in records]
+    different = {word for text in tokens for word in text}
+    figures: dict[str, float] = {
+        "families": len({record.get("family") for record in records}),
+        "phrasings": len({mask(str(record["prompt"])) for record in records}),
+        "different words": len(different),
+        "type-token ratio": round(len(different) / max(sum(map(len, tokens)), 1), 4),
     }
-    if any(tagged.values()):
-        rows = [
-            [f"`{tag}`", meaning, *(found.count(tag) for found in tagged.values())]
-            for tag, meaning in TAGS.items()
-        ]
-        text += "\nLabelling rules, by tag.\n\n" + table(["tag", "rule", *splits], rows)
-    return text
-
-
-def _pairs(level: Level, splits: Splits, vocabulary: Vocabulary) -> str:
-    found = {split: pair_counts(level, records) for split, records in splits.items()}
-    if level == "mission":
-        what, possible = "Pairs of tasks that follow each other", ""
-    else:
-        what, possible = (
-            "Pairs of skills that run at the same time",
-            f" of {possible_pairs(vocabulary)} possible ones",
-        )
-    train = set(found.get("train", ()))
-    rows = [
-        [split, len(counts), sum(pair not in train for pair in counts)]
-        for split, counts in found.items()
-    ]
-    return (
-        f"{what}: different ones{possible}, and those that the training split does not have.\n\n"
-        + table(["split", "pairs", "not in train"], rows)
-    )
-
-
-def _diversity(splits: Splits) -> str:
-    figures: dict[str, dict[str, float]] = {
-        split: diversity(records) for split, records in splits.items() if records
-    }
-    rows = [
-        [name, *(of_split[name] for of_split in figures.values())]
-        for name in next(iter(figures.values()), {})
-    ]
-    legend = (
-        "A phrasing is a prompt with its numbers and names masked. distinct-n is the share of word"
-        " n-grams that are different."
-    )
-    return f"## Diversity\n\n{legend}\n\n{table(['', *figures], rows)}"
-
-
-def _leakage(leakage: Mapping[str, Any]) -> str:
-    overlaps = [
-        [
-            item[key]
-            for key in (
-                "split",
-                "other",
-                "exact",
-                "near",
-                "exact_masked",
-                "near_masked",
-                "families",
-            )
-        ]
-        for item in leakage["overlaps"]
-    ]
-    baselines = [
-        [
-            item["split"],
-            *(f"{100 * item[key]:.1f} %" for key in ("f1", "sequence", "plan")),
-            item["similarity"],
-        ]
-        for item in leakage["baseline"]
-    ]
-    memory = [split for split, found in leakage["memory_test"].items() if found]
-    verdict = f"A memory test: {', '.join(memory)}." if memory else "No split is a memory test."
-    return (
-        "## Leakage\n\nPrompts that occur, exactly or nearly (Jaccard similarity of word pairs at"
-        f" least {leakage['method']['near']}), in another split; masked: with numbers and names"
-        " replaced.\n\n"
-        + table(
-            ["split", "in", "exact", "near", "exact, masked", "near, masked", "shared families"],
-            overlaps,
-        )
-        + "\nWhat the expected plan of the most similar training prompt scores: mean F1 of the name"
-        " sets, share of exact name sequences, share of exact plans; median similarity of that"
-        " prompt.\n\n"
-        + table(["split", "F1", "sequence", "plan", "similarity"], baselines)
-        + f"\n{verdict}\n"
-    )
+    for size in (2, 3):
+        starts = ((text, start) for text in tokens for start in range(len(text) - size + 1))
+        grams = [tuple(text[start : start + size]) for text, start in starts]
+        figures[f"distinct-{size}"] = round(len(set(grams)) / max(len(grams), 1), 4)
+    return figures
