@@ -19,7 +19,8 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from planner_ft.data.quantities import positions, quantities
+from planner_ft.facts.numbers import read_numbers
+from planner_ft.facts.places import read_positions
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import canonical_value
 
@@ -45,17 +46,17 @@ def working_of(record: Mapping[str, Any], vocabulary: Vocabulary) -> str:
     prompt, task = str(record.get("prompt", "")), vocabulary.task.get(str(record.get("task")))
     own = record.get("parameters", {}).items() if task else ()
     known = [(task.by_name[name], value) for name, value in own if task and name in task.by_name]
-    said = positions(prompt)
+    said = read_positions(prompt)
     places = [
         *(place for parameter, value in known for place in _places(parameter.type, value)),
-        *((x, y) for x, y, _start, _end in said),
+        *((place.x, place.y) for place in said),
         vocabulary.home,
     ]
     if all(any(_near(x, a) and _near(y, b) for a, b in places) for x, y in route):
         return ""
     # Numbers of the prompt that may be lengths; those that are coordinates come last.
-    spoken = [quantity for quantity in quantities(prompt) if quantity.unit in (None, "m")]
-    spoken.sort(key=lambda one: any(start <= one.start < end for _x, _y, start, end in said))
+    spoken = [quantity for quantity in read_numbers(prompt) if quantity.unit in (None, "m")]
+    spoken.sort(key=lambda one: any(place.start <= one.start < place.end for place in said))
     lengths = [value for parameter, value in known if parameter.unit == "m" and _is_number(value)]
     lengths += [quantity.value for quantity in spoken]
     distinct = [*dict.fromkeys(_tidy(abs(length)) for length in lengths)]
