@@ -1,118 +1,37 @@
-"""Waypoints of the movements that task plans are made of.
+"""Waypoints of the movements that task plans are made of: planner_ft.facts.geometry."""
 
-Frame: metres, x east, y north; headings in degrees clockwise from north. All functions are pure and
-round to two decimals, whole numbers as ints.
-"""
-
-from __future__ import annotations
-
-import math
-from typing import Literal
-
-Point = tuple[float, float]
-Corner = Literal["south-west", "south-east", "north-east", "north-west"]
-Axis = Literal["x", "y"]
-
-CORNERS: tuple[Corner, ...] = ("south-west", "south-east", "north-east", "north-west")
-
-# Counter-clockwise round the square from the middle of its east side, in units of half a side.
-SQUARE: tuple[tuple[str, int, int], ...] = (
-    ("east", 1, 0),
-    ("north-east", 1, 1),
-    ("north", 0, 1),
-    ("north-west", -1, 1),
-    ("west", -1, 0),
-    ("south-west", -1, -1),
-    ("south", 0, -1),
-    ("south-east", 1, -1),
+from planner_ft.facts.geometry import (
+    CORNERS,
+    SQUARE,
+    SQUARE_STARTS,
+    Axis,
+    Corner,
+    Point,
+    circle,
+    lane_count,
+    lawnmower,
+    offset,
+    point,
+    sector_headings,
+    straight_line,
+    survey_square,
+    tidy,
 )
-SQUARE_STARTS = tuple(name for name, _x, _y in SQUARE)
 
-
-def tidy(value: float) -> float:
-    """Two decimals at most, whole numbers as ints, no negative zero."""
-    rounded = round(value, 2)
-    return int(rounded) if rounded == int(rounded) else rounded
-
-
-def point(x: float, y: float) -> Point:
-    """The point with tidy coordinates."""
-    return tidy(x), tidy(y)
-
-
-def offset(start: Point, heading: float, distance: float) -> Point:
-    """The point `distance` metres from `start` on `heading`."""
-    angle = math.radians(heading)
-    return point(start[0] + distance * math.sin(angle), start[1] + distance * math.cos(angle))
-
-
-def straight_line(start: Point, heading: float, length: float) -> list[Point]:
-    """Start and end of a pass or a cable track."""
-    return [point(*start), offset(start, heading, length)]
-
-
-def survey_square(
-    center: Point, half_side: float, start: str = "east", *, clockwise: bool = False
-) -> list[Point]:
-    """Mid-sides and corners of the square, eight points from the named one on ("east" is the middle
-    of the east side).
-    """
-    first = SQUARE_STARTS.index(start)
-    step = -1 if clockwise else 1
-    ring = (SQUARE[(first + step * index) % len(SQUARE)] for index in range(len(SQUARE)))
-    return [point(center[0] + x * half_side, center[1] + y * half_side) for _name, x, y in ring]
-
-
-def lane_count(extent: float, spacing: float) -> int | None:
-    """Lanes over `extent` when `spacing` divides it, else None: only then do two people count the
-    same lanes.
-    """
-    lanes = extent / spacing
-    return round(lanes) + 1 if abs(lanes - round(lanes)) < 1e-9 else None
-
-
-def lawnmower(
-    center: Point,
-    width: float,
-    length: float,
-    spacing: float,
-    corner: Corner = "south-west",
-    lanes_along: Axis = "y",
-) -> list[Point]:
-    """Ends of the lanes in the order in which they are run, two per lane, each lane against the one
-    before.
-
-    `width` lies along x and `length` along y. The first lane starts at `corner`; lanes step away
-    from it. Raises ValueError when `spacing` does not divide the extent across the lanes.
-    """
-    south, west = corner.split("-")
-    sign_x, sign_y = (1 if west == "west" else -1), (1 if south == "south" else -1)
-    across, along = (width, length) if lanes_along == "y" else (length, width)
-    lanes = lane_count(across, spacing)
-    if lanes is None:
-        raise ValueError(f"lanes {spacing} m apart do not fill {across} m")
-    middle, depth = (center[0], center[1]) if lanes_along == "y" else (center[1], center[0])
-    side, end = (sign_x, sign_y) if lanes_along == "y" else (sign_y, sign_x)
-    near, far = tidy(depth + end * (-along / 2)), tidy(depth + end * (along / 2))
-    points = []
-    for lane in range(lanes):
-        step = tidy(middle + side * (lane * spacing - across / 2))
-        for run in (near, far) if lane % 2 == 0 else (far, near):
-            points.append((step, run) if lanes_along == "y" else (run, step))
-    return points
-
-
-def circle(
-    center: Point, radius: float, count: int, start_bearing: float, *, clockwise: bool
-) -> list[Point]:
-    """`count` points evenly round the circle, the first one at `start_bearing` as seen from the
-    centre.
-    """
-    step = 360 / count if clockwise else -360 / count
-    return [offset(center, start_bearing + step * index, radius) for index in range(count)]
-
-
-def sector_headings(count: int, start: float = 0, *, clockwise: bool = True) -> list[float]:
-    """`count` headings evenly round the compass from `start` on, each in 0 up to 360."""
-    step = 360 / count if clockwise else -360 / count
-    return [tidy((start + step * index) % 360) for index in range(count)]
+__all__ = [
+    "CORNERS",
+    "SQUARE",
+    "SQUARE_STARTS",
+    "Axis",
+    "Corner",
+    "Point",
+    "circle",
+    "lane_count",
+    "lawnmower",
+    "offset",
+    "point",
+    "sector_headings",
+    "straight_line",
+    "survey_square",
+    "tidy",
+]
