@@ -10,29 +10,18 @@ from typing import Any, TypeVar
 from planner_ft.data.task.geometry import Point, tidy
 
 T = TypeVar("T")
-ONES = [
-    "zero",
-    "one",
-    "two",
-    "three",
-    "four",
-    "five",
-    "six",
-    "seven",
-    "eight",
-    "nine",
-    "ten",
-    "eleven",
-    "twelve",
-    "thirteen",
-    "fourteen",
-    "fifteen",
-    "sixteen",
-    "seventeen",
-    "eighteen",
-    "nineteen",
-]
-TENS = ["zero", "ten", "twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety"]
+
+
+def words(text: str) -> tuple[str, ...]:
+    """The words of a text, for lists that would fill a line each."""
+    return tuple(text.split())
+
+
+ONES = words(
+    "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen"
+    " fifteen sixteen seventeen eighteen nineteen"
+)
+TENS = words("zero ten twenty thirty forty fifty sixty seventy eighty ninety")
 COMPASS = {
     0: "north",
     45: "north-east",

@@ -28,7 +28,8 @@ ROLES: tuple[Role, ...] = get_args(Role)
 BUNDLED = Path(__file__).parent
 DEFAULT = "usv"
 PHRASES, VEHICLE, ONTOLOGY = ".phrases.toml", ".vehicle.toml", ".ontology.toml"
-UNHASHED = (LOGIC, MOTION, VEHICLE, ONTOLOGY)
+MISSIONS = ".missions.toml"
+UNHASHED = (LOGIC, MOTION, VEHICLE, ONTOLOGY, MISSIONS)
 """Files beside a definition that no prompt, schema or grammar depends on: they are no part of what
 adapters were trained on.
 """

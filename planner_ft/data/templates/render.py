@@ -8,46 +8,22 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from planner_ft.data.numbers import COMPASS, ONES, TENS
+from planner_ft.data.numbers import COMPASS, ONES, TENS, words
 
 VALUE_OPEN, VALUE_CLOSE = "\x02", "\x03"
 PIECE = tuple[str, bool]
 
 _ARTICLES = ("a ", "an ", "the ")
-_DETERMINERS = frozenset(["the", "a", "an", "this", "that", "each", "every", "its", "any"])
-_EVERY = frozenset(["every", "each", "last", "past", "recent", "latest", "preceding", "per"])
+_DETERMINERS = frozenset(words("the a an this that each every its any"))
+_EVERY = frozenset(words("every each last past recent latest preceding per"))
 _CONSONANT = ("uni", "use", "usu", "uti", "one ", "one-", "once", "eu", "u-")
-_SPELT = frozenset(["LED", "ROV", "RIB", "SAR", "NATO", "USV", "UAV", "RTK"])
+_SPELT = frozenset(words("LED ROV RIB SAR NATO USV UAV RTK"))
 _SPOKEN = frozenset([*ONES, *TENS, *COMPASS.values(), "the", "a", "an", "due", "half", "minus"])
 _ABBREVIATED = frozenset(
-    [
-        "approx.",
-        "no.",
-        "nr.",
-        "e.g.",
-        "i.e.",
-        "ca.",
-        "vs.",
-        "ref.",
-        "dr.",
-        "mr.",
-        "mrs.",
-        "ms.",
-        "st.",
-        "capt.",
-        "pos.",
-        "brg.",
-        "hdg.",
-        "min.",
-        "max.",
-        "sec.",
-        "deg.",
-        "att.",
-        "re.",
-        "lt.",
-        "sgt.",
-        "prof.",
-    ]
+    words(
+        "approx. no. nr. e.g. i.e. ca. vs. ref. dr. mr. mrs. ms. st. capt. pos. brg. hdg. min."
+        " max. sec. deg. att. re. lt. sgt. prof."
+    )
 )
 _SPACES = (
     *(("  ", " "), (" ,", ","), (" ;", ";"), (" ?", "?"), (" !", "!"), (",,", ","), (",.", ".")),
@@ -97,7 +73,8 @@ def joined(pieces: Iterable[PIECE]) -> str:
         ):
             piece = bare(piece)
         if low in ("a", "an") and piece[0] != " ":
-            text = f"{text[: len(text) - len(last)]}{last[0]}{article_for(piece)[1:]} "
+            text = f"{text[: -len(last) - 1]}{last[:-1] if low == 'an' else last}"
+            text += f"{article_for(piece)[1:]} "
         text += f"{VALUE_OPEN}{piece}{VALUE_CLOSE}" if value else piece
     return capitalised(tidied(text))
 
@@ -118,13 +95,14 @@ def capitalised(text: str) -> str:
     start = 0
     while start < len(text) and not text[start].isalnum() and text[start] != VALUE_OPEN:
         start += 1
-    if start < len(text) and text[start].islower():
-        return text
     letters = list(text)
     places = [start]
     for place, mark in enumerate(text):
         if mark == "\n" or (mark == " " and place and _ends_sentence(text, place)):
             places.append(place + 1)
+    small = text[start : start + 1].islower()
+    if small and not any(text[place : place + 1].isupper() for place in places):
+        return text
     for place in places:
         _raise(text, letters, place)
     return "".join(letters)

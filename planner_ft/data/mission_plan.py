@@ -1,0 +1,292 @@
+"""The plan of a mission command: intents become tasks by the labelling rules, with their texts.
+
+The rules (searches, transits, positions) read the vocabulary's fields, the texts come from
+NAME.missions.toml; so both hold for any vehicle.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from random import Random
+from typing import Any
+
+from planner_ft.data.numbers import digits
+from planner_ft.data.task.geometry import Point, tidy
+from planner_ft.data.templates.grammar import Nodes, Slot, choose, parse_text
+from planner_ft.vocabulary import Task, Vocabulary
+
+DOCKING = "approach"
+"""The pattern of tasks that end at a docking spot, which needs no search."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """A place, structure or moving thing that a command speaks of; `key` tells those of one command
+    apart.
+
+    `description` is written as in the plan, `text` is said, both without article; `article`: texts
+    put "the" before it. `identity` is the id of something to follow. `spot` marks a docking place,
+    `on_site` that the vehicle lies there already.
+    """
+
+    key: str
+    description: str | None = None
+    position: Point | None = None
+    article: bool = True
+    text: str = ""
+    identity: str | None = None
+    spot: bool = False
+    doubtful: bool = False
+    whereabouts: str = ""
+    on_site: bool = False
+    noun: str = ""
+
+    @property
+    def must_be_found(self) -> bool:
+        """Whether only a search can tell where it is."""
+        known = self.position is not None or self.identity is not None
+        return not (known or self.spot or self.on_site)
+
+    @property
+    def name(self) -> str:
+        """The target as the plan's texts call it: "the green barrel", "[45, 10]"."""
+        if self.description is None:
+            return self.identity or point_text(self.position or (0, 0))
+        return f"the {self.description}" if self.article else self.description
+
+    @property
+    def place(self) -> str:
+        """The name with its place: "the met mast at [120, -35]"."""
+        if self.description is None or self.position is None:
+            return self.name
+        return f"{self.name} at {point_text(self.position)}"
+
+
+@dataclass(frozen=True)
+class Intent:
+    """One thing to do: a task with its target and stated parameters; `home` is a return, `part` the
+    part of the target that no parameter holds.
+    """
+
+    task: Task
+    target: Target | None = None
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+    home: bool = False
+    part: str = ""
+
+
+@dataclass(frozen=True)
+class Planned:
+    """A task of the plan; `inserted` when the command does not ask for it by name."""
+
+    task: Task
+    parameters: dict[str, Any]
+    intent: Intent
+    inserted: bool = False
+
+
+def point_text(position: Point) -> str:
+    """The position as the plan's texts hold it: "[45, 10]"."""
+    return f"[{digits(position[0])}, {digits(position[1])}]"
+
+
+def label(intents: Iterable[Intent], vocabulary: Vocabulary) -> list[Planned]:
+    """The tasks for intents in the order of execution, by the labelling rules: a search before the
+    first use of what has no position, a transit to where a task is performed.
+    """
+    intents = list(intents)
+    locate, transit = vocabulary.task[vocabulary.locate], vocabulary.task[vocabulary.transit]
+    described = next(item.name for item in locate.parameters if item.type == "text")
+    plan: list[Planned] = []
+    located: set[str] = set()
+    on_site = (intent.target for intent in intents if intent.target and intent.target.on_site)
+    here = next((target.key for target in on_site), None)
+
+    parameters: dict[str, Any]
+
+    def place(target: Target) -> list[Any]:
+        if target.position is None or target.key in located:
+            return list(vocabulary.unresolved)
+        return [tidy(target.position[0]), tidy(target.position[1])]
+
+    for intent in intents:
+        task, target = intent.task, intent.target
+        if intent.home:
+            plan.append(
+                Planned(transit, {str(transit.position_parameter): list(vocabulary.home)}, intent)
+            )
+            here = None
+            continue
+        asked = task.title == locate.title
+        if target is not None and task.arrival != "none":
+            if target.key not in located and (target.must_be_found or asked):
+                plan.append(
+                    Planned(locate, {described: target.description}, intent, inserted=not asked)
+                )
+                located.add(target.key)
+                here = None
+            if task.arrival == "transit" and here != target.key:
+                parameters = {str(transit.position_parameter): place(target)}
+                plan.append(Planned(transit, parameters, intent, inserted=True))
+        if asked:
+            continue
+        parameters = {}
+        name = task.position_parameter
+        if target is not None and target.identity is not None:
+            parameters |= {
+                item.name: target.identity for item in task.parameters if item.type == "id"
+            }
+        if name and target is not None and (target.identity is None or target.position):
+            parameters[name] = place(target)
+        plan.append(Planned(task, parameters | dict(intent.parameters), intent))
+        if task.arrival != "none":
+            leaves = task.leaves and task.position_parameter is not None
+            here = None if leaves else target.key if target is not None else here
+        elif task.pattern != "hold":
+            here = None
+    return plan
+
+
+# ---------------------------------------------------------------- texts
+
+
+@functools.lru_cache(maxsize=1024)
+def _sentence(source: str) -> tuple[Nodes, frozenset[str]]:
+    """A sentence and the slots that it cannot do without."""
+    nodes = parse_text(source)
+    return nodes, frozenset(node.key for node in nodes if isinstance(node, Slot))
+
+
+def say(sources: Iterable[str], given: Mapping[str, str]) -> str | None:
+    """The first sentence whose slots are all given; None without one."""
+    for source in sources:
+        nodes, needed = _sentence(source)
+        if needed <= given.keys():
+            parts = choose(nodes, Random(0), [], frozenset(given))
+            return "".join(part if isinstance(part, str) else given[part.key] for part in parts)
+    return None
+
+
+class PlanTexts:
+    """Task prompts, assumptions and constraints of a vehicle's plans."""
+
+    def __init__(self, vocabulary: Vocabulary, config: Mapping[str, Any]) -> None:
+        self.vocabulary, self.config = vocabulary, config
+        self.tasks: Mapping[str, Any] = config.get("task", {})
+
+    def plan(self, plan: list[Planned], notes: list[str], taken: list[str]) -> dict[str, Any]:
+        """The plan as a record holds it, with the command's own remarks."""
+        return {
+            "tasks": [
+                {
+                    "title": planned.task.title,
+                    "parameters": planned.parameters,
+                    "task_prompt": self.task_prompt(planned),
+                }
+                for planned in plan
+            ],
+            "assumptions": list(dict.fromkeys([*self._assumptions(plan), *taken])),
+            "constraints": list(dict.fromkeys([*self._constraints(plan), *notes])),
+        }
+
+    def excluded(self, title: str) -> str:
+        """The constraint where a command rules a task, or the return home, out."""
+        entry = self.config.get("home", {}) if title == "Home" else self.tasks.get(title, {})
+        return str(entry.get("excluded", f"{spaced(title).capitalize()} is not done."))
+
+    def task_prompt(self, planned: Planned) -> str:
+        """The intent of one task in one sentence."""
+        if planned.intent.home:
+            sources = self.config.get("home", {}).get("prompt", ["Return home."])
+        else:
+            sources = self.tasks.get(planned.task.title, {}).get("prompt", [])
+        text = say(sources, self._given(planned))
+        if text is not None:
+            return text
+        place = planned.intent.target.place if planned.intent.target else "where the vehicle is"
+        return f"{spaced(planned.task.title).capitalize()}: {place}."
+
+    def _given(self, planned: Planned) -> dict[str, str]:
+        """What a sentence can say of a task."""
+        task, target, part = planned.task, planned.intent.target, planned.intent.part
+        given = {"at": "where the vehicle is", "of": "where the vehicle is"}
+        thing = self.tasks.get(task.title, {}).get("thing")
+        if thing:
+            given["name"] = thing
+        if target is not None:
+            given["place"] = target.place
+            if target.description is not None or not thing:
+                given["name"] = target.name
+            given["at"] = f"at {target.place}"
+            own = f"the {part} of " if part else ""
+            given["thing"] = own + target.place
+            given["of"] = f"{'of' if target.description else 'at'} {target.name}"
+            if part:
+                given["of"] = f"of the {part} of {target.name}"
+            if target.whereabouts:
+                given["whereabouts"] = target.whereabouts
+            if target.position is not None:
+                given["whereabouts"] = f"around {point_text(target.position)}"
+        for name, value in planned.parameters.items():
+            type_ = task.by_name[name].type
+            if type_ == "position":
+                unknown = value == list(self.vocabulary.unresolved)
+                given["position"] = "where it has been found" if unknown else point_text(value)
+                if unknown:
+                    given["found"] = "once it has been found"
+            elif type_ == "texts":
+                given[name] = ", then ".join(f"the {item}" for item in value)
+            else:
+                given[name] = str(value)
+            if type_ == "text" and not planned.inserted:
+                same = target is not None and value == target.description
+                given["feature"] = given["name"] if same else f"the {value} {given['of']}"
+                if not same:
+                    given["part"] = str(value)
+        return given
+
+    def _assumptions(self, plan: list[Planned]) -> list[str]:
+        """What the plan takes for granted: targets to be found, doubtful positions, docks to be
+        filled in, home.
+        """
+        found: list[str] = []
+        for planned in plan:
+            target = planned.intent.target
+            if planned.intent.home:
+                found.append(f"Home is {point_text(self.vocabulary.home)}.")
+            if target is None:
+                continue
+            if planned.task.title == self.vocabulary.locate and target.position is None:
+                found.append(f"The position of {target.name} is unknown until it has been found.")
+            if target.doubtful and target.position is not None:
+                found.append(f"{point_text(target.position)} is taken as correct.")
+            if target.on_site:
+                found.append(f"The vehicle lies at {target.name}.")
+            if target.spot and target.position is None:
+                found.append(f"The position of {target.name} is filled in before docking.")
+        return found
+
+    def _constraints(self, plan: list[Planned]) -> list[str]:
+        """Which targets must be found before what is done with them."""
+        lines = []
+        for index, planned in enumerate(plan):
+            target = planned.intent.target
+            if planned.task.title != self.vocabulary.locate or target is None:
+                continue
+            uses = (later for later in plan[index + 1 :] if later.intent.target == target)
+            use = next((later for later in uses if not later.inserted), None)
+            if use is not None:
+                title = use.task.title
+                default = [f"{spaced(title)} begins"]
+                before = self.tasks.get(title, {}).get("before", default)
+                name = target.name[0].upper() + target.name[1:]
+                lines.append(f"{name} must be found before {say(before, self._given(use))}.")
+        return lines
+
+
+def spaced(name: str) -> str:
+    """A name as words: "TowerOrbit" -> "tower orbit"."""
+    words = "".join(f" {mark.lower()}" if mark.isupper() else mark for mark in name)
+    return words.strip().replace("_", " ")

@@ -1,0 +1,176 @@
+"""Word lists: things, names and texts drawn from lists whose entries refer to other lists.
+
+An entry is a text such as "the {colour} ladder", "camera {n}" or "weld {code}"; a list that is a
+table gives each entry a weight. An entry that begins with "the " is said with its article and
+stored without it; what stands before a bar is said and not stored ("sensor |{code}"), nor are the
+quotation marks behind it. Made-up slots: {n} a number, {code} "KX-07", {low} a small letter,
+{letter} a capital, {digit} a digit, {name} and {word} what no dictionary has, {tag} a file tag,
+{any_thing} a thing's name from things.txt.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from random import Random
+
+from planner_ft.data.numbers import Value, words
+from planner_ft.data.templates.render import bare as without_article
+
+ONSETS = words("b br c d dr f fl g gr h j k kl l m n p pr r s sk st t tr v w z th sch v")
+VOWELS = words("a e i o u a e i o ei au y oa ie")
+CODAS = words("n r l s t m d ck nd rk st x lm ff  ng rn")
+NAME_ENDINGS = ("", "", "a", "o", "en", "berg", "vik", "sund", "ton", "i", "ey", "holm")
+LETTERS = "ABCDEFGHJKLMNPRSTVWXZ"
+STEMS = words("run pass leg survey dive hull pier test log video scan site day mission base night")
+TAILS = words("north south east west a b am pm final raw left right upper close")
+FALLBACK: Mapping[str, Sequence[str]] = {
+    "thing": (
+        *("the {name}", "the {name} tower", "unit {code}", "the {name} panel", "{name} {n}"),
+        "the {name} gate",
+    ),
+    "things": ("boats", "people", "birds", "vehicles", "{name}s", "poles", "signs"),
+}
+Weighted = tuple[Sequence[str], Sequence[float] | None]
+
+
+def pick(items: Sequence[str], rng: Random) -> str:
+    """One of the items."""
+    return items[int(rng.random() * len(items))]
+
+
+def pseudo_word(rng: Random) -> str:
+    """A word that no dictionary has but anybody could say: "skarb"."""
+    return "".join(
+        pick(ONSETS, rng) + pick(VOWELS, rng) + pick(CODAS, rng)
+        for _ in range(1 if rng.random() < 0.5 else 2)
+    )
+
+
+def made_up_name(rng: Random) -> str:
+    """A pronounceable name that means nothing: "Skarberg", "Tolvik"."""
+    return (pseudo_word(rng) + pick(NAME_ENDINGS, rng)).capitalize()
+
+
+def made_up_code(rng: Random) -> str:
+    """A code as structures bear them: "KX-07", "B12", "T-4"."""
+    roll = rng.random()
+    letters = pick(LETTERS, rng) + (pick(LETTERS, rng) if roll < 0.5 else "")
+    number = rng.randrange(1, 100)
+    if roll < 0.35:
+        return f"{letters}-{number:02d}"
+    return f"{letters}{number}" if roll < 0.7 else f"{letters}-{number}"
+
+
+def made_up_tag(rng: Random) -> str:
+    """A file tag: "run_4", "skarberg-07", "dive12"."""
+    stem = made_up_name(rng).lower() if rng.random() < 0.45 else pick(STEMS, rng)
+    joint = pick(("_", "-", "", "_"), rng)
+    roll = rng.random()
+    if roll < 0.5:
+        return f"{stem}{joint}{rng.randrange(1, 100)}"
+    if roll < 0.75:
+        return f"{stem}{joint}{pick(TAILS, rng)}"
+    return made_up_code(rng) if roll < 0.85 else stem
+
+
+_ORDERS = words(
+    "inspect search survey scan dock berth home base north south east west port starboard"
+    " hold drift film test check track circ orbit level second left right hot therm temp"
+    " glare sonar depth sound report log record half quarter double single once round full"
+    " whole dead moving missing lost stray near far next last first"
+)
+"""Beginnings of words of orders, numbers and directions, which are no part of a name."""
+
+
+@functools.cache
+def any_things() -> tuple[str, ...]:
+    """The names of things, of three letters or more."""
+    text = (Path(__file__).parent / "things.txt").read_text(encoding="utf-8")
+    found = dict.fromkeys(word for word in text.split() if len(word) > 2 and word.isalpha())
+    return tuple(word for word in found if not word.startswith(_ORDERS))
+
+
+MADE_UP: dict[str, Callable[[Random], str]] = {
+    "name": made_up_name,
+    "word": pseudo_word,
+    "code": made_up_code,
+    "tag": made_up_tag,
+    "n": lambda rng: str(rng.randrange(1, 10) if rng.random() < 0.75 else rng.randrange(10, 100)),
+    "letter": lambda rng: pick(LETTERS, rng),
+    "low": lambda rng: pick("abcdef", rng),
+    "digit": lambda rng: pick("0123456789", rng),
+    "any_thing": lambda rng: pick(any_things(), rng),
+}
+
+
+class WordLists:
+    """The word lists of a vehicle."""
+
+    def __init__(self, *groups: Mapping[str, Sequence[str] | Mapping[str, float]]) -> None:
+        self.lists: dict[str, Weighted] = {}
+        for name, entries in itertools.chain(*(group.items() for group in (FALLBACK, *groups))):
+            weights = None
+            if isinstance(entries, Mapping):
+                weights = list(itertools.accumulate(entries.values()))
+            self.lists[name] = (list(entries), weights)
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.lists or name in MADE_UP
+
+    def entry(self, name: str, rng: Random) -> str:
+        """A filled entry of the list, article included. Raises KeyError for an unknown list."""
+        if name not in self.lists:
+            return MADE_UP[name](rng)
+        entries, weights = self.lists[name]
+        if weights is None:
+            text = entries[int(rng.random() * len(entries))]
+        else:
+            text = rng.choices(entries, cum_weights=weights)[0]
+        return text if "{" not in text else self.fill(text, rng)
+
+    def fill(self, text: str, rng: Random) -> str:
+        """The text with an entry of each list that it names in braces."""
+        head, *rest = text.split("{")
+        for piece in rest:
+            name, _brace, tail = piece.partition("}")
+            filled = MADE_UP[name](rng) if name in MADE_UP else self.entry(name, rng)
+            # An article stays where the reference is all there is.
+            head += (without_article(filled) if head or tail or len(rest) > 1 else filled) + tail
+        return head
+
+    def noun(self, name: str, rng: Random) -> Value:
+        """A thing: stored without its article, said with it."""
+        return self.as_value(self.entry(name, rng))
+
+    @staticmethod
+    def as_value(entry: str) -> Value:
+        """An entry with its article as a value without; what stands before a bar is said alone."""
+        kind, bar, name = entry.partition("|")
+        if bar:
+            quoted = name[:1] in "'\"" and name[:1] in name[1:]
+            stored = name[1:].partition(name[0])[0] if quoted else name
+            return Value(stored, kind + name)
+        stored = without_article(entry)
+        return Value(stored, entry, stored)
+
+    def quoted(self, name: str, rng: Random) -> Value:
+        """A text to be written down word for word: mostly in quotation marks, a single word also
+        without.
+        """
+        stored = self.noun(name, rng).value
+        mark = pick(("'", '"', "'", '"', ""), rng) or ("" if " " not in stored else '"')
+        return Value(stored, f"{mark}{stored}{mark}")
+
+    def several(self, name: str, rng: Random, count: int, *, article: bool = False) -> Value:
+        """A list of different things as it is said: "boats, buoys and people"."""
+        entries = list(dict.fromkeys(self.entry(name, rng) for _ in range(count)))
+        stored = [self.as_value(entry).value for entry in entries]
+        spoken = entries if article else stored
+        joint = " and " if rng.random() < 0.85 else " as well as "
+        if len(spoken) > 2 and rng.random() < 0.3:
+            joint = f",{joint}"
+        text = ", ".join(spoken[:-1]) + joint + spoken[-1] if len(spoken) > 1 else spoken[0]
+        return Value(stored, text)
