@@ -16,7 +16,7 @@ from typing import Any
 from planner_ft.benchmark.answer import Answer
 from planner_ft.benchmark.plan_logic import plan_logic
 from planner_ft.benchmark.samples import Sample
-from planner_ft.data.mission.synthetic import sample_missions
+from planner_ft.data.missions import sample_missions
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.facts import corrections
 from planner_ft.support.files import read_jsonl

@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from planner_ft.data.mission.synthetic import sample_missions
+from planner_ft.data.missions import sample_missions
 from planner_ft.document.build import revise
 from planner_ft.document.vehicle import load_vehicle
 from planner_ft.document.warnings import KINDS, SERIOUS

@@ -159,7 +159,7 @@ def compare_ids(url: str, folder: Path, level: Any, count: int) -> int:
     if level == "task":
         records = check_records(level, vocabulary, count)
     else:
-        from planner_ft.data.mission.synthetic.generate import sample_missions
+        from planner_ft.data.missions import sample_missions
 
         records = list(sample_missions(12345, count))
     same = 0

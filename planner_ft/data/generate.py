@@ -19,6 +19,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, indented_json, sha256_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
+from planner_ft.vocabulary.definition import DEFAULT
 from planner_ft.vocabulary.plans import LEVELS, Level
 
 DEFAULT_COUNTS: dict[Level, dict[str, int]] = {
@@ -112,6 +113,8 @@ def generate(
     check_writable(settings.out)
     results, folders = [], []
     for level in settings.levels:
+        if level == "mission" and settings.synthetic and not _has_curated(settings):
+            continue
         result, folder = _make(
             level, settings, vocabulary, progress, messages if settings.chat else None
         )
@@ -135,6 +138,11 @@ def generate(
         result.written = written
     results[-1].seconds["writing"] = time.perf_counter() - started
     return results
+
+
+def _has_curated(settings: GenerationSettings) -> bool:
+    """Whether there is a curated mission set: one that is named, or the default vehicle's."""
+    return settings.source is not None or settings.vocabulary == DEFAULT
 
 
 def _make(

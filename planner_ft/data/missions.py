@@ -43,7 +43,7 @@ from planner_ft.data.templates.grammar import (
     parse_text,
 )
 from planner_ft.data.templates.records import Template, templates
-from planner_ft.data.templates.render import PIECE, article_for, joined, plain
+from planner_ft.data.templates.render import PIECE, article_for, is_small, joined, plain
 from planner_ft.data.wordlists import WordLists
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Parameter, Task, Vocabulary, load_vocabulary
@@ -361,7 +361,7 @@ class _Drawing:
         for slot in slots:
             if slot.sign == "~":
                 self.drawn.wrong[slot.key] = self._wrong(slot)
-        return joined(self._pieces(parts))
+        return joined(self._pieces(parts), small=is_small(template.nodes))
 
     # ------------------------------------------------------------ what is spoken of
 
@@ -445,7 +445,8 @@ class _Drawing:
     def _alike(self, key: str) -> Target:
         """One of several targets with one noun that differ in their look."""
         if not self.drawn.alike:
-            noun = self.words.entry("pair", self.rng)
+            while (noun := self.words.entry("pair", self.rng)).endswith("y"):
+                continue
             looks = self.words.entry("looks", self.rng).split("/")
             if self.rng.random() < 0.5:
                 looks = [looks[1], looks[0], looks[2]]
@@ -689,7 +690,5 @@ def _metric(text: str) -> bool:
 
 
 def plural(noun: str) -> str:
-    """The noun for more than one."""
-    if noun.endswith("y") and noun[-2] not in "aeiou":
-        return f"{noun[:-1]}ies"
+    """The noun, which does not end in y, for more than one."""
     return f"{noun}es" if noun.endswith(("s", "x", "ch", "sh")) else f"{noun}s"

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.data.card import table
-from planner_ft.data.mission.synthetic import sample_missions
+from planner_ft.data.missions import sample_missions
 from planner_ft.data.output import DataFolder
 from planner_ft.data.validation import canonical_record
 from planner_ft.support.errors import PlannerError
@@ -36,13 +36,10 @@ def synthetic_folder(
     lines: list[str] = []
     titles: Counter[str] = Counter()
     families: Counter[str] = Counter()
-    for record in sample_missions(seed, count):
+    for record in sample_missions(seed, count, vocabulary):
         problems = plan_problems("mission", record["expected"], vocabulary, strict=True)
         if problems:
-            raise PlannerError(
-                f"--synthetic: the generator speaks of the vehicle usv, not of {vocabulary.name}"
-                f" ({problems[0]}); leave it out"
-            )
+            raise PlannerError(f"--synthetic: {record['family']}: {problems[0]}")
         lines.append(canonical_record("mission", record, vocabulary) + "\n")
         titles.update(plan_names("mission", record["expected"]))
         families[record["family"]] += 1
@@ -73,10 +70,9 @@ def _card(count: int, seed: int, titles: Counter[str], families: Counter[str]) -
         "---\n"
         + "".join(f"{key}: {compact_json(value)}\n" for key, value in front.items())
         + f"---\n# Synthetic mission plans\n\n{count} commands with their plans, written by"
-        f" `plannerft gen-data --level mission --synthetic {count}` with seed {seed}. Most come"
-        " from whole commands written by hand with slots for targets, positions and values, the"
-        " others are put together from phrases, clause by clause. Labels follow the labelling"
-        " rules by construction. No curated command is among them.\n\n## Tasks\n\n"
+        f" `plannerft gen-data --level mission --synthetic {count}` with seed {seed}. They come"
+        " from whole commands written by hand, with slots for targets, positions and values."
+        " Labels follow the labelling rules by construction. No curated command is among them.\n\n## Tasks\n\n"
         + table(["task", "occurrences"], titles.most_common())
         + "\n## Families\n\n"
         + table(["family", "records"], families.most_common(40))

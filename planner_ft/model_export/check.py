@@ -13,7 +13,6 @@ from planner_ft.prompts import render_prompt
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.definition import DEFAULT
 from planner_ft.vocabulary.plans import Level
 
 SEED = 0
@@ -71,11 +70,12 @@ def token_records(
     """
     if level == "task":
         return [*records, *check_records(level, vocabulary, TOKEN_CHECKS)]
-    if vocabulary.name != DEFAULT:  # commands are drawn for the default vehicle alone
-        return list(records)
-    from planner_ft.data.mission.synthetic.generate import sample_missions
+    from planner_ft.data.missions import sample_missions
+    from planner_ft.data.templates.records import template_files
 
-    return [*records, *sample_missions(SEED, TOKEN_CHECKS)]
+    if not template_files(vocabulary, "commands"):
+        return list(records)
+    return [*records, *sample_missions(SEED, TOKEN_CHECKS, vocabulary)]
 
 
 class Answers:

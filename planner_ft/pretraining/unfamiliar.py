@@ -10,12 +10,10 @@ import functools
 import re
 import tomllib
 from collections.abc import Iterator
-from pathlib import Path
 from random import Random
 from typing import Any
 
-import planner_ft.data
-from planner_ft.data.mission.synthetic.names import NAME_ENDINGS, place_name, pseudo_word
+from planner_ft.data.wordlists import any_things, made_up_name, pseudo_word
 from planner_ft.vocabulary import Vocabulary
 
 _WORD = re.compile(r"(?<![\w-])[^\W\d_]{4,}(?![\w-])")
@@ -68,7 +66,7 @@ def unfamiliar_word(word: str, rng: Random) -> str:
 
 
 def _name(rng: Random) -> str:
-    name = place_name(rng) if rng.random() < 0.5 else pseudo_word(rng, NAME_ENDINGS).capitalize()
+    name = made_up_name(rng)
     return _accented(name, rng) if rng.random() < 0.35 else name
 
 
@@ -99,17 +97,10 @@ def _accented(word: str, rng: Random) -> str:
 
 @functools.cache
 def _things() -> tuple[str, ...]:
-    words = (
-        (Path(planner_ft.data.__file__).parent / "things.txt").read_text(encoding="utf-8").split()
-    )
     return tuple(
-        dict.fromkeys(
-            word
-            for word in words
-            if len(word) > 3
-            and word not in _STAYING
-            and not word.startswith(("u", "eu", "one", "hon"))
-        )
+        word
+        for word in any_things()
+        if len(word) > 3 and word not in _STAYING and not word.startswith(("u", "eu", "one", "hon"))
     )
 
 

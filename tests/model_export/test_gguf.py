@@ -15,7 +15,7 @@ import pytest
 import torch
 
 from planner_ft.candidates import resolve_candidate
-from planner_ft.data.mission.synthetic.generate import sample_missions
+from planner_ft.data.missions import sample_missions
 from planner_ft.model_export import Exported, ExportSettings, export
 from planner_ft.model_export.gguf_file import _rope_factors, check_architecture
 from planner_ft.model_export.gguf_tokens import Kind, TokenTable, check_ids, token_table

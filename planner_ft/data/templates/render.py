@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from planner_ft.data.numbers import COMPASS, ONES, TENS, words
+from planner_ft.data.templates.grammar import Nodes
 
 VALUE_OPEN, VALUE_CLOSE = "\x02", "\x03"
 PIECE = tuple[str, bool]
@@ -58,9 +59,9 @@ def bare(text: str) -> str:
     return text
 
 
-def joined(pieces: Iterable[PIECE]) -> str:
+def joined(pieces: Iterable[PIECE], *, small: bool = False) -> str:
     """One text of (text, whether it is a value): articles fit what follows, gaps are closed, and
-    sentences begin with capitals where the text has any.
+    sentences begin with capitals unless the template is `small`, written without them.
     """
     text = ""
     for piece, value in pieces:
@@ -76,7 +77,12 @@ def joined(pieces: Iterable[PIECE]) -> str:
             text = f"{text[: -len(last) - 1]}{last[:-1] if low == 'an' else last}"
             text += f"{article_for(piece)[1:]} "
         text += f"{VALUE_OPEN}{piece}{VALUE_CLOSE}" if value else piece
-    return capitalised(tidied(text))
+    return tidied(text) if small else capitalised(tidied(text))
+
+
+def is_small(nodes: Nodes) -> bool:
+    """Whether a template begins with a small letter of its own."""
+    return bool(nodes) and isinstance(nodes[0], str) and nodes[0][:1].islower()
 
 
 def tidied(text: str) -> str:
@@ -89,9 +95,7 @@ def tidied(text: str) -> str:
 
 
 def capitalised(text: str) -> str:
-    """A capital at the start of every sentence, unless the text is written in small letters; names
-    and other text values stay as they are.
-    """
+    """A capital at the start of every sentence; names and other text values stay as they are."""
     start = 0
     while start < len(text) and not text[start].isalnum() and text[start] != VALUE_OPEN:
         start += 1
@@ -100,9 +104,6 @@ def capitalised(text: str) -> str:
     for place, mark in enumerate(text):
         if mark == "\n" or (mark == " " and place and _ends_sentence(text, place)):
             places.append(place + 1)
-    small = text[start : start + 1].islower()
-    if small and not any(text[place : place + 1].isupper() for place in places):
-        return text
     for place in places:
         _raise(text, letters, place)
     return "".join(letters)

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.data.mission.synthetic import sample_missions
+from planner_ft.data.missions import sample_missions
 from planner_ft.data.rules import rule_problems
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.prompts.text import answer_text

@@ -1,0 +1,303 @@
+"""Synthetic missions: what a template says, the plan that follows, and every line of the files."""
+
+import itertools
+import json
+import random
+from collections import Counter
+
+import jsonschema
+import pytest
+
+from planner_ft.data.missions import MissionSampler, mission_sampler, sample_missions
+from planner_ft.data.rules import rule_problems
+from planner_ft.data.templates.records import Template, template_files, templates
+from planner_ft.data.templates.render import plain
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import read_json
+from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.plans import plan_names, plan_problems
+
+USV, DRONE = load_vocabulary(), load_vocabulary("inspection_drone")
+VEHICLES = [USV, DRONE]
+
+
+def template(command, plan, **remarks):
+    lists = {name: tuple(lines) for name, lines in remarks.items()}
+    return Template("made-1", "train", command, plan, "made.jsonl:1", **lists)
+
+
+def draws(command, plan, count=25, vehicle=USV, **remarks):
+    """(text, tasks as (title, parameters), plan) of a template."""
+    made, sampler = template(command, plan, **remarks), mission_sampler(vehicle)
+    for seed in range(count):
+        text, expected = sampler.draw(made, random.Random(seed))
+        tasks = [(task["title"], task["parameters"]) for task in expected["tasks"]]
+        yield plain(text), tasks, expected
+
+
+def titles(tasks):
+    return [title for title, _parameters in tasks]
+
+
+# ---------------------------------------------------------------- every line
+
+
+@pytest.mark.parametrize("vehicle", VEHICLES, ids=lambda vehicle: vehicle.name)
+def test_every_line_draws_commands_that_follow_the_label_rules(vehicle):
+    """Values that the text leaves to arithmetic stand in the plan as literals and are not checked
+    here; searches and returns that a record asks for in other words are few.
+    """
+    sampler = MissionSampler(vehicle)
+    lines = list(itertools.chain(*sampler.groups))
+    exceptions = 0
+    unread: list[str] = []
+    for number, line in enumerate(lines):
+        bound = sampler.bound(line)
+        literal = {
+            fill.parameter.name for item in bound.lines for fill in item.fills if not fill.slot
+        }
+        for seed in range(2 if number % 4 == 0 else 1):
+            text, expected = sampler.draw(line, random.Random(f"{line.id}{seed}"))
+            assert "{" not in text and "}" not in text, line.where
+            assert plan_problems("mission", expected, vehicle, strict=True) == [], line.where
+            if number % 4:
+                continue
+            problems = rule_problems(expected, vehicle, plain(text))
+            values = [
+                problem
+                for problem in problems
+                if "does not follow from" in problem or "not in the command" in problem
+            ]
+            left = [item for item in values if item.split(", ")[1].split(":")[0] not in literal]
+            unread += [f"{line.where}: {plain(text)}: {item}" for item in left]
+            exceptions += len(problems) > len(values)
+    assert exceptions < 0.04 * len(lines) / 2 + 1
+    # "x 6, y 91 and half as long": a text may be read in another way.
+    assert len(unread) < 0.004 * len(lines), unread
+
+
+@pytest.mark.parametrize("vehicle", VEHICLES, ids=lambda vehicle: vehicle.name)
+def test_records_are_of_the_schema_and_their_ids_of_their_file(vehicle):
+    check = jsonschema.Draft202012Validator(read_json("schemas/templates.schema.json"))
+    for kind in ("commands", "prompts"):
+        seen = Counter()
+        for path in template_files(vehicle, kind):
+            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines()):
+                record = json.loads(line)
+                assert number % 9 or check.is_valid(record), f"{path}: {record['id']}"
+                if path.parent.name.endswith(kind):
+                    assert record["id"].startswith(f"{path.stem}-")
+                seen[record["id"]] += 1
+        assert max(seen.values(), default=1) == 1
+
+
+@pytest.mark.parametrize("vehicle", VEHICLES, ids=lambda vehicle: vehicle.name)
+def test_the_templates_cover_tasks_empty_plans_corrections_and_refusals(vehicle):
+    lines = list(itertools.chain(*templates(vehicle, "commands", "train")))
+    named = {step.call.name for line in lines for step in line.steps}
+    assert {task.title for task in vehicle.tasks} | {"Home"} <= named
+    assert any(not line.plan and line.constraints for line in lines)
+    assert any("{~" in line.text for line in lines)
+    assert any("no task for" in text for line in lines for text in line.constraints)
+    assert any(line.excluded for line in lines)
+
+
+def test_bad_lines_are_named_by_file_and_line(tmp_path):
+    (tmp_path / "rover.toml").write_text(
+        DRONE.path.read_text().replace("inspection_drone", "rover")
+    )
+    lines = tmp_path / "rover.commands.jsonl"
+    good = {"id": "a-1", "split": "train", "command": "Fly to {P1}.", "plan": "FlyToPoint P1"}
+    for bad, problem in (
+        ("{", "not JSON"),
+        ({**good, "split": "held"}, "split 'held'"),
+        ({**good, "texts": "x"}, "unknown field texts"),
+        ({**good, "plan": 3}, "plan is missing"),
+    ):
+        text = bad if isinstance(bad, str) else json.dumps(bad)
+        lines.write_text(json.dumps(good) + "\n" + text + "\n")
+        rover = load_vocabulary(tmp_path / "rover.toml")
+        with pytest.raises(PlannerError, match=rf"rover\.commands\.jsonl:2: .*{problem}"):
+            from planner_ft.data.templates.records import read_templates
+
+            read_templates.cache_clear()
+            list(sample_missions(1, 3, rover))
+
+
+@pytest.mark.parametrize(
+    ("command", "plan", "problem"),
+    [
+        ("Hold (a|b.", "KeepStation here", "a bracket is not closed"),
+        ("Hold.", "Hold here", "there is no task Hold"),
+        ("Hold for {radius}.", "KeepStation here radius", "has no parameter radius"),
+        ("Hold.", "KeepStation", "has no place"),
+        ("Hold for {duration}.", "KeepStation here", "belongs to no task"),
+        ("Hold at {P1}.", "KeepStation P1 duration", "stands in the plan and not in the text"),
+        ("Hold.", "KeepStation?now here", "the label ?now stands only"),
+        ("Survey ({T1}|it).", "SurveyTarget T1", "not every alternative"),
+        ("Survey {T1:ghost}.", "SurveyTarget T1", "no word list ghost"),
+        ("Survey {T1}.", 'SurveyTarget T1 radius="5', "is no slot, number"),
+    ],
+)
+def test_mistakes_are_named(command, plan, problem):
+    with pytest.raises(PlannerError) as error:
+        list(draws(command, plan))
+    assert str(error.value).startswith("made.jsonl:1: ") and problem in str(error.value)
+
+
+# ---------------------------------------------------------------- labels
+
+
+def test_a_described_target_is_searched_once_before_its_first_use():
+    for _text, tasks, expected in draws(
+        "{T1 lost}: survey at {radius}, orbit at {radius2}, home.",
+        "SurveyTarget T1 radius; PerformOrbit T1 radius=radius2; Home",
+    ):
+        assert titles(tasks) == ["SearchAndDetect", "SurveyTarget", "PerformOrbit", "Transit"]
+        assert tasks[1][1]["target_position"] == [-99, -99] == tasks[2][1]["center"]
+        assert tasks[3][1] == {"target_position": [0, 0]}
+        assert len(expected["constraints"]) == 1 and "must be found" in expected["constraints"][0]
+        assert expected["assumptions"][-1] == "Home is [0, 0]."
+
+
+def test_a_target_with_coordinates_is_searched_only_on_request():
+    for text, tasks, _expected in draws("Survey {T1 located}.", "SurveyTarget T1"):
+        assert titles(tasks) == ["SurveyTarget"]
+        assert tasks[0][1]["target_position"] != [-99, -99]
+        assert any(mark.isdigit() for mark in text)
+    for _text, tasks, _expected in draws("Find {T1 located}.", "SearchAndDetect T1"):
+        assert titles(tasks) == ["SearchAndDetect"]
+
+
+@pytest.mark.parametrize(
+    ("command", "plan", "wanted"),
+    [
+        ("Hold at {P1}.", "KeepStation P1", "Transit KeepStation"),
+        ("Hold at {P1}, drift.", "KeepStation P1; DriftAudit P1", "Transit KeepStation DriftAudit"),
+        ("Hold.", "KeepStation here", "KeepStation"),
+        ("Check {T1}, you lie there.", "KeepStation T1 here", "KeepStation"),
+        (
+            "{P1}, {P2}, {P1}.",
+            "KeepStation P1; KeepStation P2; KeepStation P1",
+            "Transit KeepStation Transit KeepStation Transit KeepStation",
+        ),
+        (
+            "Hold at {P1}, check, hold again.",
+            "KeepStation P1; Diagnostics; KeepStation P1",
+            "Transit KeepStation Diagnostics KeepStation",
+        ),
+        (
+            "Depths at {P1}, then hold there.",
+            "BathymetryGridSurvey P1; KeepStation P1",
+            "BathymetryGridSurvey Transit KeepStation",
+        ),
+        ("Find {T1 lost}.", "SearchAndDetect T1", "SearchAndDetect"),
+        ("Find {T1 lost}, go.", "SearchAndDetect T1; Transit T1", "SearchAndDetect Transit"),
+        ("Follow {ID1}.", "FollowTarget ID1", "FollowTarget"),
+        ("Follow {T1:boat lost}.", "FollowTarget T1", "SearchAndDetect FollowTarget"),
+        ("Dock at {T1:dock lost}.", "DockingApproach T1", "DockingApproach"),
+        (
+            "Dock on the {mark1}, hold.",
+            "KeepStation P1; VisualDockingApproach target_feature=mark1; KeepStation P1",
+            "Transit KeepStation VisualDockingApproach Transit KeepStation",
+        ),
+    ],
+)
+def test_searches_and_transits_follow_the_rules(command, plan, wanted):
+    command = command if "P1" not in plan or "{P1}" in command else f"{{P1}}: {command}"
+    for _text, tasks, _expected in draws(command, plan, 8):
+        assert titles(tasks) == wanted.split()
+
+
+def test_what_is_taken_back_is_said_but_not_planned():
+    for text, tasks, _expected in draws(
+        "Hold at {P1} for {~duration}, no, {duration}. Not {T1 bare}.",
+        "KeepStation P1 duration ~T1",
+    ):
+        assert titles(tasks) == ["Transit", "KeepStation"] and ", no, " in text
+
+
+def test_labels_and_optional_slots_follow_their_alternative():
+    seen = set()
+    for text, tasks, _expected in draws(
+        "(Check{?a}|Report{?b}) and survey {T1 located}( at {radius}|).",
+        "Diagnostics?a; AutoGenerateReportSummary?b; SurveyTarget T1 radius",
+        60,
+    ):
+        first = "Diagnostics" if text.startswith("Check") else "AutoGenerateReportSummary"
+        assert titles(tasks) == [first, "SurveyTarget"]
+        assert ("radius" in tasks[1][1]) == text.rstrip(".").endswith(
+            ("m", "metres", "meters", "metre", "feet", "ft")
+        )
+        seen.add((first, "radius" in tasks[1][1]))
+    assert len(seen) == 4
+
+
+def test_remarks_become_constraints_and_assumptions():
+    for _text, tasks, expected in draws(
+        "No report. Keep {radius} from {T1 lost}. Nothing else.",
+        "",
+        5,
+        excluded=["AutoGenerateReportSummary"],
+        constraints=["The vehicle stays {radius} from {T1}."],
+        assumptions=["there is nothing else"],
+    ):
+        assert tasks == [] and expected["assumptions"] == ["There is nothing else."]
+        assert expected["constraints"][0] == "No report is written."
+        assert expected["constraints"][-1].startswith("The command rules out everything")
+    assert next(draws("Hello.", ""))[2]["constraints"] == [
+        "The command asks for nothing that the vehicle has a task for."
+    ]
+
+
+def test_look_alikes_share_their_noun_and_differ_in_their_look():
+    for text, tasks, _expected in draws(
+        "{T1:pair one} of the {T1 nouns}, then {T2:pair one}.", "Transit T1; Transit T2"
+    ):
+        first, second = (tasks[number][1]["target_description"] for number in (0, 2))
+        assert first != second and first.split(" ")[-1] == second.split(" ")[-1]
+        assert " one of the " in text
+
+
+def test_a_series_has_room_for_two_readings_and_its_values_differ():
+    for _text, tasks, _expected in draws(
+        "{T1}: every {interval} for {duration}.", "ThermalTimeLapse T1 interval duration"
+    ):
+        assert 2 * tasks[-1][1]["interval"] <= tasks[-1][1]["duration"]
+
+
+# ---------------------------------------------------------------- samples
+
+
+def test_the_same_seed_gives_the_same_samples():
+    first, second = list(sample_missions(4, 30)), list(sample_missions(4, 30))
+    assert first == second and list(sample_missions(5, 30)) != first
+
+
+@pytest.mark.parametrize("vehicle", VEHICLES, ids=lambda vehicle: vehicle.name)
+def test_samples_are_valid_and_mostly_differ(vehicle):
+    records = list(sample_missions(2, 300, vehicle))
+    for record in records:
+        assert plan_problems("mission", record["expected"], vehicle, strict=True) == []
+        assert "  " not in record["prompt"] and record["prompt"] == record["prompt"].strip()
+        assert ("rule.empty" in record["tags"]) == (record["expected"]["tasks"] == [])
+    assert len({record["prompt"] for record in records}) > 270
+    named = {title for record in records for title in plan_names("mission", record["expected"])}
+    assert len(named) > 0.85 * len(vehicle.tasks)
+    assert any(record["family"] == "synthetic-orders" for record in records) == (vehicle is DRONE)
+
+
+def test_task_prompts_state_every_value():
+    for record in sample_missions(8, 200):
+        for task in record["expected"]["tasks"]:
+            for name, value in task["parameters"].items():
+                if isinstance(value, int | float | str):
+                    assert str(value) in task["task_prompt"], (name, task)
+
+
+def test_a_vehicle_without_templates_is_told_what_to_write(tmp_path):
+    (tmp_path / "rover.toml").write_text(
+        DRONE.path.read_text().replace("inspection_drone", "rover")
+    )
+    with pytest.raises(PlannerError, match=r"write rover\.commands\.jsonl beside the definition"):
+        next(sample_missions(0, 1, load_vocabulary(tmp_path / "rover.toml")))
