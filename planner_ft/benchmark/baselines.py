@@ -105,7 +105,7 @@ def _places(data: BenchData, vocabulary: Vocabulary) -> Iterator[Path]:
     yield data.path.with_name(TRAIN)
     yield Path("data") / data.level / TRAIN
     if data.level == "mission" and vocabulary.name == DEFAULT:
-        from planner_ft.data.mission.source import find_source
+        from planner_ft.data.curated import find_source
 
         yield find_source() / TRAIN
 

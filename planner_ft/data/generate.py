@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.data.card import dataset_card
+from planner_ft.data.curated import curated_splits, find_source
 from planner_ft.data.leakage import leakage_report
-from planner_ft.data.mission.source import curated_splits, find_source
 from planner_ft.data.output import DataFolder, check_writable, write_folders
 from planner_ft.data.synthetic_set import FOLDER, synthetic_folder
 from planner_ft.data.task.sampler import Split, sample_tasks

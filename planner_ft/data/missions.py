@@ -308,7 +308,7 @@ class MissionSampler:
         ]
         config = {**spaces[0], **spaces[1]}
         if key not in self.draws:
-            self.draws[key] = value_space(parameter, config, self.words)  # type: ignore[arg-type]
+            self.draws[key] = value_space(parameter, config, self.words)
         if parameter.unit in ("m", "m/s") and rng.random() < FOREIGN:
             low, high = config.get("typical", (1, 60))
             foreign = knots(rng) if parameter.unit == "m/s" else feet(rng, low, high)

@@ -16,7 +16,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from random import Random
 
-from planner_ft.data.numbers import Value, words
+from planner_ft.data.numbers import Value, pick, words
 from planner_ft.data.templates.render import bare as without_article
 
 ONSETS = words("b br c d dr f fl g gr h j k kl l m n p pr r s sk st t tr v w z th sch v")
@@ -34,11 +34,6 @@ FALLBACK: Mapping[str, Sequence[str]] = {
     "things": ("boats", "people", "birds", "vehicles", "{name}s", "poles", "signs"),
 }
 Weighted = tuple[Sequence[str], Sequence[float] | None]
-
-
-def pick(items: Sequence[str], rng: Random) -> str:
-    """One of the items."""
-    return items[int(rng.random() * len(items))]
 
 
 def pseudo_word(rng: Random) -> str:
@@ -104,6 +99,11 @@ MADE_UP: dict[str, Callable[[Random], str]] = {
     "digit": lambda rng: pick("0123456789", rng),
     "any_thing": lambda rng: pick(any_things(), rng),
 }
+
+
+def joined(parts: Sequence[str], last: str = " and ") -> str:
+    """The parts with commas between and `last` before the last one."""
+    return ", ".join(parts[:-1]) + last + parts[-1] if len(parts) > 1 else "".join(parts)
 
 
 class WordLists:
@@ -172,5 +172,4 @@ class WordLists:
         joint = " and " if rng.random() < 0.85 else " as well as "
         if len(spoken) > 2 and rng.random() < 0.3:
             joint = f",{joint}"
-        text = ", ".join(spoken[:-1]) + joint + spoken[-1] if len(spoken) > 1 else spoken[0]
-        return Value(stored, text)
+        return Value(stored, joined(spoken, joint))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from planner_ft.data.mission.source import find_source
+from planner_ft.data.curated import find_source
 from planner_ft.prompts import render_prompt
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl

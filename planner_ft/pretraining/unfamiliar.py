@@ -10,6 +10,7 @@ import functools
 import re
 import tomllib
 from collections.abc import Iterator
+from pathlib import Path
 from random import Random
 from typing import Any
 

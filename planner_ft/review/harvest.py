@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.data.completeness import completeness_problems
+from planner_ft.data.curated import find_source
 from planner_ft.data.leakage import near_duplicate
-from planner_ft.data.mission.source import find_source
 from planner_ft.data.validation import canonical_record, record_problems
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.decoding.constraints.grounded import TOO_LONG

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.data.mission.source import find_source
+from planner_ft.data.curated import find_source
 from planner_ft.data.validation import validate_file
 from planner_ft.decoding.constraints.facts import read
 from planner_ft.document import PlanDocument, apply, write_document

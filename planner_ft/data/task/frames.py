@@ -21,8 +21,8 @@ from planner_ft.data.task.context import Movement
 from planner_ft.data.task.phrasebook import Call, Phrasebook
 from planner_ft.data.task.script import Run, Script
 from planner_ft.data.task.template import MARKS, Template, compile_template
-from planner_ft.data.task.words import joined
 from planner_ft.data.templates.render import VALUE_OPEN
+from planner_ft.data.wordlists import joined
 
 TABLES: dict[str, Any] = tomllib.loads((Path(__file__).parent / "frames.toml").read_text("utf-8"))
 SCOPES: dict[str, Any] = TABLES["scopes"]

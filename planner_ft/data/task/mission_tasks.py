@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from random import Random
 from typing import Any
 
-from planner_ft.data.mission.synthetic import sample_missions
+from planner_ft.data.missions import sample_missions
 from planner_ft.data.task import geometry as g
 from planner_ft.data.task.steps import Step, entry_of, plan_step
 from planner_ft.support.errors import PlannerError

@@ -35,7 +35,7 @@ from planner_ft.data.task.values import (
     draw_position,
     draw_rotation,
 )
-from planner_ft.data.task.words import joined
+from planner_ft.data.wordlists import joined
 
 STOPS = 0.07
 """Share of waypoint movements with a hold at each point."""

@@ -15,7 +15,7 @@ from typing import Any
 from planner_ft.data.numbers import Value, pick
 from planner_ft.data.task.template import Form, Template, compile_template, mark
 from planner_ft.data.task.values import Draw, number_space, value_space
-from planner_ft.data.task.words import FALLBACK, MADE_UP, Lexicon
+from planner_ft.data.wordlists import FALLBACK, MADE_UP, WordLists
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.definition import ROLES, Parameter, Role, Skill, Task, Vocabulary
 
@@ -96,7 +96,7 @@ class SkillEntry:
     """The phrases and parameter spaces of one skill."""
 
     def __init__(
-        self, skill: Skill, config: dict[str, Any], lexicon: Lexicon, *, unseen: bool
+        self, skill: Skill, config: dict[str, Any], lexicon: WordLists, *, unseen: bool
     ) -> None:
         self.skill = skill
         spaces, often = config.get("values", {}), config.get("often", {})
@@ -181,7 +181,7 @@ class Phrasebook:
     def __init__(self, vocabulary: Vocabulary, *, unseen: bool) -> None:
         self.vocabulary, self.unseen, self.raw = vocabulary, unseen, vocabulary.phrases
         _check_phrases(vocabulary)
-        self.lexicon = Lexicon(self.raw.get("words", {}))
+        self.lexicon = WordLists(self.raw.get("words", {}))
         configs = self.raw.get("skill", {})
         self.skills = {
             skill.name: SkillEntry(skill, configs.get(skill.name, {}), self.lexicon, unseen=unseen)

@@ -16,10 +16,10 @@ import zlib
 from collections.abc import Callable, Iterator
 from typing import Any, Literal, get_args
 
+from planner_ft.data.noise import noisy
 from planner_ft.data.numbers import pick
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.frames import Speaker, sentences
-from planner_ft.data.task.noise import noisy
 from planner_ft.data.task.phrasebook import Phrasebook
 from planner_ft.data.task.prompts.draw import draw_template
 from planner_ft.data.task.prompts.library import bound_lines, normal
@@ -153,7 +153,7 @@ class _Draws:
                 f" ({problems[0]}); correct the phrase file's ranges"
             )
         if not self.unseen:
-            said = noisy(said, self.rng, capitals=not _has_texts(expected))
+            said = noisy(said, self.rng, shout=not _has_texts(expected))
         return {
             "family": family,
             "task": context.task.title,

@@ -14,7 +14,7 @@ from typing import Any
 
 from planner_ft.data.numbers import Value, pick, polygon, position, say_number
 from planner_ft.data.task.geometry import Point, point, tidy
-from planner_ft.data.task.words import Lexicon
+from planner_ft.data.wordlists import WordLists
 from planner_ft.vocabulary.definition import Parameter
 
 Draw = Callable[[random.Random], Value]
@@ -35,7 +35,7 @@ SPAN = 220
 """Metres from home within which most positions lie."""
 
 
-def value_space(parameter: Parameter, config: dict[str, Any], lexicon: Lexicon) -> Draw:
+def value_space(parameter: Parameter, config: dict[str, Any], lexicon: WordLists) -> Draw:
     """A function that draws a value of this parameter."""
     if parameter.type in ("number", "integer"):
         return number_space(parameter, config)

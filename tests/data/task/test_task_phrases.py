@@ -6,8 +6,8 @@ import pytest
 
 from planner_ft.data.numbers import bearing, duration, polygon, position, rotation
 from planner_ft.data.task.template import compile_template, gerund, mark
-from planner_ft.data.task.words import made_up_code, made_up_name
 from planner_ft.data.templates.render import plain, skeleton
+from planner_ft.data.wordlists import made_up_code, made_up_name
 
 
 def wordings(make, count=400):

@@ -1,1 +1,0 @@
-"""Mission level: curated commands and synthetic ones."""
