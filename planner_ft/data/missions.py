@@ -134,7 +134,7 @@ def mission_sampler(vocabulary: Vocabulary) -> MissionSampler:
 class MissionSampler:
     """Draws commands and their plans for one vehicle, from templates of one split."""
 
-    def __init__(self, vocabulary: Vocabulary, split: str = "train") -> None:
+    def __init__(self, vocabulary: Vocabulary, split: str | None = "train") -> None:
         self.vocabulary = vocabulary
         self.config = vocabulary.beside(MISSIONS)
         self.words = WordLists(vocabulary.phrases.get("words", {}), self.config.get("words", {}))

@@ -22,9 +22,10 @@ from planner_ft.data.task.context import Context
 from planner_ft.data.task.frames import Speaker, sentences
 from planner_ft.data.task.phrasebook import Phrasebook
 from planner_ft.data.task.prompts.draw import draw_template
-from planner_ft.data.task.prompts.library import bound_lines, normal
+from planner_ft.data.task.prompts.library import bindings
 from planner_ft.data.task.script import draw_script, expected_plan
 from planner_ft.data.task.template import close_gaps
+from planner_ft.data.templates.records import templates
 from planner_ft.data.templates.render import plain, skeleton
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.definition import Vocabulary
@@ -95,15 +96,7 @@ class _Draws:
     def __init__(self, vocabulary: Vocabulary, rng: random.Random, split: Split) -> None:
         self.unseen = split == "test_unseen"
         self.book, self.rng, self.split = Phrasebook(vocabulary, unseen=self.unseen), rng, split
-        self.templates = (
-            []
-            if self.unseen
-            else [
-                bounds
-                for source, bounds in bound_lines(self.book)
-                if split_of(normal(source)) == split
-            ]
-        )
+        self.templates = [] if self.unseen else templates(vocabulary, "prompts", split)
 
     def any(self) -> Draw:
         """Where the next sample comes from."""
@@ -113,7 +106,8 @@ class _Draws:
 
     def from_template(self) -> dict[str, Any] | None:
         """One record without id from a whole-prompt template."""
-        bound = pick(pick(self.templates, self.rng), self.rng)
+        template = pick(pick(self.templates, self.rng), self.rng)
+        bound = pick(bindings(template, self.book), self.rng)
         context = Context(self.book, bound.task, self.rng)
         drawn = draw_template(bound, context)
         if drawn is None or len(drawn[1]["skill_sequence"]) > LONGEST:

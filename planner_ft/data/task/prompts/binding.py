@@ -8,19 +8,20 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from planner_ft.data.task.phrasebook import Phrasebook
-from planner_ft.data.task.prompts.language import (
+from planner_ft.data.task.prompts.shapes import (
     COMPASS_WORDS,
+    JOINT,
+    SHAPES,
     TURNS,
-    Argument,
-    CallText,
-    LineText,
-    StepText,
-    TemplateError,
-    flags_of,
-    slots_of,
+    role_of,
+    value_draw,
+    word_role,
 )
-from planner_ft.data.task.prompts.shapes import JOINT, SHAPES, role_of, value_draw, word_role
 from planner_ft.data.task.values import Draw
+from planner_ft.data.templates.grammar import Argument, TemplateError, all_slots, base_of
+from planner_ft.data.templates.grammar import Call as CallText
+from planner_ft.data.templates.grammar import Step as StepText
+from planner_ft.data.templates.records import Template
 from planner_ft.vocabulary.definition import Parameter, Role, Skill, Task
 
 XY = "xy"
@@ -73,10 +74,12 @@ class Source:
 class Bound:
     """A line that can be drawn for one task."""
 
-    line: LineText
+    line: Template
     task: Task
     steps: tuple[Step, ...] = ()
     everywhere: Step | None = None
+    front: bool = False
+    """What runs everywhere is mentioned before what the steps have of their own."""
     sources: dict[str, Source] = field(default_factory=dict)
     signs: dict[str, int] = field(default_factory=dict)
     params: set[str] = field(default_factory=set)
@@ -84,12 +87,7 @@ class Bound:
     """Task parameters whose position is calculated with, so that it must be known."""
 
 
-def base_of(key: str) -> str:
-    """The slot without its digit: "time2" -> "time"."""
-    return key.rstrip("0123456789")
-
-
-def bind(line: LineText, task: Task, book: Phrasebook) -> Bound:
+def bind(line: Template, task: Task, book: Phrasebook) -> Bound:
     """The line for this task. Raises TemplateError that says what does not fit."""
     bound = Bound(line, task)
     _Binder(bound, book).run()
@@ -99,44 +97,39 @@ def bind(line: LineText, task: Task, book: Phrasebook) -> Bound:
 class _Binder:
     def __init__(self, bound: Bound, book: Phrasebook) -> None:
         self.bound, self.book, self.task = bound, book, bound.task
-        self.slots = slots_of(bound.line.text)
-        self.keys = {slot.key for slot in self.slots if not slot.param}
+        self.slots = [slot for slot in all_slots(bound.line.nodes) if slot.sign in ("", "param")]
+        self.keys = {slot.key for slot in self.slots if not slot.sign}
         self.links = book.tasks[self.task.title].links
 
     def run(self) -> None:
         line, bound = self.bound.line, self.bound
         for slot in self.slots:
-            if slot.param:
+            if slot.sign:
                 self._param(slot.key)
-            elif slot.wording & {"left", "right"}:
-                bound.signs[slot.key] = -1 if "left" in slot.wording else 1
-        bound.steps = tuple(self._step(step) for step in line.steps)
-        if line.everywhere:
-            bound.everywhere = Step(Call("ALL", ()), *self._beside(line.everywhere))
+            elif slot.options & {"left", "right"}:
+                bound.signs[slot.key] = -1 if "left" in slot.options else 1
+        everywhere = [step for step in line.steps if step.call.name == "ALL"]
+        bound.steps = tuple(self._step(step) for step in line.steps if step not in everywhere)
+        bound.front = bool(everywhere) and line.steps[0] in everywhere
+        for step in everywhere[:1]:
+            bound.everywhere = Step(Call("ALL", ()), *self._beside(step))
         unused = self.keys - set(bound.sources)
         if unused:
             raise TemplateError(
                 f"{{{min(unused)}}} stands in the text and in no step; for words that are no value"
                 " of the plan write {_list}"
             )
-        asked = {
-            call.flag
-            for step in (*line.steps, *([line.everywhere] if line.everywhere else []))
-            for call in _calls(step)
-            if call.flag
-        }
-        if asked != flags_of(line.text):
-            raise TemplateError(
-                f"the flag ?{min(asked ^ flags_of(line.text))} does not stand both in the text and"
-                " in the steps"
-            )
+        asked = {call.label for step in line.steps for call in step.calls() if call.label}
+        labels = {slot.key for slot in all_slots(line.nodes) if slot.sign == "?"}
+        for name in asked ^ labels:
+            raise TemplateError(f"the label ?{name} stands only in the text or only in the steps")
+        if not bound.steps:
+            raise TemplateError("there is no step")
 
     def _step(self, step: StepText) -> Step:
-        name = step.movement.name
+        name = step.call.name
         movement = (
-            self._shape(step.movement)
-            if name in SHAPES
-            else self._skill(step.movement, "navigation")
+            self._shape(step.call) if name in SHAPES else self._skill(step.call, "navigation")
         )
         return Step(movement, *self._beside(step), self._step(step.each) if step.each else None)
 
@@ -177,12 +170,12 @@ class _Binder:
             and not {"x", "y"} <= {fill.target for fill in fills}
         ):
             raise TemplateError(f"{call.name} needs a position: P1 or param.NAME")
-        return Call(call.name, tuple(fills), call.flag, call.at)
+        return Call(call.name, tuple(fills), call.label, call.at)
 
     def _target(self, skill: Skill, argument: Argument, taken: set[str]) -> str | None:
         if argument.name:
             return self._known(skill, argument.name)
-        if argument.kind == "slot":
+        if argument.kind == "slot" and not _is_word(argument):
             base = base_of(str(argument.value))
             return XY if skill.motion == "goto" and base == "P" else self._known(skill, base)
         if argument.kind == "param":
@@ -190,7 +183,7 @@ class _Binder:
         free = [parameter.name for parameter in skill.parameters if parameter.name not in taken]
         if argument.value in COMPASS_WORDS:
             return next((name for name in free if name in ("heading", "yaw", "bearing")), None)
-        if argument.kind == "word":
+        if _is_word(argument):
             return None
         if not free:
             raise TemplateError(f"{skill.name}: {argument.value} is one value too many")
@@ -242,17 +235,14 @@ class _Binder:
 
     def _fill(self, argument: Argument, target: str, source: Source) -> Fill:
         value: Any = argument.value
-        if argument.kind == "slot":
+        if argument.kind == "slot" and not _is_word(argument):
             self._use(value, source)
         elif argument.kind == "param":
             self._param(value)
-        elif argument.kind == "word":
+        elif _is_word(argument):
             value = COMPASS_WORDS.get(value, TURNS.get(value, value))
         return Fill(
-            target,
-            "literal" if argument.kind == "word" else argument.kind,
-            value,
-            argument.negative,
+            target, "literal" if _is_word(argument) else argument.kind, value, argument.negative
         )
 
     def _use(self, key: str, source: Source) -> None:
@@ -292,14 +282,14 @@ class _Binder:
             for fill in fills.values()
             if fill.kind == "param" and fill.target == "point"
         }
-        return Call(call.name, tuple(fills.values()), call.flag, call.at, shape=True)
+        return Call(call.name, tuple(fills.values()), call.label, call.at, shape=True)
 
     def _role(self, shape: str, argument: Argument) -> str | None:
         if argument.name:
             role = role_of(shape, argument.name)
         elif argument.kind == "literal":
             role = "count"
-        elif argument.kind == "word":
+        elif _is_word(argument):
             role = word_role(shape, str(argument.value))
             if role is None:
                 return None
@@ -316,7 +306,7 @@ class _Binder:
         value: Any = argument.value
         if argument.kind == "slot" and argument.name and value not in self.keys:
             return Fill(role, "literal", value)
-        if argument.kind == "word":
+        if _is_word(argument):
             value = (
                 TURNS[value]
                 if value in TURNS
@@ -347,9 +337,9 @@ def _no_draw(_rng: Any) -> Any:
     raise TemplateError("the size of a Grid is drawn as a whole")
 
 
-def _calls(step: StepText) -> list[CallText]:
-    inner = _calls(step.each) if step.each else []
-    return [step.movement, *step.filters, *step.perceptions, *inner]
+def _is_word(argument: Argument) -> bool:
+    """Whether the argument is a direction of its own: "north", "clockwise"."""
+    return argument.kind == "slot" and (argument.value in COMPASS_WORDS or argument.value in TURNS)
 
 
 def _among(names: Any) -> str:

@@ -11,18 +11,17 @@ from planner_ft.data.numbers import Value, angle, count_text, length, rotation
 from planner_ft.data.task import geometry as g
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.prompts import shapes
-from planner_ft.data.task.prompts.binding import Bound, Call, Fill, Source, Step, base_of
-from planner_ft.data.task.prompts.language import Choice, Flag, Node, Slot, Words
+from planner_ft.data.task.prompts.binding import Bound, Call, Fill, Source, Step
 from planner_ft.data.task.steps import Step as Move
 from planner_ft.data.task.steps import plan_step
 from planner_ft.data.task.template import mark
+from planner_ft.data.templates.grammar import Part, Slot, base_of, choose
 from planner_ft.vocabulary.plans import canonical_parameters
 
 LINKED = 0.75  # share of stated values that the task's parameters hold too
 SPACING = 0.85  # share of grids whose stated size the task's parameters hold too
 LANES = 12
 
-Part = str | Slot
 Entry = dict[str, Any]
 
 
@@ -37,9 +36,9 @@ class Drawing:
         for step in bound.steps:
             if step.movement.name == "Grid":
                 self._grid(step.movement)
-        self.parts = self._choose(bound.line.text)
+        self.parts = self._chosen_parts()
         for part in self.parts:
-            if isinstance(part, Slot) and not part.param and part.key not in self.values:
+            if isinstance(part, Slot) and not part.sign and part.key not in self.values:
                 self.values[part.key] = self._draw(part.key, bound.sources[part.key])
 
     # ------------------------------------------------------------ values
@@ -136,17 +135,15 @@ class Drawing:
 
     # ------------------------------------------------------------ text
 
-    def _choose(self, nodes: Sequence[Node]) -> list[Part]:
+    def _chosen_parts(self) -> list[Part]:
         parts: list[Part] = []
-        for node in nodes:
-            if isinstance(node, Choice):
-                parts += self._choose(node.branches[int(self.rng.random() * len(node.branches))])
-            elif isinstance(node, Flag):
-                self.flags.add(node.name)
-            elif isinstance(node, Words):
-                parts.append(self.context.slots()[f"_{node.name}"])
+        for part in choose(self.bound.line.nodes, self.rng, []):
+            if isinstance(part, Slot) and part.sign == "?":
+                self.flags.add(part.key)
+            elif isinstance(part, Slot) and part.sign == "_":
+                parts.append(self.context.slots()[f"_{part.key}"])
             else:
-                parts.append(node)
+                parts.append(part)
         return parts
 
     def text(self) -> str:
@@ -163,14 +160,14 @@ class Drawing:
         return tidy(said)
 
     def _say(self, slot: Slot, before: str, after: str) -> str:
-        if slot.param:
+        if slot.sign:
             words = self.context.refer(slot.key)
             return _ARTICLE.sub("", words) if _AFTER_ARTICLE.search(before) else words
         value = self.values[slot.key]
         text = worded(value, slot, before, after)
         if (
             slot.key in self.bound.signs
-            and "adj" not in slot.wording
+            and "adj" not in slot.options
             and not (_WAY.search(_clause_end(before)) or _WAY.search(_clause_start(after)))
         ):
             text += self.rng.choice(
@@ -196,7 +193,7 @@ class Drawing:
         )
         for entry in plan:
             for own, common in ((entry["filters"], filters), (entry["perceptions"], perceptions)):
-                own[:] = [*common, *own] if self.bound.line.front else [*own, *common]
+                own[:] = [*common, *own] if self.bound.front else [*own, *common]
         return plan
 
     def _expand(self, step: Step) -> list[Entry]:
@@ -303,11 +300,11 @@ def worded(value: Value, slot: Slot, before: str, after: str) -> str:
     """
     if before[-1:] in ("'", '"') and after[:1] == before[-1:]:
         return str(value.value)
-    if slot.wording & {"adj", "num"} and value.short:
+    if slot.options & {"adj", "num"} and value.short:
         return value.short
-    if "noun" in slot.wording and value.noun:
+    if "noun" in slot.options and value.noun:
         return value.noun
-    if "way" in slot.wording and value.way:
+    if "way" in slot.options and value.way:
         return value.way
     return _ARTICLE.sub("", value.text) if _AFTER_ARTICLE.search(before) else value.text
 

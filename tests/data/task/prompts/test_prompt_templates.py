@@ -1,5 +1,6 @@
 """Whole-prompt templates: what a line says, and the steps that it asks for."""
 
+import itertools
 import random
 import re
 
@@ -7,17 +8,25 @@ import pytest
 
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.phrasebook import Phrasebook
-from planner_ft.data.task.prompts.__main__ import main
 from planner_ft.data.task.prompts.binding import bind
 from planner_ft.data.task.prompts.draw import draw_template
-from planner_ft.data.task.prompts.language import TemplateError, parse_line
-from planner_ft.data.task.prompts.library import FOLDER, bound_lines
-from planner_ft.data.task.prompts.wordings import mask_key, wordings
-from planner_ft.data.templates.render import plain, skeleton
+from planner_ft.data.task.prompts.library import bindings
+from planner_ft.data.templates.grammar import TemplateError
+from planner_ft.data.templates.records import Template, templates
+from planner_ft.data.templates.render import plain
+from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.definition import load_vocabulary
+from planner_ft.vocabulary.plans import plan_problems
 
 USV = load_vocabulary("usv")
 BOOK = Phrasebook(USV, unseen=False)
+
+
+def made(source):
+    """The template of "TASK | TEXT => STEPS"."""
+    task, _bar, rest = source.partition(" | ")
+    text, _arrow, steps = rest.rpartition(" => ")
+    return Template("made-1", "train", text, steps, "made.jsonl:1", (task,))
 
 
 def samples(source, count=40):
@@ -25,8 +34,7 @@ def samples(source, count=40):
     perceptions).
     """
     rng = random.Random(7)
-    line = parse_line(source)
-    bound = bind(line, USV.task[line.tasks[0]], BOOK)
+    bound = bind(made(source), USV.task[source.partition(" | ")[0]], BOOK)
     for _ in range(count):
         context = Context(BOOK, bound.task, rng)
         drawn = draw_template(bound, context)
@@ -71,7 +79,7 @@ def test_a_flag_brings_a_skill_when_its_alternative_was_chosen():
 
 
 def test_the_tasks_own_parameter_is_copied():
-    source = "KeepStation | Hold for {param duration}. => StationKeep param.duration"
+    source = "KeepStation | Hold for {param.duration}. => StationKeep param.duration"
     for prompt, parameters, [(_name, given, _filters, _calls)] in samples(source):
         assert given == {"time": parameters["duration"]}
         assert not re.search(r"\d", prompt)
@@ -130,7 +138,7 @@ def test_a_grid_of_stated_size_is_covered():
 
 def test_an_offset_lies_in_the_named_direction():
     source = (
-        "Transit | Go {distance num} {direction} of {param target_position}. => Offset"
+        "Transit | Go {distance num} {direction} of {param.target_position}. => Offset"
         " param.target_position distance direction"
     )
     for prompt, parameters, [(_name, given, *_rest)] in samples(source):
@@ -150,8 +158,7 @@ def test_an_offset_lies_in_the_named_direction():
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ("KeepStation | Hold. StationKeep", "expected TASK"),
-        ("KeepStation | (Hold|Stay for {time}. => StationKeep time", "not closed"),
+        ("KeepStation | (Hold|Stay for {time}. => StationKeep time", "is not closed"),
         ("KeepStation | Hold for {time}. => StationKeep", "{time} stands in the text"),
         ("KeepStation | Hold. => StationKeep time", "not in the text"),
         ("KeepStation | Hold. => Hover", "no skill Hover"),
@@ -162,39 +169,40 @@ def test_an_offset_lies_in_the_named_direction():
         ),
         ("KeepStation | Hold. => StationKeep param.radius", "KeepStation has no parameter radius"),
         ("KeepStation | Go round. => Square", "needs a point"),
-        ("KeepStation | Film{?film}. => StationKeep", "the flag ?film"),
+        ("KeepStation | Film{?film}. => StationKeep", "the label ?film"),
         ("KeepStation | Go. => GoToXY", "needs a position"),
     ],
 )
 def test_a_wrong_line_is_explained(line, message):
-    with pytest.raises(TemplateError, match=re.escape(message)):
+    with pytest.raises((TemplateError, PlannerError), match=re.escape(message)):
         list(samples(line))
 
 
-def test_the_checker_names_file_and_line(tmp_path, capsys):
-    path = tmp_path / "some.txt"
-    path.write_text(
-        "# a comment\n\nKeepStation | Hold. => Hover\nKeepStation | Hold. => StationKeep\nSwim |"
-        " Hold. => StationKeep\n"
-    )
-    assert main([str(path), "--show", "1"]) == 1
-    out = capsys.readouterr().out
-    assert f"{path}:3: there is no skill Hover" in out and f"{path}:5: there is no task Swim" in out
-    assert "[KeepStation] Hold." in out and "3 lines, 2 wrong" in out
+@pytest.mark.parametrize("name", ["usv", "inspection_drone"])
+def test_every_line_of_the_vehicle_makes_valid_plans(name):
+    vehicle = load_vocabulary(name)
+    book = Phrasebook(vehicle, unseen=False)
+    lines = list(itertools.chain(*templates(vehicle, "prompts")))
+    titles = {title for line in lines for title in line.tasks}
+    assert {task.title for task in vehicle.tasks} <= titles
+    assert {line.split for line in lines} == {"train", "validation", "test"}
+    for number, line in enumerate(lines):
+        bounds = bindings(line, book)
+        drawn = []
+        for seed in range(3 if number % 5 == 0 else 0):
+            bound = bounds[seed % len(bounds)]
+            context = Context(book, bound.task, random.Random(f"{line.id}{seed}"))
+            drawn.append(draw_template(bound, context))
+        for text, plan, _skills in filter(None, drawn):
+            assert "{" not in text, line.where
+            assert plan_problems("task", plan, vehicle, strict=True) == [], line.where
+        assert not drawn or any(drawn), line.where
 
 
-def test_the_lines_of_the_package_are_right(capsys):
-    assert main([]) == 0, capsys.readouterr().out
-    assert len(bound_lines(BOOK)) > 500 and (FOLDER / "README.md").is_file()
-
-
-def test_every_wording_of_a_line_is_known_without_its_values():
-    line = parse_line(
-        "KeepStation | (Hold|Stay) for {time}(, then for {time2}|). => StationKeep time;"
-        " StationKeep time2"
-    )
-    known = wordings(line)
-    assert known == {"hold for _", "stay for _", "hold for _ then for _", "stay for _ then for _"}
-    bound = bind(line, USV.task["KeepStation"], BOOK)
-    text, _plan, _skills = draw_template(bound, Context(BOOK, bound.task, random.Random(1)))
-    assert mask_key(skeleton(text)) in known
+def test_a_wrong_record_is_named_by_file_and_line():
+    for source, message in (
+        ("Swim | Hold. => StationKeep", "made.jsonl:1: there is no task Swim"),
+        ("KeepStation | Hold. => Hover", "made.jsonl:1: there is no skill Hover"),
+    ):
+        with pytest.raises(PlannerError, match=message):
+            bindings(made(source), BOOK)
