@@ -287,7 +287,7 @@ def _loading_errors(candidate: Candidate, folder: Path, device: torch.device) ->
         raise PlannerError(
             f"{candidate.name}: a library is missing ({_one_line(error)}); see `plannerft doctor`"
         ) from error
-    except Exception as error:  # the libraries raise anything, down to bare Exception and their own validation errors
+    except Exception as error:  # the libraries raise anything, down to bare Exception
         if "allocate memory" in str(error) or "out of memory" in str(error):
             raise PlannerError(out_of_memory(candidate, device)) from error
         raise PlannerError(

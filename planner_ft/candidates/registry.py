@@ -155,7 +155,7 @@ class Candidate:
         return self.adapter.get(level, AdapterDefaults())
 
     def knows(self, vocabulary: Vocabulary) -> bool:
-        """Whether it was pretrained on exactly this vocabulary, so that no prompt needs to list it."""
+        """Whether it was pretrained on exactly this vocabulary: no prompt needs to list it."""
         if self.vocabulary != vocabulary.name:
             return False
         return load_vocabulary(self.vocabulary).sha256 == vocabulary.sha256

@@ -33,7 +33,7 @@ def gen_data(
     else) as JSONL, a dataset card (README.md), a leakage report (leakage.json) and a manifest.
     """
     from planner_ft.data.generate import GenerationSettings, generate
-    from planner_ft.prompts.chat import chat_messages
+    from planner_ft.prompts.text import chat_messages
 
     settings = GenerationSettings(
         level, out, seed, train, validation, test, vocabulary, source, overwrite, chat, synthetic

@@ -34,7 +34,7 @@ from planner_ft.model_export.gguf_file import check_architecture, import_gguf, w
 from planner_ft.model_export.gguf_tokens import check_ids, token_table
 from planner_ft.model_export.merge import load_full, merged, save_full
 from planner_ft.model_export.settings import ExportSettings
-from planner_ft.prompts.chat import prompt_messages
+from planner_ft.prompts.text import prompt_messages
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, sha256_file, sha256_tree, write_json, write_text
 from planner_ft.support.manifest import build_manifest

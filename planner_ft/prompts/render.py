@@ -19,16 +19,12 @@ if TYPE_CHECKING:
     from transformers import PreTrainedTokenizerBase
 
 PROMPT_VERSION = 2
-"""Counts up with every change of the rendered text, so that cached predictions are not reused
-across it.
-"""
+"""Counts up with every change of the rendered text: predictions are not reused across it."""
 
 PROBE = "\x02probe\x03"
 
 TODAY = "26 Jul 2024"
-"""The date that Llama 3 templates write into the system message. They would take today's: another
-prompt every day.
-"""
+"""The date in the system message of Llama 3 templates, which would write today's."""
 
 
 @dataclass(frozen=True)
@@ -52,18 +48,13 @@ def render_prompt(
     *,
     with_vocabulary: bool,
 ) -> list[int]:
-    """Ids of the prompt, up to where the answer begins. `with_vocabulary` is for base models, which
-    have not learned it.
-    """
+    """Ids of the prompt, up to the answer. `with_vocabulary`: for models that have not learned it."""
     system = system_text(level, vocabulary, with_vocabulary=with_vocabulary)
     user = user_text(level, record, vocabulary)
     if tokenizer.chat_template:
         messages = [{"role": "system", "content": system}, {"role": "user", "content": PROBE}]
-        text = str(
-            tokenizer.apply_chat_template(
-                messages, tokenize=False, add_generation_prompt=True, date_string=TODAY
-            )
-        )
+        options = {"tokenize": False, "add_generation_prompt": True, "date_string": TODAY}
+        text = str(tokenizer.apply_chat_template(messages, **options))
     else:
         text = _bos(tokenizer) + PLAIN_FORM.format(system=system, user=PROBE)
     before, after = text.split(PROBE)
@@ -93,12 +84,10 @@ def render_sample(
 
 
 def end_of_turn_ids(tokenizer: PreTrainedTokenizerBase) -> list[int]:
-    """Ids that end an answer: first the one that is trained, then the end-of-text token where it is
-    another.
+    """Ids that end an answer: the trained one, then the end-of-text token where it is another.
 
-    For chat templates it is the first token that the template writes after the assistant's message.
-    Raises PlannerError when that is not a single special token, since a model could then never
-    learn to stop.
+    A chat template's is the first token that it writes after the assistant's message. Raises
+    PlannerError when that is no special token: a model could then never learn to stop.
     """
     eos = tokenizer.eos_token_id
     if not tokenizer.chat_template:
@@ -110,9 +99,8 @@ def end_of_turn_ids(tokenizer: PreTrainedTokenizerBase) -> list[int]:
     messages = [{"role": "user", "content": "?"}, {"role": "assistant", "content": PROBE}]
     after = str(tokenizer.apply_chat_template(messages, tokenize=False)).split(PROBE)[-1]
     ids = tokenizer.encode(after, add_special_tokens=False)
-    if not ids or (
-        ids[0] not in tokenizer.all_special_ids and ids[0] not in tokenizer.added_tokens_decoder
-    ):
+    special = {*tokenizer.all_special_ids, *tokenizer.added_tokens_decoder}
+    if not ids or ids[0] not in special:
         raise PlannerError(
             f"the chat template ends an answer with {after!r}, which is no special token; the end"
             " of a plan cannot be learned"

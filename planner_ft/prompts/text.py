@@ -1,7 +1,9 @@
-"""What the two agents are told, in words: system instruction and user message."""
+"""The texts of a sample: system instruction, user message, answer; and its chat form."""
 
 from __future__ import annotations
 
+import tomllib
+from pathlib import Path
 from typing import Any
 
 from planner_ft.data.task.working import working_of
@@ -10,43 +12,19 @@ from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import WORKING, Level, canonical_parameters, canonical_plan
 from planner_ft.vocabulary.text import prompt_text
 
-INSTRUCTIONS: dict[Level, str] = {
-    "mission": (
-        "You are the Mission Agent of an {vehicle}. Turn the command into a mission plan as JSON."
-    ),
-    "task": "You are the Task Agent of an {vehicle}. Turn the task into a skill sequence as JSON.",
-}
-
-FORMS: dict[Level, str] = {
-    "mission": (
-        "Answer with one JSON object and nothing"
-        ' else:\n{{"tasks":[{{"title":"...","parameters":{{...}},"task_prompt":"..."}}],"assumptions":["..."],"constraints":["..."]}}\ntasks'
-        " stand in the order of execution. task_prompt says in one or two sentences what the task"
-        " is to do. Positions are in the {frame}; home is {home}. A place without known coordinates"
-        " is {unresolved}. Lengths are in metres, durations in seconds, angles in degrees. Write"
-        " only parameters that the command states.\nThese tasks exist, and no others:\n{vocabulary}"
-    ),
-    "task": (
-        "Answer with one JSON object and nothing"
-        ' else:\n{{"skill_sequence":[{{"navigation_skill":{{"name":"...","parameters":{{...}}}},"filter_skills":[],"perception_skills":[],"stop_conditions":["..."],"failure_modes":["..."],"expected_outputs":["..."]}}]}}\nSteps'
-        " stand in the order of execution; the skills of one step run at the same time. Positions"
-        " are in the {frame}. Write only parameters that the task states.\nThese skills exist, and"
-        " no others:\n{vocabulary}"
-    ),
-}
-
+INSTRUCTIONS: dict[str, dict[str, str]] = tomllib.loads(
+    (Path(__file__).parent / "instructions.toml").read_text(encoding="utf-8")
+)
 PLAIN_FORM = "{system}\n\n### Input\n{user}\n\n### Plan\n"
 """The prompt of a model without a chat template."""
 
 
 def system_text(level: Level, vocabulary: Vocabulary, *, with_vocabulary: bool) -> str:
-    """The instruction of an agent; base models are also told the answer's form and the
-    vocabulary.
-    """
-    instruction = INSTRUCTIONS[level].format(vehicle=vocabulary.title)
+    """The instruction of an agent, for base models with the answer's form and the vocabulary."""
+    instruction = INSTRUCTIONS[level]["instruction"].format(vehicle=vocabulary.title)
     if not with_vocabulary:
         return instruction
-    form = FORMS[level].format(
+    form = INSTRUCTIONS[level]["form"].format(
         frame=vocabulary.frame,
         home=list(vocabulary.home),
         unresolved=list(vocabulary.unresolved),
@@ -56,14 +34,11 @@ def system_text(level: Level, vocabulary: Vocabulary, *, with_vocabulary: bool) 
 
 
 def user_text(level: Level, record: dict[str, Any], vocabulary: Vocabulary) -> str:
-    """What the agent gets: the command, or a task's title, parameters and task prompt on three
-    lines.
-    """
+    """The agent's input: the command, or a task's title, parameters and prompt on three lines."""
     if level == "mission":
         return str(record["prompt"])
-    parameters = canonical_parameters(
-        record.get("parameters", {}), vocabulary.task.get(record["task"])
-    )
+    task = vocabulary.task.get(record["task"])
+    parameters = canonical_parameters(record.get("parameters", {}), task)
     return f"{record['task']}\n{compact_json(parameters)}\n{record['prompt']}"
 
 
@@ -73,9 +48,24 @@ def completion_text(level: Level, plan: dict[str, Any], vocabulary: Vocabulary) 
 
 
 def answer_text(level: Level, record: dict[str, Any], vocabulary: Vocabulary) -> str:
-    """The answer that is trained: the record's `expected` plan, behind the sums that its waypoints
-    need (see `planner_ft.data.task.working`).
-    """
+    """The answer that is trained: the sums that its waypoints need, and the `expected` plan."""
     text = completion_text(level, record["expected"], vocabulary)
     working = working_of(record, vocabulary) if level == "task" else ""
     return f"{{{compact_json(WORKING)}:{compact_json(working)},{text[1:]}" if working else text
+
+
+def prompt_messages(
+    level: Level, record: dict[str, Any], vocabulary: Vocabulary, *, with_vocabulary: bool
+) -> list[dict[str, str]]:
+    """System instruction and user message: the text that `render_prompt` renders into ids."""
+    system = system_text(level, vocabulary, with_vocabulary=with_vocabulary)
+    user = user_text(level, record, vocabulary).strip()
+    return [{"role": "system", "content": system}, {"role": "user", "content": user}]
+
+
+def chat_messages(
+    level: Level, record: dict[str, Any], vocabulary: Vocabulary
+) -> list[dict[str, str]]:
+    """The prompt's messages and the expected plan as the assistant's answer, for other trainers."""
+    prompt = prompt_messages(level, record, vocabulary, with_vocabulary=False)
+    return [*prompt, {"role": "assistant", "content": answer_text(level, record, vocabulary)}]

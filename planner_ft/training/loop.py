@@ -101,7 +101,7 @@ def total_steps(settings: TrainSettings, samples: int) -> int:
 
 
 def learning_rate(settings: TrainSettings, step: int, total: int) -> float:
-    """Learning rate of optimiser step `step` (from 0) of `total`: linear warm-up, then the schedule."""
+    """Learning rate of step `step` (from 0) of `total`: linear warm-up, then the schedule."""
     warm = math.ceil(settings.warmup * total)
     if step < warm:
         return settings.learning_rate * (step + 1) / warm
@@ -203,8 +203,8 @@ def _update(run: Run, state: TrainState, batches: list[Batch]) -> float:
 
 def _not_finite(run: Run, state: TrainState, finding: str, batch: Batch) -> str:
     return (
-        f"step {state.step + 1}, sample {', '.join(batch.ids)}: the {finding}; lower --learning-rate"
-        f" (now {run.settings.learning_rate:g}) or --gradient-clip (now"
+        f"step {state.step + 1}, sample {', '.join(batch.ids)}: the {finding}; lower"
+        f" --learning-rate (now {run.settings.learning_rate:g}) or --gradient-clip (now"
         f" {run.settings.gradient_clip:g}), or look at that sample with --preview-id; the"
         f" checkpoints in {run.output} are from before"
     )

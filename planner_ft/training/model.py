@@ -202,7 +202,7 @@ def memory_levers(settings: TrainSettings, checkpointing: bool, longest: int) ->
 
 
 def unpack(model: Any) -> int:
-    """Replace 4-bit layers by dense ones with the same weights where memory allows; return how many.
+    """Replace 4-bit layers by dense ones with the same weights if memory allows; return how many.
 
     bitsandbytes unpacks a layer in every pass; on a CPU at batch size 1 that takes as long as
     multiplying. Training computes with the very same numbers, in four times the memory.

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from planner_ft.data.generate import GenerationSettings, generate
-from planner_ft.prompts.chat import chat_messages
+from planner_ft.prompts.text import chat_messages
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl, sha256_file, write_jsonl
 from planner_ft.vocabulary import load_vocabulary

@@ -26,8 +26,8 @@ from planner_ft.benchmark.sources.served_schema import (
 )
 from planner_ft.candidates import Candidate, all_candidates
 from planner_ft.decoding.configurations import Configuration, parse_configuration
-from planner_ft.prompts.chat import prompt_messages
 from planner_ft.prompts.render import PROMPT_VERSION
+from planner_ft.prompts.text import prompt_messages
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 
