@@ -16,15 +16,13 @@ from typing import Any
 import torch
 
 from planner_ft.decoding.configurations import Limits
-from planner_ft.decoding.constraints import ConstraintFactory
+from planner_ft.decoding.constraints import RAN_ON, ConstraintFactory
 from planner_ft.decoding.lookup import Likeness, Lookup
 from planner_ft.decoding.passes import Decoder
 from planner_ft.decoding.sampling import Sampling
 from planner_ft.decoding.sequence import FinishReason, SequenceState
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.plans import Level
-
-RAN_ON = "The facts of the command led to a plan that ran on; this one is held to the schema alone."
 
 
 @dataclass(frozen=True)

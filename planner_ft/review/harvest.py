@@ -17,11 +17,10 @@ from planner_ft.data.completeness import completeness_problems
 from planner_ft.data.curated import find_source
 from planner_ft.data.leakage import near_duplicate
 from planner_ft.data.validation import canonical_record, record_problems
-from planner_ft.decoding.constraints.facts import read
-from planner_ft.decoding.constraints.grounded import TOO_LONG
+from planner_ft.decoding.constraints import RAN_ON, TOO_LONG, UNPAIRED
 from planner_ft.document import PlanDocument
 from planner_ft.document.differences import compare
-from planner_ft.facts import WAYPOINT, is_known, missing_words, read_input
+from planner_ft.facts import WAYPOINT, is_known, missing_words, read, read_input
 from planner_ft.planning.agents import CUT_NOTE
 from planner_ft.planning.planner import new_file
 from planner_ft.review.desk import read_plan
@@ -218,7 +217,7 @@ def _expected(
     """The mission plan, with the model's assumptions; notes of the decoding about its own reading
     of the command are none.
     """
-    notes = {*read(document["command"], vocabulary).notes, TOO_LONG}
+    notes = {*read(document["command"]).unread, TOO_LONG, UNPAIRED, RAN_ON}
     assumptions = [
         text
         for text in dict.fromkeys(document["assumptions"])

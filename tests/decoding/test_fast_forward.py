@@ -11,8 +11,8 @@ import pytest
 import torch
 
 from planner_ft.decoding.configurations import Limits
-from planner_ft.decoding.constraints import Mask
-from planner_ft.decoding.generate import RAN_ON, Method, Query, generate
+from planner_ft.decoding.constraints import RAN_ON, Mask
+from planner_ft.decoding.generate import Method, Query, generate
 from planner_ft.decoding.passes import Decoder
 from planner_ft.decoding.sequence import SequenceState
 from planner_ft.support.errors import PlannerError

@@ -10,8 +10,8 @@ import pytest
 
 from planner_ft.data.curated import find_source
 from planner_ft.data.validation import validate_file
-from planner_ft.decoding.constraints.facts import read
 from planner_ft.document import PlanDocument, apply, write_document
+from planner_ft.facts import read
 from planner_ft.planning.agents import CUT_NOTE
 from planner_ft.review import approve, log_beside, reject
 from planner_ft.review.commands import parse_edit
@@ -189,7 +189,7 @@ def test_of_two_plans_of_one_command_the_last_approval_counts(
 
 def test_notes_of_the_decoding_are_no_assumptions_to_learn(tmp_path: Path, usv: Vocabulary) -> None:
     command = f"{COMMAND} Käpt'n Ωμέγα"
-    notes = read(command, usv).notes
+    notes = read(command).unread
     document = wrong(
         usv,
         command,

@@ -10,23 +10,10 @@ from __future__ import annotations
 import functools
 import itertools
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from planner_ft.data.quantities import bearings, quantities
-from planner_ft.data.stated import rewritings, stated_numbers
-from planner_ft.data.task import geometry as g
-from planner_ft.decoding.constraints import patterns
-from planner_ft.decoding.constraints.facts import (
-    MOST_CROSSED,
-    multiples,
-    own_numbers,
-    own_texts,
-    read,
-    sector_counts,
-    turned,
-    usable,
-)
+from planner_ft.decoding.constraints import TOO_LONG, UNPAIRED, patterns
 from planner_ft.decoding.constraints.grammar import (
     IDENTIFIED,
     LONGEST_PROSE,
@@ -43,14 +30,19 @@ from planner_ft.decoding.constraints.grammar import (
 )
 from planner_ft.decoding.constraints.patterns import literal, regex
 from planner_ft.decoding.constraints.spans import Spans
+from planner_ft.facts import is_number, read_input
+from planner_ft.facts.derived import sector_counts, turned
+from planner_ft.facts.geometry import offset
+from planner_ft.facts.lists import MULTIPLES
+from planner_ft.facts.words import words
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.plans import STEP_KEYS, Level
 
 LONGEST_NUMBER = 16
 """Digits of a number in a sentence: an identity at sea has nine."""
-MOST_OFFSETS = 2000
-TOO_LONG = "The command is too long to hold texts to its words."
+MOST_OFFSETS, MOST_CROSSED = 2000, 8
+LARGEST = 10**patterns.WHOLE_DIGITS
 
 
 class GroundedValues(Narrowed):
@@ -67,25 +59,31 @@ class GroundedValues(Narrowed):
         free_waypoints: bool = False,
     ) -> None:
         super().__init__(SchemaValues())
-        prompt, self._vocabulary, self._level = str(record.get("prompt", "")), vocabulary, level
-        self._facts = facts = read(prompt, vocabulary)
-        self._own = list(own_numbers(record, vocabulary)) if level == "task" else []
-        texts = list(own_texts(record)) if level == "task" else []
-        self._spans = Spans([prompt, *texts], named=level == "task")
-        self._multiples = multiples(prompt)
+        self._vocabulary, self._level = vocabulary, level
+        source = read_input(record, vocabulary)
+        self._facts = facts = source.facts
+        self._own = list(_own_values(source.parameters)) if level == "task" else []
+        own_texts = [value for value, _name in self._own if isinstance(value, str)]
+        self._units = {
+            item.name: item.unit for item in (source.task.parameters if source.task else ())
+        }
+        self._spans = Spans([facts.text, *own_texts], named=level == "task")
+        said = set(words(facts.text))
+        self._multiples = {factor for word, factor in MULTIPLES.items() if word in said}
         coordinates = [item for skill in vocabulary.skills for item in skill.coordinates]
         self._numbers: dict[Parameter, list[str] | None] = (
             dict.fromkeys(coordinates) if free_waypoints else {}
         )
-        self._places = list(facts.places)
-        if level == "mission":
-            away = itertools.product(
-                [place for place in facts.places if place != vocabulary.unresolved],
-                sorted(bearings(prompt)),
-                sorted(stated_numbers(facts.bare, "m")),
-            )
-            self._places += [g.offset(*one) for one in itertools.islice(away, MOST_OFFSETS)]
-        self.notes = [*facts.notes, *([TOO_LONG] if self._spans.too_long else [])]
+        stated = [(round(place.x, 2), round(place.y, 2)) for place in facts.positions]
+        stated = [place for place in stated if max(map(abs, place)) < LARGEST]
+        self._places = list(dict.fromkeys([vocabulary.home, vocabulary.unresolved, *stated]))
+        if level == "mission" and source.ground:
+            ways = (self._places[:1] + stated, source.ground.bearings, source.ground.lengths)
+            away = itertools.islice(itertools.product(*ways), MOST_OFFSETS)
+            self._places += [offset(*one) for one in away]
+        too_long = [TOO_LONG] if self._spans.too_long else []
+        loose = [UNPAIRED] if facts.loose else []
+        self.notes = [*facts.unread, *loose, *too_long]
 
     def parameter(
         self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
@@ -123,12 +121,12 @@ class GroundedValues(Narrowed):
         return written_number(value) in numbers
 
     def position(self, grammar: Grammar, without: Positions) -> str | None:
-        facts, barred = self._facts, {tuple(other) for other in without}
-        if facts.numbers_free or facts.loose:
+        barred = {tuple(other) for other in without}
+        if self._facts.unread or self._facts.loose:
             return super().position(grammar, without)
         places: Iterable[tuple[float, ...]] = self._places
         if self._level == "task":
-            known = [place for place in facts.places if place != self._vocabulary.unresolved]
+            known = [place for place in self._places if place != self._vocabulary.unresolved]
             # "The box from (0, 0) to (40, 20)" has the corners in between.
             crossed = len(known) <= MOST_CROSSED
             places = itertools.product(*zip(*known, strict=True)) if crossed else known
@@ -140,7 +138,7 @@ class GroundedValues(Narrowed):
         return self._spans.terminal(grammar, without)
 
     def prose(self, grammar: Grammar) -> str:
-        if self._facts.numbers_free or self._facts.loose:
+        if self._facts.unread or self._facts.loose:
             return super().prose(grammar)
         return grammar.terminal(self._prose)
 
@@ -162,39 +160,53 @@ class GroundedValues(Narrowed):
         return self._numbers[parameter]
 
     def _values_of(self, parameter: Parameter) -> list[float] | None:
-        stated = self._facts.said(parameter.unit)
-        if stated is None:
+        unit = parameter.unit
+        if self._facts.unread:
             return None
-        facts = [*stated]
-        units = (None, parameter.unit)
-        facts += [number for number, unit in self._own if unit in units or parameter.unit is None]
-        if parameter.unit in ("s", "m"):
-            facts += [value * factor for factor in self._multiples for value in facts]
-        if parameter.unit == "deg" and self._level == "task":
-            facts += [(value + 180) % 360 for value in facts]
-            facts += turned(facts, self._counts)
-        return usable(facts, parameter)
+        values = [number.value for number in self._facts.numbers(unit)]
+        for value, name in self._own:
+            known = self._units.get(name)
+            if is_number(value) and (known is None or unit in (None, known)):
+                values.append(value)
+        if unit in ("s", "m"):
+            values += [value * factor for factor in self._multiples for value in values]
+        if unit == "deg":
+            values += [angle.value for angle in (*self._facts.bearings, *self._facts.turns)]
+            values += turned(values, self._counts) if self._level == "task" else ()
+        return _usable(values, parameter)
 
     @functools.cached_property
     def _counts(self) -> frozenset[int]:
-        said = (quantity.said for quantity in quantities(self._facts.text))
-        return sector_counts([*said, *(number for number, _unit in self._own)])
+        own = [value for value, _name in self._own if is_number(value)]
+        return sector_counts([*self._facts.counts, *own])
 
     @functools.cached_property
     def _prose(self) -> str:
         """Sentences, with the numbers of the command and those of every value."""
-        known = {
-            digits
-            for reading in rewritings(self._facts.text)
-            for digits in re.findall(r"\d+(?:\.\d+)?", reading)
-        }
-        for task in self._vocabulary.tasks:
-            for parameter in task.parameters:
-                if parameter.type in ("number", "integer"):
-                    numbers = self._written_numbers(parameter) or ()
-                    known.update(number.lstrip("-") for number in numbers)
-        known.update(written_number(abs(value)) for place in self._places for value in place)
+        known = set(re.findall(r"\d+(?:\.\d+)?", self._facts.text))
+        numbers = [item for task in self._vocabulary.tasks for item in task.parameters]
+        for parameter in numbers:
+            if parameter.type in ("number", "integer"):
+                known |= {text.lstrip("-") for text in self._written_numbers(parameter) or ()}
+                said = (abs(number.said) for number in self._facts.numbers(parameter.unit))
+                known |= {written_number(value) for value in said}
+        known |= {written_number(abs(value)) for place in self._places for value in place}
         return prose(number for number in known if len(number) <= LONGEST_NUMBER)
+
+
+def _own_values(parameters: dict[str, Any]) -> Iterator[tuple[Any, str]]:
+    """Every value of a task's parameters, those of lists one by one, with the parameter's name."""
+    for name, value in parameters.items():
+        for item in value if isinstance(value, list) else [value]:
+            yield item, name
+
+
+def _usable(values: Iterable[float], parameter: Parameter) -> list[float]:
+    """The values that a parameter can have, as they are written, smallest first."""
+    low, high = parameter.minimum, parameter.maximum
+    found = {round(value, digits) for value in values if abs(value) < LARGEST for digits in (2, 4)}
+    within = (value for value in found if low is None or high is None or low <= value <= high)
+    return sorted(value for value in within if parameter.type != "integer" or value == int(value))
 
 
 def one_of(grammar: Grammar, texts: Iterable[str]) -> str | None:

@@ -2,7 +2,7 @@
 length away in a stated direction, and the paths of grids, squares and rings.
 
 The model decides what is done, where a path begins and which way round it goes; a path that was
-begun is gone on with. Geometry as in agents' answers (planner_ft.data.task.geometry): metres, x
+begun is gone on with. Geometry as in agents' answers (planner_ft.facts.geometry): metres, x
 east, y north, bearings clockwise from north.
 """
 
@@ -15,18 +15,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from planner_ft.data.quantities import ROUNDING, bearings, quantities
-from planner_ft.data.stated import stated_numbers
-from planner_ft.data.task import geometry as g
 from planner_ft.data.task.working import SUM
-from planner_ft.decoding.constraints.facts import Reading, read
+from planner_ft.facts import geometry as g
+from planner_ft.facts import read_input
+from planner_ft.facts.derived import Ground
+from planner_ft.facts.reading import ROUNDING
 from planner_ft.vocabulary import Vocabulary
 
 Point = g.Point
 Path = tuple[Point, ...]
 
 MOST_PATHS, MOST_WAYPOINTS = 4000, 64
-MOST_LENGTHS, MOST_PLACES = 7, 12
 BEGUN = 3
 """Waypoints in a row that begin a path: two can look like the beginning of many."""
 SHAPED = {"lawnmower": "sizes and lane spacing", "square": "radius"}
@@ -120,79 +119,54 @@ class Waypoints:
 
 def read_waypoints(record: dict[str, Any], vocabulary: Vocabulary) -> Waypoints | str:
     """The waypoints that a task input gives, or a sentence that says why any may be meant."""
-    facts, task = read(str(record.get("prompt", "")), vocabulary), str(record.get("task"))
-    pattern = vocabulary.task[task].pattern if task in vocabulary.task else ""
-    given = record.get("parameters")
-    parameters: dict[str, Any] = given if isinstance(given, dict) else {}
-    if facts.numbers_free or facts.loose:
-        return "The numbers of the command are not certain; the waypoints are the model's."
-    home = g.point(*vocabulary.home)
-    own = [g.point(*value) for value in parameters.values() if _is_place(value)]
-    stated = [g.point(*place) for place in facts.places if place != vocabulary.unresolved]
-    places = tuple(dict.fromkeys([*own, *(place for place in stated if place != home), home]))
-    said = sorted(value for value in stated_numbers(facts.bare, "m") if value > 0)
-    lengths = {parameters[name] for name in LENGTHS if _is_number(parameters.get(name))}
-    lengths = {value for value in lengths if value > 0} | set(said)
-    if len(places) > MOST_PLACES or len(lengths) > MOST_LENGTHS:
-        return (
-            f"The command has too many places or lengths for {task}; its waypoints are the model's."
-        )
-    heading = [parameters["heading"]] if _is_number(parameters.get("heading")) else []
-    angles = {*bearings(facts.text), *stated_numbers(facts.bare, "deg"), *heading}
-    shapes = _Shapes(
-        facts,
-        parameters,
-        tuple(place for place in places if place != home or place in own) or places,
-        tuple(sorted(lengths)),
-        tuple(said),
-        tuple(sorted({value % 360 for value in angles})),
-    )
+    source = read_input(record, vocabulary)
+    title, pattern = str(record.get("task")), source.task.pattern if source.task else ""
+    ground = source.ground
+    if ground is None:
+        return "The geometry of the command is not certain; the waypoints are the model's."
+    said = {number.value for number in source.facts.numbers("m")}
+    shapes = _Shapes(ground, source.facts.text, source.parameters, said)
     paths = tuple(dict.fromkeys(itertools.islice(shapes.paths(pattern), MOST_PATHS)))
     if pattern in SHAPED and not paths:
-        return f"The command states no {SHAPED[pattern]} for {task}; its waypoints are the model's."
-    return Waypoints(
-        places, shapes.lengths, shapes.bearings, paths, 2 if pattern in SHAPED else BEGUN
-    )
+        return (
+            f"The command states no {SHAPED[pattern]} for {title}; its waypoints are the model's."
+        )
+    places = tuple(place for place in ground.places if place != vocabulary.unresolved)
+    begun = 2 if pattern in SHAPED else BEGUN
+    return Waypoints(places, ground.lengths, ground.bearings, paths, begun)
 
 
 @dataclass(frozen=True)
 class _Shapes:
-    """What paths are made of; `said` are the lengths of the prompt, `lengths` those and the task's
-    own.
-    """
+    """What paths are made of; `said` are the lengths of the prompt."""
 
-    facts: Reading
+    ground: Ground
+    text: str
     parameters: dict[str, Any]
-    centres: tuple[Point, ...]
-    lengths: tuple[float, ...]
-    said: tuple[float, ...]
-    bearings: tuple[float, ...]
+    said: set[float]
 
     def paths(self, pattern: str) -> Iterator[Path]:
         """Every path that the facts can mean in a task of this pattern."""
-        if pattern == "lawnmower" or GRID.search(self.facts.text):
+        if pattern == "lawnmower" or GRID.search(self.text):
             yield from self._grids()
-        for centre, radius in itertools.product(self.centres, self.lengths):
+        for centre, radius in itertools.product(self.ground.centres, self.ground.lengths):
             yield from self._rings(centre, radius)
 
-    @functools.cached_property
-    def _counts(self) -> list[int]:
-        said = {found.said for found in quantities(self.facts.bare) if found.unit is None}
-        return sorted(int(value) for value in said if value in range(2, 25))
-
     def _grids(self) -> Iterator[Path]:
-        for centre, sizes in itertools.product(self.centres, dict.fromkeys(self._sizes())):
+        for centre, sizes in itertools.product(self.ground.centres, dict.fromkeys(self._sizes())):
             yield from _lanes(centre, *sizes)
-            if "corner" in self.facts.text.lower():
+            if "corner" in self.text.lower():
                 for x, y in itertools.product((1, -1), repeat=2):
                     width, length, _spacing = sizes
                     middle = g.point(centre[0] + x * width / 2, centre[1] + y * length / 2)
                     yield from _lanes(middle, *sizes)
-        for one, other in itertools.combinations(self.centres, 2):
+        for one, other in itertools.combinations(self.ground.centres, 2):
             width, length = abs(one[0] - other[0]), abs(one[1] - other[1])
             middle = g.point((one[0] + other[0]) / 2, (one[1] + other[1]) / 2)
-            spacings = [size / (count - 1) for count in self._counts for size in (width, length)]
-            for spacing in (*spacings, *self.lengths) if width and length else ():
+            spacings = [
+                size / (count - 1) for count in self.ground.counts for size in (width, length)
+            ]
+            for spacing in (*spacings, *self.ground.lengths) if width and length else ():
                 yield from _lanes(middle, width, length, spacing)
 
     def _sizes(self) -> Iterator[tuple[float, float, float]]:
@@ -203,11 +177,13 @@ class _Shapes:
         own = [value for value in given if isinstance(value, int | float)]
         if len(own) == len(given):
             yield own[0], own[1], own[2]
-            if not set(self.said) - set(own):
+            if not self.said - set(own):
                 return
-        for width, length in itertools.product(self.lengths, repeat=2):
-            shares = [size / (count - 1) for count in self._counts for size in (width, length)]
-            for spacing in (*self.lengths, *shares):
+        for width, length in itertools.product(self.ground.lengths, repeat=2):
+            shares = [
+                size / (count - 1) for count in self.ground.counts for size in (width, length)
+            ]
+            for spacing in (*self.ground.lengths, *shares):
                 if spacing <= max(width, length):
                     yield width, length, spacing
 
@@ -219,8 +195,8 @@ class _Shapes:
         for start, clockwise in itertools.product(g.SQUARE_STARTS, (False, True)):
             square = g.survey_square(centre, radius, start, clockwise=clockwise)
             rings += [square, square[::2]]
-        for count, clockwise in itertools.product(self._counts, (False, True)):
-            for bearing in dict.fromkeys((*self.bearings, 0, 90)) if count >= 3 else ():
+        for count, clockwise in itertools.product(self.ground.counts, (False, True)):
+            for bearing in dict.fromkeys((*self.ground.bearings, 0, 90)) if count >= 3 else ():
                 rings.append(g.circle(centre, radius, count, bearing, clockwise=clockwise))
         for ring in rings:
             yield (*ring, ring[0])
@@ -235,11 +211,3 @@ def _lanes(centre: Point, width: float, length: float, spacing: float) -> Iterat
             continue
         for corner in g.CORNERS:
             yield tuple(g.lawnmower(centre, width, length, spacing, corner, axis))
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
-
-
-def _is_place(value: Any) -> bool:
-    return isinstance(value, list) and len(value) == 2 and all(map(_is_number, value))
