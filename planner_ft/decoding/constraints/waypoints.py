@@ -69,7 +69,8 @@ class Waypoints:
         """
         begun = self._begun(before)
         onward = dict.fromkeys(path[done] for path, done in begun if done < len(path))
-        if onward and begun[0][1] >= self.begun:
+        complete = any(done == len(path) for path, done in begun)
+        if onward and not complete and begun[0][1] >= self.begun:
             return list(onward)
         away = (
             g.offset(base, bearing, length)
@@ -199,6 +200,7 @@ class _Shapes:
             for bearing in dict.fromkeys((*self.ground.bearings, 0, 90)) if count >= 3 else ():
                 rings.append(g.circle(centre, radius, count, bearing, clockwise=clockwise))
         for ring in rings:
+            yield tuple(ring)
             yield (*ring, ring[0])
 
 

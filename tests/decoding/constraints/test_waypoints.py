@@ -69,6 +69,7 @@ def test_squares_and_rings_follow_from_a_radius() -> None:
     square = g.survey_square((12, -40), 15, "north", clockwise=True)
     assert follows(facts, [*square, square[0]])
     assert follows(facts, square[1::2])
+    assert follows(facts, [*square, (0, 0)]), "a whole square may be left"
     facts = waypoints("SurveyTarget", "Six points round it, the first due west.", **own)
     assert follows(facts, g.circle((12, -40), 15, 6, 270, clockwise=False))
 
@@ -82,11 +83,12 @@ def test_points_lie_a_stated_way_off() -> None:
 
 
 def test_a_scratchpad_derives_coordinates_by_right_sums_alone() -> None:
-    facts = waypoints("Transit", "Pass 12 m off each side.", target_position=[33, -18])
-    assert (45, -6) not in facts.following(())
-    assert (45, -6) in facts.shown("x33+12=45;y-18+12=-6").following(())
-    assert (46, -6) not in facts.shown("x33+12=46;y-18+12=-6").following(())
-    assert (47, -6) not in facts.shown("x33+14=47;y-18+12=-6").following(())
+    prompt = "Pass 12 m off one side and 20 m off the other."
+    facts = waypoints("Transit", prompt, target_position=[33, -18])
+    assert (45, 2) not in facts.following(())
+    assert (45, 2) in facts.shown("x33+12=45;y-18+20=2").following(())
+    assert (46, 2) not in facts.shown("x33+12=46;y-18+20=2").following(())
+    assert (47, 2) not in facts.shown("x33+14=47;y-18+20=2").following(())
 
 
 @pytest.mark.parametrize(
