@@ -2,7 +2,7 @@
 length away in a stated direction, and the paths of grids, squares and rings.
 
 The model decides what is done, where a path begins and which way round it goes; a path that was
-begun is gone on with. Geometry as in agents' answers (planner_ft.facts.geometry): metres, x
+begun is gone on with. Geometry as in agents' answers (planner_ft.data.task.geometry): metres, x
 east, y north, bearings clockwise from north.
 """
 
@@ -15,8 +15,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
+from planner_ft.data.task import geometry as g
 from planner_ft.data.task.working import SUM
-from planner_ft.facts import geometry as g
 from planner_ft.facts import read_input
 from planner_ft.facts.derived import Ground
 from planner_ft.facts.reading import ROUNDING
@@ -150,11 +150,11 @@ class _Shapes:
         """Every path that the facts can mean in a task of this pattern."""
         if pattern == "lawnmower" or GRID.search(self.text):
             yield from self._grids()
-        for centre, radius in itertools.product(self.ground.centres, self.ground.lengths):
+        for centre, radius in itertools.product(self.ground.places, self.ground.lengths):
             yield from self._rings(centre, radius)
 
     def _grids(self) -> Iterator[Path]:
-        for centre, sizes in itertools.product(self.ground.centres, dict.fromkeys(self._sizes())):
+        for centre, sizes in itertools.product(self.ground.places, dict.fromkeys(self._sizes())):
             yield from _lanes(centre, *sizes)
             if "corner" in self.text.lower():
                 for x, y in itertools.product((1, -1), repeat=2):
