@@ -13,7 +13,6 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from planner_ft.data.task.geometry import offset
 from planner_ft.decoding.constraints import TOO_LONG, UNPAIRED, patterns
 from planner_ft.decoding.constraints.grammar import (
     IDENTIFIED,
@@ -33,6 +32,7 @@ from planner_ft.decoding.constraints.patterns import literal, regex
 from planner_ft.decoding.constraints.spans import Spans
 from planner_ft.facts import is_number, read_input
 from planner_ft.facts.derived import sector_counts, turned
+from planner_ft.facts.geometry import offset
 from planner_ft.facts.lists import MULTIPLES
 from planner_ft.facts.words import words
 from planner_ft.support.files import compact_json

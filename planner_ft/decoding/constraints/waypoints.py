@@ -2,7 +2,7 @@
 length away in a stated direction, and the paths of grids, squares and rings.
 
 The model decides what is done, where a path begins and which way round it goes; a path that was
-begun is gone on with. Geometry as in agents' answers (planner_ft.data.task.geometry): metres, x
+begun is gone on with. Geometry as in agents' answers (planner_ft.facts.geometry): metres, x
 east, y north, bearings clockwise from north.
 """
 
@@ -15,8 +15,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from planner_ft.data.task import geometry as g
 from planner_ft.data.task.working import SUM
+from planner_ft.facts import geometry as g
 from planner_ft.facts import read_input
 from planner_ft.facts.derived import Ground
 from planner_ft.facts.reading import ROUNDING
