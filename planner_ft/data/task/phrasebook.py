@@ -6,6 +6,7 @@ parameter names.
 
 from __future__ import annotations
 
+import functools
 import random
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -226,6 +227,12 @@ class Phrasebook:
             known = [*own, *own, *compiled(texts)]
             self._fitting[place] = [template for template in known if template.fits(given)]
         return self._fitting[place]
+
+
+@functools.lru_cache(maxsize=8)
+def phrasebook(vocabulary: Vocabulary, *, unseen: bool) -> Phrasebook:
+    """The vocabulary's phrases, compiled once."""
+    return Phrasebook(vocabulary, unseen=unseen)
 
 
 def compiled(texts: Sequence[str]) -> list[Template]:

@@ -20,7 +20,7 @@ from planner_ft.data.noise import noisy
 from planner_ft.data.numbers import pick
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.frames import Speaker, sentences
-from planner_ft.data.task.phrasebook import Phrasebook
+from planner_ft.data.task.phrasebook import phrasebook
 from planner_ft.data.task.prompts.draw import draw_template
 from planner_ft.data.task.prompts.library import bindings
 from planner_ft.data.task.script import draw_script, expected_plan
@@ -95,7 +95,7 @@ class _Draws:
 
     def __init__(self, vocabulary: Vocabulary, rng: random.Random, split: Split) -> None:
         self.unseen = split == "test_unseen"
-        self.book, self.rng, self.split = Phrasebook(vocabulary, unseen=self.unseen), rng, split
+        self.book, self.rng, self.split = phrasebook(vocabulary, unseen=self.unseen), rng, split
         self.templates = [] if self.unseen else templates(vocabulary, "prompts", split)
 
     def any(self) -> Draw:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -29,17 +30,24 @@ def plan_step(
     """A step of the plan, with the strings that its skills report. Parameters are brought into
     canonical form.
     """
-    running = [
-        vocabulary.skill[entry["name"]] for entry in ({"name": name}, *filters, *perceptions)
-    ]
+    running = (name, *(entry["name"] for entry in (*filters, *perceptions)))
+    stops, failures, outputs = _reports(vocabulary, running)
     return {
         "navigation_skill": entry_of(name, parameters, vocabulary),
         "filter_skills": filters,
         "perception_skills": perceptions,
-        "stop_conditions": _distinct([running[0].stop]),
-        "failure_modes": _distinct(skill.failure for skill in running),
-        "expected_outputs": _distinct(skill.output for skill in running),
+        "stop_conditions": list(stops),
+        "failure_modes": list(failures),
+        "expected_outputs": list(outputs),
     }
+
+
+@functools.lru_cache(maxsize=4096)
+def _reports(vocabulary: Vocabulary, running: tuple[str, ...]) -> tuple[list[str], ...]:
+    """Stop condition of the first skill, failure modes and outputs of all."""
+    skills = [vocabulary.skill[name] for name in running]
+    failures, outputs = ([getattr(skill, key) for skill in skills] for key in ("failure", "output"))
+    return _distinct([skills[0].stop]), _distinct(failures), _distinct(outputs)
 
 
 def _distinct(texts: Iterable[str | None]) -> list[str]:
