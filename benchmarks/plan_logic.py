@@ -13,9 +13,8 @@ import itertools
 import time
 from typing import Any
 
-from planner_ft.benchmark.answer import Answer
-from planner_ft.benchmark.plan_logic import plan_logic
 from planner_ft.benchmark.samples import Sample
+from planner_ft.benchmark.scoring import Answer, plan_logic
 from planner_ft.data.missions import sample_missions
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.facts import corrections
@@ -33,7 +32,7 @@ def measure(name: str, level: Level, records: list[dict[str, Any]]) -> None:
         for number, record in enumerate(records)
     ]
     started = time.process_time()
-    found = [plan_logic(answer).values() for answer in answers]
+    found = [plan_logic(answer)[0] for answer in answers]
     first = time.process_time()
     for answer in answers:
         plan_logic(answer)

@@ -5,29 +5,26 @@ examples of failures.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
-from planner_ft.benchmark.metrics import (
-    FAILURES,
-    Counts,
-    counts_by_name,
-    counts_by_role,
-    substitutions,
-)
-from planner_ft.benchmark.metrics.entries import Entry
+from planner_ft.benchmark.metrics.counts import Counts
+from planner_ft.benchmark.metrics.failures import FAILURES
+from planner_ft.benchmark.metrics.names import counts_by_name, counts_by_role
 from planner_ft.benchmark.metrics.slots import KINDS
+from planner_ft.benchmark.metrics.substitutions import substitutions
 from planner_ft.benchmark.scoring import SampleScore
 from planner_ft.benchmark.statistics import Estimate, clustered_rate
 
 SHOWN = 5
 """Examples of each kind of failure."""
 Breakdown = dict[str, Any]
-Counted = list[tuple[SampleScore, dict[str, Counts]]]
+Lines = list[dict[str, Any]]
+Scores = Sequence[SampleScore]
 
 
-def breakdown(scores: Sequence[SampleScore]) -> Breakdown:
-    """What results.json has per row beside its metrics.
+def breakdown(scores: Scores) -> Breakdown:
+    """The parts of a row of results.json beside its metrics.
 
     `per_name`, and at task level `per_role`: `expected` (the support), `predicted` and `right`
     occurrences, `samples` that expect it, precision, recall and F1 with intervals. `per_type`:
@@ -38,35 +35,29 @@ def breakdown(scores: Sequence[SampleScore]) -> Breakdown:
     that stops. `slots`: facts that the inputs state, by kind, and those that reached parameters and
     task prompts.
     """
-    by_name = _counted(
-        scores,
-        lambda score: counts_by_name(
-            _names(score.alignment.predicted), _names(score.alignment.expected)
-        ),
-    )
-    found: Breakdown = {"per_name": _tables(by_name, "name")}
+    families = [score.family for score in scores]
+    aligned = [(score.alignment.predicted, score.alignment.expected) for score in scores]
+    by_name = [
+        counts_by_name([entry.name for entry in ours], [entry.name for entry in theirs])
+        for ours, theirs in aligned
+    ]
+    found: Breakdown = {"per_name": _per(by_name, families, "name")}
     if any("navigation_size" in score.values for score in scores):
-        found["per_role"] = _tables(
-            _counted(
-                scores,
-                lambda score: counts_by_role(score.alignment.predicted, score.alignment.expected),
-            ),
-            "role",
-        )
+        by_role = [counts_by_role(*entries) for entries in aligned]
+        found["per_role"] = _per(by_role, families, "role")
+    ungrounded = [score.id for score in scores if score.details.get("ungrounded")]
     return {
         **found,
-        "per_type": _per_type(scores),
-        "substitutions": substitution_counts(scores),
-        "failure_examples": failure_examples(scores),
-        "stops": stop_counts(scores),
-        "slots": slot_shares(scores),
-        "ungrounded_examples": [score.id for score in scores if score.details.get("ungrounded")][
-            :SHOWN
-        ],
+        "per_type": _per_type(scores, families),
+        "substitutions": _substitutions(scores),
+        "failure_examples": _failure_examples(scores),
+        "stops": _stops(scores),
+        "slots": _slots(scores, families),
+        "ungrounded_examples": ungrounded[:SHOWN],
     }
 
 
-def failure_examples(scores: Sequence[SampleScore]) -> dict[str, list[str]]:
+def _failure_examples(scores: Scores) -> dict[str, list[str]]:
     """The first ids of wrong answers of each kind that there is."""
     found: dict[str, list[str]] = {kind: [] for kind in FAILURES}
     for score in scores:
@@ -75,85 +66,70 @@ def failure_examples(scores: Sequence[SampleScore]) -> dict[str, list[str]]:
     return {kind: ids[:SHOWN] for kind, ids in found.items() if ids}
 
 
-def substitution_counts(scores: Sequence[SampleScore]) -> list[dict[str, Any]]:
+def _substitutions(scores: Scores) -> Lines:
     """Pairs of expected and predicted name that do not agree, most frequent first."""
     counts = Counter(pair for score in scores for pair in substitutions(score.alignment))
-    ordered = sorted(
-        counts.items(), key=lambda item: (-item[1], item[0][0] or "", item[0][1] or "")
-    )
     return [
         {"expected": expected, "predicted": predicted, "n": count}
-        for (expected, predicted), count in ordered
+        for (expected, predicted), count in sorted(
+            counts.items(), key=lambda item: (-item[1], item[0][0] or "", item[0][1] or "")
+        )
     ]
 
 
-def stop_counts(scores: Sequence[SampleScore]) -> list[dict[str, Any]]:
+def _stops(scores: Scores) -> Lines:
     """Where mission plans stop, the most frequent first, with the first ids."""
     ids: dict[tuple[str, str], list[str]] = {}
     for score in scores:
-        stop = score.details.get("stop")
-        if stop:
+        if stop := score.details.get("stop"):
             ids.setdefault((stop["condition"], stop["title"]), []).append(score.id)
     ordered = sorted(ids.items(), key=lambda item: (-len(item[1]), item[0]))
     return [
-        {"condition": condition, "title": title, "n": len(of_them), "examples": of_them[:SHOWN]}
-        for (condition, title), of_them in ordered
+        {"condition": condition, "title": title, "n": len(found), "examples": found[:SHOWN]}
+        for (condition, title), found in ordered
     ]
 
 
-def slot_shares(scores: Sequence[SampleScore]) -> list[dict[str, Any]]:
+def _slots(scores: Scores, families: Sequence[str]) -> Lines:
     """Per kind of slot: how many are stated, and how many reached the right parameters and (mission
     level) task prompts, with the shares.
     """
-    families = [score.family for score in scores]
-    lines: list[dict[str, Any]] = []
+    lines: Lines = []
     for kind in KINDS:
         counts = [score.details.get("slots", {}).get(kind, (0, 0, 0)) for score in scores]
         stated = sum(count[0] for count in counts)
         line: dict[str, Any] = {"kind": kind, "stated": stated}
         for place, name in ((1, "in_parameters"), (2, "in_prompt")):
             if all(count[place] is not None for count in counts):
-                line[name] = sum(count[place] for count in counts)
-                line[f"{name}_share"] = _share(
-                    ((count[place], count[0]) for count in counts), families
-                ).to_json()
+                pairs = [(count[place], count[0]) for count in counts]
+                line[name] = sum(right for right, _all in pairs)
+                line[f"{name}_share"] = _share(pairs, families).to_json()
         lines += [line] if stated else []
     return lines
 
 
-def _counted(
-    scores: Sequence[SampleScore], count: Callable[[SampleScore], dict[str, Counts]]
-) -> Counted:
-    return [(score, count(score)) for score in scores]
-
-
-def _tables(counted: Counted, heading: str) -> list[dict[str, Any]]:
+def _per(
+    counted: Sequence[dict[str, Counts]], families: Sequence[str], heading: str
+) -> list[dict[str, Any]]:
     """A line per name or role, the most expected first."""
-    names = sorted({name for _score, counts in counted for name in counts})
-    nothing = Counts(0, 0, 0)
-    families = [score.family for score, _counts in counted]
-    lines = [
-        _line(heading, name, [counts.get(name, nothing) for _score, counts in counted], families)
-        for name in names
-    ]
+    nothing, lines = Counts(0, 0, 0), []
+    for name in {name for counts in counted for name in counts}:
+        column = [counts.get(name, nothing) for counts in counted]
+        of_predicted = _share(((one.right, one.predicted) for one in column), families)
+        of_expected = _share(((one.right, one.expected) for one in column), families)
+        lines.append(
+            {
+                heading: name,
+                "expected": sum(one.expected for one in column),
+                "predicted": sum(one.predicted for one in column),
+                "right": sum(one.right for one in column),
+                "samples": sum(one.expected > 0 for one in column),
+                "precision": of_predicted.to_json(),
+                "recall": of_expected.to_json(),
+                "f1": _f1(column, families).to_json(),
+            }
+        )
     return sorted(lines, key=lambda line: (-line["expected"], line[heading]))
-
-
-def _line(
-    heading: str, name: str, column: Sequence[Counts], families: Sequence[str]
-) -> dict[str, Any]:
-    return {
-        heading: name,
-        "expected": sum(entry.expected for entry in column),
-        "predicted": sum(entry.predicted for entry in column),
-        "right": sum(entry.right for entry in column),
-        "samples": sum(entry.expected > 0 for entry in column),
-        "precision": (
-            _share(((entry.right, entry.predicted) for entry in column), families).to_json()
-        ),
-        "recall": _share(((entry.right, entry.expected) for entry in column), families).to_json(),
-        "f1": _f1(column, families).to_json(),
-    }
 
 
 def _f1(column: Sequence[Counts], families: Sequence[str]) -> Estimate:
@@ -163,16 +139,10 @@ def _f1(column: Sequence[Counts], families: Sequence[str]) -> Estimate:
     With J the share of right ones among all that were expected or predicted (Jaccard 1912), F1 is 2
     J / (1 + J), which grows with J: the bounds of J give those of F1.
     """
-    share = _share(
-        ((entry.right, entry.predicted + entry.expected - entry.right) for entry in column),
-        families,
-    )
-    return Estimate(
-        *(
-            None if bound is None else 2 * bound / (1 + bound)
-            for bound in (share.value, share.low, share.high)
-        )
-    )
+    either = ((one.right, one.predicted + one.expected - one.right) for one in column)
+    share = _share(either, families)
+    bounds = (share.value, share.low, share.high)
+    return Estimate(*(None if bound is None else 2 * bound / (1 + bound) for bound in bounds))
 
 
 def _share(counts: Iterable[tuple[int, int]], families: Sequence[str]) -> Estimate:
@@ -185,26 +155,11 @@ def _share(counts: Iterable[tuple[int, int]], families: Sequence[str]) -> Estima
     return clustered_rate(hits, clusters)
 
 
-def _per_type(scores: Sequence[SampleScore]) -> list[dict[str, Any]]:
-    kinds = sorted({kind for score in scores for kind in score.types})
-    families = [score.family for score in scores]
+def _per_type(scores: Scores, families: Sequence[str]) -> Lines:
     lines = []
-    for kind in kinds:
+    for kind in {kind for score in scores for kind in score.types}:
         counts = [score.types.get(kind, (0, 0)) for score in scores]
-        right, expected = (
-            sum(right for right, _all in counts),
-            sum(of_all for _right, of_all in counts),
-        )
-        lines.append(
-            {
-                "type": kind,
-                "expected": expected,
-                "right": right,
-                "share": _share(counts, families).to_json(),
-            }
-        )
+        right, expected = (sum(column) for column in zip(*counts, strict=True))
+        share = _share(counts, families).to_json()
+        lines.append({"type": kind, "expected": expected, "right": right, "share": share})
     return sorted(lines, key=lambda line: (-line["expected"], line["type"]))
-
-
-def _names(entries: Sequence[Entry]) -> list[str]:
-    return [entry.name for entry in entries]

@@ -1,4 +1,4 @@
-"""What enforcing rules changes, paired by sample: the same weights decoded freely and at a higher
+"""Changes by enforcing rules, paired by sample: the same weights decoded freely and at a higher
 strength.
 
 A grammar turns an invented name into one of the vocabulary, and not always into the right one. The
@@ -13,28 +13,22 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-from planner_ft.benchmark.catalogue import CATALOGUE
-from planner_ft.benchmark.paired import Paired, holm, paired
-from planner_ft.benchmark.verdicts import MARKS, signed, verdict
+from planner_ft.benchmark.catalogue import METRIC
+from planner_ft.benchmark.contrasts import Scores, by_system
+from planner_ft.benchmark.paired import Paired, Score, holm, paired
 
 RIGHT = "right"
 """The outcome of an answer with right names, order and parameters."""
-
-Score = dict[str, Any]
-Answers = dict[str, list[Score]]
-F1, WHOLE_PLAN = (
-    next(metric for metric in CATALOGUE if metric.name == name) for name in ("f1", "whole_plan")
-)
 
 
 @dataclass(frozen=True)
 class Change:
     """One configuration against another of the same candidate, over the samples that both answered.
 
-    `f1` and `whole_plan` are compared by sample (after minus before, see `paired`); `p_adjusted`
-    are their p-values after Holm over all changes of a run. `seconds` and `forward_passes` are
-    ratios of the sums, None where they are not known. `outcomes` counts answers by (outcome before,
-    outcome after), an outcome being "right" or a kind of failure.
+    `f1` and `whole_plan` are compared by sample (after minus before); `p_adjusted` are their
+    p-values after Holm over all changes of a run. `seconds` and `forward_passes` are ratios of the
+    sums, None where they are not known. `outcomes` counts answers by (outcome before, outcome
+    after), an outcome being "right" or a kind of failure.
     """
 
     candidate: str
@@ -49,15 +43,12 @@ class Change:
     p_adjusted: tuple[float | None, float | None] = (None, None)
 
     def to_json(self) -> dict[str, Any]:
-        figures = {
-            name: one.difference.to_json()
-            for name, one in (("f1", self.f1), ("whole_plan", self.whole_plan))
-        }
-        tests = {"p": [self.f1.p, self.whole_plan.p], "p_adjusted": list(self.p_adjusted)}
         return {
             **asdict(self),
-            **figures,
-            **tests,
+            "f1": self.f1.difference.to_json(),
+            "whole_plan": self.whole_plan.difference.to_json(),
+            "p": [self.f1.p, self.whole_plan.p],
+            "p_adjusted": list(self.p_adjusted),
             "outcomes": [
                 {"before": before, "after": after, "n": count}
                 for (before, after), count in self.outcomes.items()
@@ -65,27 +56,24 @@ class Change:
         }
 
 
-def changes(scores: Sequence[Score], seed: int) -> list[Change]:
+def changes(scores: Sequence[dict[str, Any]], seed: int) -> list[Change]:
     """Every enforced configuration against the free one of the same weights ("lora+state" against
     "lora").
     """
-    systems: dict[tuple[str, str], Answers] = {}
-    for score in scores:
-        systems.setdefault((score["candidate"], score["configuration"]), {}).setdefault(
-            score["id"], []
-        ).append(score)
+    # Scores of earlier versions do not say whether the whole plan is right.
+    systems = by_system({**score, "whole_plan": score["failure"] is None} for score in scores)
     found = []
     for (candidate, configuration), after in systems.items():
         free, enforced, _strength = configuration.partition("+")
         before = systems.get((candidate, free))
         if enforced and before:
-            found.append(compare(candidate, free, before, configuration, after, seed))
+            found.append(_change(candidate, free, before, configuration, after, seed))
     holms = iter(holm([p for change in found for p in (change.f1.p, change.whole_plan.p)]))
     return [replace(change, p_adjusted=(next(holms), next(holms))) for change in found]
 
 
-def compare(
-    candidate: str, first: str, before: Answers, second: str, after: Answers, seed: int
+def _change(
+    candidate: str, first: str, before: Scores, second: str, after: Scores, seed: int
 ) -> Change:
     """Pair two configurations by sample id, and repeats by their number."""
     pairs = [
@@ -100,22 +88,15 @@ def compare(
         first,
         second,
         len(before.keys() & after.keys()),
-        f1=paired(F1, before, after, seed),
-        whole_plan=paired(WHOLE_PLAN, _with_whole_plan(before), _with_whole_plan(after), seed),
+        f1=paired(METRIC["f1"], before, after, seed),
+        whole_plan=paired(METRIC["whole_plan"], before, after, seed),
         seconds=_ratio(pairs, "latency_s"),
         forward_passes=_ratio(pairs, "forward_passes"),
         outcomes=dict(outcomes.most_common()),
     )
 
 
-def _with_whole_plan(answers: Answers) -> Answers:
-    return {
-        name: [{**score, "whole_plan": score["failure"] is None} for score in scores]
-        for name, scores in answers.items()
-    }
-
-
-def _ratio(pairs: list[tuple[Score, Score]], key: str) -> float | None:
+def _ratio(pairs: Sequence[tuple[Score, Score]], key: str) -> float | None:
     known = [
         (old[key], new[key])
         for old, new in pairs
@@ -123,49 +104,3 @@ def _ratio(pairs: list[tuple[Score, Score]], key: str) -> float | None:
     ]
     total = sum(old for old, _new in known)
     return sum(new for _old, new in known) / total if total else None
-
-
-def changes_markdown(found: Sequence[Change]) -> list[str]:
-    """Two tables in Markdown: differences, and the outcomes that changed."""
-    if not found:
-        return []
-    lines = [
-        "| What enforcing changes | n | F1 (difference) | Whole plan right (difference, points) |"
-        " Latency (ratio) | Forward passes (ratio) |"
-    ]
-    lines.append("|---|---:|---:|---:|---:|---:|")
-    for change in found:
-        f1, whole_plan = (
-            MARKS[verdict(one, p)]
-            for one, p in zip((change.f1, change.whole_plan), change.p_adjusted, strict=True)
-        )
-        differences = (
-            f"{signed(change.f1.difference)} {f1}",
-            f"{signed(change.whole_plan.difference, 100, 1)} {whole_plan}",
-        )
-        cells = (*differences, _times(change.seconds), _times(change.forward_passes))
-        lines.append(
-            f"| {change.candidate}, {change.before} → {change.after} | {change.n} |"
-            f" {' | '.join(cells)} |"
-        )
-    moved = [
-        (change, pair, count)
-        for change in found
-        for pair, count in change.outcomes.items()
-        if pair[0] != pair[1]
-    ]
-    if moved:
-        lines += [
-            "",
-            "| Outcome, sample by sample | free | enforced | samples |",
-            "|---|---|---|---:|",
-        ]
-        lines += [
-            f"| {change.candidate}, {change.before} → {change.after} | {old} | {new} | {count} |"
-            for change, (old, new), count in moved
-        ]
-    return [*lines, ""]
-
-
-def _times(ratio: float | None) -> str:
-    return "–" if ratio is None else f"× {ratio:.2f}"

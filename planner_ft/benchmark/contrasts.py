@@ -1,15 +1,15 @@
 """The comparisons that a table of results makes: configurations of one model, models with the best
-one, everything with the baselines.
+one, everything with the baselines; their marks and sentences.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal
 
-from planner_ft.benchmark.catalogue import CATALOGUE, Metric
+from planner_ft.benchmark.catalogue import METRIC, Metric
 from planner_ft.benchmark.paired import Paired, Score, paired
-from planner_ft.benchmark.verdicts import DEFAULT_METRICS, LOWER_IS_BETTER, Comparison, adjusted
+from planner_ft.benchmark.verdicts import DEFAULT_METRICS, EXPLAINED, Comparison, adjusted, p_text
 
 Question = Literal["configuration", "best", "baseline"]
 """configuration: a model's configurations with its first one, enforced ones with the free one of
@@ -21,9 +21,11 @@ System = tuple[str, str]
 Scores = dict[str, list[Score]]
 """The scores of a system by sample id."""
 
-METRICS = (*DEFAULT_METRICS, "schema_valid")
+COMPARED = (*DEFAULT_METRICS, "schema_valid")
 DECISIVE = ("f1", "whole_plan")
 """The metrics that say whether a baseline is beaten."""
+BEST = "★"
+NOT_WORSE = ("equal", "not told apart", "better")
 
 
 def contrasts(
@@ -32,97 +34,131 @@ def contrasts(
     """All comparisons from the lines of scores.jsonl and baselines.jsonl, adjusted after Holm
     within each question.
     """
-    rows, without_model = _by_system(scores), _by_system(baselines)
-    found: dict[Question, list[Comparison]] = {}
-    found["configuration"] = _adjusted(
-        [
-            (first, second, one)
-            for first, second in _configurations(rows)
-            for one in _paired(rows[first], rows[second], METRICS, seed)
-        ]
-    )
-    found["best"] = _adjusted(_with_best(rows, seed))
-    against = [(first, second) for second in rows for first in without_model]
-    found["baseline"] = _adjusted(
-        [
-            (first, second, one)
-            for first, second in against
-            for one in _paired(without_model[first], rows[second], DECISIVE, seed)
-        ]
-    )
-    return found
+    rows, without_model = by_system(scores), by_system(baselines)
+    everything = rows | without_model
+    pairs = _configurations(list(rows))
+    beside = [(first, second) for second in rows for first in without_model]
+    wanted: dict[Question, list[tuple[System, System, Metric]]] = {
+        "configuration": [(*pair, metric) for pair in pairs for metric in _metrics(COMPARED)],
+        "best": _with_best(rows),
+        "baseline": [(*pair, metric) for pair in beside for metric in _metrics(DECISIVE)],
+    }
+
+    def compared(first: System, second: System, metric: Metric) -> tuple[str, str, Paired]:
+        found = paired(metric, everything[first], everything[second], seed)
+        return system_key(first), system_key(second), found
+
+    return {
+        question: adjusted([compared(*one) for one in asked]) for question, asked in wanted.items()
+    }
 
 
 def system_key(system: System) -> str:
-    """How comparisons name a row: "candidate configuration", as results.json and `plannerft
-    compare` do.
-    """
+    """How comparisons name a row: "candidate configuration"."""
     return " ".join(system)
 
 
-def _by_system(scores: Sequence[Mapping[str, Any]]) -> dict[System, Scores]:
+def by_system(scores: Iterable[Mapping[str, Any]]) -> dict[System, Scores]:
+    """Lines of scores.jsonl by system, then by sample id."""
     rows: dict[System, Scores] = {}
     for score in scores:
-        rows.setdefault((score["candidate"], score["configuration"]), {}).setdefault(
-            score["id"], []
-        ).append(score)
+        of_system = rows.setdefault((score["candidate"], score["configuration"]), {})
+        of_system.setdefault(score["id"], []).append(score)
     return rows
 
 
-def _paired(first: Scores, second: Scores, names: Sequence[str], seed: int) -> list[Paired]:
-    return [paired(metric, first, second, seed) for metric in CATALOGUE if metric.name in names]
+def _metrics(names: Sequence[str]) -> list[Metric]:
+    return [metric for name, metric in METRIC.items() if name in names]
 
 
-def _adjusted(found: Sequence[tuple[System, System, Paired]]) -> list[Comparison]:
-    return adjusted([(system_key(first), system_key(second), one) for first, second, one in found])
-
-
-def _configurations(rows: Mapping[System, Scores]) -> list[tuple[System, System]]:
-    """(against, row) within each candidate."""
+def _configurations(systems: Sequence[System]) -> list[tuple[System, System]]:
+    """(reference, row) within each candidate."""
     pairs = []
-    for candidate, configuration in rows:
-        own = [other for name, other in rows if name == candidate]
+    for candidate, configuration in systems:
+        own = [other for name, other in systems if name == candidate]
         free = configuration.partition("+")[0]
-        against = free if free != configuration and free in own else own[0]
-        if against != configuration:
-            pairs.append(((candidate, against), (candidate, configuration)))
+        reference = free if free != configuration and free in own else own[0]
+        if reference != configuration:
+            pairs.append(((candidate, reference), (candidate, configuration)))
     return pairs
 
 
-def _with_best(rows: Mapping[System, Scores], seed: int) -> list[tuple[System, System, Paired]]:
+def _with_best(rows: Mapping[System, Scores]) -> list[tuple[System, System, Metric]]:
     """Each candidate with the best one of the same configuration, metric by metric; the first of
     those that are equally good.
     """
     found = []
     for configuration in dict.fromkeys(configuration for _candidate, configuration in rows):
         systems = [system for system in rows if system[1] == configuration]
-        for metric in (
-            metric for metric in CATALOGUE if metric.name in METRICS and len(systems) > 1
-        ):
-            best = _best(metric, systems, rows)
-            found += [
-                (best, system, paired(metric, rows[best], rows[system], seed))
-                for system in systems
-                if best is not None and system != best
-            ]
+        for metric in _metrics(COMPARED) if len(systems) > 1 else ():
+            sign = -1 if metric.better == "↓" else 1
+            values = {system: _value(metric, rows[system]) for system in systems}
+            known = {one: sign * value for one, value in values.items() if value is not None}
+            if known:
+                best = max(known, key=known.__getitem__)
+                found += [(best, system, metric) for system in systems if system != best]
     return found
-
-
-def _best(metric: Metric, systems: Sequence[System], rows: Mapping[System, Scores]) -> Any:
-    sign = -1 if metric.name in LOWER_IS_BETTER else 1
-    values = [(_value(metric, rows[system]), system) for system in systems]
-    known = [
-        (sign * value, -index, system)
-        for index, (value, system) in enumerate(values)
-        if value is not None
-    ]
-    return max(known)[2] if known else None
 
 
 def _value(metric: Metric, scores: Scores) -> float | None:
     lines = [line for of_sample in scores.values() for line in of_sample]
     if metric.kind == "ratio":
-        below = sum(line.get(metric.over[1]) or 0 for line in lines)
-        return sum(line.get(metric.over[0]) or 0 for line in lines) / below if below else None
+        top, below = (sum(line.get(key) or 0 for line in lines) for key in metric.over)
+        return top / below if below else None
     known = [float(line[metric.name]) for line in lines if line.get(metric.name) is not None]
     return sum(known) / len(known) if known else None
+
+
+def marks(found: Mapping[Question, Sequence[Comparison]]) -> dict[tuple[str, str], str]:
+    """Marks by (system, metric): the verdict on the configuration that the row is compared with,
+    and ★ for the best of a column and its equals.
+    """
+    marked = {(one.second, one.paired.metric): one.mark for one in found["configuration"]}
+    best = {(one.first, one.paired.metric) for one in found["best"]}
+    best |= {(one.second, one.paired.metric) for one in found["best"] if one.verdict in NOT_WORSE}
+    return marked | {key: marked.get(key, "") + BEST for key in best}
+
+
+def contrast_notes(
+    found: Mapping[Question, Sequence[Comparison]], baseline_notes: Sequence[str] = ()
+) -> list[str]:
+    """The legend of the marks, and whether each row beats the baselines."""
+    lines = []
+    if found["configuration"]:
+        lines.append(
+            "Marks, paired by sample with the model's first configuration (enforced with free):"
+            f" {EXPLAINED}."
+        )
+    if found["best"]:
+        lines.append(
+            f"{BEST}: the best of its column, or not shown to be worse (same tests, adjusted for"
+            " all models and metrics)."
+        )
+    rows: dict[str, list[Comparison]] = {}
+    for one in found["baseline"]:
+        rows.setdefault(one.second, []).append(one)
+    return [*lines, *baseline_notes, *(_sentence(name, of_row) for name, of_row in rows.items())]
+
+
+def baseline_name(name: str) -> str:
+    """A baseline without its configuration."""
+    return name.removesuffix(" baseline")
+
+
+def _sentence(name: str, comparisons: Sequence[Comparison]) -> str:
+    """The baselines that a row beats, and those that it is not shown to beat."""
+    beaten = _listed([one for one in comparisons if one.verdict == "better"])
+    others = _listed([one for one in comparisons if one.verdict != "better"])
+    parts = [f"beats {beaten}"] if beaten else []
+    parts += [f"is not shown to beat {others}"] if others else []
+    return f"{name} {', but '.join(parts)}."
+
+
+def _listed(comparisons: Sequence[Comparison]) -> str:
+    """Baselines with the metrics in brackets."""
+    by_first: dict[str, list[str]] = {}
+    for one in comparisons:
+        metric = one.paired.metric.replace("_", " ")
+        of_baseline = by_first.setdefault(baseline_name(one.first), [])
+        of_baseline.append(f"{metric}: p {p_text(one.p_adjusted)}")
+    return " and ".join(f"the {name} ({', '.join(found)})" for name, found in by_first.items())

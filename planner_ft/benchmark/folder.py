@@ -1,4 +1,4 @@
-"""The output folder of a run: which files it holds, refusing to overwrite them, writing results."""
+"""The output folder of a run: its files, refusing to overwrite them, writing results."""
 
 from __future__ import annotations
 
@@ -12,16 +12,9 @@ from planner_ft.benchmark.tables import render_tables
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import write_json, write_jsonl, write_text
 
-RESULTS, SCORES, PREDICTIONS, LATENCY, RUN = (
-    "results.json",
-    "scores.jsonl",
-    "predictions.jsonl",
-    "latency.jsonl",
-    "run.json",
-)
-PLANNING = "planning.jsonl"
-BASELINES = "baselines.jsonl"
-REPORT = "report.html"
+RESULTS, SCORES, BASELINES = "results.json", "scores.jsonl", "baselines.jsonl"
+PREDICTIONS, LATENCY, PLANNING = "predictions.jsonl", "latency.jsonl", "planning.jsonl"
+RUN, REPORT = "run.json", "report.html"
 TABLES = ("table.md", "table.csv", "table.tex")
 SCORED = (RESULTS, SCORES, BASELINES, *TABLES)
 ALL = (*SCORED, PREDICTIONS, LATENCY, PLANNING, RUN)
@@ -44,9 +37,8 @@ def check_writable(folder: Path) -> None:
     except (FileExistsError, NotADirectoryError):
         raise PlannerError(f"--out {folder}: is or lies below a file; give a folder") from None
     except OSError as error:
-        raise PlannerError(
-            f"--out {folder}: cannot be made ({error.strerror}); give another folder"
-        ) from None
+        problem = f"cannot be made ({error.strerror}); give another folder"
+        raise PlannerError(f"--out {folder}: {problem}") from None
     if not os.access(folder, os.W_OK | os.X_OK):
         raise PlannerError(f"--out {folder}: cannot be written; give another folder")
 

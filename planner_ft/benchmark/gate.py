@@ -9,17 +9,24 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.runner import Progress, run_bench
-from planner_ft.benchmark.scoring import METRICS
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.support.errors import GateError, PlannerError
 from planner_ft.support.files import read_text
 from planner_ft.vocabulary.plans import check_level
 
-REQUIRED = ("level", "candidate", "configuration", "thresholds")
-OPTIONAL = ("data", "adapter", "vocabulary", "limit", "max_new_tokens", "latency_samples")
-NOT_RATES = ("latency_s", "tokens", "forward_passes")
+REQUIRED = {"level": str, "candidate": str, "configuration": str, "thresholds": dict}
+OPTIONAL = {
+    "data": str,
+    "adapter": str,
+    "vocabulary": str,
+    "limit": int,
+    "max_new_tokens": int,
+    "latency_samples": int,
+}
+KEYS: dict[str, type] = {**REQUIRED, **OPTIONAL}
 
 
 @dataclass(frozen=True)
@@ -60,30 +67,33 @@ def load_gate(path: Path) -> Gate:
     except tomllib.TOMLDecodeError as error:
         raise PlannerError(f"{path}: not TOML: {error}") from None
     problems = [f"{key} is missing" for key in REQUIRED if key not in raw]
-    problems += [
-        f"unknown key {key!r} (there are {', '.join((*REQUIRED, *OPTIONAL))})"
-        for key in raw
-        if key not in (*REQUIRED, *OPTIONAL)
-    ]
-    kinds: dict[str, type] = dict.fromkeys(("limit", "max_new_tokens", "latency_samples"), int) | {
-        "thresholds": dict
-    }
-    problems += [
-        f"{key} must be a {kinds.get(key, str).__name__}"
-        for key in raw
-        if key in (*REQUIRED, *OPTIONAL) and type(raw[key]) is not kinds.get(key, str)
-    ]
+    for key, value in raw.items():
+        if key not in KEYS:
+            problems.append(f"unknown key {key!r} (there are {', '.join(KEYS)})")
+        elif type(value) is not KEYS[key]:
+            problems.append(f"{key} must be a {KEYS[key].__name__}")
     if problems:
         raise PlannerError(f"{path}: {'; '.join(problems)}")
-    thresholds = tuple(
-        _threshold(path, metric, bounds) for metric, bounds in raw["thresholds"].items()
-    )
+    thresholds = tuple(_threshold(path, *item) for item in raw["thresholds"].items())
     if not thresholds:
         raise PlannerError(
             f"{path}: [thresholds] names no metric; write for example schema_valid = {{ min ="
             " 0.98 }"
         )
-    return Gate(path, _settings(path, raw, thresholds), thresholds)
+    vocabulary = raw.get("vocabulary", "usv")
+    needs_latency = any(threshold.metric == "latency_s" for threshold in thresholds)
+    settings = BenchSettings(
+        level=check_level(raw["level"]),
+        candidates=(raw["candidate"],),
+        configurations=(raw["configuration"],),
+        data=path.parent / raw["data"] if "data" in raw else None,
+        adapters=(str(path.parent / raw["adapter"]),) if "adapter" in raw else (),
+        vocabulary=str(path.parent / vocabulary) if vocabulary.endswith(".toml") else vocabulary,
+        limit=raw.get("limit"),
+        max_new_tokens=raw.get("max_new_tokens"),
+        latency_samples=raw.get("latency_samples", 25 if needs_latency else 0),
+    )
+    return Gate(path, settings, thresholds)
 
 
 def run_gate(
@@ -98,46 +108,24 @@ def run_gate(
     """
     results = run_bench(dataclasses.replace(gate.settings, out=out, **changes), progress)
     show(results)
-    shortfalls = [
-        text for text in (threshold.shortfall(results) for threshold in gate.thresholds) if text
-    ]
-    if shortfalls:
-        raise GateError(
-            f"{gate.path}: {results.rows[0].system.label}, {results.rows[0].system.configuration}:"
-            f" {'; '.join(shortfalls)}"
-        )
+    found = (threshold.shortfall(results) for threshold in gate.thresholds)
+    if shortfalls := [text for text in found if text]:
+        system = results.rows[0].system
+        where = f"{gate.path}: {system.label}, {system.configuration}"
+        raise GateError(f"{where}: {'; '.join(shortfalls)}")
     return results
 
 
-def _settings(path: Path, raw: dict[str, Any], thresholds: tuple[Threshold, ...]) -> BenchSettings:
-    needs_latency = any(threshold.metric == "latency_s" for threshold in thresholds)
-    vocabulary = raw.get("vocabulary", "usv")
-    return BenchSettings(
-        level=check_level(raw["level"]),
-        candidates=(raw["candidate"],),
-        configurations=(raw["configuration"],),
-        data=path.parent / raw["data"] if "data" in raw else None,
-        adapters=(str(path.parent / raw["adapter"]),) if "adapter" in raw else (),
-        vocabulary=str(path.parent / vocabulary) if vocabulary.endswith(".toml") else vocabulary,
-        limit=raw.get("limit"),
-        max_new_tokens=raw.get("max_new_tokens"),
-        latency_samples=raw.get("latency_samples", 25 if needs_latency else 0),
-    )
-
-
 def _threshold(path: Path, metric: str, bounds: Any) -> Threshold:
-    if metric not in METRICS:
-        raise PlannerError(f"{path}: unknown metric {metric!r}; there are {', '.join(METRICS)}")
+    if metric not in METRIC:
+        raise PlannerError(f"{path}: unknown metric {metric!r}; there are {', '.join(METRIC)}")
     values = bounds if isinstance(bounds, dict) else {}
-    numbers = all(
-        isinstance(value, int | float) and not isinstance(value, bool) for value in values.values()
-    )
-    if not values or set(values) - {"min", "max"} or not numbers:
+    if not values or values.keys() - {"min", "max"} or {*map(type, values.values())} - {int, float}:
         raise PlannerError(
             f"{path}: {metric} must be a table of numbers with min or max, for example {metric} ="
             " { min = 0.98 }"
         )
-    if metric not in NOT_RATES and any(not 0 <= value <= 1 for value in values.values()):
+    if METRIC[metric].fraction and any(not 0 <= value <= 1 for value in values.values()):
         raise PlannerError(
             f"{path}: {metric} is a fraction between 0 and 1, as in results.json, not a percentage"
         )

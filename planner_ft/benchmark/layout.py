@@ -1,249 +1,170 @@
-"""What stands in the tables: columns, rows measured and published, and notes."""
+"""The rows of the tables: measured, published and baselines, with the notes that belong to them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
 
 from planner_ft.benchmark import published
-from planner_ft.benchmark.contrasts import system_key
-from planner_ft.benchmark.contrasts_text import contrast_notes, marks
-from planner_ft.benchmark.results import Results, Row
+from planner_ft.benchmark.catalogue import METRIC
+from planner_ft.benchmark.contrasts import contrast_notes, marks, system_key
+from planner_ft.benchmark.results import Results, Row, heading
 from planner_ft.benchmark.statistics import Estimate
-from planner_ft.vocabulary.plans import Level
-
-NOTHING = "–"
+from planner_ft.report.tables import NOTHING, Cell, RowKind, Table, row
 
 
-@dataclass(frozen=True)
-class Column:
-    """How a metric is shown. `scale` is 100 for rates in percent."""
-
-    metric: str
-    heading: str
-    better: str
-    scale: int = 1
-    decimals: int = 2
-    published_decimals: int = 2
-
-    def text(self, value: float | None, *, source: str = "measured") -> str:
-        """A figure in the unit of the column; published ones with the decimals that they have."""
-        decimals = self.published_decimals if source == "published" else self.decimals
-        return NOTHING if value is None else f"{value * self.scale:.{decimals}f}"
-
-    def interval(self, estimate: Estimate) -> str:
-        """The interval in brackets, or nothing where there is none."""
-        return (
-            ""
-            if estimate.low is None or estimate.high is None
-            else f"[{self.text(estimate.low)}, {self.text(estimate.high)}]"
-        )
-
-
-COLUMNS = (
-    Column("f1", "F1", "↑"),
-    Column("hallucination", "Hallucination (%)", "↓", 100, 1, 1),
-    Column("schema_valid", "Schema valid (%)", "↑", 100, 1, 1),
-    Column("strict_valid", "Strictly valid (%)", "↑", 100, 1, 1),
-    Column("latency_s", "Latency (s)", "↓", 1, 2, 1),
-    Column("tokens", "Tokens", "", 1, 1, 1),
-)
-"""The published columns, and strict validity."""
-MORE_COLUMNS = (
-    Column("exact_sequence", "Exact sequence (%)", "↑", 100, 1, 1),
-    Column("parameters", "Parameters right (%)", "↑", 100, 1, 1),
-    Column("whole_plan", "Whole plan right (%)", "↑", 100, 1, 1),
-    Column("forward_passes", "Forward passes", "↓", 1, 1, 1),
-    Column("parsed", "Parses (%)", "↑", 100, 1, 1),
-    Column("hallucination_with_unparsed", "Hallucination, unparsed counted (%)", "↓", 100, 1, 1),
-    Column(
-        "hallucination_without_unparsed", "Hallucination, unparsed not counted (%)", "↓", 100, 1, 1
-    ),
-)
-"""What the published tables leave out."""
-
-
-@dataclass(frozen=True)
-class TableRow:
-    """One model: measured, published or a baseline, with its figures by (metric, configuration),
-    and marks of real differences (see `contrasts_text`).
-    """
+class Line(NamedTuple):
+    """A row of figures: measured, published or a baseline."""
 
     model: str
-    source: str
+    configuration: str
     n: int
-    cells: dict[tuple[str, str], Estimate]
-    marks: dict[tuple[str, str], str] = field(default_factory=dict)
+    kind: RowKind
+    metrics: Mapping[str, Estimate]
+    marks: Mapping[str, str]
+
+    def cells(self, names: Sequence[str]) -> list[Cell]:
+        return [
+            METRIC[name].cell(
+                self.metrics.get(name, Estimate(None)),
+                self.marks.get(name, ""),
+                published=self.kind == "published",
+            )
+            for name in names
+        ]
 
 
-def measured_configurations(results: Results) -> list[str]:
-    """The configurations of a run, in its order."""
-    return list(dict.fromkeys(row.system.configuration for row in results.rows))
-
-
-def configurations(results: Results) -> list[str]:
-    """The columns of the table: a run's configurations, after the published ones where it has none
-    of those.
+def lines(results: Results) -> list[Line]:
+    """Measured rows, each candidate's followed by its published ones, then the baselines and the
+    other published rows.
     """
-    ours = measured_configurations(results)
-    alien = not set(ours) & set(published.CONFIGURATIONS)
-    return [*published.CONFIGURATIONS, *ours] if alien and shows_published(results) else ours
-
-
-def heading(configuration: str) -> str:
-    """A configuration as the published tables write it."""
-    return {"base": "Base", "lora": "LoRA"}.get(configuration, configuration)
-
-
-def measured_rows(results: Results) -> list[TableRow]:
-    """A row per candidate with all its configurations."""
-    rows: dict[str, TableRow] = {}
-    known = marks(results)
-    for row in results.rows:
-        entry = rows.setdefault(
-            row.system.candidate, TableRow(row.system.label, "measured", row.n, {})
-        )
-        entry.cells.update(
-            {
-                (metric, row.system.configuration): estimate
-                for metric, estimate in row.metrics.items()
-            }
-        )
-        name = system_key((row.system.candidate, row.system.configuration))
-        entry.marks.update(
-            {
-                (metric, row.system.configuration): known[name, metric]
-                for metric in row.metrics
-                if (name, metric) in known
-            }
-        )
-    return list(rows.values())
-
-
-def baseline_rows(results: Results) -> list[TableRow]:
-    """What needs no model; it knows neither base nor LoRA, so its figure stands in every column
-    that was measured.
-    """
-    names = measured_configurations(results)
-    return [
-        TableRow(
-            row.system.label,
-            "baseline",
-            row.n,
-            {
-                (metric, name): estimate
-                for metric, estimate in row.metrics.items()
-                for name in names
-            },
-        )
-        for row in results.baselines
-    ]
+    known = marks(results.contrasts)
+    theirs = _published(results)
+    found: list[Line] = []
+    for of_candidate in by_candidate(results.rows):
+        for one in of_candidate:
+            key = system_key((one.system.candidate, one.system.configuration))
+            own = {metric: mark for (system, metric), mark in known.items() if system == key}
+            label, name = one.system.label, heading(one.system.configuration)
+            found.append(Line(label, name, one.n, "measured", one.metrics, own))
+        system = of_candidate[0].system
+        found += theirs.pop(system.published or "", []) if not system.is_standin else []
+    for one in results.baselines:
+        found.append(Line(one.system.label, NOTHING, one.n, "baseline", one.metrics, {}))
+    return [*found, *(line for of_model in theirs.values() for line in of_model)]
 
 
 def shows_published(results: Results) -> bool:
-    """Published figures stand only beside real candidates and for the vehicle that they are
+    """Whether published figures stand beside: for real candidates and the vehicle that they are
     about.
     """
     vocabulary = results.manifest.get("configuration", {}).get("vocabulary", {}).get("name")
-    return vocabulary == published.VOCABULARY and any(
-        not row.system.is_standin for row in results.rows
-    )
+    real = any(not one.system.is_standin for one in results.rows)
+    return real and vocabulary == published.VOCABULARY
 
 
-def table_rows(results: Results) -> list[TableRow]:
-    """Measured rows, each followed by its published one, then the baselines and the other published
-    rows.
-    """
-    measured = measured_rows(results)
+def _published(results: Results) -> dict[str, list[Line]]:
+    """Published rows by model, in the configurations of the run if it has any of theirs."""
     if not shows_published(results):
-        return [*measured, *baseline_rows(results)]
-    theirs = {
-        row.model: _published_row(row, results.level)
-        for row in published.published_rows(results.level)
-    }
-    names = {
-        row.system.candidate: row.system.published
-        for row in results.rows
-        if not row.system.is_standin
-    }
-    ordered: list[TableRow] = []
-    for candidate, row in zip(
-        dict.fromkeys(row.system.candidate for row in results.rows), measured, strict=True
-    ):
-        ordered.append(row)
-        ordered += [theirs.pop(name) for name in [names.get(candidate)] if name in theirs]
-    return [*ordered, *baseline_rows(results), *theirs.values()]
+        return {}
+    ours = {one.system.configuration for one in results.rows}
+    shown = [name for name in published.CONFIGURATIONS if name in ours]
+    found: dict[str, list[Line]] = {}
+    for one in published.published_rows(results.level):
+        for name in shown or published.CONFIGURATIONS:
+            metrics = {
+                metric: Estimate(value)
+                for (metric, configuration), value in one.figures.items()
+                if configuration == name
+            }
+            n, label = published.SAMPLES[results.level], f"{one.model} (published)"
+            line = Line(label, heading(name), n, "published", metrics, {})
+            found.setdefault(one.model, []).append(line)
+    return found
+
+
+def metric_table(
+    name: str,
+    names: Sequence[str],
+    shown: Sequence[Line],
+    *,
+    headings: Sequence[str] = (),
+    corner: str = "Model",
+) -> Table:
+    """A row per line with these metrics; a metric that no line has a figure for is left out."""
+    known = [
+        (metric, headings[index] if headings else METRIC[metric].title)
+        for index, metric in enumerate(names)
+        if headings or any(has_figure(line, metric) for line in shown)
+    ]
+    metrics = [metric for metric, _title in known]
+    rows = tuple(
+        row(line.model, line.configuration, str(line.n), *line.cells(metrics), kind=line.kind)
+        for line in shown
+    )
+    columns = ("configuration" if headings else "Configuration", "n", *(text for _m, text in known))
+    return Table(name, "", "", "model" if headings else corner, columns, rows, texts=1)
+
+
+def has_figure(line: Line, metric: str) -> bool:
+    return line.metrics.get(metric, Estimate(None)).value is not None
 
 
 def notes(results: Results) -> list[str]:
-    """What a reader must know to read the table rightly."""
+    """What a reader must know to read the tables rightly."""
     rows = results.rows
     counted = "as hallucinated" if results.level == "mission" else "as not hallucinated"
-    lines = [
-        (
-            f"{results.level} level, n = {results.data['n']} samples of {results.data['path']}. In"
-            " brackets: 95 % intervals (rates: Wilson, n being the effective number of samples"
-            " where phrasings of one family agree; means: bootstrap, whole families resampled)."
-        ),
-        (
-            f"Hallucination counts an output that does not parse {counted}, as the published table"
-            " of this level does; both readings are in the second table of table.md."
-        ),
+    found = [
+        f"{results.level} level, n = {results.data['n']} samples of {results.data['path']}. In"
+        " brackets: 95 % intervals (rates: Wilson, n being the effective number of samples where"
+        " phrasings of one family agree; means: bootstrap, whole families resampled).",
+        f"Hallucination counts an output that does not parse {counted}, as the published table of"
+        " this level does; table.md has both readings.",
     ]
-    if any(row.latency_n for row in rows):
-        lines.append(
-            "Latency: one query at a time after warm-up, mean over"
-            f" {max(row.latency_n for row in rows)} samples on the machine in results.json."
+    if timed := max((one.latency_n for one in rows), default=0):
+        found.append(
+            f"Latency: one query at a time after warm-up, mean over {timed} samples on the machine"
+            " in results.json."
         )
     if shows_published(results):
-        lines.append(
-            f"(published): figures of the {published.source(results.level)}; not measured here."
+        source = published.source(results.level)
+        found.append(f"(published): figures of the {source}; not measured here.")
+    if any(one.system.configuration.endswith("+grounded") for one in rows):
+        found.append(
+            "+grounded decodes with the reader that groundedness is scored with: its share of"
+            " values that somebody gave is 100 % by construction."
         )
-    lines += contrast_notes(results)
-    for row in _first(rows):
-        if row.system.pretrained:
-            lines.append(
-                f"{row.system.label} was pretrained on synthetic plans of this vocabulary: its Base"
-                " column is not that of a general model."
+    found += contrast_notes(results.contrasts, results.baseline_notes)
+    for system in {one.system.candidate: one.system for one in rows}.values():
+        if system.pretrained:
+            found.append(
+                f"{system.label} was pretrained on synthetic plans of this vocabulary: its Base"
+                " figures are not those of a general model."
             )
-        if row.system.is_standin:
-            lines.append(
-                f"{row.system.label} is a tiny, randomly initialised model: its figures say nothing"
+        if system.is_standin:
+            found.append(
+                f"{system.label} is a tiny, randomly initialised model: its figures say nothing"
                 " about the real candidate."
             )
-    for row in rows:
-        if row.missing:
-            lines.append(
-                f"{system_name(row)}: {len(row.missing)} of {row.n} samples have no prediction and"
-                " count as empty outputs."
+    for one in rows:
+        cut, failed = (one.finish_reasons.get(reason) for reason in ("length", "error"))
+        if one.missing:
+            found.append(
+                f"{one.name}: {len(one.missing)} of {one.n} samples have no prediction and count as"
+                " empty outputs."
             )
-        if row.finish_reasons.get("length"):
-            lines.append(
-                f"{system_name(row)}: {row.finish_reasons['length']} of {row.n} outputs were cut at"
-                " the token limit."
+        if cut:
+            found.append(f"{one.name}: {cut} of {one.n} outputs were cut at the token limit.")
+        if failed:
+            found.append(
+                f"{one.name}: {failed} of {one.n} samples failed and count as empty outputs (see"
+                " predictions.jsonl)."
             )
-        if row.finish_reasons.get("error"):
-            lines.append(
-                f"{system_name(row)}: {row.finish_reasons['error']} of {row.n} samples failed and"
-                " count as empty outputs (see predictions.jsonl)."
-            )
-    return lines
+    return found
 
 
-def system_name(row: Row) -> str:
-    """Candidate and configuration in words."""
-    return f"{row.system.label}, {heading(row.system.configuration)}"
-
-
-def _first(rows: Iterable[Row]) -> list[Row]:
-    """One row per candidate."""
-    return list({row.system.candidate: row for row in rows}.values())
-
-
-def _published_row(row: published.PublishedRow, level: Level) -> TableRow:
-    return TableRow(
-        f"{row.model} (published)",
-        "published",
-        published.SAMPLES[level],
-        {key: Estimate(value) for key, value in row.figures.items()},
-    )
+def by_candidate(rows: Iterable[Row]) -> list[list[Row]]:
+    found: dict[str, list[Row]] = {}
+    for one in rows:
+        found.setdefault(one.system.candidate, []).append(one)
+    return list(found.values())

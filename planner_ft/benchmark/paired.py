@@ -5,7 +5,6 @@ is by chance.
 from __future__ import annotations
 
 import functools
-import math
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -18,19 +17,18 @@ from planner_ft.benchmark.statistics import (
     BLOCK,
     RESAMPLES,
     Estimate,
+    Floats,
     cluster_sums,
     clustered_rate,
     percentiles,
     resampled_sums,
 )
 
-Floats = NDArray[np.float64]
 Score = Mapping[str, Any]
 """A line of scores.jsonl."""
 Answers = Mapping[str, Sequence[Score]]
 """The scores of a system by sample id: one per sample, or one per repeat."""
 
-SIGNIFICANCE = 0.05
 ENUMERATED = 12
 """Families with a difference up to which all ways to swap them are tried (2**12) instead of
 RESAMPLES random ones.
@@ -65,63 +63,42 @@ def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired
     """Compare two systems by a metric, over the samples for which both have a value. Repeats of a
     sample are averaged first.
     """
-    both = {
-        name: (_terms(metric, first[name]), _terms(metric, second[name]))
-        for name in first
-        if name in second
-    }
-    known = {
-        name: (*one, *other)
-        for name, (one, other) in both.items()
-        if one is not None and other is not None
-    }
-    if not known:
+    families, terms = [], []
+    for name in (name for name in first if name in second):
+        one, other = _terms(metric, first[name]), _terms(metric, second[name])
+        if one is not None and other is not None:
+            families.append(str(first[name][0].get("family") or first[name][0].get("id")))
+            terms.append((*one, *other))
+    if not terms:
         return Paired(metric.name, 0, 0, None, None, Estimate(None))
-    families = [_family(first[name]) for name in known]
-    terms = list(known.values())
     sums = cluster_sums(terms, families)
-    one, other = (float(value) if np.isfinite(value) else None for value in _values(sums.sum(0)))
-    if one is None or other is None:
-        return Paired(metric.name, len(known), len(sums), one, other, Estimate(None))
-    binary = metric.kind == "rate" and all(value in (0, 1) for term in terms for value in term)
-    mcnemar = (
-        exact_mcnemar(
-            sum(term[0] > term[2] for term in terms), sum(term[0] < term[2] for term in terms)
-        )
-        if binary
-        else None
-    )
-    p = exact_swaps(sums[:, 2] - sums[:, 0]) if binary else swaps(sums, seed)
-    return Paired(
-        metric.name,
-        len(known),
-        len(sums),
-        one,
-        other,
-        _difference(metric, terms, sums, families, other - one, seed),
-        p,
-        mcnemar,
-    )
+    before, after = (float(value) if np.isfinite(value) else None for value in _values(sums.sum(0)))
+    if before is None or after is None:
+        return Paired(metric.name, len(terms), len(sums), before, after, Estimate(None))
+    difference = _difference(metric, terms, sums, families, after - before, seed)
+    mcnemar: float | None = None
+    if metric.kind == "rate" and all(value in (0, 1) for term in terms for value in term):
+        lost = sum(term[0] > term[2] for term in terms)
+        won = sum(term[0] < term[2] for term in terms)
+        p = exact_swaps(sums[:, 2] - sums[:, 0])
+        mcnemar = exact_mcnemar(lost, won)
+    else:
+        p = swaps(sums, seed)
+    return Paired(metric.name, len(terms), len(sums), before, after, difference, p, mcnemar)
 
 
 def _terms(metric: Metric, scores: Sequence[Score]) -> tuple[float, float] | None:
     """Numerator and denominator of a sample, means over its repeats; None where it says nothing
     about the metric.
     """
-    keys = metric.over if metric.kind == "ratio" else (metric.name, None)
-    known = [score for score in scores if score.get(keys[0]) is not None]
+    top, below = metric.over if metric.kind == "ratio" else (metric.name, "")
+    known = [score for score in scores if score.get(top) is not None]
     if not known:
         return None
-    numerator = sum(float(score[keys[0]]) for score in known) / len(known)
-    return numerator, (
-        1.0
-        if keys[1] is None
-        else sum(float(score.get(keys[1]) or 0) for score in known) / len(known)
-    )
-
-
-def _family(scores: Sequence[Score]) -> str:
-    return str(scores[0].get("family") or scores[0].get("id"))
+    numerator = sum(float(score[top]) for score in known) / len(known)
+    if not below:
+        return numerator, 1.0
+    return numerator, sum(float(score.get(below) or 0) for score in known) / len(known)
 
 
 def _values(sums: Floats) -> tuple[Any, Any]:
@@ -159,35 +136,28 @@ def _difference(
 
 
 def exact_mcnemar(lost: int, won: int) -> float:
-    """Two-sided p of McNemar's test by the binomial distribution: `lost` samples were right with
-    the first system alone, `won` with the second.
-
-    McNemar 1947; the exact form is the sign test of the pairs that differ.
+    """Two-sided p of the exact McNemar test (1947): `lost` samples were right with the first system
+    alone, `won` with the second.
     """
-    n = lost + won
-    tail = sum(math.comb(n, count) for count in range(min(lost, won) + 1))
-    # Integers throughout: with 2,000 pairs the terms are beyond a float.
-    return min(1.0, 2 * tail / 2**n) if n else 1.0
+    from statsmodels.stats.contingency_tables import mcnemar
+
+    return float(mcnemar([[0, lost], [won, 0]], exact=True).pvalue)
 
 
 def exact_swaps(differences: Iterable[float]) -> float:
     """Two-sided p that whole numbers, each with a random sign, have a sum as far from 0 as theirs:
-    exact, from the sum's distribution.
-
-    With differences of one sample each it is the exact McNemar test.
+    exact, from the sum's distribution. With differences of one sample each it is the exact McNemar
+    test.
     """
-    whole = [round(abs(value)) for value in differences if value]
-    seen = abs(sum(round(value) for value in differences if value)) if whole else 0
-    total = sum(whole)
+    whole = [round(value) for value in differences if value]
+    seen, total = abs(sum(whole)), sum(map(abs, whole))
+    if not seen:
+        return 1.0
     chances = np.zeros(2 * total + 1)
     chances[total] = 1
-    for size in whole:
+    for size in map(abs, whole):
         chances = (np.roll(chances, size) + np.roll(chances, -size)) / 2
-    return (
-        float(min(1.0, chances[: total - seen + 1].sum() + chances[total + seen :].sum()))
-        if seen
-        else 1.0
-    )
+    return float(min(1.0, chances[: total - seen + 1].sum() + chances[total + seen :].sum()))
 
 
 def swaps(sums: Floats, seed: int) -> float:
@@ -198,18 +168,15 @@ def swaps(sums: Floats, seed: int) -> float:
     differ, else RESAMPLES random ones.
     """
     differing = sums[(sums[:, :2] != sums[:, 2:]).any(1)]
-    if not len(differing):
+    count = len(differing)
+    if not count:
         return 1.0
-    exact = len(differing) <= ENUMERATED
-    swapped = _all_swaps(len(differing)) if exact else _random_swaps(len(differing), seed)
-    gained = (differing[:, 2:] - differing[:, :2])[None]
-    rows = max(1, BLOCK // len(differing))
-    moved = np.concatenate(
-        [
-            swapped[start : start + rows].astype(float) @ gained[0]
-            for start in range(0, len(swapped), rows)
-        ]
-    )
+    exact = count <= ENUMERATED
+    swapped = _all_swaps(count) if exact else _random_swaps(count, seed)
+    gained = differing[:, 2:] - differing[:, :2]
+    rows = max(1, BLOCK // count)
+    starts = range(0, len(swapped), rows)
+    moved = np.concatenate([swapped[at : at + rows].astype(float) @ gained for at in starts])
     whole = sums.sum(0)
     one, other = _values(np.concatenate([whole[:2] + moved, whole[2:] - moved], axis=1))
     seen_one, seen_other = _values(whole)
@@ -229,20 +196,13 @@ def _random_swaps(count: int, seed: int) -> NDArray[np.int8]:
 
 
 def holm(values: Sequence[float | None]) -> list[float | None]:
-    """p-values adjusted for how many there are (Holm 1979): the chance of one false difference
-    among all stays under SIGNIFICANCE.
-
-    None stands for a comparison that could not be made; it stays None and does not count.
+    """p-values adjusted for how many there are (Holm 1979). None stands for a comparison that could
+    not be made; it stays None and does not count.
     """
-    order = sorted((p, index) for index, p in enumerate(values) if p is not None)
-    adjusted: list[float | None] = [None] * len(values)
-    highest = 0.0
-    for rank, (p, index) in enumerate(order):
-        highest = max(highest, min(1.0, p * (len(order) - rank)))
-        adjusted[index] = highest
-    return adjusted
+    known = [value for value in values if value is not None]
+    if not known:
+        return [None] * len(values)
+    from statsmodels.stats.multitest import multipletests
 
-
-def is_real(p_adjusted: float | None) -> bool:
-    """Whether an adjusted p says that a difference is no chance."""
-    return p_adjusted is not None and p_adjusted < SIGNIFICANCE
+    adjusted = iter(multipletests(known, method="holm")[1].tolist())
+    return [None if value is None else next(adjusted) for value in values]

@@ -1,19 +1,18 @@
-"""Before anything is loaded: which candidates in which configurations, all checked, and what every
-answer depends on.
+"""Before anything is loaded: which candidates in which configurations, all checked, and everything
+that an answer depends on.
 """
 
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark.results import System
-from planner_ft.benchmark.sampled import repeated
 from planner_ft.benchmark.samples import BenchData, default_data, load_bench_data
-from planner_ft.benchmark.settings import BenchSettings
-from planner_ft.candidates import Candidate, resolve_candidate
+from planner_ft.benchmark.settings import BenchSettings, EndpointSettings
+from planner_ft.candidates import Candidate, all_candidates, resolve_candidate
 from planner_ft.candidates.adapters import (
     CONFIG,
     WEIGHTS,
@@ -40,6 +39,8 @@ TOKENIZER_FILES = (
     "special_tokens_map.json",
     "generation_config.json",
 )
+SERVER_SEED = 0
+"""Sent to servers with temperature 0, for those that break ties by chance."""
 
 
 @dataclass(frozen=True)
@@ -68,6 +69,32 @@ class Job:
         repeat = f" #{self.sampling.repeat}" if self.sampling else ""
         return f"{self.candidate.name} {self.configuration.name}{repeat}"
 
+    def named(self) -> dict[str, Any]:
+        """The fields of a record that name the job."""
+        names = {"candidate": self.candidate.name, "configuration": self.configuration.name}
+        return {**names, **({"repeat": self.sampling.repeat} if self.sampling else {})}
+
+    def repeated(self, settings: BenchSettings) -> list[Job]:
+        """The job once for every repeat, each with its own random numbers and its own key; the job
+        itself where decoding is greedy.
+        """
+        if settings.temperature == 0:
+            return [self]
+        jobs = []
+        for repeat in range(1, settings.repeats + 1):
+            drawn = {
+                "temperature": settings.temperature,
+                "top-p": settings.top_p,
+                "seed": settings.seed,
+                "repeat": repeat,
+            }
+            sampling = Sampling(settings.temperature, settings.top_p, settings.seed, repeat)
+            system = replace(self.system, repeat=repeat)
+            jobs.append(
+                replace(self, sampling=sampling, parts={**self.parts, **drawn}, system=system)
+            )
+        return jobs
+
 
 @dataclass(frozen=True)
 class Plan:
@@ -89,42 +116,43 @@ class Plan:
 
 def make_plan(settings: BenchSettings) -> Plan:
     """Check everything that can be checked before a model is loaded. Raises PlannerError."""
-    if settings.endpoint is not None:
-        from planner_ft.benchmark.sources.endpoint import endpoint_plan
-
-        return endpoint_plan(settings, settings.endpoint)
+    if settings.endpoint:
+        settings.endpoint.api_key()
     vocabulary = load_vocabulary(settings.vocabulary)
-    configurations = list(
-        dict.fromkeys(parse_configuration(text) for text in settings.configurations)
-    )
-    candidates = _candidates(settings)
-    adapters = (
-        _adapters(settings, candidates)
-        if any(configuration.adapter for configuration in configurations)
-        else {}
-    )
-    data = load_bench_data(
-        settings.data or default_data(settings.level), settings.level, vocabulary, settings.limit
-    )
-    device = resolve_device(settings.device)
-    compute = f"{device.type} {str(compute_dtype(device)).removeprefix('torch.')}"
-    jobs = []
-    for candidate in candidates:
-        adapter = adapters.get(candidate.name)
-        if adapter is not None:
-            check_adapter(adapter, candidate, level=settings.level, vocabulary=vocabulary)
-        threads = decoding_threads(candidate, device.type)
-        jobs += [
-            _job(settings, candidate, configuration, adapter, vocabulary, data, compute, threads)
-            for configuration in configurations
+    configurations = list(dict.fromkeys(map(parse_configuration, settings.configurations)))
+    if settings.endpoint:
+        _check_servable(configurations)
+    candidates = [] if settings.endpoint else _candidates(settings)
+    needs_adapter = any(configuration.adapter for configuration in configurations)
+    adapters = _adapters(settings, candidates) if candidates and needs_adapter else {}
+    path = settings.data or default_data(settings.level)
+    data = load_bench_data(path, settings.level, vocabulary, settings.limit)
+    # Everything that the answers of all jobs depend on.
+    common = {
+        "level": settings.level,
+        "prompt format": PROMPT_VERSION,
+        "vocabulary": vocabulary.sha256,
+        "data": data.sha256,
+        "max-new-tokens": settings.token_limit,
+    }
+    if settings.endpoint:
+        device = "server"
+        jobs = [_served_job(settings.endpoint, one, common) for one in configurations]
+    else:
+        torch_device = resolve_device(settings.device)
+        device = str(torch_device)
+        dtype = str(compute_dtype(torch_device)).removeprefix("torch.")
+        common["device"] = f"{torch_device.type} {dtype}"
+        for candidate in candidates:
+            if (adapter := adapters.get(candidate.name)) is not None:
+                check_adapter(adapter, candidate, level=settings.level, vocabulary=vocabulary)
+        jobs = [
+            _job(settings, candidate, one, adapters.get(candidate.name), vocabulary, common)
+            for candidate in candidates
+            for one in configurations
         ]
-    return Plan(
-        settings,
-        data,
-        vocabulary,
-        str(device),
-        tuple(one for job in jobs for one in repeated(job, settings)),
-    )
+    every = tuple(one for job in jobs for one in job.repeated(settings))
+    return Plan(settings, data, vocabulary, device, every)
 
 
 def _candidates(settings: BenchSettings) -> list[Candidate]:
@@ -166,11 +194,12 @@ def _adapters(settings: BenchSettings, candidates: list[Candidate]) -> dict[str,
             )
         chosen[target] = Path(folder if matching else text)
     level = settings.level
-    found = {
-        candidate.name: find_adapter(candidate, level) or adapter_folder(candidate, level)
+    return {
+        candidate.name: chosen.get(candidate.name)
+        or find_adapter(candidate, level)
+        or adapter_folder(candidate, level)
         for candidate in candidates
     }
-    return {**found, **chosen}
 
 
 def _job(
@@ -179,31 +208,24 @@ def _job(
     configuration: Configuration,
     adapter: Path | None,
     vocabulary: Vocabulary,
-    data: BenchData,
-    compute: str,
-    threads: int | None,
+    common: dict[str, Any],
 ) -> Job:
     folder = require_folder(candidate)
     used = adapter if configuration.adapter else None
+    pretrained = candidate.knows(vocabulary)
     # A fine-tuned model has learned the vocabulary, and so has one that was pretrained on it.
-    with_vocabulary = not configuration.adapter and not candidate.knows(vocabulary)
-    quantization = (
-        settings.quantization or candidate.adapter_defaults(settings.level).quantization or "nf4"
-    )
+    with_vocabulary = not configuration.adapter and not pretrained
+    default = candidate.adapter_defaults(settings.level).quantization
+    quantization = settings.quantization or default or "nf4"
     parts = {
-        "level": settings.level,
+        **common,
         "candidate": candidate.name,
         "configuration": configuration.name,
         "model": weights_sha256(folder),
         "tokenizer": sha256_tree(folder, TOKENIZER_FILES),
         "adapter": sha256_tree(used, (WEIGHTS, CONFIG)) if used else None,
-        "prompt format": PROMPT_VERSION,
         "vocabulary in the prompt": with_vocabulary,
-        "vocabulary": vocabulary.sha256,
-        "data": data.sha256,
-        "max-new-tokens": settings.token_limit,
         "quantization": quantization,
-        "device": compute,
     }
     system = System(
         candidate.name,
@@ -211,10 +233,48 @@ def _job(
         label=candidate.row_name,
         published=candidate.published,
         is_standin=candidate.is_standin,
-        pretrained=candidate.knows(vocabulary),
+        pretrained=pretrained,
         with_vocabulary=with_vocabulary,
         adapter=str(used) if used else None,
     )
+    threads = decoding_threads(candidate, str(common["device"]).split()[0])
     return Job(
         candidate, configuration, used, quantization, with_vocabulary, parts, system, threads
     )
+
+
+def _check_servable(configurations: list[Configuration]) -> None:
+    for configuration in configurations:
+        if configuration.strength not in ("free", "schema"):
+            raise PlannerError(
+                f"--configurations {configuration.name}: {configuration.strength} needs our own"
+                " decoding; with --endpoint there are base, lora (a fine-tuned model, told no"
+                " vocabulary), base+schema and lora+schema"
+            )
+
+
+def _served_job(
+    endpoint: EndpointSettings, configuration: Configuration, common: dict[str, Any]
+) -> Job:
+    """A job of the served model; published figures stand beside one of the published names."""
+    wanted, with_vocabulary = endpoint.model.lower(), not configuration.adapter
+    known = [
+        one for one in all_candidates() if wanted in ((one.repo or "").lower(), one.name.lower())
+    ]
+    candidate = Candidate(name=endpoint.model, published=known[0].published if known else None)
+    parts = {
+        **common,
+        "candidate": candidate.name,
+        "configuration": configuration.name,
+        "endpoint": endpoint.root,
+        "vocabulary in the prompt": with_vocabulary,
+        "sampling": {"temperature": 0, "seed": SERVER_SEED},
+    }
+    system = System(
+        candidate.name,
+        configuration.name,
+        label=f"{candidate.row_name} at {endpoint.host}",
+        published=candidate.published,
+        with_vocabulary=with_vocabulary,
+    )
+    return Job(candidate, configuration, None, "none", with_vocabulary, parts, system, None)

@@ -1,4 +1,4 @@
-"""The published figures (published/*.csv), to stand beside what is measured."""
+"""The published figures (published/*.csv), to stand beside measured ones."""
 
 from __future__ import annotations
 
@@ -10,9 +10,6 @@ from pathlib import Path
 from planner_ft.vocabulary.plans import Level
 
 FOLDER = Path(__file__).parent / "published"
-SOURCE = (
-    "published study ({level}-level table): its own {n} test samples, model weights and hardware"
-)
 SAMPLES: dict[Level, int] = {"mission": 25, "task": 500}
 CONFIGURATIONS = ("base", "lora")
 VOCABULARY = "usv"
@@ -21,9 +18,7 @@ VOCABULARY = "usv"
 
 @dataclass(frozen=True)
 class PublishedRow:
-    """One model's published figures by (metric, configuration), in the units of results.json: rates
-    are fractions.
-    """
+    """One model's published figures by (metric, configuration), rates as fractions."""
 
     model: str
     figures: dict[tuple[str, str], float]
@@ -38,7 +33,8 @@ def published_rows(level: Level) -> tuple[PublishedRow, ...]:
 
 def source(level: Level) -> str:
     """Where the published figures of a level come from."""
-    return SOURCE.format(level=level, n=SAMPLES[level])
+    own = f"its own {SAMPLES[level]} test samples, model weights and hardware"
+    return f"published study ({level}-level table): {own}"
 
 
 def _row(line: dict[str, str]) -> PublishedRow:
@@ -46,7 +42,6 @@ def _row(line: dict[str, str]) -> PublishedRow:
     for column, text in line.items():
         metric, _, configuration = column.rpartition("_")
         if configuration in CONFIGURATIONS:
-            figures[metric, configuration] = float(text) / (
-                100 if metric in ("hallucination", "schema_valid") else 1
-            )
+            percent = metric in ("hallucination", "schema_valid")
+            figures[metric, configuration] = float(text) / (100 if percent else 1)
     return PublishedRow(line["model"], figures)

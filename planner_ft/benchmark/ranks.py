@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -11,7 +10,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from planner_ft.benchmark.folder import PREDICTIONS
-from planner_ft.benchmark.predictions import RecordLog
+from planner_ft.benchmark.records import RecordLog, Tail
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.support.resources import end_with_parent
 
@@ -43,7 +42,7 @@ class Ranks:
             torch.distributed.barrier()
 
     def share(self, items: Sequence[Item]) -> list[Item]:
-        """This process's part of what all share. Every item is in the share of one process."""
+        """This process's part of the items that all share."""
         return list(items[self.rank :: self.world])
 
     def settings(self, settings: BenchSettings) -> BenchSettings:
@@ -54,20 +53,12 @@ class Ranks:
 
         if not torch.cuda.is_available():
             return settings
-        return replace(
-            settings,
-            device=(
-                f"cuda:{int(os.environ.get('LOCAL_RANK', self.rank)) % torch.cuda.device_count()}"
-            ),
-        )
+        local = int(os.environ.get("LOCAL_RANK", self.rank))
+        return replace(settings, device=f"cuda:{local % torch.cuda.device_count()}")
 
     def log(self, folder: Path) -> RecordLog:
-        """Where this process writes its answers."""
-        return (
-            RecordLog(folder / PREDICTIONS)
-            if self.leads
-            else RecordLog(folder / part_name(self.rank))
-        )
+        """The log that this process writes its answers to."""
+        return RecordLog(folder / (PREDICTIONS if self.leads else part_name(self.rank)))
 
 
 ALONE = Ranks()
@@ -92,22 +83,21 @@ def join_ranks() -> Ranks:
     return Ranks(torch.distributed.get_rank(), torch.distributed.get_world_size())
 
 
-def part_name(rank: int) -> str:
+def part_name(rank: int | str) -> str:
     """The file of a process's answers until rank 0 has taken them in."""
     return f"predictions.part{rank}.jsonl"
 
 
 def part_files(folder: Path) -> list[Path]:
     """The parts that lie in a folder."""
-    return sorted(folder.glob(part_name(0).replace("0", "*")))
+    return sorted(folder.glob(part_name("*")))
 
 
 def take_in(folder: Path, log: RecordLog) -> None:
-    """Add what the parts hold to the log, each answer once, however often this is done."""
-    for path in part_files(folder):
-        for record in _whole_records(path):
-            if (record["key"], record["id"]) not in log.records:
-                log.append(record)
+    """Add the answers of the parts to the log, each once, however often this is done."""
+    for _name, record in Tail(*part_files(folder)).new():
+        if (record["key"], record["id"]) not in log.records:
+            log.append(record)
 
 
 def take_in_abandoned(folder: Path, log: RecordLog) -> None:
@@ -124,8 +114,3 @@ def remove_parts(folder: Path) -> None:
     """Remove parts that were taken in."""
     for path in part_files(folder):
         path.unlink()
-
-
-def _whole_records(path: Path) -> list[dict[str, str]]:
-    content = path.read_bytes()
-    return [json.loads(line) for line in content[: content.rfind(b"\n") + 1].split(b"\n") if line]

@@ -6,21 +6,28 @@ from __future__ import annotations
 
 import contextlib
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark import folder
-from planner_ft.benchmark.assembly import Measured, assemble
 from planner_ft.benchmark.plan import Job, Plan, make_plan
-from planner_ft.benchmark.planning_time import planning_key, planning_log, time_planning
-from planner_ft.benchmark.predictions import Line, RecordLog, latency_log, prediction_log
+from planner_ft.benchmark.planning_time import time_planning
 from planner_ft.benchmark.ranks import ALONE, Ranks, remove_parts, take_in, take_in_abandoned
-from planner_ft.benchmark.record import add_costs, begin_run, costs_of, read_run, records_by_key
-from planner_ft.benchmark.results import Results
+from planner_ft.benchmark.records import (
+    Line,
+    RecordLog,
+    add_costs,
+    begin_run,
+    measured,
+    read_run,
+    records_by_key,
+)
+from planner_ft.benchmark.results import Results, assemble
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
-from planner_ft.benchmark.sources import Answered, AnswerSource, open_source
+from planner_ft.benchmark.sources import Answered, AnswerSource, Timed, open_source
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary.outputs import parse_output
 
@@ -28,10 +35,54 @@ Progress = Callable[[str, int, int], None]
 """Called with a label, queries done and queries in all of that part of the run."""
 
 
+def _silent(_label: str, _done: int, _total: int) -> None:
+    pass
+
+
+@dataclass(frozen=True)
+class _Run:
+    """A run of this process."""
+
+    plan: Plan
+    ranks: Ranks
+    predictions: RecordLog
+    progress: Progress
+
+    @contextlib.contextmanager
+    def source(self, jobs: list[Job]) -> Iterator[AnswerSource]:
+        source = open_source(self.plan, jobs)
+        try:
+            yield source
+        finally:
+            source.release()
+
+    def share(self, done: Mapping[str, Line]) -> list[Sample]:
+        """This process's part of the samples that have no answer."""
+        return self.ranks.share(_without(self.plan.data.samples, done))
+
+    def answer(self, job: Job, samples: list[Sample], source: AnswerSource) -> None:
+        """Record answers as they come."""
+        total = len(self.plan.data.samples)
+        label, done = f"{job.name}: answers", total - len(samples)
+        self.progress(label, done, total)
+        for index, answer in source.answers(job, samples):
+            self.predictions.append(_prediction(job, samples[index], answer))
+            done += 1
+            self.progress(label, done, total)
+
+    def time(
+        self, job: Job, samples: list[Sample], total: int, source: AnswerSource, log: RecordLog
+    ) -> None:
+        """Time queries one at a time."""
+        label, done = f"{job.name}: latency", total - len(samples)
+        for index, timed in source.latencies(job, samples) if samples else ():
+            log.append(_timed(job, samples[index], timed))
+            done += 1
+            self.progress(label, done, total)
+
+
 def run_bench(
-    settings: BenchSettings,
-    progress: Progress = lambda _label, _done, _total: None,
-    ranks: Ranks = ALONE,
+    settings: BenchSettings, progress: Progress = _silent, ranks: Ranks = ALONE
 ) -> Results:
     """Benchmark every candidate in every configuration and write results.json and the tables into
     `settings.folder`.
@@ -40,37 +91,36 @@ def run_bench(
     With several processes this is for the first, and `help_bench` for the others. Raises
     PlannerError.
     """
+    out = settings.folder
     if not (settings.resume or settings.overwrite):
-        folder.check_folder(
-            settings.folder,
-            folder.ALL,
-            "give --resume to go on, --overwrite to start anew, or another --out",
-        )
-    folder.check_writable(settings.folder)
+        hint = "give --resume to go on, --overwrite to start anew, or another --out"
+        folder.check_folder(out, folder.ALL, hint)
+    folder.check_writable(out)
     plan = make_plan(ranks.settings(settings))
     started = time.time()
     if settings.overwrite:
-        folder.clear(settings.folder)
-        remove_parts(settings.folder)
-    with prediction_log(settings.folder) as predictions, latency_log(settings.folder) as latencies:
-        take_in_abandoned(settings.folder, predictions)
+        folder.clear(out)
+        remove_parts(out)
+    with (
+        RecordLog(out / folder.PREDICTIONS) as predictions,
+        RecordLog(out / folder.LATENCY) as latencies,
+    ):
+        take_in_abandoned(out, predictions)
         begin_run(plan, predictions)
         reused = len(predictions.records)
         ranks.wait()
-        # The others read what is there: every share is cut from the same list.
+        # The others read the answers that are there: every share is cut from the same list.
         ranks.wait()
+        run = _Run(plan, ranks, predictions, progress)
         for jobs in plan.by_candidate():
-            _run_candidate(plan, jobs, predictions, latencies, progress, ranks)
-            _time_planning(plan, jobs, progress)
+            _run_candidate(run, jobs, latencies)
+            if settings.planning_samples:
+                add_costs(out, jobs[0].candidate.name, time_planning(plan, jobs, progress))
             ranks.wait()
-        remove_parts(settings.folder)
-        results = _results(
-            plan,
-            predictions,
-            latencies,
-            {"seconds": round(time.time() - started, 1), "reused_predictions": reused},
-        )
-        folder.write_results(settings.folder, results)
+        remove_parts(out)
+        took = {"seconds": round(time.time() - started, 1), "reused_predictions": reused}
+        results = _results(plan, predictions, latencies, took)
+        folder.write_results(out, results)
     return results
 
 
@@ -85,113 +135,48 @@ def help_bench(settings: BenchSettings, ranks: Ranks) -> None:
     done = records_by_key(settings.folder / folder.PREDICTIONS)
     ranks.wait()
     with ranks.log(settings.folder) as own:
+        run = _Run(plan, ranks, own, _silent)
         for jobs in plan.by_candidate():
-            missing = {
-                job.name: ranks.share(_without(plan.data.samples, done.get(job.key, {})))
-                for job in jobs
-            }
+            missing = {job.name: run.share(done.get(job.key, {})) for job in jobs}
             if any(missing.values()):
-                with _opened(plan, jobs) as source:
+                with run.source(jobs) as source:
                     for job in jobs:
-                        _answer(
-                            plan,
-                            job,
-                            missing[job.name],
-                            source,
-                            own,
-                            lambda _label, _done, _total: None,
-                        )
+                        run.answer(job, missing[job.name], source)
             ranks.wait()
             # Timing wants a quiet machine: only the first process goes on until here.
             ranks.wait()
 
 
-def _run_candidate(
-    plan: Plan,
-    jobs: list[Job],
-    predictions: RecordLog,
-    latencies: RecordLog,
-    progress: Progress,
-    ranks: Ranks,
-) -> None:
-    """Make what is missing of one candidate; its model is loaded once, and only if anything is."""
-    timed = plan.data.samples[: plan.settings.latency_samples]
-    missing = {
-        job.name: ranks.share(_without(plan.data.samples, predictions.of_key(job.key)))
-        for job in jobs
-    }
+def _run_candidate(run: _Run, jobs: list[Job], latencies: RecordLog) -> None:
+    """Make the missing answers of one candidate; its model is loaded once, and only if need be."""
+    timed = run.plan.data.samples[: run.plan.settings.latency_samples]
+    missing = {job.name: run.share(run.predictions.of_key(job.key)) for job in jobs}
     # The repeats of a system take the time of the first.
     first = [job for job in jobs if job.sampling is None or job.sampling.repeat == 1]
     untimed = {job.name: _without(timed, latencies.of_key(job.key)) for job in first}
     if not any(missing.values()) and not any(untimed.values()):
-        ranks.wait()
+        run.ranks.wait()
         return
-    progress(f"{jobs[0].candidate.name}: loading", 0, 0)
-    with _opened(plan, jobs) as source:
+    run.progress(f"{jobs[0].candidate.name}: loading", 0, 0)
+    with run.source(jobs) as source:
         for job in jobs:
-            _answer(plan, job, missing[job.name], source, predictions, progress)
-        ranks.wait()
-        take_in(plan.settings.folder, predictions)
+            run.answer(job, missing[job.name], source)
+        run.ranks.wait()
+        take_in(run.plan.settings.folder, run.predictions)
         for job in first:
-            _time(job, untimed[job.name], len(timed), source, latencies, progress)
-        add_costs(plan.settings.folder, jobs[0].candidate.name, source.costs())
+            run.time(job, untimed[job.name], len(timed), source, latencies)
+        add_costs(run.plan.settings.folder, jobs[0].candidate.name, source.costs())
 
 
-@contextlib.contextmanager
-def _opened(plan: Plan, jobs: list[Job]) -> Iterator[AnswerSource]:
-    source = open_source(plan, jobs)
-    try:
-        yield source
-    finally:
-        source.release()
-
-
-def _time_planning(plan: Plan, jobs: list[Job], progress: Progress) -> None:
-    """Time missions of 1 to 10 tasks with both agents, if that is asked for; no other model is
-    loaded then.
-    """
-    if not plan.settings.planning_samples:
-        return
-    with planning_log(plan.settings.folder) as log:
-        problem = time_planning(plan, jobs, log, progress)
-    keys = {job.configuration.name: planning_key(plan, job) for job in jobs}
-    add_costs(
-        plan.settings.folder,
-        jobs[0].candidate.name,
-        {"planning_keys": keys, "planning_problem": problem},
-    )
-
-
-def _without(samples: tuple[Sample, ...], done: Mapping[str, Line]) -> list[Sample]:
+def _without(samples: Sequence[Sample], done: Mapping[str, Line]) -> list[Sample]:
     return [sample for sample in samples if sample.id not in done]
-
-
-def _answer(
-    plan: Plan,
-    job: Job,
-    samples: list[Sample],
-    source: AnswerSource,
-    log: RecordLog,
-    progress: Progress,
-) -> None:
-    """Record the answers that are missing, as they come."""
-    total = len(plan.data.samples)
-    done = total - len(samples)
-    label = f"{job.name}: answers"
-    progress(label, done, total)
-    for index, answer in source.answers(job, samples):
-        log.append(_prediction(job, samples[index], answer))
-        done += 1
-        progress(label, done, total)
 
 
 def _prediction(job: Job, sample: Sample, answer: Answered) -> Line:
     parsed = parse_output(answer.output)
     return {
         "id": sample.id,
-        "candidate": job.candidate.name,
-        "configuration": job.configuration.name,
-        **_repeat(job),
+        **job.named(),
         "output": answer.output,
         "parsed": parsed.plan,
         "tokens": answer.tokens,
@@ -206,47 +191,30 @@ def _prediction(job: Job, sample: Sample, answer: Answered) -> Line:
     }
 
 
-def _repeat(job: Job) -> Line:
-    return {"repeat": job.sampling.repeat} if job.sampling else {}
-
-
-def _time(
-    job: Job,
-    samples: list[Sample],
-    total: int,
-    source: AnswerSource,
-    log: RecordLog,
-    progress: Progress,
-) -> None:
-    """Time the queries that are missing, one at a time."""
-    if not samples:
-        return
-    done = total - len(samples)
-    label = f"{job.name}: latency"
-    progress(label, done, total)
-    for index, timed in source.latencies(job, samples):
-        record: Line = {
-            "id": samples[index].id,
-            "candidate": job.candidate.name,
-            "configuration": job.configuration.name,
-            **_repeat(job),
-        }
-        record |= {
-            "latency_s": round(timed.seconds, 6),
-            "tokens": timed.tokens,
-            "forward_passes": timed.forward_passes,
-        }
-        if timed.first_token_s is not None:
-            record["first_token_s"] = round(timed.first_token_s, 6)
-        log.append({**record, **timed.more, "key": job.key})
-        done += 1
-        progress(label, done, total)
+def _timed(job: Job, sample: Sample, timed: Timed) -> Line:
+    first = (
+        {"first_token_s": round(timed.first_token_s, 6)} if timed.first_token_s is not None else {}
+    )
+    return {
+        "id": sample.id,
+        **job.named(),
+        "latency_s": round(timed.seconds, 6),
+        "tokens": timed.tokens,
+        "forward_passes": timed.forward_passes,
+        **first,
+        "key": job.key,
+    }
 
 
 def _results(
     plan: Plan, predictions: RecordLog, latencies: RecordLog, run: dict[str, Any]
 ) -> Results:
-    settings = plan.settings
+    settings, costs = plan.settings, read_run(plan.settings.folder).costs
+    sampled = {
+        "temperature": settings.temperature,
+        "top_p": settings.top_p,
+        "repeats": settings.repeats,
+    }
     configuration = {
         "level": settings.level,
         "vocabulary": {"name": plan.vocabulary.name, "sha256": plan.vocabulary.sha256},
@@ -254,15 +222,8 @@ def _results(
         "batch_size": settings.batch_size or "auto",
         "max_new_tokens": settings.token_limit,
         "latency_samples": settings.latency_samples,
-        "decoding": {
-            "temperature": settings.temperature,
-            "top_p": settings.top_p,
-            "repeats": settings.repeats,
-        }
-        if settings.temperature
-        else "greedy",
+        "decoding": sampled if settings.temperature else "greedy",
     }
-    costs = read_run(settings.folder).costs
     manifest = build_manifest(
         "bench",
         seed=settings.seed,
@@ -273,16 +234,17 @@ def _results(
         costs=costs,
         run=run,
     )
-    measured = [
-        Measured(
+    found = [
+        measured(
+            settings.folder,
+            costs,
             job.system,
             predictions.of_key(job.key),
             latencies.of_key(job.key),
-            *costs_of(settings.folder, costs, job.system),
         )
         for job in plan.jobs
     ]
-    return assemble(plan.data, plan.vocabulary, measured, seed=settings.seed, manifest=manifest)
+    return assemble(plan.data, plan.vocabulary, found, seed=settings.seed, manifest=manifest)
 
 
 def resume_hint(path: Path) -> str:

@@ -20,9 +20,7 @@ SHOWN = 5
 
 @dataclass(frozen=True)
 class Sample:
-    """One test sample. `family` is its phrasing family, or its id where the data has no
-    families.
-    """
+    """One test sample. `family` is its phrasing family, or its id where the data has none."""
 
     id: str
     family: str
@@ -70,23 +68,21 @@ def load_bench_data(
     problems: list[str] = []
     record: Any
     for number, record, problem in iterate_jsonl(path):
-        problem = problem or next(record_problems(record, level, vocabulary), None)
+        problem = problem or next(_problems(record, level, vocabulary), None)
         if problem is None and record["id"] in lines:
             problem = f"id {record['id']!r} stands on line {lines[record['id']]} already"
         if problem is not None:
             problems.append(f"{path}:{number}: {problem}")
             continue
-        lines[record["id"]] = number
-        samples[record["id"]] = Sample(
-            record["id"], str(record.get("family") or record["id"]), record
-        )
+        name = record["id"]
+        lines[name] = number
+        samples[name] = Sample(name, str(record.get("family") or name), record)
     if problems:
         raise PlannerError(joined(problems))
     if not samples:
         raise PlannerError(f"{path}: holds no samples")
-    return BenchData(
-        path, sha256_file(path), level, tuple(samples.values())[:limit], frozenset(samples)
-    )
+    kept = tuple(samples.values())[:limit]
+    return BenchData(path, sha256_file(path), level, kept, frozenset(samples))
 
 
 def joined(problems: list[str]) -> str:
@@ -95,8 +91,10 @@ def joined(problems: list[str]) -> str:
     return "; ".join(problems[:SHOWN]) + more
 
 
-def record_problems(record: Any, level: Level, vocabulary: Vocabulary) -> Iterator[str]:
-    """What keeps a line from being a test sample of this level."""
+def _problems(record: Any, level: Level, vocabulary: Vocabulary) -> Iterator[str]:
+    """Reasons why a line is no test sample of this level: entries without a readable name would be
+    missing from the score, names outside the vocabulary can never be met.
+    """
     if not isinstance(record, dict):
         yield f"a JSON object is expected, not {type(record).__name__}"
         return
@@ -107,31 +105,21 @@ def record_problems(record: Any, level: Level, vocabulary: Vocabulary) -> Iterat
     if not isinstance(expected, dict) or not isinstance(expected.get(key), list):
         yield f'expected must be an object with the list "{key}" (is this data of --level {level}?)'
         return
-    if level == "task":
-        if record.get("task") not in vocabulary.task:
-            yield f"task {record.get('task')!r} is no task of the vocabulary {vocabulary.name}"
-        if not isinstance(record.get("parameters"), dict):
-            yield "parameters is missing or no object"
-    yield from _plan_problems(expected, level, vocabulary)
-
-
-def _plan_problems(expected: dict[str, Any], level: Level, vocabulary: Vocabulary) -> Iterator[str]:
-    """Entries without a readable name would be lost from the score, names outside the vocabulary
-    can never be met.
-    """
-    known = vocabulary.task if level == "mission" else vocabulary.skill
-    key = list_key(level)
+    mission = level == "mission"
+    if not mission and record.get("task") not in vocabulary.task:
+        yield f"task {record.get('task')!r} is no task of the vocabulary {vocabulary.name}"
+    if not mission and not isinstance(record.get("parameters"), dict):
+        yield "parameters is missing or no object"
+    field = "title" if mission else "name"
     for index, entry in enumerate(expected[key]):
-        entries = [entry] if level == "mission" else [skill for _role, skill in step_skills(entry)]
-        field = "title" if level == "mission" else "name"
-        if not entries or not all(
-            isinstance(item, dict) and isinstance(item.get(field), str) for item in entries
-        ):
+        items = [entry] if mission else [skill for _role, skill in step_skills(entry)]
+        named = [isinstance(item, dict) and isinstance(item.get(field), str) for item in items]
+        if not items or not all(named):
             yield f"expected.{key}[{index}] has no {field}"
-        elif not all(isinstance(item.get("parameters", {}), dict) for item in entries):
+        elif not all(isinstance(item.get("parameters", {}), dict) for item in items):
             yield f"expected.{key}[{index}]: parameters is no object"
     for name in plan_names(level, expected):
-        if name not in known:
+        if name not in (vocabulary.task if mission else vocabulary.skill):
             yield (
                 f"expected names {name!r}, which is not in the vocabulary {vocabulary.name};"
                 " correct it or give --vocabulary"

@@ -2,52 +2,92 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+import functools
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from planner_ft.benchmark.answer import Answer, Value
-from planner_ft.benchmark.catalogue import METRICS
-from planner_ft.benchmark.metrics import (
-    Counts,
+from planner_ft.benchmark.metrics.abstention import right_refusal, wrong_refusal
+from planner_ft.benchmark.metrics.alignment import Alignment, align
+from planner_ft.benchmark.metrics.common_subsequence import common_subsequence
+from planner_ft.benchmark.metrics.counts import Counts
+from planner_ft.benchmark.metrics.edges import edge_f1
+from planner_ft.benchmark.metrics.edit_distance import edit_distance
+from planner_ft.benchmark.metrics.entries import Entry, plan_entries
+from planner_ft.benchmark.metrics.exact_sequence import flat_sequence, name_sequence
+from planner_ft.benchmark.metrics.executability import executable
+from planner_ft.benchmark.metrics.failures import failure_kind
+from planner_ft.benchmark.metrics.groundedness import groundedness
+from planner_ft.benchmark.metrics.hallucination import UNPARSED_COUNTS, hallucinated
+from planner_ft.benchmark.metrics.names import counts_by_role, multiset_counts, set_counts
+from planner_ft.benchmark.metrics.parameters import (
     agreement_by_type,
-    common_subsequence,
-    counts_by_role,
-    edge_f1,
-    edit_distance,
-    exact_sequence,
-    failure_kind,
-    hallucinated,
-    multiset_counts,
     parameter_counts,
     right_entries,
-    set_counts,
-    whole_plan_unordered,
 )
-from planner_ft.benchmark.metrics.alignment import Alignment
-from planner_ft.benchmark.metrics.exact_sequence import flat_sequence, name_sequence
-from planner_ft.benchmark.metrics.hallucination import UNPARSED_COUNTS
-from planner_ft.benchmark.plan_logic import plan_logic
+from planner_ft.benchmark.metrics.slots import KINDS, slot_propagation
+from planner_ft.benchmark.metrics.validity import schema_valid, strict_valid
+from planner_ft.benchmark.metrics.whole_plan import whole_plan_unordered
 from planner_ft.benchmark.samples import Sample
+from planner_ft.facts import read_input
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import ROLES
 from planner_ft.vocabulary.outputs import parse_output
 from planner_ft.vocabulary.plans import Level
 
-__all__ = ["METRICS", "SampleScore", "score_sample"]
-
-TIMED = ("latency_s", "forward_passes")
+Value = float | bool | None
+"""A metric of one sample: None where the sample says nothing about it."""
 Values = dict[str, Value]
+Details = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A sample with the plan that was answered; `plan` is None when the output is not one JSON
+    object. Results that several metrics need are computed once.
+    """
+
+    level: Level
+    sample: Sample
+    plan: dict[str, Any] | None
+    vocabulary: Vocabulary
+
+    @property
+    def expected(self) -> dict[str, Any]:
+        """The expected plan."""
+        return self.sample.expected
+
+    @functools.cached_property
+    def wanted(self) -> tuple[Entry, ...]:
+        """The expected tasks or skills."""
+        return plan_entries(self.level, self.expected)
+
+    @functools.cached_property
+    def given(self) -> tuple[Entry, ...]:
+        """The predicted tasks or skills; none when the output does not parse."""
+        return plan_entries(self.level, self.plan)
+
+    @functools.cached_property
+    def alignment(self) -> Alignment:
+        """Which predicted entry stands for which expected one."""
+        return align(self.level, self.wanted, self.given, self.vocabulary)
+
+    @functools.cached_property
+    def strict_valid(self) -> bool:
+        return strict_valid(self.level, self.plan, self.vocabulary)
+
+    @functools.cached_property
+    def schema_valid(self) -> bool:
+        return self.strict_valid or schema_valid(self.level, self.plan, self.vocabulary)
 
 
 @dataclass(frozen=True)
 class SampleScore:
-    """What one answer scored: `values` by metric, and the kind of failure, None when names, order
+    """The score of one answer: `values` by metric, and the kind of failure, None when names, order
     and parameters are right.
 
     `alignment` and `types` (per type of parameter: values that agree, values that there are) are
-    what tables by name and type are made of, `details` what explains values: where the plan stops,
-    values that nobody gave, slots by kind (`plan_logic`).
+    for the tables by name and type, `details` explain values (`plan_logic`).
     """
 
     id: str
@@ -57,7 +97,7 @@ class SampleScore:
     values: Values
     alignment: Alignment = field(default=Alignment((), (), ()), repr=False)
     types: dict[str, tuple[int, int]] = field(default_factory=dict, repr=False)
-    details: dict[str, Any] = field(default_factory=dict, repr=False)
+    details: Details = field(default_factory=dict, repr=False)
 
     def to_json(self) -> dict[str, Any]:
         """A line of scores.jsonl."""
@@ -84,59 +124,46 @@ def score_sample(
     """
     prediction, timed = prediction or {}, timed or {}
     answer = Answer(level, sample, parse_output(prediction.get("output")).plan, vocabulary)
-    failure = failure_kind(
-        level, answer.plan, sample.expected, vocabulary, valid=answer.schema_valid
-    )
-    values: Values = {}
-    for part in PARTS:
-        values |= part(answer)
-    logic = plan_logic(answer)
-    values |= logic.values()
+    plan, expected, valid = answer.plan, answer.expected, answer.schema_valid
+    failure = failure_kind(level, plan, expected, vocabulary, valid=valid)
+    logic, details = plan_logic(answer)
+    values = _published(answer) | _names(answer) | _order(answer) | _parameters(answer) | logic
     values |= {
         "whole_plan": failure is None,
-        "whole_plan_unordered": failure is None or unordered(answer),
+        "whole_plan_unordered": failure is None
+        or whole_plan_unordered(level, plan, expected, vocabulary, valid=valid),
+        "tokens": prediction.get("tokens"),
+        "latency_s": timed.get("latency_s"),
+        "forward_passes": timed.get("forward_passes"),
     }
-    values |= {"tokens": prediction.get("tokens")} | {key: timed.get(key) for key in TIMED}
     types = agreement_by_type(level, answer.alignment, vocabulary)
-    return SampleScore(
-        sample.id,
-        sample.family,
-        sample.group,
-        failure,
-        values,
-        answer.alignment,
-        types,
-        logic.details(),
-    )
+    named = sample.id, sample.family, sample.group
+    return SampleScore(*named, failure, values, answer.alignment, types, details)
 
 
-def published_values(answer: Answer) -> Values:
+def _published(answer: Answer) -> Values:
     """Hallucination in both readings and validity, as the published tables have them."""
     invented = hallucinated(answer.level, answer.plan, answer.vocabulary, unparsed=False)
-    both = {True: invented or answer.plan is None, False: invented}
+    counted = invented or answer.plan is None
     return {
         "parsed": answer.plan is not None,
         "invented": invented,
-        "hallucination": both[UNPARSED_COUNTS[answer.level]],
-        "hallucination_with_unparsed": both[True],
-        "hallucination_without_unparsed": both[False],
+        "hallucination": counted if UNPARSED_COUNTS[answer.level] else invented,
+        "hallucination_with_unparsed": counted,
+        "hallucination_without_unparsed": invented,
         "schema_valid": answer.schema_valid,
         "strict_valid": answer.strict_valid,
     }
 
 
-def name_values(answer: Answer) -> Values:
+def _names(answer: Answer) -> Values:
     """Names as a set (the published F1) and as a multiset; at task level also per role."""
-    distinct, all_of_them = (
-        set_counts(answer.given_names, answer.wanted_names),
-        multiset_counts(answer.given_names, answer.wanted_names),
-    )
-    values: Values = {"f1": distinct.f1, "precision": distinct.precision, "recall": distinct.recall}
-    values |= {
-        "multiset_f1": all_of_them.f1,
-        "multiset_precision": all_of_them.precision,
-        "multiset_recall": all_of_them.recall,
-    }
+    names = [entry.name for entry in answer.given], [entry.name for entry in answer.wanted]
+    values: Values = {}
+    for prefix, counts in (("", set_counts(*names)), ("multiset_", multiset_counts(*names))):
+        values[f"{prefix}f1"] = counts.f1
+        values[f"{prefix}precision"] = counts.precision
+        values[f"{prefix}recall"] = counts.recall
     if answer.level == "task":
         by_role = counts_by_role(answer.given, answer.wanted)
         for role in ROLES:
@@ -144,57 +171,83 @@ def name_values(answer: Answer) -> Values:
     return values
 
 
-def order_values(answer: Answer) -> Values:
+def _order(answer: Answer) -> Values:
     """Order of the names; at task level also of the steps."""
     level, plan, expected = answer.level, answer.plan or {}, answer.expected
-    ours, theirs = flat_sequence(level, plan), flat_sequence(level, expected)
-    steps, their_steps = name_sequence(level, plan), name_sequence(level, expected)
+    flat = flat_sequence(level, plan), flat_sequence(level, expected)
+    steps = name_sequence(level, plan), name_sequence(level, expected)
     return {
-        "exact_sequence": exact_sequence(level, answer.plan, expected),
-        "edit_distance": edit_distance(ours, theirs),
-        "step_edit_distance": edit_distance(steps, their_steps) if level == "task" else None,
-        "lcs_f1": common_subsequence(ours, theirs).f1,
-        "edge_f1": edge_f1(steps, their_steps),
+        "exact_sequence": answer.plan is not None and steps[0] == steps[1],
+        "edit_distance": edit_distance(*flat),
+        "step_edit_distance": edit_distance(*steps) if level == "task" else None,
+        "lcs_f1": common_subsequence(*flat).f1,
+        "edge_f1": edge_f1(*steps),
     }
 
 
-def parameter_values(answer: Answer) -> Values:
+def _parameters(answer: Answer) -> Values:
     """Parameters of aligned entries: all right, keys and key-value pairs; these also over the whole
     plan.
     """
     agreement = right_entries(answer.level, answer.alignment, answer.vocabulary)
     counts = parameter_counts(answer.level, answer.alignment, answer.vocabulary)
-    return {
-        "parameters_right": agreement.right,
-        "parameters_matched": agreement.matched,
-        **_pooled("parameter_keys", counts.keys),
-        **_pooled("parameter_values", counts.values),
-        **_pooled("parameter_keys_overall", counts.keys_overall),
-        **_pooled("parameter_values_overall", counts.values_overall),
-    }
-
-
-def unordered(answer: Answer) -> bool:
-    """Whether the plan is right but for the order of its tasks or steps."""
-    return whole_plan_unordered(
-        answer.level, answer.plan, answer.expected, answer.vocabulary, valid=answer.schema_valid
-    )
+    values: Values = {"parameters_right": agreement.right, "parameters_matched": agreement.matched}
+    for name, count in counts._asdict().items():
+        values |= _pooled(f"parameter_{name}", count)
+    return values
 
 
 def _pooled(prefix: str, counts: Counts) -> Values:
-    """What an F1 over all samples is summed up from (`catalogue.pooled_f1`)."""
-    return {
-        f"{prefix}_right": counts.right,
-        f"{prefix}_size": (counts.predicted + counts.expected) / 2,
+    """The terms of an F1 over all samples (`catalogue`)."""
+    size = (counts.predicted + counts.expected) / 2
+    return {f"{prefix}_right": counts.right, f"{prefix}_size": size}
+
+
+def plan_logic(answer: Answer) -> tuple[Values, Details]:
+    """Metrics that read the command and replay the plan, and details that explain them: `stop`
+    (where the plan stops), `ungrounded` values, and `slots` per kind as [stated, in parameters, in
+    the task prompt (null at task level)].
+
+    An answer that does not parse is not grounded, since it gives nothing to judge.
+    """
+    level, plan, vocabulary = answer.level, answer.plan, answer.vocabulary
+    mission = level == "mission"
+    source = read_input(answer.sample.record, vocabulary)
+    grounded = groundedness(level, answer.given, source, vocabulary)
+    reached = slot_propagation(level, plan, answer.alignment, source, vocabulary)
+    stop = executable(plan, answer.expected, vocabulary) if mission else None
+    stated = reached.stated.total()
+    values: Values = {
+        "executable": stop is None if mission else None,
+        "grounded": plan is not None and not grounded.ungrounded,
+        "values_judged": grounded.judged,
+        "values_grounded": grounded.judged - len(grounded.ungrounded),
+        "slots_stated": stated,
+        "slots_prompted": stated if mission else None,
+        "slots_in_parameters_right": reached.in_parameters.total(),
+        "slots_in_prompt_right": reached.in_prompt.total() if mission else None,
+        "right_refusal": right_refusal(level, plan, answer.expected),
+        "wrong_refusal": wrong_refusal(level, plan, answer.expected),
     }
-
-
-PARTS: tuple[Callable[[Answer], Values], ...] = (
-    published_values,
-    name_values,
-    order_values,
-    parameter_values,
-)
-"""What a sample is scored by: each gives values under names of its own. The catalogue says how they
-are summed up.
-"""
+    details = {
+        "stop": asdict(stop) if stop else None,
+        "ungrounded": [
+            {
+                "entry": given.entry,
+                "name": answer.given[given.entry].name,
+                "parameter": given.parameter.name,
+                "value": given.value,
+            }
+            for given in grounded.ungrounded
+        ],
+        "slots": {
+            kind: [
+                reached.stated[kind],
+                reached.in_parameters[kind],
+                reached.in_prompt[kind] if mission else None,
+            ]
+            for kind in KINDS
+            if reached.stated[kind]
+        },
+    }
+    return values, details

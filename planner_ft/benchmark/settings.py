@@ -1,18 +1,106 @@
-"""What a run is asked to do."""
+"""Settings of a run."""
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
+from urllib.parse import urlsplit
 
-from planner_ft.benchmark.sampled import repeats_problems
-from planner_ft.benchmark.sources.endpoint_settings import EndpointSettings
 from planner_ft.candidates.registry import Quantization
 from planner_ft.decoding.configurations import MAX_NEW_TOKENS
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.plans import Level
 
 LONGEST = 16384
+CHAT = "/chat/completions"
+ROOT = "give the API's root, such as http://127.0.0.1:8000/v1"
+
+
+def _out_of_range(bounds: dict[str, tuple[float, float, float]]) -> list[str]:
+    """Problems of settings by flag: (value, lowest, highest)."""
+    return [
+        f"--{flag} {value}: must be between {low} and {high}"
+        for flag, (value, low, high) in bounds.items()
+        if not low <= value <= high
+    ]
+
+
+@dataclass(frozen=True)
+class EndpointSettings:
+    """A server that speaks the OpenAI chat completions API, and how it is asked.
+
+    `url` is the API's root ("http://127.0.0.1:8000/v1"), `model` the name that the server knows.
+    `api_key_env` names the environment variable that holds the key; the key itself stands nowhere.
+    At most `concurrency` questions are open at a time, each for at most `timeout` seconds, and
+    asked again up to `retries` times. Raises PlannerError that lists every problem.
+    """
+
+    url: str
+    model: str
+    api_key_env: str | None = None
+    concurrency: int = 4
+    timeout: float = 60.0
+    retries: int = 5
+
+    def __post_init__(self) -> None:
+        named = self.model.strip()
+        problems = [] if named else ["--model: give the name by which the server knows the model"]
+        problems += _url_problems(self.url)
+        problems += _out_of_range(
+            {
+                "concurrency": (self.concurrency, 1, 256),
+                "timeout": (self.timeout, 0.1, 86400),
+                "retries": (self.retries, 0, 100),
+            }
+        )
+        if problems:
+            raise PlannerError("; ".join(problems))
+
+    @property
+    def root(self) -> str:
+        """The URL that paths such as /chat/completions are appended to."""
+        return self.url.strip().rstrip("/").removesuffix(CHAT).rstrip("/")
+
+    @property
+    def host(self) -> str:
+        """Host and port, as tables name the server."""
+        return urlsplit(self.root).netloc
+
+    def api_key(self) -> str | None:
+        """The key, if one is used. Raises PlannerError when the variable is not set or holds no
+        header text.
+        """
+        if self.api_key_env is None:
+            return None
+        key = os.environ.get(self.api_key_env, "").strip()
+        if not key or not key.isascii() or not key.isprintable():
+            problem = (
+                "holds characters that no key has"
+                if key
+                else "this environment variable is not set"
+            )
+            raise PlannerError(
+                f"--api-key-env {self.api_key_env}: {problem}; export the server's key in it"
+            )
+        return key
+
+
+def _url_problems(url: str) -> list[str]:
+    """Problems of a URL. It is not repeated where it may hold a password."""
+    try:
+        parts = urlsplit(url.strip())
+        port_is_number = parts.port is None or parts.port > 0
+    except ValueError:
+        return [f"--endpoint: no URL; {ROOT}"]
+    if parts.username or parts.password or parts.query or parts.fragment:
+        return [
+            "--endpoint: give the URL without user, password or query (it is written into"
+            " manifests), and a key with --api-key-env"
+        ]
+    if parts.scheme not in ("http", "https") or not parts.hostname or not port_is_number:
+        return [f"--endpoint {url}: no http URL; {ROOT}"]
+    return []
 
 
 @dataclass(frozen=True)
@@ -24,7 +112,7 @@ class BenchSettings:
     itself. `latency_samples` are the samples whose queries are timed one at a time,
     `planning_samples` the missions of each length that both agents are timed on. With `endpoint` a
     server answers, and the only candidate is its model. With a `temperature` above 0 every sample
-    is asked `repeats` times.
+    is asked `repeats` times. Raises PlannerError that lists every problem.
     """
 
     level: Level
@@ -50,7 +138,6 @@ class BenchSettings:
     endpoint: EndpointSettings | None = None
 
     def __post_init__(self) -> None:
-        """Raise PlannerError that lists every setting out of its range."""
         problems = []
         if not self.candidates:
             problems.append("--candidates: name at least one; `plannerft candidates` lists them")
@@ -58,18 +145,16 @@ class BenchSettings:
             problems.append("--configurations: name at least one")
         if self.quantization not in (None, "nf4", "none"):
             problems.append(f"--quantization {self.quantization}: must be nf4 or none")
-        bounds = (
-            ("batch-size", 1 if self.batch_size is None else self.batch_size, 1, 1024),
-            ("max-new-tokens", self.token_limit, 1, LONGEST),
-            ("latency-samples", self.latency_samples, 0, 10**9),
-            ("planning-samples", self.planning_samples, 0, 1000),
+        problems += _out_of_range(
+            {
+                "batch-size": (1 if self.batch_size is None else self.batch_size, 1, 1024),
+                "max-new-tokens": (self.token_limit, 1, LONGEST),
+                "latency-samples": (self.latency_samples, 0, 10**9),
+                "planning-samples": (self.planning_samples, 0, 1000),
+                "repeats": (self.repeats, 1, 1000),
+            }
         )
-        problems += [
-            f"--{flag} {value}: must be between {low} and {high}"
-            for flag, value, low, high in bounds
-            if not low <= value <= high
-        ]
-        problems += repeats_problems(self.repeats, self.temperature, self.top_p)
+        problems += self._sampling_problems()
         if self.resume and self.overwrite:
             problems.append(
                 "--resume keeps former predictions and --overwrite removes them: give one of them"
@@ -79,8 +164,34 @@ class BenchSettings:
                 "--planning-samples times both agents from the mission level on, here and greedily:"
                 " leave it out"
             )
+        given = {
+            "--adapter": self.adapters,
+            "--quantization": self.quantization,
+            "--device": self.device != "auto",
+        }
+        if self.endpoint and any(given.values()):
+            flags = ", ".join(flag for flag, value in given.items() if value)
+            problems.append(
+                f"{flags}: these go with models that are loaded here; leave them out when you give"
+                " --endpoint"
+            )
         if problems:
             raise PlannerError("; ".join(problems))
+
+    def _sampling_problems(self) -> list[str]:
+        greedy = self.temperature == 0
+        again = "give --temperature, for example 0.7"
+        problems = {
+            f"--temperature {self.temperature:g}: must be between 0 (greedy) and 10": not 0
+            <= self.temperature
+            <= 10,
+            f"--top-p {self.top_p:g}: must be above 0 and at most 1": not 0 < self.top_p <= 1,
+            f"--repeats {self.repeats}: greedy answers are all the same; {again}": greedy
+            and self.repeats > 1,
+            f"--top-p {self.top_p:g}: greedy decoding samples nothing; {again}": greedy
+            and self.top_p != 1,
+        }
+        return [text for text, holds in problems.items() if holds]
 
     @property
     def token_limit(self) -> int:

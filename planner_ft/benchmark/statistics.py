@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 CONFIDENCE = 0.95
-Z = 1.959963984540054
-"""Normal quantile of (1 + CONFIDENCE) / 2."""
 RESAMPLES = 10_000
 BLOCK = 2**22
 """Numbers that are worked on at a time."""
+
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -36,9 +36,7 @@ class Estimate:
 
 
 def wilson(successes: int, n: int) -> Estimate:
-    """A rate with its Wilson score interval (Wilson 1927), which stays inside [0, 1] and is not
-    empty at 0 and 1. For independent samples.
-    """
+    """A rate with its Wilson score interval (Wilson 1927). For independent samples."""
     return _wilson(successes / n, n) if n else Estimate(None)
 
 
@@ -49,24 +47,23 @@ def clustered_rate(successes: Sequence[bool], clusters: Sequence[Hashable]) -> E
     The effective size is n over the design effect: the variance of the rate with whole clusters as
     units over that of independent samples (Kish 1965), with Korn and Graubard's correction for few
     clusters (Survey Methodology 1998); Dean and Pagano (Journal of Survey Statistics and
-    Methodology 2015) compare such intervals. Samples are never counted for more than they are, and
-    for no less than their clusters are. At 0 and 1, where a variance says nothing, samples of one
-    cluster count as one.
+    Methodology 2015) compare such intervals.
     """
     n = len(successes)
     if not n:
         return Estimate(None)
-    sizes, hits = (
-        Counter(clusters),
-        Counter(cluster for cluster, hit in zip(clusters, successes, strict=True) if hit),
-    )
-    rate = hits.total() / n
-    return _wilson(rate, effective_size([(hits[cluster], size) for cluster, size in sizes.items()]))
+    sizes = Counter(clusters)
+    hits = Counter(cluster for cluster, hit in zip(clusters, successes, strict=True) if hit)
+    size = effective_size([(hits[cluster], size) for cluster, size in sizes.items()])
+    return _wilson(hits.total() / n, size)
 
 
 def effective_size(counts: Sequence[tuple[int, int]]) -> float:
     """As how many independent samples the samples of some clusters count for a rate; `counts` are
     (successes, samples) of each cluster.
+
+    Samples are never counted for more than they are, and for no less than their clusters are. At 0
+    and 1, where a variance says nothing, samples of one cluster count as one.
     """
     n, clusters = sum(size for _hits, size in counts), len(counts)
     if clusters == n:
@@ -75,15 +72,11 @@ def effective_size(counts: Sequence[tuple[int, int]]) -> float:
     most = sum(size**2 for _hits, size in counts) / n
     if clusters == 1 or rate in (0, 1):
         return n / most
-    between = (
-        sum((hits - rate * size) ** 2 for hits, size in counts) * clusters / (clusters - 1) / n**2
-    )
-    effect = min(most, max(1.0, between * n / (rate * (1 - rate))))
-    return float(
-        max(n / most, 1.0)
-        if clusters < 3
-        else n / effect * (_student(n - 1) / _student(clusters - 1)) ** 2
-    )
+    if clusters < 3:
+        return max(n / most, 1.0)
+    between = sum((hits - rate * size) ** 2 for hits, size in counts) * clusters / (clusters - 1)
+    effect = min(most, max(1.0, between / n / (rate * (1 - rate))))
+    return n / effect * (_student(n - 1) / _student(clusters - 1)) ** 2
 
 
 def _student(freedom: int) -> float:
@@ -93,11 +86,35 @@ def _student(freedom: int) -> float:
     return float(stdtrit(freedom, (1 + CONFIDENCE) / 2))
 
 
+@functools.lru_cache(maxsize=16_384)
 def _wilson(rate: float, n: float) -> Estimate:
-    centre = (rate + Z**2 / (2 * n)) / (1 + Z**2 / n)
-    half = Z * math.sqrt(rate * (1 - rate) / n + Z**2 / (4 * n**2)) / (1 + Z**2 / n)
+    from statsmodels.stats.proportion import proportion_confint
+
+    low, high = proportion_confint(rate * n, n, alpha=1 - CONFIDENCE, method="wilson")
+    return Estimate(rate, float(low) if rate else 0.0, float(high) if rate < 1 else 1.0)
+
+
+def quantile(values: Sequence[float], share: float) -> Estimate:
+    """The smallest value that at least `share` of the values do not exceed, with a
+    distribution-free 95 % interval.
+
+    The bounds are order statistics (David and Nagaraja, Order Statistics, 2003, section 7.1): the
+    number of values below the true quantile is binomial. A bound that no order statistic can give
+    with that confidence is None.
+    """
+    from scipy.special import bdtr
+
+    if not values:
+        return Estimate(None)
+    ordered, n, tail = sorted(values), len(values), (1 - CONFIDENCE) / 2
+    # Rounding: 0.9 * 10 must give rank 9.
+    rank = max(1, math.ceil(round(n * share, 9)))
+    below = [count for count in range(1, n + 1) if bdtr(count - 1, n, share) <= tail]
+    above = [count for count in range(1, n + 1) if bdtr(count - 1, n, share) >= 1 - tail]
     return Estimate(
-        rate, max(0.0, centre - half) if rate else 0.0, min(1.0, centre + half) if rate < 1 else 1.0
+        ordered[rank - 1],
+        ordered[below[-1] - 1] if below else None,
+        ordered[above[0] - 1] if above else None,
     )
 
 
@@ -114,12 +131,8 @@ def bootstrap_ratio(
     clusters: Sequence[Hashable],
     seed: int,
 ) -> Estimate:
-    """sum(numerators) / sum(denominators) with its percentile bootstrap interval, whole clusters
-    resampled together.
-
-    The three sequences have one entry per sample. Samples of one cluster (phrasings of one family)
-    are not independent: resampling them one by one would make the interval too narrow. Without a
-    second cluster there is no interval.
+    """sum(numerators) / sum(denominators) over samples, with its percentile bootstrap interval,
+    whole clusters resampled together. Without a second cluster there is no interval.
     """
     return bootstrap_ratios([(numerators, denominators)], clusters, seed)[0]
 
@@ -134,12 +147,10 @@ def bootstrap_ratios(
     """
     if not ratios or not clusters:
         return [Estimate(None)] * len(ratios)
-    sums = cluster_sums(
-        np.array([column for pair in ratios for column in pair], dtype=float).T, clusters
-    )
-    values = [
-        float(top / below) if below else None for top, below in sums.sum(axis=0).reshape(-1, 2)
-    ]
+    columns = np.array([column for pair in ratios for column in pair], dtype=float).T
+    sums = cluster_sums(columns, clusters)
+    pairs = sums.sum(axis=0).reshape(-1, 2)
+    values = [float(top / below) if below else None for top, below in pairs]
     if len(sums) < 2:
         return [Estimate(value) for value in values]
     totals = resampled_sums(sums, seed)
@@ -149,7 +160,7 @@ def bootstrap_ratios(
     ]
 
 
-def _resampled_ratio(value: float | None, totals: NDArray[np.float64]) -> Estimate:
+def _resampled_ratio(value: float | None, totals: Floats) -> Estimate:
     if value is None:
         return Estimate(None)
     totals = totals[totals[:, 1] > 0]
@@ -157,8 +168,8 @@ def _resampled_ratio(value: float | None, totals: NDArray[np.float64]) -> Estima
 
 
 def cluster_sums(
-    values: Sequence[Sequence[float]] | NDArray[np.float64], clusters: Sequence[Hashable]
-) -> NDArray[np.float64]:
+    values: Sequence[Sequence[float]] | Floats, clusters: Sequence[Hashable]
+) -> Floats:
     """The sums of `values`, (samples, columns), over each cluster, in the order in which clusters
     appear: (clusters, columns).
     """
@@ -168,7 +179,7 @@ def cluster_sums(
     return sums
 
 
-def resampled_sums(sums: NDArray[np.float64], seed: int) -> NDArray[np.float64]:
+def resampled_sums(sums: Floats, seed: int) -> Floats:
     """The totals of RESAMPLES resamples of the clusters: (RESAMPLES, columns). The same seed draws
     the same clusters for every metric.
     """
@@ -193,7 +204,7 @@ def _drawn(count: int, seed: int) -> NDArray[np.int8]:
     return np.concatenate([block.astype(np.int8) for block in blocks])
 
 
-def percentiles(values: NDArray[np.float64]) -> tuple[float, float]:
+def percentiles(values: Floats) -> tuple[float, float]:
     """The bounds of the middle CONFIDENCE of the values."""
     low, high = np.quantile(values, [(1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2])
     return float(low), float(high)

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.assembly import Measured, assemble
 from planner_ft.benchmark.folder import LATENCY, PREDICTIONS
-from planner_ft.benchmark.record import measured_in, read_run
-from planner_ft.benchmark.results import Results, System
+from planner_ft.benchmark.records import measured_in, read_run
+from planner_ft.benchmark.results import Measured, Results, System, assemble
 from planner_ft.benchmark.samples import BenchData, joined, load_bench_data
 from planner_ft.candidates import all_candidates
 from planner_ft.support.errors import PlannerError
@@ -20,7 +18,9 @@ from planner_ft.vocabulary import Vocabulary, load_vocabulary
 CONFIGURATION = "submitted"
 """Configuration of predictions that name none."""
 
-Predictions = dict[tuple[str, str, int | None], dict[str, dict[str, Any]]]
+Key = tuple[str, str, int | None]
+"""Candidate, configuration and repeat."""
+Lines = dict[str, dict[str, Any]]
 
 
 def score_predictions(
@@ -34,16 +34,11 @@ def score_predictions(
     without `candidate`. For the predictions.jsonl of a run, its latency.jsonl is read, too. Raises
     PlannerError that names the lines of malformed, double and unknown predictions.
     """
-    groups = read_predictions(path, data.ids, name or path.stem)
-    measured = []
-    timed = _timed(path)
-    for (candidate, configuration, repeat), predictions in groups.items():
-        system = replace(_system(candidate, configuration, predictions, vocabulary), repeat=repeat)
-        queries = {
-            **timed.get((candidate, configuration, repeat), {}),
-            **{key: line for key, line in predictions.items() if _is_timed(line)},
-        }
-        measured.append(Measured(system, predictions, queries))
+    found, timed = [], _timed(path)
+    for key, lines in _read(path, data.ids, name or path.stem).items():
+        own = {sample: line for sample, line in lines.items() if _is_timed(line)}
+        system = _system(key, lines, vocabulary)
+        found.append(Measured(system, lines, {**timed.get(key, {}), **own}))
     manifest = build_manifest(
         "score",
         seed=seed,
@@ -53,7 +48,7 @@ def score_predictions(
         },
         inputs={"predictions": path, "data": data.path},
     )
-    return assemble(data, vocabulary, measured, seed=seed, manifest=manifest)
+    return assemble(data, vocabulary, found, seed=seed, manifest=manifest)
 
 
 def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None = None) -> Results:
@@ -66,9 +61,8 @@ def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None =
     record = read_run(folder)
     settings = record.settings
     vocabulary = load_vocabulary(settings["vocabulary"])
-    data = load_bench_data(
-        data_path or settings["data"], settings["level"], vocabulary, settings["limit"]
-    )
+    path = data_path or settings["data"]
+    data = load_bench_data(path, settings["level"], vocabulary, settings["limit"])
     if data.sha256 != settings["data_sha256"]:
         raise PlannerError(
             f"{data.path}: is not the data that {folder} was run on; give that file with --data"
@@ -80,14 +74,11 @@ def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None =
                 f" {vocabulary.name}; restore it to score the run again"
             )
     seed = settings["seed"] if seed is None else seed
-    configuration = {
-        **settings,
-        "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
-    }
+    named = {"name": vocabulary.name, "sha256": vocabulary.sha256}
     manifest = build_manifest(
         "score",
         seed=seed,
-        configuration=configuration,
+        configuration={**settings, "vocabulary": named},
         inputs={"data": data.path},
         jobs=record.jobs,
         costs=record.costs,
@@ -95,33 +86,28 @@ def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None =
     return assemble(data, vocabulary, measured_in(folder, record), seed=seed, manifest=manifest)
 
 
-def read_predictions(path: Path, known: frozenset[str], name: str) -> Predictions:
-    """Predictions by (candidate, configuration, repeat), then by sample id; `known` are the ids of
-    the test data.
-    """
-    groups: Predictions = {}
-    lines: dict[tuple[str, str, int | None, str], int] = {}
+def _read(path: Path, known: frozenset[str], name: str) -> dict[Key, Lines]:
+    """Predictions by system, then by sample id; `known` are the ids of the test data."""
+    groups: dict[Key, Lines] = {}
+    numbers: dict[tuple[Key, str], int] = {}
     problems: list[str] = []
     line: Any
     for number, line, problem in iterate_jsonl(path):
         problem = problem or _problem(line, known)
         if problem is None:
-            key = (
-                str(line.get("candidate") or name),
-                str(line.get("configuration") or CONFIGURATION),
-                line.get("repeat"),
-                line["id"],
-            )
-            if key in lines:
+            candidate = str(line.get("candidate") or name)
+            configuration = str(line.get("configuration") or CONFIGURATION)
+            key = candidate, configuration, line.get("repeat")
+            if before := numbers.get((key, line["id"])):
                 problem = (
-                    f"id {line['id']!r} has a prediction on line {lines[key]} already (further"
-                    " answers to a sample need a number as repeat)"
+                    f"id {line['id']!r} has a prediction on line {before} already (further answers"
+                    " to a sample need a number as repeat)"
                 )
+            else:
+                numbers[key, line["id"]] = number
+                groups.setdefault(key, {})[line["id"]] = line
         if problem is not None:
             problems.append(f"{path}:{number}: {problem}")
-            continue
-        lines[key] = number
-        groups.setdefault(key[:3], {})[line["id"]] = line
     if problems:
         raise PlannerError(joined(problems))
     if not groups:
@@ -131,15 +117,11 @@ def read_predictions(path: Path, known: frozenset[str], name: str) -> Prediction
     return groups
 
 
-def _system(
-    candidate: str,
-    configuration: str,
-    predictions: dict[str, dict[str, Any]],
-    vocabulary: Vocabulary,
-) -> System:
-    """What is known of a system by its name, and from its lines whether it is a stand-in."""
+def _system(key: Key, lines: Lines, vocabulary: Vocabulary) -> System:
+    """A system as its name tells, and its lines: whether it is a stand-in."""
+    candidate, configuration, repeat = key
     known = next((entry for entry in all_candidates() if entry.name == candidate), None)
-    standin = any(line.get("standin") is True for line in predictions.values())
+    standin = any(line.get("standin") is True for line in lines.values())
     label = (known and known.published) or candidate
     return System(
         candidate,
@@ -148,22 +130,19 @@ def _system(
         published=known.published if known else None,
         is_standin=standin,
         pretrained=bool(known and known.knows(vocabulary)),
+        repeat=repeat,
     )
 
 
-def _timed(path: Path) -> Predictions:
-    """The timed queries of a run by (candidate, configuration, repeat) and sample id; none for
-    other files.
-    """
-    timed: Predictions = {}
+def _timed(path: Path) -> dict[Key, Lines]:
+    """The timed queries of a run by system and sample id; none for other files."""
+    timed: dict[Key, Lines] = {}
     beside = path.with_name(LATENCY)
-    if path.name != PREDICTIONS or not beside.is_file():
-        return timed
-    for _number, line, _problem_there in iterate_jsonl(beside):
-        if isinstance(line, dict) and _is_timed(line):
-            timed.setdefault(
-                (str(line.get("candidate")), str(line.get("configuration")), line.get("repeat")), {}
-            )[str(line.get("id"))] = line
+    if path.name == PREDICTIONS and beside.is_file():
+        for _number, line, _problem_there in iterate_jsonl(beside):
+            if isinstance(line, dict) and _is_timed(line):
+                names = str(line.get("candidate")), str(line.get("configuration"))
+                timed.setdefault((*names, line.get("repeat")), {})[str(line.get("id"))] = line
     return timed
 
 

@@ -1,221 +1,290 @@
-"""table.md, table.csv and table.tex, in the layout of the published tables: per metric the
-configurations side by side.
+"""The tables of a run: table.md, table.csv, table.tex and the terminal.
+
+Figures stand in the long form, a row per candidate and configuration. Tables with a column per
+system (figures per name, substitutions ...) are written for each candidate.
 """
 
 from __future__ import annotations
 
-import csv
-import io
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any
 
-from planner_ft.benchmark import sections
-from planner_ft.benchmark.changes import changes_markdown
-from planner_ft.benchmark.contrasts_text import contrasts_markdown
-from planner_ft.benchmark.costs_text import costs_markdown
-from planner_ft.benchmark.groups import groups_markdown
-from planner_ft.benchmark.layout import (
-    COLUMNS,
-    MORE_COLUMNS,
+from planner_ft.benchmark.catalogue import MAIN, METRIC, METRICS, RIGHT, SECTIONS
+from planner_ft.benchmark.changes import Change
+from planner_ft.benchmark.contrasts import DECISIVE, baseline_name
+from planner_ft.benchmark.costs import QUANTILES
+from planner_ft.benchmark.layout import by_candidate, lines, metric_table, notes, shows_published
+from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
+from planner_ft.benchmark.results import Results, Row
+from planner_ft.benchmark.verdicts import MARKS, Comparison, difference_cell, verdict
+from planner_ft.report.tables import (
     NOTHING,
-    Column,
+    Cell,
+    Table,
     TableRow,
-    baseline_rows,
-    configurations,
-    heading,
-    measured_configurations,
-    measured_rows,
-    notes,
-    shows_published,
-    system_name,
-    table_rows,
+    csv_table,
+    figure,
+    latex_table,
+    markdown_table,
+    row,
 )
-from planner_ft.benchmark.metrics import FAILURES
-from planner_ft.benchmark.metrics.failures import PUBLISHED
-from planner_ft.benchmark.repeats import repeats_markdown
-from planner_ft.benchmark.results import Results
-from planner_ft.benchmark.statistics import Estimate
+from planner_ft.support.resources import memory_size
+
+SHOWN_PAIRS, SHOWN_IDS, SHOWN_OTHERS = 15, 3, 10
+Figures = Mapping[str, Any]
 
 
 def render_tables(results: Results) -> dict[str, str]:
     """The texts of table.md, table.csv and table.tex."""
+    below = notes(results)
+    texts = [markdown_table(table) for table in tables(results)]
+    figures = metric_table("figures", METRICS, lines(results), headings=METRICS)
+    main = metric_table("main", MAIN, lines(results))
     return {
-        "table.md": markdown(results),
-        "table.csv": csv_table(results),
-        "table.tex": latex(results),
+        "table.md": "\n".join([*texts, *(f"- {note}" for note in below)]) + "\n",
+        "table.csv": csv_table(figures),
+        "table.tex": latex_table(main) + "".join(f"% {note}\n" for note in below),
     }
 
 
-def markdown(results: Results) -> str:
-    """table.md: the published layout, what it leaves out, failures by kind, names, order and
-    parameters apart, notes.
-    """
-    lines = [*_markdown_table(table_rows(results), COLUMNS, configurations(results)), ""]
-    lines += [
-        *_markdown_table(
-            [*measured_rows(results), *baseline_rows(results)],
-            MORE_COLUMNS,
-            measured_configurations(results),
-        ),
-        "",
-    ]
-    lines += [
-        "| Wrong answers by kind | n | " + " | ".join(FAILURES) + " |",
-        "|---|" + "---:|" * (len(FAILURES) + 1),
-    ]
-    lines += [
-        f"| {system_name(row)} | {row.n} | "
-        + " | ".join(str(row.failures[kind]) for kind in FAILURES)
-        + " |"
-        for row in results.rows
+def tables(results: Results) -> list[Table]:
+    """Every table of table.md: the published metrics first."""
+    ours = [line for line in lines(results) if line.kind != "published"]
+    found = [metric_table("main", MAIN, lines(results)), metric_table("right", RIGHT, ours)]
+    found.append(_failures(results))
+    for title, names in SECTIONS:
+        table = metric_table(title, names, ours, corner=title)
+        found += [table] if len(table.columns) > 2 else []
+    for of_candidate in by_candidate(results.rows):
+        found += [table for part in PARTS for table in part(of_candidate)]
+    costs = {one.name: one.costs for one in results.rows if one.costs}
+    repeats = {one.name: one.repeats for one in results.rows if one.repeats}
+    found += [*cost_tables(costs), *_differences(results), *repeat_tables(repeats)]
+    return [*found, *change_tables(results.changes), *group_tables(results.groups)]
+
+
+def _failures(results: Results) -> Table:
+    rows = [
+        row(one.name, str(one.n), *(str(one.failures[kind]) for kind in FAILURES))
+        for one in results.rows
     ]
     if results.level == "mission" and shows_published(results):
-        lines.append(
-            "| mission agent (published) | 25 | "
-            + " | ".join(str(PUBLISHED.get(kind, 0)) for kind in FAILURES)
-            + " |"
-        )
-    lines += ["", *(line for part in sections.PARTS for line in part(results))]
-    lines += costs_markdown({system_name(row): row.costs for row in results.rows})
-    lines += [
-        *contrasts_markdown(results),
-        *repeats_markdown({system_name(row): row.repeats or {} for row in results.rows}),
-    ]
-    lines += [*changes_markdown(results.changes), *groups_markdown(results.groups)]
-    lines += [f"- {note}" for note in notes(results)]
-    return "\n".join(lines) + "\n"
+        counts = (str(PUBLISHED.get(kind, 0)) for kind in FAILURES)
+        rows.append(row("mission agent (published)", "25", *counts, kind="published"))
+    return _table("Wrong answers by kind", ("n", *FAILURES), rows)
 
 
-def csv_table(results: Results) -> str:
-    """table.csv: the published columns (rates in percent) with interval bounds, then the other
-    metrics.
+def _table(corner: str, columns: Iterable[str], rows: Iterable[TableRow], texts: int = 0) -> Table:
+    return Table(corner, "", "", corner, tuple(columns), tuple(rows), texts)
+
+
+def names_tables(rows: Sequence[Row]) -> Iterator[Table]:
+    """F1 of each role and name with its interval, and its support: the occurrences expected. All
+    names that were predicted and nowhere expected are in results.json.
     """
-    names = configurations(results)
-    columns = {
-        column.metric: column for column in (*COLUMNS, *MORE_COLUMNS, *sections.section_columns())
-    }.values()
-    keys = [(column, configuration) for column in columns for configuration in names]
-    rows = table_rows(results)
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(
-        [
-            "model",
-            "source",
-            "n",
-            *(
-                f"{column.metric}_{configuration}{bound}"
-                for column, configuration in keys
-                for bound in ("", "_low", "_high")
-            ),
-            *_marked(rows),
+    for part, key in (("per_role", "role"), ("per_name", "name")):
+        figures = [{line[key]: line for line in one.breakdown.get(part, ())} for one in rows]
+        support = {
+            name: line["expected"] for of_row in reversed(figures) for name, line in of_row.items()
+        }
+        ordered = sorted(support, key=lambda name: (-support[name], name))
+        extra = [name for name in ordered if not support[name]][:SHOWN_OTHERS]
+        shown = [name for name in ordered if support[name]] + extra
+        body = [
+            row(
+                name,
+                str(support[name]),
+                *(_estimate(of_row.get(name, {}).get("f1")) for of_row in figures),
+            )
+            for name in shown
         ]
-    )
-    for row in rows:
-        values: list[str] = []
-        for column, configuration in keys:
-            estimate = row.cells.get((column.metric, configuration), Estimate(None))
-            values += [
-                "" if bound is None else f"{bound * column.scale:.6g}"
-                for bound in (estimate.value, estimate.low, estimate.high)
-            ]
-        writer.writerow([row.model, row.source, row.n, *values, *_marked(rows, row)])
-    return stream.getvalue()
+        if shown:
+            yield _table(f"F1 per {key} ↑", ("expected", *(one.name for one in rows)), body)
 
 
-def _marked(rows: list[TableRow], row: TableRow | None = None) -> list[str]:
-    """The headings of the columns with marks, or a row's marks."""
-    keys = list(dict.fromkeys(key for one in rows for key in one.marks))
-    return (
-        [row.marks.get(key, "") for key in keys]
-        if row
-        else [f"{metric}_{configuration}_mark" for metric, configuration in keys]
-    )
+def counted_tables(rows: Sequence[Row]) -> Iterator[Table]:
+    """The most frequent substitutions, and the conditions that stop mission plans."""
+    for part, keys, heads, nothing in (
+        ("substitutions", ("expected", "predicted"), ("Expected", "predicted"), "(nothing)"),
+        ("stops", ("condition", "title"), ("Stops for want of", "at"), "(no plan)"),
+    ):
+        counts = [
+            Counter({tuple(line[key] or "" for key in keys): line["n"] for line in found})
+            for found in (one.breakdown.get(part, ()) for one in rows)
+        ]
+        total: Counter[tuple[str, ...]] = sum(counts, Counter())
+        frequent = sorted(total, key=lambda pair: (-total[pair], pair))[:SHOWN_PAIRS]
+        body = [
+            row(one or nothing, other or nothing, *(str(found[one, other]) for found in counts))
+            for one, other in frequent
+        ]
+        if body:
+            yield _table(heads[0], (heads[1], *(one.name for one in rows)), body, texts=1)
 
 
-def latex(results: Results) -> str:
-    """table.tex: a tabular in the published layout."""
-    names = configurations(results)
-    width = len(names)
-    first = " & ".join(
-        f"\\multicolumn{{{width}}}{{c}}{{{tex_text(f'{column.heading} {column.better}'.strip())}}}"
-        for column in COLUMNS
-    )
-    rules = " ".join(
-        f"\\cmidrule(lr){{{2 + index * width}-{1 + (index + 1) * width}}}"
-        for index in range(len(COLUMNS))
-    )
-    second = " & ".join(tex_text(heading(name)) for _column in COLUMNS for name in names)
-    lines = [
-        "% Needs \\usepackage{booktabs, amssymb}.",
-        f"\\begin{{tabular}}{{l{'r' * width * len(COLUMNS)}}}",
-        "\\toprule",
-        f"Model & {first} \\\\",
-        rules,
-        f" & {second} \\\\",
-        "\\midrule",
+def examples_tables(rows: Sequence[Row]) -> Iterator[Table]:
+    """Ids of wrong answers by kind."""
+    figures = [one.breakdown.get("failure_examples", {}) for one in rows]
+    kinds = [kind for kind in FAILURES if any(kind in examples for examples in figures)]
+    body = [
+        row(kind, *(", ".join(found.get(kind, [])[:SHOWN_IDS]) or NOTHING for found in figures))
+        for kind in kinds
     ]
-    for row in table_rows(results):
-        cells = [_tex_cell(column, row, name) for column in COLUMNS for name in names]
-        model = (
-            f"\\textit{{{tex_text(row.model)}}}"
-            if row.source == "published"
-            else tex_text(row.model)
-        )
-        lines.append(f"{model} & {' & '.join(cells)} \\\\")
-    lines += ["\\bottomrule", "\\end{tabular}", *(f"% {note}" for note in notes(results))]
-    return "\n".join(lines) + "\n"
+    if kinds:
+        yield _table("Examples of wrong answers", [one.name for one in rows], body, texts=len(rows))
 
 
-def _markdown_table(
-    rows: list[TableRow], columns: tuple[Column, ...], names: list[str]
-) -> list[str]:
-    pairs = [(column, name) for column in columns for name in names]
-    lines = [
-        "| Model | n | "
-        + " | ".join(
-            f"{column.heading} {column.better} {heading(name)}".replace("  ", " ")
-            for column, name in pairs
+PARTS: tuple[Callable[[Sequence[Row]], Iterator[Table]], ...] = (
+    names_tables,
+    counted_tables,
+    examples_tables,
+)
+
+
+def _estimate(found: Figures | None, scale: float = 1, decimals: int = 2) -> Cell:
+    """A figure of results.json with its interval."""
+    bounds = [(found or {}).get(name) for name in ("value", "low", "high")]
+    return figure(*bounds, scale=scale, decimals=decimals)
+
+
+def cost_tables(known: Mapping[str, Figures]) -> Iterator[Table]:
+    """A line per system, and planning time by number of tasks."""
+    body = []
+    for name, costs in known.items():
+        latency, memory = costs.get("latency_s", {}), costs.get("peak_memory_bytes")
+        body.append(
+            row(
+                name,
+                str(costs.get("n", 0)),
+                *(_estimate(latency.get(quantile)) for quantile, _share in QUANTILES),
+                _estimate(costs.get("first_token_s"), decimals=3),
+                _estimate(costs.get("tokens_per_s"), decimals=0),
+                figure(costs.get("load_s"), decimals=1),
+                figure(costs.get("adapter_swap_s"), decimals=4),
+                NOTHING if memory is None else memory_size(memory),
+            )
         )
-        + " |"
+    if body:
+        heads = [f"Latency {name} (s)" for name, _share in QUANTILES]
+        heads += ["First token (s)", "Tokens/s", "Load (s)", "Adapter switch (s)", "Peak memory"]
+        yield _table("Cost", ("timed queries", *heads), body)
+    planning = {
+        name: {
+            entry["tasks"]: f"{entry['seconds']['value']:.2f} (n = {entry['n']})"
+            for entry in costs["planning"]
+        }
+        for name, costs in known.items()
+        if costs.get("planning")
+    }
+    if planning:
+        numbers = range(1, max(max(found, default=0) for found in planning.values()) + 1)
+        yield _table(
+            "Seconds to plan a mission of m tasks, both agents; m =",
+            map(str, numbers),
+            [
+                row(name, *(found.get(m, NOTHING) for m in numbers))
+                for name, found in planning.items()
+            ],
+        )
+
+
+def _differences(results: Results) -> Iterator[Table]:
+    """Differences between the configurations of a model, and of every row from the baselines."""
+
+    def of_pair(one: Comparison) -> str:
+        return f"{one.second} against {one.first}"
+
+    if found := results.contrasts["configuration"]:
+        metrics = list(dict.fromkeys(one.paired.metric for one in found))
+        columns = {metric: METRIC[metric].heading for metric in metrics}
+        by_metric = {(of_pair(one), one.paired.metric): one.difference() for one in found}
+        yield _pivot("Difference, paired by sample", by_metric, columns)
+    if found := results.contrasts["baseline"]:
+        baselines = dict.fromkeys(one.first for one in found)
+        columns = {
+            f"{metric} {first}": f"{METRIC[metric].heading} against {baseline_name(first)}"
+            for metric in DECISIVE
+            for first in baselines
+        }
+        cells = {
+            (one.second, f"{one.paired.metric} {one.first}"): one.difference() for one in found
+        }
+        yield _pivot("Against the baselines", cells, columns)
+
+
+def _pivot(corner: str, cells: Mapping[tuple[str, str], Cell], columns: Mapping[str, str]) -> Table:
+    """A table from cells by (row, column)."""
+    names = dict.fromkeys(name for name, _column in cells)
+    body = [row(name, *(cells.get((name, key), NOTHING) for key in columns)) for name in names]
+    return _table(corner, columns.values(), body)
+
+
+def repeat_tables(figures: Mapping[str, Figures]) -> Iterator[Table]:
+    """pass^k (all of k answers are right) and pass@k (at least one is), for k = 1, 2, 4 ... and the
+    last.
+    """
+    shown = {name: found for name, found in figures.items() if found.get("k", 0) > 1}
+    if not shown:
+        return
+    most = max(found["k"] for found in shown.values())
+    ks = sorted(
+        {2**power for power in range(10) if 2**power < most}
+        | {found["k"] for found in shown.values()}
+    )
+    asked = [("all_of_k", k) for k in ks] + [("any_of_k", k) for k in ks if k > 1]
+    body = [
+        row(
+            f"{name}, {found['k']} answers per sample",
+            *(_estimate(found[kind].get(str(k)), 100, 1) for kind, k in asked),
+        )
+        for name, found in shown.items()
     ]
-    lines.append("|---|---:|" + "---:|" * len(pairs))
-    for row in rows:
-        cells = [_cell(column, row, name) for column, name in pairs]
-        lines.append(f"| {row.model} | {row.n} | " + " | ".join(cells) + " |")
-    return lines
+    heads = [f"pass{'^' if kind == 'all_of_k' else '@'}{k}" for kind, k in asked]
+    caption = "pass^k: all of k answers are right; pass@k: at least one of k is (pass@1 is pass^1)."
+    corner = "Whole plan right (%)"
+    yield Table("repeats", "", caption, corner, tuple(heads), tuple(body))
 
 
-def _cell(column: Column, row: TableRow, name: str) -> str:
-    estimate = row.cells.get((column.metric, name), Estimate(None))
-    return (
-        f"{column.text(estimate.value, source=row.source)} {column.interval(estimate)}"
-        f" {row.marks.get((column.metric, name), '')}".rstrip()
-    )
+def change_tables(changes: Sequence[Change]) -> Iterator[Table]:
+    """Differences by enforcing, and the outcomes that changed."""
+    body, moved = [], []
+    for change in changes:
+        name = f"{change.candidate}, {change.before} → {change.after}"
+        tests = zip((change.f1, change.whole_plan), change.p_adjusted, strict=True)
+        differences = [difference_cell(one, MARKS[verdict(one, p)]) for one, p in tests]
+        ratios = [
+            NOTHING if ratio is None else f"× {ratio:.2f}"
+            for ratio in (change.seconds, change.forward_passes)
+        ]
+        body.append(row(name, str(change.n), *differences, *ratios))
+        moved += [
+            row(name, old, new, str(count))
+            for (old, new), count in change.outcomes.items()
+            if old != new
+        ]
+    if body:
+        heads = ("n", "F1 (difference)", "Whole plan right (difference, points)")
+        ratio_heads = ("Latency (ratio)", "Forward passes (ratio)")
+        yield _table("Changes by enforcing", (*heads, *ratio_heads), body)
+    if moved:
+        columns = ("free", "enforced", "samples")
+        yield _table("Outcome, sample by sample", columns, moved, texts=2)
 
 
-def _tex_cell(column: Column, row: TableRow, name: str) -> str:
-    estimate = row.cells.get((column.metric, name), Estimate(None))
-    interval = column.interval(estimate)
-    return (
-        column.text(estimate.value, source=row.source).replace(NOTHING, "--")
-        + (f" {{\\scriptsize {interval}}}" if interval else "")
-        + tex_text(row.marks.get((column.metric, name), ""))
-    )
-
-
-TEX = {
-    "▲": "$\\blacktriangle$",
-    "▼": "$\\blacktriangledown$",
-    "≈": "$\\approx$",
-    "·": "$\\cdot$",
-    "★": "$\\star$",
-    "\\": "\\textbackslash{}",
-    "~": "\\textasciitilde{}",
-    "^": "\\textasciicircum{}",
-    "↑": "$\\uparrow$",
-    "↓": "$\\downarrow$",
-    **{character: f"\\{character}" for character in "&%$#_{}"},
-}
-
-
-def tex_text(text: str) -> str:
-    return "".join(TEX.get(character, character) for character in text)
+def group_tables(figures: Sequence[Figures]) -> Iterator[Table]:
+    """One line per group of the data and system."""
+    names = ("exact_sequence", "parameters", "whole_plan", "strict_valid")
+    body = [
+        row(
+            entry["group"],
+            f"{entry['candidate']}, {entry['configuration']}",
+            str(entry["n"]),
+            f"{entry['f1']:.2f}",
+            *(figure(entry[name], scale=100, decimals=0) for name in names),
+        )
+        for entry in sorted(figures, key=lambda entry: str(entry["group"]))
+    ]
+    if body:
+        heads = ("System", "n", "F1", *(METRIC[name].heading for name in names))
+        yield _table("Group", heads, body, texts=1)

@@ -1,30 +1,20 @@
-"""The tables in a terminal: a line per model and configuration, so that they fit 80 columns."""
+"""The tables in a terminal of 80 columns."""
 
 from __future__ import annotations
 
-from rich.box import SIMPLE_HEAD
+from collections.abc import Sequence
+from typing import Any
+
 from rich.console import Console
-from rich.table import Table
 from rich.text import Text
 
-from planner_ft.benchmark.layout import (
-    COLUMNS,
-    MORE_COLUMNS,
-    Column,
-    TableRow,
-    baseline_rows,
-    heading,
-    measured_rows,
-    notes,
-    system_name,
-    table_rows,
-)
-from planner_ft.benchmark.published import CONFIGURATIONS, source
+from planner_ft.benchmark import published
+from planner_ft.benchmark.catalogue import MAIN, METRIC, RIGHT
+from planner_ft.benchmark.layout import Line, has_figure, lines, notes
 from planner_ft.benchmark.results import Results
-from planner_ft.benchmark.statistics import Estimate
+from planner_ft.report.tables import Cell, Table, TableRow, row, terminal_table
 
-HEADINGS = {
-    "f1": "F1 ↑",
+SHORT = {
     "hallucination": "halluc.\n% ↓",
     "schema_valid": "schema\nvalid % ↑",
     "strict_valid": "strictly\nvalid % ↑",
@@ -34,97 +24,58 @@ HEADINGS = {
     "parameters": "parameters\nright % ↑",
     "whole_plan": "whole plan\nright % ↑",
     "parsed": "parses\n% ↑",
+    "forward_passes": "forward\npasses ↓",
 }
+"""Headings in a terminal of 80 columns."""
 
 
 def print_results(results: Results, console: Console) -> None:
-    """Print the figures in the order of the published table, what that leaves out, the published
+    """Print the figures in the order of the published table, whether plans are right, the published
     figures, and notes.
     """
     console.print(Text(f"{results.level} level, n = {results.data['n']}", style="bold"))
-    console.print(_measured(results, COLUMNS))
-    console.print(
-        _measured(results, tuple(column for column in MORE_COLUMNS if column.metric in HEADINGS))
-    )
-    theirs = [row for row in table_rows(results) if row.source == "published"]
+    found = lines(results)
+    ours = [line for line in found if line.kind != "published"]
+    theirs = [line for line in found if line.kind == "published"]
+    console.print(_narrow(MAIN, ours))
+    console.print(_narrow(RIGHT, ours))
     if theirs:
-        console.print(
-            Text(f"published, not measured here: {source(results.level)}", style="bold dim")
-        )
-        console.print(_published(theirs))
+        source = published.source(results.level)
+        console.print(Text(f"published, not measured here: {source}", style="bold dim"))
+        console.print(_narrow(MAIN, theirs))
     for note in notes(results):
         console.print(Text(note, style="dim"))
 
 
+def _narrow(names: Sequence[str], shown: Sequence[Line]) -> Any:
+    """A line per configuration below its model, intervals without decimals, for 80 columns."""
+    known = [name for name in names if any(has_figure(line, name) for line in shown)]
+    rows: list[TableRow] = []
+    for line in shown:
+        if line.kind != "baseline" and line.model not in [one.heading for one in rows]:
+            rows.append(row(line.model, kind="section"))
+        label = line.model if line.kind == "baseline" else f"  {line.configuration}"
+        cells = [
+            _short(cell, METRIC[name].decimals if METRIC[name].scale == 1 else 0)
+            for name, cell in zip(known, line.cells(known), strict=True)
+        ]
+        rows.append(row(label, *cells, kind=line.kind))
+    heads = tuple(SHORT.get(name, METRIC[name].title) for name in known)
+    return terminal_table(Table("terminal", "", "", "model", heads, tuple(rows)))
+
+
+def _short(cell: Cell, decimals: int) -> Cell:
+    if not cell.interval or cell.bounds is None:
+        return cell
+    low, high = (f"{bound or 0:.{decimals}f}" for bound in cell.bounds[1:])
+    return Cell(cell.text, f"{low}–{high}", cell.mark)
+
+
 def print_missing(results: Results, console: Console) -> None:
     """Name the samples without a prediction."""
-    for row in results.rows:
-        if row.missing:
-            console.print(
-                Text(
-                    f"{system_name(row)}: no prediction for {', '.join(row.missing)}; counted as"
-                    " empty outputs"
-                ),
-                soft_wrap=True,
+    for one in results.rows:
+        if one.missing:
+            text = (
+                f"{one.name}: no prediction for {', '.join(one.missing)}; counted as empty outputs"
             )
-
-
-def _new_table(columns: tuple[Column, ...]) -> Table:
-    table = Table(box=SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
-    table.add_column("model", overflow="fold")
-    for column in columns:
-        table.add_column(HEADINGS[column.metric], justify="right", no_wrap=True)
-    return table
-
-
-def _measured(results: Results, columns: tuple[Column, ...]) -> Table:
-    table = _new_table(columns)
-    for row in measured_rows(results):
-        table.add_row(Text(row.model, style="bold"))
-        for name in dict.fromkeys(configuration for _metric, configuration in row.cells):
-            table.add_row(
-                f"  {heading(name)}",
-                *(
-                    _cell(
-                        column,
-                        row.cells.get((column.metric, name)),
-                        row.marks.get((column.metric, name), ""),
-                    )
-                    for column in columns
-                ),
-            )
-    for row in baseline_rows(results):
-        name = next(configuration for _metric, configuration in row.cells)
-        table.add_row(
-            Text(row.model, style="italic"),
-            *(_cell(column, row.cells.get((column.metric, name))) for column in columns),
-        )
-    return table
-
-
-def _published(rows: list[TableRow]) -> Table:
-    """Base and LoRA in one cell: these figures have no intervals."""
-    columns = tuple(column for column in COLUMNS if (column.metric, "base") in rows[0].cells)
-    table = _new_table(columns)
-    table.columns[0].header = "Base/LoRA"
-    for row in rows:
-        pairs = [
-            "/".join(
-                column.text(row.cells[column.metric, name].value, source="published")
-                for name in CONFIGURATIONS
-            )
-            for column in columns
-        ]
-        table.add_row(row.model.removesuffix(" (published)"), *pairs, style="dim")
-    return table
-
-
-def _cell(column: Column, estimate: Estimate | None, mark: str = "") -> Text:
-    """The figure with its mark, and below it the interval, bounds in percent without decimals."""
-    if estimate is None or estimate.value is None:
-        return Text("–")
-    if estimate.low is None or estimate.high is None:
-        return Text(column.text(estimate.value) + mark)
-    decimals = 0 if column.scale == 100 or column.metric == "tokens" else column.decimals
-    low, high = (f"{bound * column.scale:.{decimals}f}" for bound in (estimate.low, estimate.high))
-    return Text.assemble(column.text(estimate.value) + mark, "\n", (f"{low}–{high}", "dim"))
+            console.print(Text(text), soft_wrap=True)

@@ -1,4 +1,4 @@
-"""What a comparison says in words and in a mark."""
+"""The meaning of a comparison, in a word and in a mark."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from planner_ft.benchmark.catalogue import CATALOGUE
-from planner_ft.benchmark.paired import Paired, holm, is_real
+from planner_ft.benchmark.catalogue import METRIC
+from planner_ft.benchmark.paired import Paired, holm
 from planner_ft.benchmark.statistics import Estimate
+from planner_ft.report.tables import NOTHING, Cell, figure
 
 Verdict = Literal["better", "worse", "higher", "lower", "equal", "not told apart", "not compared"]
 
@@ -20,22 +21,7 @@ DEFAULT_METRICS = (
     "hallucination",
     "strict_valid",
 )
-"""What systems are compared by where nothing else is asked for."""
-LOWER_IS_BETTER = frozenset(
-    {
-        "hallucination",
-        "hallucination_with_unparsed",
-        "hallucination_without_unparsed",
-        "edit_distance",
-        "step_edit_distance",
-        "wrong_refusal",
-        "latency_s",
-        "forward_passes",
-    }
-)
-NEITHER = frozenset({"tokens"})
-UNBOUNDED = frozenset(metric.name for metric in CATALOGUE if not metric.fraction)
-"""Metrics that are no share of anything."""
+SIGNIFICANCE = 0.05
 MARGIN = 0.05
 """Two systems whose difference is known to be smaller than this, at 95 %, are called equal."""
 MARKS: dict[Verdict, str] = {
@@ -66,7 +52,6 @@ class Comparison:
 
     @property
     def verdict(self) -> Verdict:
-        """What is known of `second` against `first`."""
         return verdict(self.paired, self.p_adjusted)
 
     @property
@@ -74,86 +59,64 @@ class Comparison:
         return MARKS[self.verdict]
 
     def to_json(self) -> dict[str, Any]:
+        """As results.json and comparison.json have it."""
+        values = self.paired.to_json()
         return {
             "first": self.first,
             "second": self.second,
-            **self.renamed(),
-            "p_adjusted": self.p_adjusted,
-            "verdict": self.verdict,
-        }
-
-    def renamed(self) -> dict[str, Any]:
-        """The figures, with names that do not clash with those of the systems."""
-        values = self.paired.to_json()
-        return {
             "metric": values.pop("metric"),
             "first_value": values.pop("first"),
             "second_value": values.pop("second"),
             **values,
+            "p_adjusted": self.p_adjusted,
+            "verdict": self.verdict,
         }
+
+    def difference(self) -> Cell:
+        """The difference with its interval and mark."""
+        return difference_cell(self.paired, self.mark)
 
 
 def verdict(paired: Paired, p_adjusted: float | None) -> Verdict:
-    """A difference is real where p, adjusted for the table, is under 0.05; equal is what is known
-    to differ by less than MARGIN.
-
-    Everything else is not told apart: too few samples to say which of the two it is.
+    """A difference is real where p, adjusted for the table, is under 0.05; equal is a difference
+    that is known to be less than MARGIN. Everything else is not told apart.
     """
-    difference = paired.difference
+    difference, metric = paired.difference, METRIC.get(paired.metric)
     if difference.value is None or p_adjusted is None:
         return "not compared"
-    if is_real(p_adjusted):
-        up: Verdict = (
-            "higher"
-            if paired.metric in NEITHER
-            else "worse"
-            if paired.metric in LOWER_IS_BETTER
-            else "better"
-        )
-        down: Verdict = (
-            "lower"
-            if paired.metric in NEITHER
-            else "better"
-            if paired.metric in LOWER_IS_BETTER
-            else "worse"
-        )
-        return up if difference.value > 0 else down
-    return (
-        "equal"
-        if paired.metric not in UNBOUNDED and _within(difference, MARGIN)
-        else "not told apart"
-    )
-
-
-def _within(difference: Estimate, margin: float) -> bool:
-    return (
-        difference.low is not None
-        and difference.high is not None
-        and -margin <= difference.low
-        and difference.high <= margin
-    )
+    better = metric.better if metric else "↑"
+    up = difference.value > 0
+    if p_adjusted < SIGNIFICANCE:
+        if not better:
+            return "higher" if up else "lower"
+        return "better" if up == (better == "↑") else "worse"
+    low, high = difference.low, difference.high
+    within = low is not None and high is not None and low >= -MARGIN and high <= MARGIN
+    return "equal" if within and (metric is None or metric.fraction) else "not told apart"
 
 
 def adjusted(found: Sequence[tuple[str, str, Paired]]) -> list[Comparison]:
     """Comparisons (first, second, figures) of one table, their p-values adjusted together."""
+    ps = holm([one.p for _first, _second, one in found])
     return [
-        Comparison(first, second, one, p)
-        for (first, second, one), p in zip(
-            found, holm([one.p for _first, _second, one in found]), strict=True
-        )
+        Comparison(first, second, one, p) for (first, second, one), p in zip(found, ps, strict=True)
     ]
 
 
 def p_text(p: float | None) -> str:
     """A p-value as tables show it."""
-    return "–" if p is None else "< 0.001" if p < 0.001 else f"{p:.3f}"
+    return NOTHING if p is None else "< 0.001" if p < 0.001 else f"{p:.3f}"
+
+
+def difference_cell(paired: Paired, mark: str = "") -> Cell:
+    """A difference with its sign, interval and mark, in the unit of its metric."""
+    metric, found = METRIC[paired.metric], paired.difference
+    decimals = 3 if metric.scale == 1 and metric.fraction else metric.decimals
+    bounds = found.value, found.low, found.high
+    return figure(*bounds, scale=metric.scale, decimals=decimals, mark=mark, sign=True)
 
 
 def signed(estimate: Estimate, scale: int = 1, decimals: int = 3) -> str:
-    """A difference with its sign and interval."""
-    if estimate.value is None:
-        return "–"
-    text = f"{estimate.value * scale:+.{decimals}f}"
-    if estimate.low is None or estimate.high is None:
-        return text
-    return f"{text} [{estimate.low * scale:+.{decimals}f}, {estimate.high * scale:+.{decimals}f}]"
+    """A difference with its sign and interval in one line."""
+    bounds = estimate.value, estimate.low, estimate.high
+    return figure(*bounds, scale=scale, decimals=decimals, sign=True).plain()

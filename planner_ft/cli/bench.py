@@ -14,8 +14,7 @@ from planner_ft.support.errors import IncompleteError, PlannerError
 
 if TYPE_CHECKING:
     from planner_ft.benchmark.results import Results
-    from planner_ft.benchmark.settings import BenchSettings
-    from planner_ft.benchmark.sources.endpoint_settings import EndpointSettings
+    from planner_ft.benchmark.settings import BenchSettings, EndpointSettings
     from planner_ft.benchmark.suite.session import State
 
 RUN = (
@@ -159,7 +158,7 @@ def _with_endpoint(
     """
     if not served:
         return named, None
-    from planner_ft.benchmark.sources.endpoint_settings import EndpointSettings
+    from planner_ft.benchmark.settings import EndpointSettings
 
     if "endpoint" not in served or "model" not in served:
         raise PlannerError(f"{typed(served)}: a server needs both --endpoint URL and --model NAME")

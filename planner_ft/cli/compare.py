@@ -30,8 +30,13 @@ def compare(
     """
     from rich.console import Console
 
-    from planner_ft.benchmark.compare import DEFAULT_METRICS, CompareSettings, compare_runs
-    from planner_ft.benchmark.compare_text import print_report, render_report
+    from planner_ft.benchmark.compare import (
+        DEFAULT_METRICS,
+        CompareSettings,
+        compare_runs,
+        print_report,
+        render_report,
+    )
     from planner_ft.benchmark.folder import check_folder
     from planner_ft.support.files import indented_json, write_json, write_text
 

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.layout import heading
+from planner_ft.benchmark.results import heading
 from planner_ft.candidates.adapters import CONFIG, MANIFEST, WEIGHTS
 from planner_ft.report.contents import failure_words
-from planner_ft.report.metrics import MAIN, column, columns, estimate, figure_cell
+from planner_ft.report.metrics import MAIN, column, estimate, figure_cell
 from planner_ft.report.runs import Record, System, TestSet, load_test_sets
 from planner_ft.report.tables import Table, TableRow, markdown_table
 from planner_ft.support.errors import PlannerError
@@ -93,7 +93,6 @@ def eval_results(tests: TestSet, system: System) -> list[Any]:
         "dataset_revision": tests.sha256,
         "dataset_args": {"samples": tests.n},
     }
-    known = columns()
     found = []
     for name in system.row.get("metrics", {}):
         figure = estimate(system, name)
@@ -104,7 +103,7 @@ def eval_results(tests: TestSet, system: System) -> list[Any]:
             if figure.low is None
             else {"low": figure.low, "high": figure.high, "confidence": 0.95}
         )
-        label = column(name, known).heading.removesuffix(" (%)")
+        label = column(name).heading.removesuffix(" (%)")
         found.append(
             EvalResult(
                 task_type=TASK_TYPE,
@@ -122,7 +121,6 @@ def eval_results(tests: TestSet, system: System) -> list[Any]:
 
 
 def _section(measured: Sequence[Measured]) -> str:
-    known = columns()
     tables = []
     for key in dict.fromkeys(tests.key for tests, _system in measured):
         rows = [(tests, system) for tests, system in measured if tests.key == key]
@@ -131,11 +129,11 @@ def _section(measured: Sequence[Measured]) -> str:
             for name in MAIN
             if any(estimate(system, name).value is not None for _tests, system in rows)
         ]
-        shown = [column(name, known) for name in names]
+        shown = [column(name) for name in names]
         body = tuple(
             TableRow(
                 heading(str(system.row.get("configuration"))),
-                tuple(figure_cell(one, estimate(system, one.metric)) for one in shown),
+                tuple(figure_cell(one, estimate(system, one.name)) for one in shown),
             )
             for _t, system in rows
         )

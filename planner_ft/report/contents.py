@@ -6,9 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
-from planner_ft.benchmark.layout import heading
 from planner_ft.benchmark.layout import notes as table_notes
-from planner_ft.benchmark.results import Results, Row
+from planner_ft.benchmark.results import Results, Row, heading
 from planner_ft.benchmark.results import System as RowSystem
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.report.charts import Chart

@@ -8,9 +8,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from planner_ft.benchmark.costs import QUANTILES, quantile
-from planner_ft.benchmark.layout import heading
-from planner_ft.benchmark.metrics import FAILURES
-from planner_ft.benchmark.metrics.failures import PUBLISHED
+from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
+from planner_ft.benchmark.results import heading
 from planner_ft.report.charts import Bar, Bars, Chart, DotRow, Dots, Lines, Matrix, Point, Series
 from planner_ft.report.differences import Confusion, confusion
 from planner_ft.report.metrics import estimate, published_label, published_rows

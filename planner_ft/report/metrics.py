@@ -6,15 +6,14 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark import layout, published
-from planner_ft.benchmark.catalogue import CATALOGUE
+from planner_ft.benchmark import published
+from planner_ft.benchmark.catalogue import METRIC, RIGHT, SECTIONS, Metric
 from planner_ft.benchmark.costs import QUANTILES
-from planner_ft.benchmark.layout import Column, heading
-from planner_ft.benchmark.sections import SECTIONS, section_columns
+from planner_ft.benchmark.results import heading
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.report.charts import number
 from planner_ft.report.runs import System, TestSet
-from planner_ft.report.tables import Cell, Table, TableRow
+from planner_ft.report.tables import NOTHING, Cell, Table, TableRow
 
 MAIN = (
     "f1",
@@ -30,24 +29,11 @@ MAIN = (
 """The metrics of the first table: the published five, and those that show whether a plan is
 right.
 """
-RATES = frozenset(metric.name for metric in CATALOGUE if metric.kind == "rate")
 
 
-def columns() -> dict[str, Column]:
-    """Every column of the benchmark's tables, by metric; the headings of the first tables say most
-    by themselves.
-    """
-    return {one.metric: one for one in (*section_columns(), *layout.COLUMNS, *layout.MORE_COLUMNS)}
-
-
-def column(metric: str, known: dict[str, Column]) -> Column:
-    """How a metric is shown; one that the layout does not know by its name, rates in percent."""
-    label = metric.replace("_", " ").capitalize()
-    return known.get(metric) or (
-        Column(metric, f"{label} (%)", "", 100, 1, 1)
-        if metric in RATES
-        else Column(metric, label, "", 1, 2)
-    )
+def column(name: str) -> Metric:
+    """How a metric is shown; one that the benchmark does not know by its name."""
+    return METRIC.get(name) or Metric(name, "mean", name.replace("_", " ").capitalize(), "")
 
 
 BESIDE = {"load_s": 1, "adapter_swap_s": 1000, "peak_memory_bytes": 2**-20}
@@ -64,9 +50,8 @@ def main_table(tests: TestSet, marks: dict[tuple[str, str], str]) -> Table:
     """A row per system with the metrics that matter most, published rows beside. `marks` by
     (system, metric).
     """
-    known = columns()
     shown = [
-        column(name, known)
+        column(name)
         for name in MAIN
         if any(estimate(system, name).value is not None for system in tests.systems)
     ]
@@ -74,7 +59,7 @@ def main_table(tests: TestSet, marks: dict[tuple[str, str], str]) -> Table:
     theirs = published_rows(tests)
     for system in tests.systems:
         cells = tuple(
-            figure_cell(one, estimate(system, one.metric), marks.get((system.name, one.metric), ""))
+            figure_cell(one, estimate(system, one.name), marks.get((system.name, one.name), ""))
             for one in shown
         )
         rows.append(TableRow(system.name, cells, "baseline" if system.is_baseline else "measured"))
@@ -82,7 +67,7 @@ def main_table(tests: TestSet, marks: dict[tuple[str, str], str]) -> Table:
         if key in theirs:
             rows.append(_published(key, theirs.pop(key), shown))
     rows += [_published(key, figures, shown) for key, figures in theirs.items()]
-    heads = tuple(f"{one.heading} {one.better}".strip() for one in shown)
+    heads = tuple(one.title for one in shown)
     return Table(
         f"{tests.key}-main", "Systems", "In brackets 95 % intervals.", "System", heads, tuple(rows)
     )
@@ -90,26 +75,21 @@ def main_table(tests: TestSet, marks: dict[tuple[str, str], str]) -> Table:
 
 def metric_tables(tests: TestSet) -> list[Table]:
     """Every metric of the runs, a row each, a column per system, in the sections of table.md."""
-    known = columns()
-    named = {one.metric for _title, of_section in SECTIONS for one in of_section}
-    others = [
-        name
-        for name in dict.fromkeys(
-            name for system in tests.systems for name in system.row.get("metrics", {})
-        )
-        if name not in named
-    ]
-    parts = [*SECTIONS, ("Output and cost", tuple(column(name, known) for name in others))]
+    sections = [("Whole plan", ("f1", *RIGHT)), *SECTIONS]
+    named = {name for _title, of_section in sections for name in of_section}
+    every = (name for system in tests.systems for name in system.row.get("metrics", {}))
+    others = tuple(name for name in dict.fromkeys(every) if name not in named)
+    parts = [*sections, ("Output and cost", others)]
     tables = [_metric_table(tests, title, of_section) for title, of_section in parts]
     return [table for table in tables if table.rows]
 
 
-def _metric_table(tests: TestSet, title: str, shown: Iterable[Column]) -> Table:
+def _metric_table(tests: TestSet, title: str, shown: Iterable[str]) -> Table:
     rows = []
-    for one in shown:
-        cells = tuple(figure_cell(one, estimate(system, one.metric)) for system in tests.systems)
-        if any(cell.text != layout.NOTHING for cell in cells):
-            rows.append(TableRow(f"{one.heading} {one.better}".strip(), cells))
+    for one in map(column, shown):
+        cells = tuple(figure_cell(one, estimate(system, one.name)) for system in tests.systems)
+        if any(cell.text != NOTHING for cell in cells):
+            rows.append(TableRow(one.title, cells))
     name = f"{tests.key}-{title.lower().replace(' ', '-')}"
     return Table(
         name, title, "", "Metric", tuple(system.name for system in tests.systems), tuple(rows)
@@ -173,7 +153,7 @@ def group_table(tests: TestSet) -> Table | None:
     rows = tuple(
         TableRow(
             system.name,
-            tuple(cells.get((system.name, name), Cell(layout.NOTHING)) for name in names),
+            tuple(cells.get((system.name, name), Cell(NOTHING)) for name in names),
             "baseline" if system.is_baseline else "measured",
         )
         for system in tests.systems
@@ -224,28 +204,15 @@ def published_label(key: tuple[str, str]) -> str:
 
 
 def _published(
-    key: tuple[str, str], figures: dict[str, float], shown: Iterable[Column]
+    key: tuple[str, str], figures: dict[str, float], shown: Iterable[Metric]
 ) -> TableRow:
-    cells = []
-    for one in shown:
-        value = figures.get(one.metric)
-        scaled = None if value is None else value * one.scale
-        cells.append(Cell(one.text(value, source="published"), bounds=(scaled, None, None)))
+    cells = [one.cell(Estimate(figures.get(one.name)), published=True) for one in shown]
     return TableRow(published_label(key), tuple(cells), "published")
 
 
-def figure_cell(one: Column, found: Estimate, mark: str = "") -> Cell:
+def figure_cell(one: Metric, found: Estimate, mark: str = "") -> Cell:
     """A figure with its interval, in the unit of its column."""
-    low, value, high = (
-        None if bound is None else bound * one.scale
-        for bound in (found.low, found.value, found.high)
-    )
-    return Cell(
-        one.text(found.value),
-        one.interval(found) if value is not None else "",
-        mark,
-        bounds=(value, low, high),
-    )
+    return one.cell(found, mark)
 
 
 def _owner(systems: Sequence[System], entry: dict[str, Any]) -> str:
@@ -261,7 +228,7 @@ def _owner(systems: Sequence[System], entry: dict[str, Any]) -> str:
 
 
 def _share(value: float | None) -> str:
-    return layout.NOTHING if value is None else f"{100 * value:.0f}"
+    return NOTHING if value is None else f"{100 * value:.0f}"
 
 
 def _heat(value: float | None) -> int | None:

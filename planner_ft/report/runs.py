@@ -324,7 +324,7 @@ def _jobs(run: _Run) -> dict[str, Any]:
 
 
 def _label(row: Record) -> str:
-    from planner_ft.benchmark.layout import heading
+    from planner_ft.benchmark.results import heading
 
     label, configuration = str(row.get("label") or row.get("candidate")), _key(row)[1]
     plain = row.get("is_baseline") or configuration == "submitted"

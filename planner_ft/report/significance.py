@@ -8,11 +8,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from planner_ft.benchmark.contrasts import Question, contrasts, system_key
-from planner_ft.benchmark.contrasts_text import BEST
+from planner_ft.benchmark.contrasts import BEST, Question, contrasts, system_key
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.benchmark.verdicts import EXPLAINED, MARKS, p_text, signed
-from planner_ft.report.metrics import column, columns
+from planner_ft.report.metrics import column
 from planner_ft.report.runs import Record, TestSet
 from planner_ft.report.tables import Cell, Table, TableRow
 
@@ -110,13 +109,12 @@ def _by_baseline(found: Sequence[Record]) -> dict[str, str]:
 
 
 def _table(tests: TestSet, found: Compared) -> Table:
-    known = columns()
     rows = []
     for one in (one for lines in found.values() for one in lines):
         difference = Estimate(**one["difference"])
         if difference.value is None:
             continue
-        shown = column(one["metric"], known)
+        shown = column(one["metric"])
         low, value, high = (
             None if bound is None else bound * shown.scale
             for bound in (difference.low, difference.value, difference.high)

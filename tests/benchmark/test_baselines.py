@@ -12,10 +12,10 @@ from typing import Any
 import pytest
 
 from planner_ft.benchmark.baselines import majority_plan, make_baselines
+from planner_ft.benchmark.compare import load_run
 from planner_ft.benchmark.folder import write_results
 from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.retrieval import Index
-from planner_ft.benchmark.runs import load_run
 from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data
 from planner_ft.benchmark.submission import score_predictions
 from planner_ft.vocabulary import load_vocabulary
@@ -54,13 +54,14 @@ def data(
     return load_bench_data(write(folder / "test.jsonl", records), "mission", load_vocabulary("usv"))
 
 
-def answers(baseline: Any) -> dict[str, Any]:
-    return {name: json.loads(line["output"]) for name, line in baseline.predictions.items()}
+def answers(lines: Any) -> dict[str, Any]:
+    return {name: json.loads(line["output"]) for name, line in lines.items()}
 
 
 def test_weights_and_similarity_by_hand() -> None:
     index = Index(["a b", "a c", "d"])
-    assert list(index.ids) == ["a", "<a>", "b", "<b>", "a b", "c", "<c>", "a c", "d", "<d>"]
+    known = {"a", "<a>", "b", "<b>", "a b", "c", "<c>", "a c", "d", "<d>"}
+    assert set(index.vectorizer.vocabulary_) == known
     common, rare = math.log(4 / 3) + 1, math.log(4 / 2) + 1
     # Against "a": one of "a b"'s three words or pairs and its characters are known.
     length = math.sqrt(2 * common**2 + 3 * rare**2)
@@ -115,7 +116,7 @@ def test_the_majority_plan_of_a_task_is_that_of_the_same_task(tmp_path: Path) ->
     )
     majority = make_baselines(
         load_bench_data(test, "task", load_vocabulary("usv")), load_vocabulary("usv")
-    ).found[0]
+    ).answers["majority plan"]
     chosen = {
         name: plan["skill_sequence"][0]["navigation_skill"]["name"]
         for name, plan in answers(majority).items()
@@ -130,17 +131,16 @@ def test_the_training_split_beside_the_data_is_used_and_named(tmp_path: Path) ->
         ),
         load_vocabulary("usv"),
     )
-    majority, nearest = found.found
-    assert (
-        nearest.predictions["x"]["neighbour"] == "a"
-        and answers(nearest)["x"] == TRAIN[0]["expected"]
-    )
+    nearest = found.answers["nearest neighbour"]
+    assert nearest["x"]["neighbour"] == "a" and answers(nearest)["x"] == TRAIN[0]["expected"]
     assert (
         found.training is not None
         and found.training["path"] == str(tmp_path / "train.jsonl")
         and found.training["n"] == 4
     )
-    assert majority.system.is_baseline and "4 samples" in found.notes[0] and len(found.notes) == 1
+    assert (
+        "majority plan" in found.answers and "4 samples" in found.notes[0] and len(found.notes) == 1
+    )
 
 
 def test_samples_of_the_training_split_are_flagged_and_the_split_itself_refused(
@@ -155,7 +155,7 @@ def test_samples_of_the_training_split_are_flagged_and_the_split_itself_refused(
         in make_baselines(data(tmp_path, both, TRAIN), load_vocabulary("usv")).notes[1]
     )
     same = make_baselines(data(tmp_path, TRAIN, TRAIN), load_vocabulary("usv"))
-    assert same.found == () and "is the training split itself" in same.notes[0]
+    assert same.answers == {} and "is the training split itself" in same.notes[0]
 
 
 def test_without_a_training_split_the_note_says_so(
@@ -237,10 +237,10 @@ def test_baselines_are_rows_of_their_own(results: Results, tmp_path: Path) -> No
 
 
 def test_tables_mark_what_is_real(results: Results, tmp_path: Path) -> None:
-    from planner_ft.benchmark.contrasts_text import contrast_notes, marks
+    from planner_ft.benchmark.contrasts import contrast_notes, marks
     from planner_ft.benchmark.tables import render_tables
 
-    found = marks(results)
+    found = marks(results.contrasts)
     # In the order of the data: base answers nothing, so LoRA is better beyond chance than whichever
     # comes first.
     assert (
@@ -248,7 +248,7 @@ def test_tables_mark_what_is_real(results: Results, tmp_path: Path) -> None:
         and found["good lora", "whole_plan"] == "★"
         and found["fair lora", "whole_plan"] == "★"
     )
-    sentences = contrast_notes(results)
+    sentences = contrast_notes(results.contrasts)
     assert any(
         text.startswith("good lora beats the majority plan (whole plan: p")
         and "not shown to beat the majority plan (f1" in text
@@ -256,15 +256,15 @@ def test_tables_mark_what_is_real(results: Results, tmp_path: Path) -> None:
     )
     texts = render_tables(results)
     assert (
-        "majority plan (baseline) | 12 |" in texts["table.md"]
+        "*majority plan (baseline)* | – | 12 |" in texts["table.md"]
         and "| Against the baselines |" in texts["table.md"]
         and "▼" in texts["table.md"]
     )
     assert (
         "$\\blacktriangledown$" in texts["table.tex"]
-        and "majority plan (baseline),baseline,12" in texts["table.csv"]
+        and "majority plan (baseline),baseline,,12" in texts["table.csv"]
     )
-    assert "whole_plan_base_mark" in texts["table.csv"].splitlines()[0]
+    assert "whole_plan_mark" in texts["table.csv"].splitlines()[0]
     widths = {len(line.split(",")) for line in texts["table.csv"].splitlines()}
     assert len(widths) == 1
 

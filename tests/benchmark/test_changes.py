@@ -6,8 +6,14 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.changes import changes, changes_markdown
-from planner_ft.benchmark.groups import group_figures, groups_markdown
+from planner_ft.benchmark.changes import changes
+from planner_ft.benchmark.summary import group_figures
+from planner_ft.benchmark.tables import change_tables, group_tables
+from planner_ft.report.tables import markdown_table
+
+
+def shown(tables: Any) -> str:
+    return "\n".join(map(markdown_table, tables))
 
 
 def score(
@@ -49,7 +55,7 @@ def test_an_invention_that_became_a_substitution_is_seen() -> None:
         and change.seconds == 0.5
         and change.forward_passes is None
     )
-    text = "\n".join(changes_markdown([change]))
+    text = shown(change_tables([change]))
     assert (
         "| hallucination | substitution | 1 |" in text
         and "× 0.50" in text
@@ -66,7 +72,7 @@ def test_a_real_change_is_marked() -> None:
     (change,) = changes(scores, seed=0)
     # Nine samples, all one way: p = 2 / 2**9, twice that after Holm.
     assert change.p_adjusted == pytest.approx((4 / 2**9, 4 / 2**9))
-    assert "+0.800 [+0.800, +0.800] ▲ | +100.0 [+100.0, +100.0] ▲" in changes_markdown([change])[2]
+    assert "+0.800 [+0.800, +0.800] ▲ | +100.0 [+100.0, +100.0] ▲" in shown(change_tables([change]))
     assert change.to_json()["f1"] == {
         "value": pytest.approx(0.8),
         "low": pytest.approx(0.8),
@@ -80,7 +86,7 @@ def test_only_samples_that_both_answered_are_paired() -> None:
 
 
 def test_an_enforced_configuration_alone_has_nothing_to_stand_against() -> None:
-    assert changes(SCORES[2:], seed=0) == [] and changes_markdown([]) == []
+    assert changes(SCORES[2:], seed=0) == [] and list(change_tables([])) == []
 
 
 def test_figures_per_group() -> None:
@@ -95,7 +101,7 @@ def test_figures_per_group() -> None:
         and noise["whole_plan"] == 0.5
         and noise["parameters"] == 0.5
     )
-    assert "| noise | 2 | c, lora | 0.75 | 50 | 50 | 50 | 50 |" in groups_markdown(
-        group_figures(SCORES)
+    assert "| noise | c, lora | 2 | 0.75 | 50 | 50 | 50 | 50 |" in shown(
+        group_tables(group_figures(SCORES))
     )
-    assert group_figures([score("a", "lora", None, 1.0)]) == [] and groups_markdown([]) == []
+    assert group_figures([score("a", "lora", None, 1.0)]) == [] and list(group_tables([])) == []

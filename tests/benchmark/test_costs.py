@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from planner_ft.benchmark.costs import cost_figures, quantile
-from planner_ft.benchmark.costs_text import costs_markdown
+from planner_ft.benchmark.costs import cost_figures
 from planner_ft.benchmark.planning_time import MOST, planning_command
+from planner_ft.benchmark.statistics import quantile
+from planner_ft.benchmark.tables import cost_tables
+from planner_ft.report.tables import markdown_table
 
 
 @pytest.mark.parametrize(
@@ -76,7 +78,7 @@ def test_planning_time_goes_by_the_tasks_that_were_planned() -> None:
         (entry["tasks"], entry["n"], entry["seconds"]["value"], entry["mission_s"], entry["task_s"])
         for entry in found
     ] == [(1, 1, 1.0, 0.5, 0.4), (3, 2, 4.0, 1.5, 2.5)]
-    text = "\n".join(costs_markdown({"embedded, Base": {"planning": found}}))
+    text = "\n".join(map(markdown_table, cost_tables({"embedded, Base": {"planning": found}})))
     assert "| embedded, Base | 1.00 (n = 1) | – | 4.00 (n = 2) |" in text
 
 
@@ -95,4 +97,4 @@ def test_commands_ask_for_as_many_tasks_as_they_are_named_after() -> None:
 
 
 def test_what_was_not_measured_has_no_table() -> None:
-    assert costs_markdown({"embedded, Base": {}}) == []
+    assert list(cost_tables({})) == []

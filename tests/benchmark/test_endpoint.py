@@ -14,9 +14,8 @@ import jsonschema
 import pytest
 
 from planner_ft.benchmark.runner import run_bench
-from planner_ft.benchmark.settings import BenchSettings
-from planner_ft.benchmark.sources.endpoint_settings import EndpointSettings
-from planner_ft.benchmark.sources.served_schema import PROBE_ANSWER, served_schema
+from planner_ft.benchmark.settings import BenchSettings, EndpointSettings
+from planner_ft.benchmark.sources.endpoint import PROBE_ANSWER, served_schema
 from planner_ft.cli import main
 from planner_ft.prompts.text import system_text
 from planner_ft.support.errors import PlannerError

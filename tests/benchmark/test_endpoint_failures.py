@@ -226,7 +226,7 @@ def test_the_pause_is_the_one_that_the_server_asks_for(
 
 
 def test_pauses_grow(monkeypatch: pytest.MonkeyPatch) -> None:
-    from planner_ft.benchmark.sources.endpoint_settings import EndpointSettings
+    from planner_ft.benchmark.settings import EndpointSettings
 
     monkeypatch.setattr(chat_client, "FIRST_PAUSE", 0.5)
     client = chat_client.ChatClient(EndpointSettings("http://127.0.0.1:9/v1", "tiny"))

@@ -8,16 +8,13 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics import (
-    exact_sequence,
-    failure_kind,
-    hallucinated,
-    parameter_agreement,
-    schema_valid,
-    set_f1,
-    strict_valid,
-)
-from planner_ft.benchmark.metrics.parameters import values_agree
+from planner_ft.benchmark.metrics.exact_sequence import exact_sequence
+from planner_ft.benchmark.metrics.failures import failure_kind
+from planner_ft.benchmark.metrics.hallucination import hallucinated
+from planner_ft.benchmark.metrics.names import set_f1
+from planner_ft.benchmark.metrics.parameters import parameter_agreement
+from planner_ft.benchmark.metrics.validity import schema_valid, strict_valid
+from planner_ft.benchmark.metrics.values import values_agree
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.outputs import parse_output
 

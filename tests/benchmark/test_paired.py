@@ -18,7 +18,7 @@ from planner_ft.benchmark.verdicts import adjusted, verdict
 RATE, MEAN, RATIO = (
     Metric("right", "rate"),
     Metric("f1", "mean"),
-    Metric("parameters", "ratio", ("hits", "tries")),
+    Metric("parameters", "ratio", over=("hits", "tries")),
 )
 
 
@@ -180,21 +180,3 @@ def test_verdicts_know_which_way_is_better() -> None:
     assert said("latency_s", 0.01, 0.5) == "not told apart"
     assert verdict(paired(MEAN, {}, {}, 0), None) == "not compared"
     assert paired(MEAN, {}, {}, 0).difference == Estimate(None)
-
-
-def test_verdicts_and_tables_agree_on_which_way_is_better() -> None:
-    from planner_ft.benchmark.catalogue import METRICS
-    from planner_ft.benchmark.layout import COLUMNS, MORE_COLUMNS
-    from planner_ft.benchmark.sections import section_columns
-    from planner_ft.benchmark.verdicts import LOWER_IS_BETTER, NEITHER
-
-    arrows = {
-        column.metric: column.better
-        for column in (*COLUMNS, *MORE_COLUMNS, *section_columns())
-        if column.metric in METRICS
-    }
-    assert {metric for metric, arrow in arrows.items() if arrow == "↓"} == LOWER_IS_BETTER & set(
-        arrows
-    )
-    assert {metric for metric, arrow in arrows.items() if not arrow} == NEITHER & set(arrows)
-    assert set(METRICS) >= LOWER_IS_BETTER | NEITHER

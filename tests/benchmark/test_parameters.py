@@ -6,15 +6,15 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics import (
-    Counts,
+from planner_ft.benchmark.metrics.alignment import align
+from planner_ft.benchmark.metrics.counts import Counts
+from planner_ft.benchmark.metrics.entries import plan_entries
+from planner_ft.benchmark.metrics.parameters import (
+    ParameterCounts,
     agreement_by_type,
-    align,
     parameter_counts,
-    plan_entries,
     right_entries,
 )
-from planner_ft.benchmark.metrics.parameters import ParameterCounts
 from planner_ft.benchmark.metrics.values import values_agree
 from planner_ft.vocabulary import Parameter, load_vocabulary
 

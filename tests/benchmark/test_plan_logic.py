@@ -9,8 +9,9 @@ from typing import Any
 from planner_ft.benchmark.metrics.entries import plan_entries
 from planner_ft.benchmark.results import Results, System, score_system
 from planner_ft.benchmark.samples import Sample
-from planner_ft.benchmark.sections import sections_markdown, stops_markdown
+from planner_ft.benchmark.tables import tables
 from planner_ft.facts import read_input
+from planner_ft.report.tables import markdown_table
 from planner_ft.vocabulary import load_vocabulary
 
 USV = load_vocabulary()
@@ -92,8 +93,9 @@ def test_plans_without_searches_stop_and_the_table_says_where() -> None:
     stopped = [score["id"] for score in scores if score["stop"]]
     assert figures(results)["executable"] == 1 - len(stopped) / len(RECORDS)
     assert sum(stop["n"] for stop in results.rows[0].breakdown["stops"]) == len(stopped) > 3
-    assert any(line.startswith("| target located | Transit |") for line in stops_markdown(results))
-    assert any(line.startswith("| Logic of the plan |") for line in sections_markdown(results))
+    lines = "\n".join(map(markdown_table, tables(results))).splitlines()
+    assert any(line.startswith("| target located | Transit |") for line in lines)
+    assert any(line.startswith("| Logic of the plan |") for line in lines)
 
 
 def test_values_that_nobody_gave_and_facts_that_got_lost_are_counted_by_kind() -> None:

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from planner_ft.benchmark.predictions import RecordLog
 from planner_ft.benchmark.ranks import Ranks, part_name, take_in, take_in_abandoned
-from planner_ft.benchmark.suite.process import command
+from planner_ft.benchmark.records import RecordLog
+from planner_ft.benchmark.suite.units import command
 from planner_ft.support.errors import PlannerError
 
 NAME = "Llama-3.2-1B-Instruct"

@@ -9,12 +9,14 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.repeats import all_of, any_of, pass_figures, repeats_markdown
 from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.samples import load_bench_data
 from planner_ft.benchmark.scoring import SampleScore
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.submission import score_predictions, score_run
+from planner_ft.benchmark.summary import all_of, any_of, pass_figures
+from planner_ft.benchmark.tables import repeat_tables
+from planner_ft.report.tables import markdown_table
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 
@@ -44,13 +46,13 @@ def test_pass_figures_are_means_over_samples() -> None:
     # Sample a: 2 of 3 right, so 2/3, 1/3 and 0 of the draws are all right; b: none.
     assert [figures["all_of_k"][k]["value"] for k in "123"] == pytest.approx([1 / 3, 1 / 6, 0])
     assert [figures["any_of_k"][k]["value"] for k in "123"] == pytest.approx([1 / 3, 1 / 2, 1 / 2])
-    text = "\n".join(repeats_markdown({"x, LoRA": figures}))
+    text = "\n".join(map(markdown_table, repeat_tables({"x, LoRA": figures})))
     assert (
         "pass^2" in text
         and "| x, LoRA, 3 answers per sample | 33.3 [0.0, 66.7] | 16.7 [0.0, 33.3] | 0.0 [0.0, 0.0] | 50.0"
         in text
     )
-    assert repeats_markdown({"x": {}}) == []
+    assert list(repeat_tables({"x": {}})) == []
 
 
 @pytest.fixture

@@ -15,7 +15,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from planner_ft.benchmark.predictions import RecordLog
+from planner_ft.benchmark.records import RecordLog
 from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.cli.bench import bench, score

@@ -15,14 +15,12 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.suite import process as process_module
 from planner_ft.benchmark.suite import session as session_module
-from planner_ft.benchmark.suite.combine import combine
+from planner_ft.benchmark.suite import units as process_module
 from planner_ft.benchmark.suite.definition import load_suite
-from planner_ft.benchmark.suite.process import Process
-from planner_ft.benchmark.suite.run import run_suite
+from planner_ft.benchmark.suite.run import combine, run_suite
 from planner_ft.benchmark.suite.session import State, opened
-from planner_ft.benchmark.suite.units import Flags
+from planner_ft.benchmark.suite.units import Flags, Process
 from planner_ft.support.errors import PlannerError
 
 FIRST, SECOND = "Llama-3.2-1B", "Qwen2.5-3B"
@@ -230,10 +228,10 @@ def test_every_candidate_is_run_on_every_data_set(go: Any, runs: Runs, tmp_path:
         assert (tmp_path / "out" / name).stat().st_size > 0
     overview = (tmp_path / "out" / "table.md").read_text()
     assert (
-        overview.index("Published-size splits")
-        < overview.index("### test")
+        overview.index("**test: mission level")
+        < overview.index("Published-size splits")
+        < overview.index("**more: mission level")
         < overview.index("Reported apart")
-        < overview.index("### more")
     )
 
 

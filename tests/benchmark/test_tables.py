@@ -8,11 +8,11 @@ from typing import Any
 
 from rich.console import Console
 
+from planner_ft.benchmark.catalogue import METRICS
 from planner_ft.benchmark.published import published_rows
 from planner_ft.benchmark.results import Results, Row, System
-from planner_ft.benchmark.scoring import METRICS
 from planner_ft.benchmark.statistics import Estimate
-from planner_ft.benchmark.tables import csv_table, latex, markdown
+from planner_ft.benchmark.tables import render_tables
 from planner_ft.benchmark.terminal import print_results
 
 
@@ -60,42 +60,51 @@ STANDIN = System(
 )
 
 
-def cells(text: str, model: str) -> list[str]:
-    line = next(line for line in text.splitlines() if line.startswith(f"| {model} |"))
-    return [cell.strip() for cell in line.strip("|").split("|")]
+def markdown(found: Results) -> str:
+    return render_tables(found)["table.md"]
 
 
-def test_base_and_lora_stand_side_by_side_with_the_published_row_below() -> None:
+def rows_of(text: str) -> list[list[str]]:
+    """The cells of the first table."""
+    table = text.partition("\n\n")[0].splitlines()
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in table]
+
+
+def test_a_row_per_configuration_with_the_published_ones_below() -> None:
     text = markdown(results(BASE, LORA))
-    assert text.splitlines()[0].startswith(
-        "| Model | n | F1 ↑ Base | F1 ↑ LoRA | Hallucination (%) ↓ Base | Hallucination (%) ↓ LoRA"
-        " | Schema valid (%) ↑ Base"
-    )
-    assert (
-        cells(text, "Llama-3.2-3B-Instruct")[2:8]
-        == ["0.50 [0.25, 0.75]"] * 2 + ["50.0 [25.0, 75.0]"] * 4
-    )
-    published = cells(text, "Llama-3.2-3B-Instruct (published)")
-    assert published[2:8] == ["0.61", "0.89", "0.0", "4.0", "100.0", "100.0"]
-    assert published[8:] == ["–", "–", "6.6", "18.7", "198.4", "472.0"]
-    models = [line.split("|")[1].strip() for line in text.splitlines()[2:10]]
-    assert models[:2] == ["Llama-3.2-3B-Instruct", "Llama-3.2-3B-Instruct (published)"]
-    assert all(model.endswith("(published)") for model in models[1:])
+    heads, _rule, base, lora, *others = rows_of(text)
+    assert heads[:5] == ["Model", "Configuration", "n", "F1 ↑", "Hallucination (%) ↓"]
+    assert base[:2] == ["Llama-3.2-3B-Instruct", "Base"] and lora[1] == "LoRA"
+    assert base[3:6] == ["0.50 [0.25, 0.75]", "50.0 [25.0, 75.0]", "50.0 [25.0, 75.0]"]
+    assert others[0] == [
+        *("*Llama-3.2-3B-Instruct (published)*", "Base", "25"),
+        *("0.61", "0.0", "100.0", "–", "6.6", "198.4"),
+    ]
+    assert others[1][1:5] == ["LoRA", "25", "0.89", "4.0"]
+    assert all(row[0].endswith("(published)*") for row in others)
     assert "not measured here" in text
     assert "2 of 25 outputs were cut" in text
 
 
+def test_no_table_is_wider_than_a_page() -> None:
+    systems = [
+        System(f"c{index}", name, f"model {index}")
+        for index in range(4)
+        for name in ("base", "lora", "lora+state", "lora+grounded")
+    ]
+    lines = markdown(results(*systems, vocabulary="another")).splitlines()
+    assert max(line.count("|") for line in lines) <= 12
+
+
 def test_stand_ins_are_marked_and_not_compared_with_published_figures() -> None:
-    for render in (markdown, csv_table, latex):
-        text = render(results(STANDIN))
+    for text in render_tables(results(STANDIN)).values():
         assert "Qwen2.5-3B (stand-in)" in text
         assert "(published)" not in text
     mixed = markdown(results(STANDIN, BASE))
-    models = [line.split("|")[1].strip() for line in mixed.splitlines()[2:6]]
-    assert models[:3] == [
+    assert [row[0] for row in rows_of(mixed)[2:5]] == [
         "Qwen2.5-3B (stand-in)",
         "Llama-3.2-3B-Instruct",
-        "Llama-3.2-3B-Instruct (published)",
+        "*Llama-3.2-3B-Instruct (published)*",
     ]
     assert "say nothing about the real candidate" in mixed
 
@@ -110,37 +119,29 @@ def test_a_pretrained_candidate_is_said_to_be_one() -> None:
     )
 
 
-def test_predictions_of_outsiders_get_a_column_beside_the_published_ones() -> None:
-    header = markdown(results(System("mine", "submitted", "mine"))).splitlines()[0]
-    assert "| F1 ↑ Base | F1 ↑ LoRA | F1 ↑ submitted |" in header
+def test_predictions_of_outsiders_stand_beside_all_published_rows() -> None:
+    rows = rows_of(markdown(results(System("mine", "submitted", "mine"))))
+    assert rows[2][:2] == ["mine", "submitted"]
+    assert [row[1] for row in rows[3:5]] == ["Base", "LoRA"] and len(rows) == 3 + 14
 
 
 def test_the_csv_reads_back_in_percent() -> None:
-    rows = list(csv.DictReader(io.StringIO(csv_table(results(BASE, LORA)))))
-    assert (
-        rows[0]["source"],
-        rows[0]["f1_base"],
-        rows[0]["f1_base_low"],
-        rows[0]["schema_valid_lora_high"],
-    ) == ("measured", "0.5", "0.25", "75")
-    assert rows[0]["parameters_base"] == ""
-    assert (rows[1]["source"], rows[1]["hallucination_lora"], rows[1]["tokens_lora"]) == (
-        "published",
-        "4",
-        "472",
-    )
-    assert len(rows) == 8
+    text = render_tables(results(BASE, LORA))["table.csv"]
+    base, lora, theirs, other, *_rest = csv.DictReader(io.StringIO(text))
+    assert (base["kind"], base["configuration"], base["f1"]) == ("measured", "Base", "0.5")
+    assert (base["f1_low"], lora["schema_valid_high"], base["parameters"]) == ("0.25", "75", "")
+    assert (theirs["kind"], theirs["configuration"]) == ("published", "Base")
+    assert (other["hallucination"], other["tokens"]) == ("4", "472")
+    assert len(_rest) == 12
 
 
 def test_the_latex_table_is_balanced_and_escaped() -> None:
-    text = latex(
+    text = render_tables(
         results(System("a_b&c", "base", "a_b&c 100%"), System("a_b&c", "lora", "a_b&c 100%"))
-    )
+    )["table.tex"]
     assert "a\\_b\\&c 100\\%" in text
-    body = [
-        line for line in text.splitlines() if line.endswith("\\\\") and "multicolumn" not in line
-    ]
-    assert {line.count(" & ") for line in body} == {12}
+    body = [line for line in text.splitlines() if line.endswith("\\\\")]
+    assert {line.count(" & ") for line in body} == {8}
     assert text.count("\\begin{tabular}") == text.count("\\end{tabular}") == 1
     assert "–" not in "".join(body)
 
@@ -151,7 +152,7 @@ def test_the_terminal_table_fits_80_columns() -> None:
     text = console.export_text()
     assert "…" not in text
     assert "25–75" in text
-    assert "0.61/0.89" in text
+    assert "0.61" in text and "(published)" in text
 
 
 def test_published_figures_are_the_published_ones() -> None:

@@ -1,8 +1,5 @@
 """Which predicted task or skill stands for which expected one: an optimal assignment over equal
-names.
-
-Kuhn 1955, as scipy's linear_sum_assignment computes it; a greedy choice can leave the better
-partner to nobody.
+names (Kuhn 1955, as scipy's linear_sum_assignment computes it).
 """
 
 from __future__ import annotations
@@ -24,9 +21,7 @@ Company = Callable[[int, int], float]
 LEADING = (TASK, "navigation")
 """Roles of entries that are paired first: one of them makes a step."""
 COMPANY, NEARNESS = 1e-2, 1e-4
-"""Weights of what decides between equals, over all pairs together, beside 1 for the parameters of
-one pair.
-"""
+"""Weights that decide between equals, over all pairs together, beside 1 for one pair's parameters."""
 
 
 @dataclass(frozen=True)
@@ -52,11 +47,8 @@ class Alignment:
 
     def to_json(self) -> dict[str, list[Any]]:
         """Indices into the entries of the expected and the predicted plan (`plan_entries`)."""
-        return {
-            "pairs": [list(pair) for pair in self.pairs],
-            "missing": list(self.missing),
-            "extra": list(self.extra),
-        }
+        pairs = [list(pair) for pair in self.pairs]
+        return {"pairs": pairs, "missing": list(self.missing), "extra": list(self.extra)}
 
 
 def align(level: Level, expected: Entries, predicted: Entries, vocabulary: Vocabulary) -> Alignment:
@@ -66,46 +58,34 @@ def align(level: Level, expected: Entries, predicted: Entries, vocabulary: Vocab
     Likeness counts, in this order: parameters that are all right; the share of key-value pairs that
     agree; the same company (tasks: the same neighbours; navigation skills: the same other skills in
     their step; other skills: a step whose navigation skill is paired with that of theirs); nearness
-    in the plan. Roles do not count: a skill in a role that is not its own is paired like any other.
+    in the plan. Roles do not count.
     """
     if expected == predicted:
-        return Alignment(
-            expected, predicted, tuple((index, index) for index in range(len(expected)))
-        )
+        same = tuple((index, index) for index in range(len(expected)))
+        return Alignment(expected, predicted, same)
     leading = {entry.name for entry in expected if entry.role in LEADING}
+    others = {entry.name for entry in expected} - leading
     ours, theirs = _surroundings(expected), _surroundings(predicted)
 
     def beside(one: int, other: int) -> float:
-        return (ours[one] & theirs[other]).total() / max(
-            ours[one].total(), theirs[other].total(), 1
-        )
+        most = max(ours[one].total(), theirs[other].total(), 1)
+        return (ours[one] & theirs[other]).total() / most
 
     def in_step(one: int, other: int) -> float:
         return float((expected[one].step, predicted[other].step) in steps)
 
     leads = _assigned(level, expected, predicted, leading, beside, vocabulary)
     steps = {(expected[one].step, predicted[other].step) for one, other in leads}
-    rest = _assigned(
-        level,
-        expected,
-        predicted,
-        {entry.name for entry in expected} - leading,
-        in_step,
-        vocabulary,
-    )
+    rest = _assigned(level, expected, predicted, others, in_step, vocabulary)
     return Alignment(expected, predicted, tuple(sorted([*leads, *rest])))
 
 
 def _surroundings(entries: Entries) -> list[Counter[str]]:
-    """What stands beside each entry: the titles before and after a task, the other skills of a
-    step.
-    """
+    """The neighbours of each entry: the titles before and after a task, the skills of a step."""
     if any(entry.role == TASK for entry in entries):
         names = ["", *(entry.name for entry in entries), ""]
-        return [
-            Counter((f"after {names[index]}", f"before {names[index + 2]}"))
-            for index in range(len(entries))
-        ]
+        around = zip(names, names[2:], strict=False)
+        return [Counter((f"after {before}", f"before {after}")) for before, after in around]
     steps: dict[int, Counter[str]] = defaultdict(Counter)
     for entry in entries:
         steps[entry.step][f"{entry.role} {entry.name}"] += 1
@@ -126,10 +106,8 @@ def _assigned(
 
     def weight(one: int, other: int) -> float:
         near = 1 - ((one - other) / size) ** 2
-        return (
-            _likeness(level, expected[one], predicted[other], size, vocabulary)
-            + (COMPANY * company(one, other) + NEARNESS * near) / size
-        )
+        likeness = _likeness(level, expected[one], predicted[other], size, vocabulary)
+        return likeness + (COMPANY * company(one, other) + NEARNESS * near) / size
 
     pairs: list[Pair] = []
     for name, rows in ours.items():
@@ -146,21 +124,14 @@ def _likeness(level: Level, ours: Entry, theirs: Entry, size: int, vocabulary: V
     """Share of key-value pairs that agree (their F1), and more than all shares together where the
     parameters are all right.
     """
+    stated, given = ours.parameters, theirs.parameters
     if not ours.stated:
         return 0.0
-    if ours.parameters == theirs.parameters:
+    if stated == given:
         return 1.0 + 2 * size
-    keys = len(ours.parameters) + len(theirs.parameters)
-    share = (
-        2
-        * len(agreeing_keys(level, ours.name, theirs.parameters, ours.parameters, vocabulary))
-        / keys
-        if keys
-        else 1.0
-    )
-    right = share == 1.0 and parameters_agree(
-        level, ours.name, theirs.parameters, ours.parameters, vocabulary
-    )
+    agreeing = agreeing_keys(level, ours.name, given, stated, vocabulary)
+    share = 2 * len(agreeing) / (len(stated) + len(given))
+    right = share == 1.0 and parameters_agree(level, ours.name, given, stated, vocabulary)
     return share + 2 * size * right
 
 

@@ -14,9 +14,8 @@ Node = tuple[Hashable, int]
 def edge_f1(predicted: Sequence[Hashable], expected: Sequence[Hashable]) -> float:
     """F1 between the sets of edges of two sequences (TaskBench's edge F1, Shen et al. 2023).
 
-    A node is a name with the number of its occurrence, so the second Transit is another node than
-    the first; an edge leads from each node to its neighbour. Where neither sequence has two nodes
-    there is no edge to be right: 1.0 for equal sequences, else 0.0.
+    A node is a name with the number of its occurrence; an edge leads from each node to the next.
+    Where neither sequence has two nodes: 1.0 for equal sequences, else 0.0.
     """
     ours, theirs = edges(predicted), edges(expected)
     if not ours and not theirs:

@@ -1,6 +1,4 @@
-"""The tasks or skills of a plan as one row of entries, with the step and role that each stands
-in.
-"""
+"""The tasks or skills of a plan in one row, each with the step and role that it stands in."""
 
 from __future__ import annotations
 
@@ -27,28 +25,15 @@ class Entry:
 
 
 def plan_entries(level: Level, plan: Any) -> tuple[Entry, ...]:
-    """The entries of any JSON value in order; what has no name that is a text is passed over, and
-    so is a plan of None.
-    """
+    """The entries of any JSON value in order, without those that have no name."""
     items = plan.get(list_key(level)) if isinstance(plan, dict) else None
+    key = "title" if level == "mission" else "name"
     found = []
     for step, item in enumerate(items if isinstance(items, list) else ()):
-        named = [(TASK, item)] if level == "mission" else step_skills(item)
-        for role, owner in named:
-            name = (
-                owner.get("title" if level == "mission" else "name")
-                if isinstance(owner, dict)
-                else None
-            )
+        for role, owner in [(TASK, item)] if level == "mission" else step_skills(item):
+            name = owner.get(key) if isinstance(owner, dict) else None
             if isinstance(name, str):
-                parameters = owner.get("parameters")
-                found.append(
-                    Entry(
-                        name,
-                        role,
-                        step,
-                        parameters if isinstance(parameters, dict) else {},
-                        isinstance(parameters, dict),
-                    )
-                )
+                given = owner.get("parameters")
+                parameters = given if isinstance(given, dict) else {}
+                found.append(Entry(name, role, step, parameters, isinstance(given, dict)))
     return tuple(found)

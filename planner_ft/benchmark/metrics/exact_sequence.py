@@ -10,33 +10,25 @@ Sequence = list[tuple[str, ...]]
 
 
 def name_sequence(level: Level, plan: dict[str, Any]) -> Sequence:
-    """The names in order: one title per task, or per step the navigation skill, then filters and
-    perception skills.
-
-    Skills of one step run at the same time, so the order within its filters and within its
-    perception skills is dropped; their roles are kept.
+    """The names in order: one title per task, or per step its skills with their roles, sorted, as
+    skills of one step run at the same time.
     """
     if level == "mission":
         return [(title,) for title in plan_names(level, plan)]
     steps = plan.get(list_key(level))
-    return [_step(step) for step in steps] if isinstance(steps, list) else []
+    return [
+        tuple(sorted(f"{role} {skill.get('name')}" for role, skill in step_skills(step)))
+        for step in (steps if isinstance(steps, list) else ())
+    ]
 
 
 def flat_sequence(level: Level, plan: dict[str, Any]) -> list[str]:
-    """The names of `name_sequence` one by one: titles, or per step role and name, in a fixed order
-    within a step.
-    """
+    """The names of `name_sequence` one by one."""
     return [name for step in name_sequence(level, plan) for name in step]
 
 
 def exact_sequence(level: Level, plan: dict[str, Any] | None, expected: dict[str, Any]) -> bool:
     """Whether an answer names the expected tasks, or steps with their skills, in the expected order
-    and nothing else.
-
-    An answer that does not parse is never right, also where nothing is expected.
+    and nothing else; an answer that does not parse never does.
     """
     return plan is not None and name_sequence(level, plan) == name_sequence(level, expected)
-
-
-def _step(step: Any) -> tuple[str, ...]:
-    return tuple(sorted(f"{role} {skill.get('name')}" for role, skill in step_skills(step)))

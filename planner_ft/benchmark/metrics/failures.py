@@ -1,6 +1,4 @@
-"""The kind of failure of a wrong answer, as the published robustness analysis classified them by
-hand.
-"""
+"""The kind of failure of a wrong answer, as the published robustness analysis classified them."""
 
 from __future__ import annotations
 
@@ -9,7 +7,7 @@ from typing import Any, Literal, get_args
 
 from planner_ft.benchmark.metrics.exact_sequence import exact_sequence
 from planner_ft.benchmark.metrics.hallucination import invented_names
-from planner_ft.benchmark.metrics.schema_valid import schema_valid
+from planner_ft.benchmark.metrics.validity import schema_valid
 from planner_ft.benchmark.metrics.whole_plan import parameters_right
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, named_entries
@@ -67,56 +65,28 @@ def failure_kind(
     if invented_names(level, plan, vocabulary):
         return "hallucination"
     if exact_sequence(level, plan, expected):
-        return (
-            None if parameters_right(level, plan, expected, vocabulary) else "parameter propagation"
-        )
+        right = parameters_right(level, plan, expected, vocabulary)
+        return None if right else "parameter propagation"
     predicted, wanted = list(named_entries(level, plan)), list(named_entries(level, expected))
-    missing = Counter(name for name, _ in wanted) - Counter(name for name, _ in predicted)
-    added = Counter(name for name, _ in predicted) - Counter(name for name, _ in wanted)
-    if (
-        missing
-        and level == "mission"
-        and _prerequisite(predicted, wanted, missing, added, vocabulary)
-    ):
-        return "prerequisite omission"
+    ours, theirs = (Counter(name for name, _ in entries) for entries in (predicted, wanted))
+    missing, added = theirs - ours, ours - theirs
+    unresolved = Counter(
+        name
+        for name, parameters in predicted
+        if any(value == list(vocabulary.unresolved) for value in parameters.values())
+    )
     if missing:
+        if level == "mission" and (
+            (vocabulary.locate in missing and unresolved)
+            or (not added and _goes_on(predicted, wanted))
+        ):
+            return "prerequisite omission"
         return "substitution" if added else "omission"
     if added:
-        return (
-            "parameter propagation"
-            if _all_unresolved(predicted, added, vocabulary)
-            else "extra step"
-        )
+        return "extra step" if added - unresolved else "parameter propagation"
     return "wrong order"
 
 
-def _prerequisite(
-    predicted: list[Entry],
-    wanted: list[Entry],
-    missing: Counter[str],
-    added: Counter[str],
-    vocabulary: Vocabulary,
-) -> bool:
-    unresolved = any(_is_unresolved(parameters, vocabulary) for _name, parameters in predicted)
-    if vocabulary.locate in missing and unresolved:
-        return True
-    if added:
-        return False
-    for position, (name, _parameters) in enumerate(wanted):
-        if position == len(predicted):
-            return False
-        if predicted[position][0] != name:
-            return True
-    return False
-
-
-def _all_unresolved(predicted: list[Entry], added: Counter[str], vocabulary: Vocabulary) -> bool:
-    """Whether every added name can be told by an entry that holds the unresolved location."""
-    spurious = Counter(
-        name for name, parameters in predicted if _is_unresolved(parameters, vocabulary)
-    )
-    return not added - spurious
-
-
-def _is_unresolved(parameters: dict[str, Any], vocabulary: Vocabulary) -> bool:
-    return any(value == list(vocabulary.unresolved) for value in parameters.values())
+def _goes_on(predicted: list[Entry], wanted: list[Entry]) -> bool:
+    """Whether something is planned after the first expected name that is missing."""
+    return any(one[0] != other[0] for one, other in zip(predicted, wanted, strict=False))

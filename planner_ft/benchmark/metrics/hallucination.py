@@ -8,9 +8,7 @@ from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, plan_names
 
 UNPARSED_COUNTS: dict[Level, bool] = {"mission": True, "task": False}
-"""How the published tables count an answer that does not parse: hallucinated at mission level, not
-at task level.
-"""
+"""Whether the published tables count an answer that does not parse as hallucinated."""
 
 
 def hallucinated(
@@ -19,9 +17,7 @@ def hallucinated(
     """Whether an answer has at least one name that is not in the vocabulary; `unparsed` is the
     verdict on a plan of None.
     """
-    if plan is None:
-        return unparsed
-    return bool(invented_names(level, plan, vocabulary))
+    return unparsed if plan is None else bool(invented_names(level, plan, vocabulary))
 
 
 def invented_names(level: Level, plan: dict[str, Any], vocabulary: Vocabulary) -> list[str]:

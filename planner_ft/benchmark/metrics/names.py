@@ -1,8 +1,6 @@
-"""Names of tasks and skills, as sets and as multisets, of a plan, per name and per role.
+"""Names of tasks and skills as sets and as multisets: of a plan, per name and per role.
 
-Scorers differ in what they leave out, and each omission flatters: a class list taken from the
-expected names never counts an invented name, a set drops repetitions, a sample that does not parse
-is skipped. Here every predicted name counts.
+Every predicted name counts, also outside the vocabulary, and an answer that does not parse has none.
 """
 
 from __future__ import annotations
@@ -15,26 +13,27 @@ from planner_ft.benchmark.metrics.entries import Entry
 
 
 def set_counts(predicted: Iterable[str], expected: Iterable[str]) -> Counts:
-    """Distinct names: what the published F1 is computed of."""
+    """Distinct names."""
     ours, theirs = set(predicted), set(expected)
     return Counts(len(ours & theirs), len(ours), len(theirs))
+
+
+def set_f1(predicted: Iterable[str], expected: Iterable[str]) -> float:
+    """The published F1, over the sets of names: 1.0 when both are empty, 0.0 when one is."""
+    return set_counts(predicted, expected).f1
 
 
 def multiset_counts(predicted: Iterable[str], expected: Iterable[str]) -> Counts:
     """Occurrences of names: of three expected Transits, one predicted is one right of three."""
     ours, theirs = Counter(predicted), Counter(expected)
-    return Counts(
-        sum(min(count, theirs[name]) for name, count in ours.items()), ours.total(), theirs.total()
-    )
+    return Counts((ours & theirs).total(), ours.total(), theirs.total())
 
 
 def counts_by_name(predicted: Iterable[str], expected: Iterable[str]) -> dict[str, Counts]:
-    """Occurrences of each name of either plan, names outside the vocabulary included."""
+    """Occurrences of each name of either plan."""
     ours, theirs = Counter(predicted), Counter(expected)
-    return {
-        name: Counts(min(ours[name], theirs[name]), ours[name], theirs[name])
-        for name in {**theirs, **ours}
-    }
+    both = ours & theirs
+    return {name: Counts(both[name], ours[name], theirs[name]) for name in {**theirs, **ours}}
 
 
 def counts_by_role(predicted: Iterable[Entry], expected: Iterable[Entry]) -> dict[str, Counts]:

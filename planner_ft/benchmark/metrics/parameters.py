@@ -5,34 +5,17 @@ key-value pairs.
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from planner_ft.benchmark.metrics.alignment import Alignment, align
 from planner_ft.benchmark.metrics.counts import Counts
-from planner_ft.benchmark.metrics.entries import plan_entries
-from planner_ft.benchmark.metrics.values import (
-    agreeing_keys,
-    known_parameters,
-    parameters_agree,
-    values_agree,
-)
+from planner_ft.benchmark.metrics.entries import Entry, plan_entries
+from planner_ft.benchmark.metrics.values import agreeing_keys, known_parameters, parameters_agree
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
-__all__ = [
-    "Agreement",
-    "ParameterCounts",
-    "agreement_by_type",
-    "parameter_agreement",
-    "parameter_counts",
-    "right_entries",
-    "values_agree",
-]
 
-
-@dataclass(frozen=True)
-class Agreement:
+class Agreement(NamedTuple):
     """Of the expected entries that the answer has, too (`matched`), how many have exactly the
     expected parameters.
     """
@@ -41,10 +24,9 @@ class Agreement:
     matched: int
 
 
-@dataclass(frozen=True)
-class ParameterCounts:
+class ParameterCounts(NamedTuple):
     """Keys, and key-value pairs, that are right, predicted and expected: in aligned entries, and in
-    the whole plan, where the keys of a missing entry are lost and those of an extra one invented.
+    the whole plan, with the keys of missing and extra entries.
     """
 
     keys: Counts
@@ -56,27 +38,16 @@ class ParameterCounts:
 def parameter_agreement(
     level: Level, plan: dict[str, Any] | None, expected: dict[str, Any], vocabulary: Vocabulary
 ) -> Agreement:
-    """Align the entries of two plans and count those with the expected parameters
-    (`right_entries`).
-    """
-    return right_entries(
-        level,
-        align(level, plan_entries(level, expected), plan_entries(level, plan), vocabulary),
-        vocabulary,
-    )
+    """Align the entries of two plans and count those with the expected parameters."""
+    entries = plan_entries(level, expected), plan_entries(level, plan)
+    return right_entries(level, align(level, *entries, vocabulary), vocabulary)
 
 
 def right_entries(level: Level, alignment: Alignment, vocabulary: Vocabulary) -> Agreement:
     """Aligned entries with the expected keys, every value agreeing in the form that the vehicle
-    reads (`values_agree`).
-
-    Expected entries without a `parameters` object are not compared.
+    reads (`values_agree`). Expected entries without a `parameters` object are not compared.
     """
-    pairs = [
-        (alignment.expected[ours], alignment.predicted[theirs])
-        for ours, theirs in alignment.pairs
-        if alignment.expected[ours].stated
-    ]
+    pairs = [(ours, theirs) for ours, theirs in _aligned(alignment) if ours.stated]
     right = sum(
         parameters_agree(level, ours.name, theirs.parameters, ours.parameters, vocabulary)
         for ours, theirs in pairs
@@ -91,25 +62,22 @@ def parameter_counts(level: Level, alignment: Alignment, vocabulary: Vocabulary)
     Where the expected plan has entries and states no parameters at all, nothing is compared.
     """
     expected, predicted = alignment.expected, alignment.predicted
-    keys = values = ours_there = theirs_there = 0
-    for one, other in alignment.pairs:
-        stated, given = expected[one], predicted[other]
-        if stated.stated:
-            keys += len(stated.parameters.keys() & given.parameters.keys())
+    keys = values = stated = given = 0
+    for ours, theirs in _aligned(alignment):
+        if ours.stated:
+            keys += len(ours.parameters.keys() & theirs.parameters.keys())
             values += len(
-                agreeing_keys(level, stated.name, given.parameters, stated.parameters, vocabulary)
+                agreeing_keys(level, ours.name, theirs.parameters, ours.parameters, vocabulary)
             )
-            ours_there, theirs_there = (
-                ours_there + len(stated.parameters),
-                theirs_there + len(given.parameters),
-            )
+            stated += len(ours.parameters)
+            given += len(theirs.parameters)
     labelled = not expected or any(entry.stated for entry in expected)
-    lost = sum(len(expected[index].parameters) for index in alignment.missing)
-    invented = sum(len(predicted[index].parameters) for index in alignment.extra) if labelled else 0
-    there, overall = (theirs_there, ours_there), (theirs_there + invented, ours_there + lost)
+    missing = sum(len(expected[index].parameters) for index in alignment.missing)
+    extra = sum(len(predicted[index].parameters) for index in alignment.extra) if labelled else 0
+    overall = given + extra, stated + missing
     return ParameterCounts(
-        Counts(keys, *there),
-        Counts(values, *there),
+        Counts(keys, given, stated),
+        Counts(values, given, stated),
         Counts(keys, *overall),
         Counts(values, *overall),
     )
@@ -123,14 +91,18 @@ def agreement_by_type(
     """
     right: Counter[str] = Counter()
     stated: Counter[str] = Counter()
-    for one, other in alignment.pairs:
-        ours, theirs = alignment.expected[one], alignment.predicted[other]
+    for ours, theirs in _aligned(alignment):
         known = known_parameters(level, ours.name, vocabulary)
-        agreeing = set(
-            agreeing_keys(level, ours.name, theirs.parameters, ours.parameters, vocabulary)
-        )
+        agreeing = agreeing_keys(level, ours.name, theirs.parameters, ours.parameters, vocabulary)
         for key in ours.parameters:
             kind = known[key].type if key in known else "unknown"
             stated[kind] += 1
             right[kind] += key in agreeing
     return {kind: (right[kind], count) for kind, count in stated.items()}
+
+
+def _aligned(alignment: Alignment) -> list[tuple[Entry, Entry]]:
+    """(expected, predicted) entries."""
+    return [
+        (alignment.expected[ours], alignment.predicted[theirs]) for ours, theirs in alignment.pairs
+    ]

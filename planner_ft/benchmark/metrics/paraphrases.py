@@ -1,9 +1,4 @@
-"""The worst case over paraphrases: a planner that needs the right wording is only as good as its
-worst answer.
-
-Samples of one family say like things in like words (`family` of a record). Families of one sample
-have no worst case and are left out.
-"""
+"""The worst case over paraphrases: samples of one family say like things in like words."""
 
 from __future__ import annotations
 
@@ -14,10 +9,8 @@ from collections.abc import Sequence
 def worst_cases(
     values: Sequence[float], samples: Sequence[str], families: Sequence[str]
 ) -> dict[str, float]:
-    """The smallest value of each family that has at least two samples, which are told by id; for
-    truths, whether all are true.
-
-    Of a sample that was answered several times every answer counts.
+    """The smallest value of each family with at least two samples (ids); for truths, whether all
+    are true. Of a sample that was answered several times every answer counts.
     """
     members: dict[str, list[float]] = defaultdict(list)
     ids: dict[str, set[str]] = defaultdict(set)

@@ -15,35 +15,24 @@ def substitutions(alignment: Alignment) -> list[Substitution]:
     the same aligned neighbours before and after, or one of them (a plan's beginning and end count
     as neighbours). The rest was omitted (no predicted name) or added (no expected one).
     """
-    missing, extra = list(alignment.missing), list(alignment.extra)
-    ours, theirs = (
-        _neighbours(alignment.pairs, len(alignment.expected), 0),
-        _neighbours(alignment.pairs, len(alignment.predicted), 1),
-    )
+    expected, predicted = alignment.expected, alignment.predicted
+    ours = _neighbours(alignment.pairs, len(expected), 0)
+    theirs = _neighbours(alignment.pairs, len(predicted), 1)
+    free = list(alignment.extra)
     found: dict[int, int] = {}
     for shared in (2, 1):
-        for index in missing:
-            role = alignment.expected[index].role
-            free = [
-                other
-                for other in extra
-                if other not in found.values() and alignment.predicted[other].role == role
-            ]
-            partner = next(
-                (other for other in free if len(ours[index] & theirs[other]) == shared), None
-            )
-            if index not in found and partner is not None:
-                found[index] = partner
+        for index in (index for index in alignment.missing if index not in found):
+            for other in free:
+                same_role = predicted[other].role == expected[index].role
+                if same_role and len(ours[index] & theirs[other]) == shared:
+                    found[index] = other
+                    free.remove(other)
+                    break
     named: list[Substitution] = [
-        (
-            alignment.expected[index].name,
-            alignment.predicted[found[index]].name if index in found else None,
-        )
-        for index in missing
+        (expected[index].name, predicted[found[index]].name if index in found else None)
+        for index in alignment.missing
     ]
-    return named + [
-        (None, alignment.predicted[other].name) for other in extra if other not in found.values()
-    ]
+    return named + [(None, predicted[other].name) for other in free]
 
 
 def _neighbours(pairs: Sequence[Pair], size: int, side: int) -> list[set[tuple[str, int]]]:

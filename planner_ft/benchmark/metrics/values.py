@@ -12,19 +12,17 @@ from planner_ft.facts.numbers import read_numbers
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import Level
 
-RELATIVE = 0.02
-"""Tolerance of numbers, relative to the expected value (labelling rules: converted values are
-allowed 2 %).
+RELATIVE, ABSOLUTE = 0.02, 0.005
+"""Tolerances of numbers: relative to the expected value (labelling rules: converted values are
+allowed 2 %), and half a unit of the second decimal, to which computed values are rounded.
 """
-ABSOLUTE = 0.005
-"""Half a unit of the second decimal, to which converted and computed values are rounded."""
 FARTHEST = 0.5
-"""Metres that a position may lie off at most: another whole metre than the stated one is another
-place.
-"""
+"""Metres that a position may lie off: another whole metre is another place."""
 ROUNDING = 1e-9
 LONGEST = 40
 """Characters of a text that is read as one quantity."""
+
+Parameters = dict[str, Any]
 
 
 def values_agree(
@@ -66,9 +64,7 @@ def values_agree(
             for ours, theirs in zip(given, stated, strict=True)
         )
     if is_number(stated):
-        return is_number(given) and math.isclose(
-            given, stated, rel_tol=0, abs_tol=tolerance(abs(stated))
-        )
+        return is_number(given) and abs(given - stated) <= tolerance(abs(stated))
     if isinstance(stated, str):
         return isinstance(given, str) and normalised(given) == normalised(stated)
     return bool(type(given) is type(stated) and given == stated)
@@ -78,12 +74,10 @@ def positions_agree(
     given: Sequence[float], stated: Sequence[float], vocabulary: Vocabulary
 ) -> bool:
     """Whether two positions, in metres, are the same place."""
-    if (list(given) == list(vocabulary.unresolved)) != (
-        list(stated) == list(vocabulary.unresolved)
-    ):
+    unresolved = list(vocabulary.unresolved)
+    if (list(given) == unresolved) != (list(stated) == unresolved):
         return False
-    allowed = min(tolerance(math.hypot(*stated)), FARTHEST + ROUNDING)
-    return math.dist(given, stated) <= allowed
+    return math.dist(given, stated) <= min(tolerance(math.hypot(*stated)), FARTHEST + ROUNDING)
 
 
 def tolerance(size: float) -> float:
@@ -98,7 +92,7 @@ def known_parameters(level: Level, name: str, vocabulary: Vocabulary) -> dict[st
 
 
 def parameters_agree(
-    level: Level, name: str, given: dict[str, Any], stated: dict[str, Any], vocabulary: Vocabulary
+    level: Level, name: str, given: Parameters, stated: Parameters, vocabulary: Vocabulary
 ) -> bool:
     """Whether two parameter objects of a task or skill have the same keys with agreeing values."""
     if given == stated:
@@ -110,7 +104,7 @@ def parameters_agree(
 
 
 def agreeing_keys(
-    level: Level, name: str, given: dict[str, Any], stated: dict[str, Any], vocabulary: Vocabulary
+    level: Level, name: str, given: Parameters, stated: Parameters, vocabulary: Vocabulary
 ) -> list[str]:
     """Keys under which both objects have the same content (`values_agree`, loose)."""
     if given == stated:
@@ -124,9 +118,7 @@ def agreeing_keys(
 
 
 def _measured(text: str, unit: str | None) -> float | None:
-    """What a text that is one quantity means in `unit`; None when it is something else or in
-    another unit.
-    """
+    """The number that a text means in `unit`; None when it is not one quantity in that unit."""
     text = text.strip()
     found = read_numbers(text) if len(text) <= LONGEST else ()
     if len(found) != 1 or (found[0].start, found[0].end) != (0, len(text)):
@@ -137,20 +129,18 @@ def _measured(text: str, unit: str | None) -> float | None:
 def _rings_agree(given: Any, stated: Any, vocabulary: Vocabulary) -> bool:
     if not isinstance(given, list) or not isinstance(stated, list):
         return False
-    given, stated = _opened(given), _opened(stated)
+    # A ring may repeat its first corner at its end.
+    given, stated = (
+        ring[:-1] if len(ring) > 3 and ring[0] == ring[-1] else ring for ring in (given, stated)
+    )
     if len(given) != len(stated):
         return False
-    turns = [
+    turns = (
         ring[start:] + ring[:start]
         for ring in (given, given[::-1])
         for start in range(max(len(ring), 1))
-    ]
+    )
     return any(values_agree(turn, stated, None, vocabulary) for turn in turns)
-
-
-def _opened(ring: list[Any]) -> list[Any]:
-    """A ring without the first corner repeated at its end."""
-    return ring[:-1] if len(ring) > 3 and ring[0] == ring[-1] else ring
 
 
 def _is_position(value: Any) -> bool:

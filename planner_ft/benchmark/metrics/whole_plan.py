@@ -11,7 +11,7 @@ from planner_ft.benchmark.metrics.alignment import align
 from planner_ft.benchmark.metrics.entries import Entry, plan_entries
 from planner_ft.benchmark.metrics.exact_sequence import name_sequence
 from planner_ft.benchmark.metrics.parameters import right_entries
-from planner_ft.benchmark.metrics.schema_valid import schema_valid
+from planner_ft.benchmark.metrics.validity import schema_valid
 from planner_ft.benchmark.metrics.values import parameters_agree
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -26,12 +26,8 @@ def parameters_right(
     or step by step: the two targets of two Transits must not be swapped.
     """
     wanted, given = plan_entries(level, expected), plan_entries(level, plan)
-    if wanted == given:
-        return True
-    ours, theirs = _steps(wanted), _steps(given)
-    return all(
-        _step_right(level, one, other, vocabulary) for one, other in zip(ours, theirs, strict=True)
-    )
+    steps = zip(_steps(wanted), _steps(given), strict=True)
+    return wanted == given or all(_step_right(level, *pair, vocabulary) for pair in steps)
 
 
 def whole_plan_unordered(
@@ -42,8 +38,7 @@ def whole_plan_unordered(
     *,
     valid: bool | None = None,
 ) -> bool:
-    """Whether the answer has the right tasks, or steps, with the right parameters, in whatever
-    order.
+    """Whether the answer has the right tasks, or steps, with the right parameters, in any order.
 
     Skills that run in one step must stand in one step. An answer that is not schema-valid is never
     right; `valid` says whether it is, where that is known.
@@ -52,10 +47,7 @@ def whole_plan_unordered(
         return False
     if sorted(name_sequence(level, plan)) != sorted(name_sequence(level, expected)):
         return False
-    ours, theirs = (
-        _alike(_steps(plan_entries(level, expected))),
-        _alike(_steps(plan_entries(level, plan))),
-    )
+    ours, theirs = (_alike(_steps(plan_entries(level, one))) for one in (expected, plan))
     return all(_matchable(level, steps, theirs[names], vocabulary) for names, steps in ours.items())
 
 

@@ -1,7 +1,7 @@
-"""Where answers come from: a loaded candidate, or whatever else can be asked.
+"""Sources of answers: a candidate that is loaded here, or a server.
 
-A source serves the jobs of one candidate. The runner asks it for what is missing and writes every
-answer down as it comes, so a source that fails half-way loses nothing.
+A source serves the jobs of one candidate. The runner asks it for missing answers and writes each
+down as it comes, so a source that fails half-way keeps what it answered.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Answered:
-    """One answer as predictions.jsonl records it; what a source cannot know is None.
+    """One answer as predictions.jsonl records it; fields that a source cannot know are None.
 
     `seconds` is its share of the batch's time. `more` holds further JSON fields of the record.
     """
@@ -42,7 +42,6 @@ class Timed:
     tokens: int | None = None
     forward_passes: int | None = None
     first_token_s: float | None = None
-    more: dict[str, Any] = field(default_factory=dict)
 
 
 class AnswerSource(Protocol):
@@ -55,9 +54,7 @@ class AnswerSource(Protocol):
         """Yield (index of the sample, timed query), one query after the other, after a warm-up."""
 
     def costs(self) -> dict[str, Any]:
-        """What answering cost beside the queries, as run.json records it per candidate: load_s,
-        peak_memory_bytes, ...
-        """
+        """Costs beside the queries, as run.json records them per candidate: load_s ..."""
 
     def release(self) -> None:
         """Give memory or connections back."""
@@ -68,7 +65,7 @@ def open_source(plan: Plan, jobs: Sequence[Job]) -> AnswerSource:
     if plan.settings.endpoint is not None:
         from planner_ft.benchmark.sources.endpoint import EndpointSource
 
-        return EndpointSource.open(plan, jobs, plan.settings.endpoint)
+        return EndpointSource(plan, jobs, plan.settings.endpoint)
     from planner_ft.benchmark.sources.engine import EngineSource
 
-    return EngineSource.load(plan, jobs)
+    return EngineSource(plan, jobs)

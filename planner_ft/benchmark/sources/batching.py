@@ -11,35 +11,31 @@ from typing import TypeVar
 from planner_ft.support.errors import PlannerError
 
 Answer = TypeVar("Answer")
-Room = Callable[[int], bool]
-"""Whether a batch of this size would fit, judged by those that did."""
 
 FIRST = 16
-"""Where the size begins without being told: on a CPU larger ones gain nothing, and a lost process
-would be the only sign of too large ones.
+"""The size to begin with: on a CPU larger ones gain nothing, and a killed process would be the only
+sign of too large ones.
 """
 LARGEST = 256
+MARGIN = 0.7
+"""Share of the free memory that a batch may be expected to take."""
 
 
 @dataclass
 class BatchSize:
-    """The queries that are generated together. `room` is asked before the size is doubled; None
-    keeps it from growing.
+    """The queries that are generated together. `room` says whether a batch of some size would fit,
+    before the size is doubled; None keeps it from growing.
     """
 
     size: int = FIRST
-    room: Room | None = None
+    room: Callable[[int], bool] | None = None
     largest: int = LARGEST
 
     def fitted(self, used: int) -> None:
         """A batch of `used` queries had enough memory."""
-        if (
-            self.room is not None
-            and used == self.size
-            and 2 * used <= self.largest
-            and self.room(2 * used)
-        ):
-            self.size = 2 * used
+        twice = 2 * used
+        if self.room and used == self.size and twice <= self.largest and self.room(twice):
+            self.size = twice
 
     def overflowed(self, used: int) -> None:
         """A batch of `used` queries did not have enough. Raises PlannerError when it was a single
@@ -59,11 +55,10 @@ def in_batches(
     batch: BatchSize,
     out_of_memory: Callable[[Exception], bool],
 ) -> Iterator[tuple[int, Answer, int]]:
-    """Yield (index, answer, size of its batch), longest queries first; those that a full memory
-    left unanswered are asked again.
+    """Yield (index, answer, size of its batch), longest queries first, so that a query that does
+    not fit shows at once; those that a full memory left unanswered are asked again.
 
-    `ask` answers the queries of some indices and yields (place among them, answer). Longest first:
-    what does not fit shows at once, and not after an hour.
+    `ask` answers the queries of some indices and yields (place among them, answer).
     """
     waiting = sorted(range(len(lengths)), key=lambda index: (-lengths[index], index))
     while waiting:
@@ -88,39 +83,33 @@ def is_out_of_memory(error: BaseException) -> bool:
     """Whether the accelerator's memory was too small; its cached memory is given back then."""
     import torch
 
-    found = isinstance(error, torch.OutOfMemoryError) or isinstance(
-        error.__cause__, torch.OutOfMemoryError
-    )
+    found = any(isinstance(one, torch.OutOfMemoryError) for one in (error, error.__cause__))
     if found and torch.cuda.is_available():
         torch.cuda.empty_cache()
     return found
-
-
-class CudaRoom:
-    """Judges by the memory that batches took at their peak beyond the model's own."""
-
-    MARGIN = 0.7
-    """Share of the free memory that a batch may be expected to take."""
-
-    def __init__(self, device: str) -> None:
-        import torch
-
-        self.device = torch.device(device)
-        self.model = torch.cuda.memory_allocated(self.device)
-        torch.cuda.reset_peak_memory_stats(self.device)
-
-    def __call__(self, size: int) -> bool:
-        """Called after a batch of half this size, the largest so far."""
-        import torch
-
-        taken = torch.cuda.max_memory_allocated(self.device) - self.model
-        free, _total = torch.cuda.mem_get_info(self.device)
-        spare = torch.cuda.memory_reserved(self.device) - torch.cuda.memory_allocated(self.device)
-        return 2 * taken < self.MARGIN * (free + spare)
 
 
 def new_batch_size(asked: int | None, device: str) -> BatchSize:
     """The size that was asked for, or one that finds itself."""
     if asked is not None:
         return BatchSize(asked)
-    return BatchSize(room=CudaRoom(device) if device.startswith("cuda") else None)
+    return BatchSize(room=_cuda_room(device) if device.startswith("cuda") else None)
+
+
+def _cuda_room(name: str) -> Callable[[int], bool]:
+    """Judges by the memory that batches took at their peak beyond the model's own; called after a
+    batch of half the size, the largest so far.
+    """
+    import torch
+
+    device = torch.device(name)
+    model = torch.cuda.memory_allocated(device)
+    torch.cuda.reset_peak_memory_stats(device)
+
+    def room(_size: int) -> bool:
+        taken = torch.cuda.max_memory_allocated(device) - model
+        free, _total = torch.cuda.mem_get_info(device)
+        spare = torch.cuda.memory_reserved(device) - torch.cuda.memory_allocated(device)
+        return 2 * taken < MARGIN * (free + spare)
+
+    return room

@@ -1,31 +1,26 @@
-"""Asking a chat completions server, again where that can help: one question at a time per call, any
-number of threads.
-"""
+"""Asking a chat completions server, again where that can help, and reading its replies."""
 
 from __future__ import annotations
 
 import email.utils
 import json
+import queue
 import random
 import threading
 import time
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from planner_ft.benchmark.sources.chat_reply import (
-    BadReply,
-    Reply,
-    excerpt,
-    read_events,
-    read_whole,
-    within,
-)
-from planner_ft.benchmark.sources.endpoint_settings import CHAT, EndpointSettings
+from planner_ft.benchmark.settings import CHAT, ROOT, EndpointSettings
 from planner_ft.support.errors import PlannerError
 
 if TYPE_CHECKING:
     import httpx2
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
 
 FIRST_PAUSE, LONGEST_PAUSE = 0.5, 30.0
 """Seconds before the second attempt, doubled before each later one up to the longest; a random half
@@ -35,6 +30,8 @@ LONGEST_WAIT = 600.0
 """Seconds that a server may ask us to wait (Retry-After) before we call it closed."""
 PASSING = frozenset({408, 409, 425, 429})
 """Statuses below 500 that may pass."""
+LARGEST = 2**25
+"""Bytes of a reply from which it is no answer to a question of ours."""
 KEPT = "what is answered so far is kept for --resume"
 
 
@@ -52,12 +49,29 @@ class Rejected(PlannerError):
         self.status = status
 
 
-class _Passing(Exception):
-    """A failure that may pass; `wait` is the pause in seconds that the server asks for."""
+class Passing(Exception):
+    """A failure that may pass: no connection, a reply that is cut off, too slow or no JSON. `wait`
+    is the pause in seconds that the server asks for.
+    """
 
     def __init__(self, reason: str, wait: float | None = None) -> None:
         super().__init__(reason)
         self.wait = wait
+
+
+@dataclass(frozen=True)
+class Reply:
+    """An answer. `seconds` is the time from the question to its end, `first_token_s` to the first
+    text (streams alone).
+    """
+
+    text: str
+    seconds: float
+    finish_reason: str
+    tokens: int | None = None
+    prompt_tokens: int | None = None
+    first_token_s: float | None = None
+    attempts: int = 1
 
 
 class ChatClient:
@@ -68,11 +82,12 @@ class ChatClient:
 
         self.settings = settings
         self.key = settings.api_key()
-        headers = {"Authorization": f"Bearer {self.key}"} if self.key else {}
-        limits = httpx2.Limits(
-            max_connections=settings.concurrency, max_keepalive_connections=settings.concurrency
+        most = settings.concurrency
+        self.http = httpx2.Client(
+            headers={"Authorization": f"Bearer {self.key}"} if self.key else {},
+            timeout=settings.timeout,
+            limits=httpx2.Limits(max_connections=most, max_keepalive_connections=most),
         )
-        self.http = httpx2.Client(headers=headers, timeout=settings.timeout, limits=limits)
         self.stopped = threading.Event()
 
     def complete(
@@ -89,34 +104,75 @@ class ChatClient:
         retries = self.settings.retries if retries is None else retries
         if stream:
             body = {**body, "stream": True, "stream_options": {"include_usage": True}}
-        for attempt in range(1, retries + 2):
+        attempt = 1
+        while True:
             try:
                 return replace(self._exchange(body), attempts=attempt)
-            except _Passing as problem:
+            except Passing as problem:
                 if attempt > retries or self._pause(attempt, problem.wait):
                     times = f" ({attempt} times in a row)" if attempt > 1 else ""
                     raise PlannerError(
-                        f"{self.settings.root}: the server {problem}{times}; look after the server"
-                        f" and go on: {KEPT}"
+                        f"{self.settings.root}: the server {self._without_key(str(problem))}{times};"
+                        f" look after the server and go on: {KEPT}"
                     ) from None
-        raise AssertionError("unreachable: the last attempt returns or raises")
+            attempt += 1
+
+    def complete_all(
+        self, function: Callable[[Item], Result], items: Sequence[Item]
+    ) -> Iterator[tuple[int, Result]]:
+        """Yield (index of the item, result) as results come, `concurrency` at a time.
+
+        When a call raises, no further item is begun, those that were begun are waited for and
+        yielded if they succeed, and then the first exception is raised. The threads are daemons, so
+        that a program can end while a server hangs.
+        """
+        waiting = iter(list(enumerate(items)))
+        done: queue.SimpleQueue[tuple[int, Result | None, BaseException | None]]
+        done, taking = queue.SimpleQueue(), threading.Lock()
+
+        def work() -> None:
+            while True:
+                with taking:
+                    index, item = next(waiting, (-1, None))
+                if index < 0 or item is None or self.stopped.is_set():
+                    break
+                try:
+                    done.put((index, function(item), None))
+                except BaseException as error:
+                    self.stop()
+                    done.put((index, None, error))
+            done.put((-1, None, None))
+
+        running = min(self.settings.concurrency, len(items))
+        for _ in range(running):
+            threading.Thread(target=work, daemon=True).start()
+        failure: BaseException | None = None
+        try:
+            while running:
+                index, result, error = done.get()
+                failure = failure or error
+                if index < 0:
+                    running -= 1
+                elif error is None:
+                    yield index, result  # type: ignore[misc]  # no error, so a result
+        except BaseException:
+            self.stop()
+            raise
+        if failure is not None:
+            raise failure
 
     def models(self) -> list[dict[str, Any]] | None:
-        """What the server says it serves (GET /models), None where it does not say."""
+        """The models that the server says it serves (GET /models), None where it does not say."""
         import httpx2
 
         deadline = time.perf_counter() + self.settings.timeout
         try:
             with self.http.stream("GET", f"{self.settings.root}/models") as response:
-                value = json.loads(b"".join(within(response.iter_bytes(), deadline)))
-        except (httpx2.HTTPError, httpx2.InvalidURL, BadReply, ValueError):
+                value = json.loads(b"".join(_within(response.iter_bytes(), deadline)))
+        except (httpx2.HTTPError, httpx2.InvalidURL, Passing, ValueError):
             return None
         found = value.get("data") if isinstance(value, dict) else None
-        return (
-            [entry for entry in found if isinstance(entry, dict)]
-            if isinstance(found, list)
-            else None
-        )
+        return [one for one in found if isinstance(one, dict)] if isinstance(found, list) else None
 
     def stop(self) -> None:
         """No further attempts: open requests of other threads end with what they get."""
@@ -131,65 +187,48 @@ class ChatClient:
         import httpx2
 
         started = time.perf_counter()
-        deadline = started + self.settings.timeout
+        root, timeout = self.settings.root, self.settings.timeout
         try:
-            with self.http.stream("POST", f"{self.settings.root}{CHAT}", json=body) as response:
-                chunks = within(response.iter_bytes(), deadline)
+            with self.http.stream("POST", f"{root}{CHAT}", json=body) as response:
+                chunks = _within(response.iter_bytes(), started + timeout)
                 if response.status_code != 200:
                     raise self._refusal(response, b"".join(chunks))
                 events = response.headers.get("content-type", "").startswith("text/event-stream")
-                return read_events(chunks, started) if events else read_whole(chunks, started)
-        except BadReply as problem:
-            raise _Passing(self._without_key(str(problem))) from None
+                return _read_events(chunks, started) if events else _read_whole(chunks, started)
         except httpx2.InvalidURL as error:
-            raise PlannerError(
-                f"--endpoint {self.settings.root}: no http URL ({error}); give the API's root, such"
-                " as http://127.0.0.1:8000/v1"
-            ) from None
+            raise PlannerError(f"--endpoint {root}: no http URL ({error}); {ROOT}") from None
         except httpx2.TimeoutException:
-            raise _Passing(f"did not answer within {self.settings.timeout:g} s") from None
+            raise Passing(f"did not answer within {timeout:g} s") from None
         except httpx2.HTTPError as error:
-            kind = (
-                "cannot be reached"
-                if isinstance(error, httpx2.ConnectError)
-                else "dropped the connection"
-            )
-            raise _Passing(f"{kind} ({self._without_key(excerpt(str(error)))})") from None
+            reached = not isinstance(error, httpx2.ConnectError)
+            kind = "dropped the connection" if reached else "cannot be reached"
+            raise Passing(f"{kind} ({_excerpt(str(error))})") from None
 
     def _refusal(self, response: httpx2.Response, body: bytes) -> Exception:
-        """What a status other than 200 means."""
-        status, said = response.status_code, self._without_key(excerpt(body))
-        answer = f"HTTP {status}: {said}"
+        """The meaning of a status other than 200."""
+        status, root = response.status_code, self.settings.root
+        message = self._without_key(_excerpt(body))
+        answer = f"HTTP {status}: {message}"
         if status in PASSING or status >= 500:
-            return _Passing(f"answers {answer}", _asked_wait(response.headers.get("retry-after")))
+            return Passing(f"answers {answer}", _asked_wait(response.headers.get("retry-after")))
+        if status in (400, 413, 422) and _is_about_length(message):
+            return Unanswerable(answer)
+        problem = f"the server does not take our request ({answer}); {KEPT}"
         if status in (401, 403):
-            given = (
+            key = (
                 f"the key in {self.settings.api_key_env}" if self.key else "requests without a key"
             )
-            return Rejected(
-                f"{self.settings.root}: the server refuses {given} ({answer}); name the variable of"
-                " a valid key with --api-key-env",
-                status,
+            valid = "name the variable of a valid key with --api-key-env"
+            problem = f"the server refuses {key} ({answer}); {valid}"
+        elif status == 404:
+            names = ", ".join(str(one.get("id")) for one in (self.models() or [])[:5])
+            hint = (
+                f"it serves {names}"
+                if names
+                else "check --endpoint (often it ends with /v1) and --model"
             )
-        if status == 404:
-            return Rejected(
-                f"{self.settings.root}: no chat API or no model {self.settings.model} there"
-                f" ({answer}){self._served()}",
-                status,
-            )
-        if status in (400, 413, 422) and _speaks_of_length(said):
-            return Unanswerable(answer)
-        return Rejected(
-            f"{self.settings.root}: the server does not take our request ({answer}); {KEPT}", status
-        )
-
-    def _served(self) -> str:
-        names = [str(entry.get("id")) for entry in self.models() or []]
-        return (
-            f"; it serves {', '.join(names[:5])}"
-            if names
-            else "; check --endpoint (often it ends with /v1) and --model"
-        )
+            problem = f"no chat API or no model {self.settings.model} there ({answer}); {hint}"
+        return Rejected(f"{root}: {problem}", status)
 
     def _without_key(self, text: str) -> str:
         """Servers like to repeat a key that they refuse."""
@@ -200,34 +239,130 @@ class ChatClient:
         thread's question has failed for good.
         """
         if asked is not None and asked > LONGEST_WAIT:
+            root = self.settings.root
             raise PlannerError(
-                f"{self.settings.root}: the server asks to wait for {asked:.0f} s; go on then:"
-                f" {KEPT}"
+                f"{root}: the server asks to wait for {asked:.0f} s; go on then: {KEPT}"
             )
         backoff = min(LONGEST_PAUSE, FIRST_PAUSE * 2 ** (attempt - 1))
         return self.stopped.wait(asked if asked is not None else backoff * random.uniform(0.5, 1.0))
 
 
+def _within(chunks: Iterable[bytes], deadline: float) -> Iterator[bytes]:
+    """The chunks of a reply. Raises Passing when they go on after `deadline` (of
+    `time.perf_counter`) or are too many.
+    """
+    size = 0
+    for chunk in chunks:
+        size += len(chunk)
+        if time.perf_counter() > deadline:
+            raise Passing("did not finish its answer in time")
+        if size > LARGEST:
+            raise Passing(f"sent more than {LARGEST >> 20} MiB for one answer")
+        yield chunk
+
+
+def _read_whole(chunks: Iterable[bytes], started: float) -> Reply:
+    """A reply that comes as one JSON object. Raises Passing."""
+    body = b"".join(chunks)
+    value = _json_object(body)
+    choice = _choice(value)
+    message = choice.get("message")
+    if not isinstance(message, dict):
+        raise Passing(f"answered without a message: {_excerpt(body)}")
+    seconds, reason = time.perf_counter() - started, str(choice.get("finish_reason") or "stop")
+    return Reply(_text(message), seconds, reason, *_usage(value))
+
+
+def _read_events(chunks: Iterable[bytes], started: float) -> Reply:
+    """A reply that comes as server-sent events. Raises Passing when it ends without saying so."""
+    text, reason, first = "", None, None
+    usage: tuple[int | None, int | None] = (None, None)
+    for event in _events(chunks):
+        counted = _usage(event)
+        usage = usage if counted[0] is None else counted
+        if not event.get("choices"):  # the last event of a stream holds the usage alone
+            continue
+        choice = _choice(event)
+        piece = _text(choice.get("delta") or {})
+        if piece and first is None:
+            first = time.perf_counter() - started
+        text, reason = text + piece, choice.get("finish_reason") or reason
+    if reason is None:
+        raise Passing("ended a stream in the middle of an answer")
+    return Reply(text, time.perf_counter() - started, str(reason), *usage, first)
+
+
+def _events(chunks: Iterable[bytes]) -> Iterator[dict[str, Any]]:
+    rest = b""
+    for chunk in chunks:
+        *lines, rest = (rest + chunk).split(b"\n")
+        for line in lines:
+            if line.startswith(b"data:") and (data := line[5:].strip()) != b"[DONE]":
+                yield _json_object(data)
+
+
+def _json_object(body: bytes) -> dict[str, Any]:
+    try:
+        value = json.loads(body)
+    except (ValueError, RecursionError):
+        raise Passing(f"answered with something that is not JSON: {_excerpt(body)}") from None
+    if not isinstance(value, dict) or value.get("error"):
+        kind = "an error" if isinstance(value, dict) else "no object"
+        raise Passing(f"answered with {kind}: {_excerpt(body)}")
+    return value
+
+
+def _choice(value: dict[str, Any]) -> dict[str, Any]:
+    choices = value.get("choices")
+    if not isinstance(choices, list) or not choices or not isinstance(choices[0], dict):
+        raise Passing(f"answered without choices: {_excerpt(json.dumps(value))}")
+    return choices[0]
+
+
+def _text(message: dict[str, Any]) -> str:
+    """The text of a message; models that refuse or think first have none for a while."""
+    content = message.get("content")
+    return content if isinstance(content, str) else ""
+
+
+def _usage(value: dict[str, Any]) -> tuple[int | None, int | None]:
+    """Generated tokens and tokens of the prompt, where the server counts them."""
+    usage = value.get("usage")
+    counts = usage if isinstance(usage, dict) else {}
+    given, asked = counts.get("completion_tokens"), counts.get("prompt_tokens")
+    return given if isinstance(given, int) else None, asked if isinstance(asked, int) else None
+
+
+def _excerpt(body: bytes | str) -> str:
+    """The beginning of a server's message, on one line; of an error object its message."""
+    text = body.decode("utf-8", "replace") if isinstance(body, bytes) else body
+    try:
+        value = json.loads(text)
+    except ValueError:
+        value = None
+    if isinstance(value, dict):
+        error = value.get("error", value.get("detail", value.get("message")))
+        text = str(error.get("message") or error) if isinstance(error, dict) else str(error or text)
+    return " ".join(text.split())[:200] or "nothing"
+
+
 def _asked_wait(header: str | None) -> float | None:
     """Seconds that Retry-After asks for: a number, or a date (RFC 9110, 10.2.3)."""
-    if not header:
-        return None
     try:
-        return max(0.0, float(header))
+        return max(0.0, float(header or "none"))
     except ValueError:
         pass
     try:
-        moment = email.utils.parsedate_to_datetime(header)
+        moment = email.utils.parsedate_to_datetime(header or "")
     except ValueError:
         return None
     return max(0.0, (moment.astimezone(UTC) - datetime.now(UTC)).total_seconds())
 
 
-def _speaks_of_length(message: str) -> bool:
+def _is_about_length(message: str) -> bool:
     """Whether a refusal is about this question's length: vLLM, llama.cpp and OpenAI all name the
     context.
     """
     lowered = message.lower()
-    return "context" in lowered and any(
-        word in lowered for word in ("length", "window", "exceed", "size", "long")
-    )
+    words = ("length", "window", "exceed", "size", "long")
+    return "context" in lowered and any(word in lowered for word in words)

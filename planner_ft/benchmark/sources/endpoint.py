@@ -1,213 +1,92 @@
-"""Answers of a server that speaks the OpenAI chat completions API, and the jobs of a run against
-one.
+"""Answers of a server that speaks the OpenAI chat completions API, held to the strict schema of a
+plan where the configuration asks for it.
 """
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.benchmark.results import System
-from planner_ft.benchmark.sampled import repeated
-from planner_ft.benchmark.samples import BenchData, Sample, default_data, load_bench_data
-from planner_ft.benchmark.settings import BenchSettings
+from planner_ft.benchmark.plan import SERVER_SEED
+from planner_ft.benchmark.samples import Sample
+from planner_ft.benchmark.settings import EndpointSettings
 from planner_ft.benchmark.sources import Answered, Timed
-from planner_ft.benchmark.sources.bounded import bounded
-from planner_ft.benchmark.sources.chat_client import ChatClient, Rejected, Unanswerable
-from planner_ft.benchmark.sources.chat_reply import Reply
-from planner_ft.benchmark.sources.endpoint_settings import EndpointSettings
-from planner_ft.benchmark.sources.served_schema import (
-    FORMS,
-    PROBE_SCHEMA,
-    is_probe_answer,
-    response_format,
-    served_schema,
-)
-from planner_ft.candidates import Candidate, all_candidates
-from planner_ft.decoding.configurations import Configuration, parse_configuration
-from planner_ft.prompts.render import PROMPT_VERSION
+from planner_ft.benchmark.sources.chat_client import ChatClient, Rejected, Reply, Unanswerable
 from planner_ft.prompts.text import prompt_messages
 from planner_ft.support.errors import PlannerError
-from planner_ft.vocabulary import Vocabulary, load_vocabulary
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import Level
+from planner_ft.vocabulary.schema import NON_BLANK, Schema, plan_schema
 
 if TYPE_CHECKING:
     from planner_ft.benchmark.plan import Job, Plan
 
-SEED = 0
-"""Sent with temperature 0, for servers that break ties by chance."""
 UNPENALISED = {"repeat_penalty": 1.0}
 """llama.cpp's Python server punishes repetition unless it is told not to: no greedy decoding, and
 the end of every JSON. Not all servers take the field.
 """
 GREETING = "Greet me in one word."
-
-
-def endpoint_plan(settings: BenchSettings, endpoint: EndpointSettings) -> Plan:
-    """The jobs of a run against a server, checked; nothing is asked yet. Raises PlannerError."""
-    from planner_ft.benchmark.plan import Plan
-
-    _refuse_local_flags(settings)
-    endpoint.api_key()
-    vocabulary = load_vocabulary(settings.vocabulary)
-    configurations = list(dict.fromkeys(_configuration(text) for text in settings.configurations))
-    data = load_bench_data(
-        settings.data or default_data(settings.level), settings.level, vocabulary, settings.limit
-    )
-    candidate = _served_candidate(endpoint)
-    jobs = [_job(settings, endpoint, candidate, one, vocabulary, data) for one in configurations]
-    return Plan(
-        settings,
-        data,
-        vocabulary,
-        "server",
-        tuple(one for job in jobs for one in repeated(job, settings)),
-    )
-
-
-def _refuse_local_flags(settings: BenchSettings) -> None:
-    given = {
-        "--adapter": bool(settings.adapters),
-        "--quantization": settings.quantization is not None,
-        "--device": settings.device != "auto",
-        "--planning-samples": settings.planning_samples > 0,
-    }
-    flags = [flag for flag, is_given in given.items() if is_given]
-    if flags:
-        raise PlannerError(
-            f"{', '.join(flags)}: these go with models that are loaded here; leave them out when"
-            " you give --endpoint"
-        )
-
-
-def _configuration(text: str) -> Configuration:
-    configuration = parse_configuration(text)
-    if configuration.strength not in ("free", "schema"):
-        raise PlannerError(
-            f"--configurations {configuration.name}: {configuration.strength} needs our own"
-            " decoding; with --endpoint there are base, lora (a fine-tuned model, told no"
-            " vocabulary), base+schema and lora+schema"
-        )
-    return configuration
-
-
-def _served_candidate(endpoint: EndpointSettings) -> Candidate:
-    """The served model; published figures stand beside one of the published names."""
-    wanted = endpoint.model.lower()
-    known = next(
-        (
-            candidate
-            for candidate in all_candidates()
-            if wanted in {(candidate.repo or "").lower(), candidate.name.lower()}
-        ),
-        None,
-    )
-    return Candidate(name=endpoint.model, published=known.published if known else None)
-
-
-def _job(
-    settings: BenchSettings,
-    endpoint: EndpointSettings,
-    candidate: Candidate,
-    configuration: Configuration,
-    vocabulary: Vocabulary,
-    data: BenchData,
-) -> Job:
-    from planner_ft.benchmark.plan import Job
-
-    with_vocabulary = not configuration.adapter
-    parts = {
-        "level": settings.level,
-        "candidate": candidate.name,
-        "configuration": configuration.name,
-        "endpoint": endpoint.root,
-        "prompt format": PROMPT_VERSION,
-        "vocabulary in the prompt": with_vocabulary,
-        "vocabulary": vocabulary.sha256,
-        "data": data.sha256,
-        "max-new-tokens": settings.token_limit,
-        "sampling": {"temperature": 0, "seed": SEED},
-    }
-    label = f"{candidate.row_name} at {endpoint.host}"
-    system = System(
-        candidate.name,
-        configuration.name,
-        label=label,
-        published=candidate.published,
-        with_vocabulary=with_vocabulary,
-    )
-    return Job(candidate, configuration, None, "none", with_vocabulary, parts, system, None)
+FORMS = ("json_schema", "json_object")
+"""Ways of asking for a schema: OpenAI's (vLLM, Ollama, llama.cpp), then the older one of llama.cpp
+and its Python server.
+"""
+PROBE_ANSWER = {"probe": "buoy 41"}
+"""An answer that no model gives unless it is held to a schema."""
+PROBE_SCHEMA: Schema = {
+    "type": "object",
+    "properties": {"probe": {"const": "buoy 41"}},
+    "required": ["probe"],
+    "additionalProperties": False,
+}
 
 
 class EndpointSource:
-    """A server. What it says of itself, and how it is asked for a schema, is found out when the
-    source is opened.
+    """A server. Opening asks it what it serves, which fields it takes and, if a job needs it,
+    whether it can hold answers to a schema. Raises PlannerError.
     """
 
-    def __init__(
-        self,
-        client: ChatClient,
-        plan: Plan,
-        models: list[dict[str, Any]] | None,
-        fields: dict[str, Any],
-        schema_form: str | None,
-        seconds: float,
-    ) -> None:
-        self.client = client
-        self.plan = plan
-        self.models = models
-        self.fields = fields
-        self.schema_form = schema_form
-        self.seconds = seconds
-        self.streams = True
-
-    @classmethod
-    def open(cls, plan: Plan, jobs: Sequence[Job], endpoint: EndpointSettings) -> EndpointSource:
-        """Ask the server what it serves, which fields it takes and, if a job needs it, whether it
-        can hold answers to a schema. Raises PlannerError.
-        """
+    def __init__(self, plan: Plan, jobs: Sequence[Job], endpoint: EndpointSettings) -> None:
         started = time.perf_counter()
-        client = ChatClient(endpoint)
+        self.plan, self.endpoint = plan, endpoint
+        self.client = ChatClient(endpoint)
+        self.streams = True
         try:
-            models, fields = client.models(), _accepted_fields(client, endpoint)
-            form = (
-                _schema_form(client, endpoint)
-                if any(job.configuration.strength == "schema" for job in jobs)
-                else None
-            )
+            self.models = self.client.models()
+            self.fields = self._accepted_fields()
+            held = any(job.configuration.strength == "schema" for job in jobs)
+            self.schema_form = self._accepted_form() if held else None
         except BaseException:
-            client.close()
+            self.client.close()
             raise
-        return cls(client, plan, models, fields, form, time.perf_counter() - started)
+        self.seconds = time.perf_counter() - started
 
     def answers(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Answered]]:
         """Several questions at a time; answers that came are yielded also when another question
         failed for good.
         """
-        yield from bounded(
-            self._answered,
-            [self.request(job, sample) for sample in samples],
-            self.client.settings.concurrency,
-            self.client.stop,
-        )
+        bodies = [self.request(job, sample) for sample in samples]
+        yield from self.client.complete_all(self._answered, bodies)
 
     def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Timed]]:
         """One question at a time, streamed where the server streams, after one that is not
         counted.
         """
-        if samples:
-            self._timed(self.request(job, samples[0]))
-        for index, sample in enumerate(samples):
-            yield index, self._timed(self.request(job, sample))
+        bodies = [self.request(job, sample) for sample in samples]
+        for index, body in enumerate([*bodies[:1], *bodies], -1):
+            timed = self._timed(body)
+            if index >= 0:
+                yield index, timed
 
     def costs(self) -> dict[str, Any]:
-        asked = {
-            "endpoint": self.client.settings.root,
+        return {
+            "load_s": round(self.seconds, 3),
+            "endpoint": self.endpoint.root,
             "models": self.models,
             "request_fields": self.fields,
             "schema_form": self.schema_form,
         }
-        return {"load_s": round(self.seconds, 3), **asked}
 
     def release(self) -> None:
         self.client.close()
@@ -220,10 +99,7 @@ class EndpointSource:
         messages = prompt_messages(
             level, sample.record, vocabulary, with_vocabulary=job.with_vocabulary
         )
-        body = {
-            **_body(self.client.settings, messages, self.plan.settings.token_limit),
-            **self.fields,
-        }
+        body = {**self._body(messages, self.plan.settings.token_limit), **self.fields}
         if job.sampling is not None:
             body |= {
                 "temperature": job.sampling.temperature,
@@ -231,9 +107,8 @@ class EndpointSource:
                 "seed": job.sampling.seed_of(sample.id) % 2**31,
             }
         if job.configuration.strength == "schema" and self.schema_form:
-            body["response_format"] = response_format(
-                self.schema_form, served_schema(level, vocabulary)
-            )
+            schema = served_schema(level, vocabulary)
+            body["response_format"] = _response_format(self.schema_form, schema)
         return body
 
     def _answered(self, body: dict[str, Any]) -> Answered:
@@ -241,9 +116,8 @@ class EndpointSource:
         try:
             reply = self.client.complete(body)
         except Unanswerable as problem:
-            return Answered(
-                "", time.perf_counter() - started, "error", tokens=0, error=str(problem)
-            )
+            seconds = time.perf_counter() - started
+            return Answered("", seconds, "error", tokens=0, error=str(problem))
         return Answered(
             reply.text,
             reply.seconds,
@@ -270,48 +144,84 @@ class EndpointSource:
         self.streams = False
         return self.client.complete(body)
 
+    def _body(self, messages: list[dict[str, str]], max_tokens: int) -> dict[str, Any]:
+        return {
+            "model": self.endpoint.model,
+            "messages": messages,
+            "temperature": 0,
+            "seed": SERVER_SEED,
+            "max_tokens": max_tokens,
+        }
 
-def _body(
-    endpoint: EndpointSettings, messages: list[dict[str, str]], max_tokens: int
-) -> dict[str, Any]:
-    return {
-        "model": endpoint.model,
-        "messages": messages,
-        "temperature": 0,
-        "seed": SEED,
-        "max_tokens": max_tokens,
-    }
+    def _greeting(self, max_tokens: int, **fields: Any) -> dict[str, Any]:
+        return {**self._body([{"role": "user", "content": GREETING}], max_tokens), **fields}
+
+    def _accepted_fields(self) -> dict[str, Any]:
+        """The fields beyond the usual ones that the server takes. Raises PlannerError when it does
+        not answer at all.
+        """
+        self.client.complete(self._greeting(1))
+        return {} if self._heeded(self._greeting(1, **UNPENALISED)) is None else UNPENALISED
+
+    def _accepted_form(self) -> str:
+        """The first way of asking for a schema that the server heeds. Raises PlannerError when it
+        heeds none.
+        """
+        for form in FORMS:
+            wanted = _response_format(form, PROBE_SCHEMA)
+            text = self._heeded(self._greeting(64, response_format=wanted))
+            try:
+                if json.loads(text or "null") == PROBE_ANSWER:
+                    return form
+            except ValueError:
+                continue
+        raise PlannerError(
+            f"{self.endpoint.root}: the server does not hold answers to a JSON schema"
+            " (response_format); leave out the configurations with +schema"
+        )
+
+    def _heeded(self, body: dict[str, Any]) -> str | None:
+        """The answer to a request with a field that the server may not know, None where it fails:
+        some answer even that with HTTP 500.
+        """
+        try:
+            return self.client.complete(body, retries=1).text
+        except (PlannerError, Unanswerable):
+            return None
 
 
-def _accepted_fields(client: ChatClient, endpoint: EndpointSettings) -> dict[str, Any]:
-    """The fields beyond the usual ones that the server takes. Raises PlannerError when it does not
-    answer at all.
+def served_schema(level: Level, vocabulary: Vocabulary) -> Schema:
+    """The strict schema of a level's plans in the words that servers' grammar compilers understand.
+
+    Compilers differ: llama.cpp's reads no unanchored pattern and takes `anyOf` instead of the
+    properties beside it. The form here admits the same plans but for one thing: a text that must
+    not be blank must only not be empty.
     """
-    body = _body(endpoint, [{"role": "user", "content": GREETING}], 1)
-    client.complete(body)
-    return UNPENALISED if _heeded(client, {**body, **UNPENALISED}) is not None else {}
-
-
-def _schema_form(client: ChatClient, endpoint: EndpointSettings) -> str:
-    """The first way of asking for a schema that the server heeds. Raises PlannerError when it heeds
-    none.
-    """
-    body = _body(endpoint, [{"role": "user", "content": GREETING}], 64)
-    for form in FORMS:
-        text = _heeded(client, {**body, "response_format": response_format(form, PROBE_SCHEMA)})
-        if text is not None and is_probe_answer(text):
-            return form
-    raise PlannerError(
-        f"{endpoint.root}: the server does not hold answers to a JSON schema (response_format);"
-        " leave out the configurations with +schema"
+    schema = plan_schema(level, vocabulary, strict=True)
+    served: Schema = _translated(
+        {key: value for key, value in schema.items() if key not in ("$schema", "title")}
     )
+    return served
 
 
-def _heeded(client: ChatClient, body: dict[str, Any]) -> str | None:
-    """The answer to a request with a field that the server may not know, None where it fails: some
-    answer even that with HTTP 500.
-    """
-    try:
-        return client.complete(body, retries=1).text
-    except (PlannerError, Unanswerable):
-        return None
+def _response_format(form: str, schema: Schema) -> dict[str, Any]:
+    """The request's `response_format` field in one of FORMS."""
+    if form == "json_object":
+        return {"type": "json_object", "schema": schema}
+    named = {"name": "plan", "strict": True, "schema": schema}
+    return {"type": "json_schema", "json_schema": named}
+
+
+def _translated(schema: Any) -> Any:
+    if isinstance(schema, list):
+        return [_translated(entry) for entry in schema]
+    if not isinstance(schema, dict):
+        return schema
+    if schema == NON_BLANK:
+        return {"type": "string", "minLength": 1}
+    if "anyOf" in schema and "properties" in schema:
+        rest = {key: value for key, value in schema.items() if key != "anyOf"}
+        required = rest.get("required", [])
+        choices = (list(dict.fromkeys([*required, *one["required"]])) for one in schema["anyOf"])
+        return {"anyOf": [_translated({**rest, "required": choice}) for choice in choices]}
+    return {key: _translated(value) for key, value in schema.items()}

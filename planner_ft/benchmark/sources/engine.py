@@ -23,36 +23,33 @@ SWAPS = 3
 
 
 class EngineSource:
-    """An engine with the candidate's adapter, if any job needs it; queries are batched."""
+    """An engine with the candidate's adapter, if any job needs it; queries are batched. Raises
+    PlannerError where the candidate cannot be loaded.
+    """
 
-    def __init__(self, engine: Engine, plan: Plan, load_seconds: float) -> None:
-        self.engine = engine
-        self.plan = plan
-        self.load_seconds = load_seconds
-        # The size of batches is judged by a peak of its own, which begins here.
-        self.load_peak = peak_memory(resolve_device(plan.device))
-        self.batch = new_batch_size(plan.settings.batch_size, plan.device)
-
-    @classmethod
-    def load(cls, plan: Plan, jobs: Sequence[Job]) -> EngineSource:
-        """Load the candidate of these jobs. Raises PlannerError."""
-        reset_peak_memory(resolve_device(plan.device))
+    def __init__(self, plan: Plan, jobs: Sequence[Job]) -> None:
+        self.device, self.level = resolve_device(plan.device), plan.settings.level
+        reset_peak_memory(self.device)
         started = time.perf_counter()
         adapter = next((job.adapter for job in jobs if job.adapter), None)
-        engine = Engine.load(
+        self.engine = Engine.load(
             jobs[0].candidate,
             plan.vocabulary,
-            adapters={plan.settings.level: adapter} if adapter else None,
+            adapters={self.level: adapter} if adapter else None,
             device=plan.device,
             quantization=jobs[0].quantization,
             max_new_tokens=plan.settings.token_limit,
             threads=jobs[0].threads,
         )
-        return cls(engine, plan, time.perf_counter() - started)
+        self.load_seconds = time.perf_counter() - started
+        # The size of batches is judged by a peak of its own, which begins here.
+        self.load_peak = peak_memory(self.device)
+        self.batch = new_batch_size(plan.settings.batch_size, plan.device)
 
     def answers(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Answered]]:
         """Batch by batch, longest prompts first."""
         queries = self._queries(job, samples)
+        lengths = [len(query.prompt) for query in queries]
 
         def ask(indices: list[int]) -> Iterator[tuple[int, Generation]]:
             return self.engine.answers(
@@ -62,35 +59,26 @@ class EngineSource:
                 sampling=job.sampling,
             )
 
-        for index, answer, size in in_batches(
-            ask, [len(query.prompt) for query in queries], self.batch, is_out_of_memory
-        ):
-            yield index, self._answered(answer, len(queries[index].prompt), size)
-
-    def _answered(self, answer: Generation, prompt_tokens: int, size: int) -> Answered:
-        extra = {"alternatives": answer.alternatives, "working": self.engine.working(answer)}
-        more = {"batch": size, **{name: value for name, value in extra.items() if value}}
-        return Answered(
-            output=self.engine.text(answer),
-            seconds=answer.seconds,
-            finish_reason=answer.finish_reason,
-            tokens=len(answer.ids),
-            prompt_tokens=prompt_tokens,
-            forward_passes=answer.forward_passes,
-            error=answer.error,
-            more=more,
-        )
-
-    def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Timed]]:
-        for index, latency in self.engine.latencies(
-            self._queries(job, samples), job.configuration, sampling=job.sampling
-        ):
+        for index, answer, size in in_batches(ask, lengths, self.batch, is_out_of_memory):
+            extra = {"alternatives": answer.alternatives, "working": self.engine.working(answer)}
             yield (
                 index,
-                Timed(
-                    latency.seconds, latency.tokens, latency.forward_passes, latency.first_token_s
+                Answered(
+                    output=self.engine.text(answer),
+                    seconds=answer.seconds,
+                    finish_reason=answer.finish_reason,
+                    tokens=len(answer.ids),
+                    prompt_tokens=lengths[index],
+                    forward_passes=answer.forward_passes,
+                    error=answer.error,
+                    more={"batch": size, **{name: value for name, value in extra.items() if value}},
                 ),
             )
+
+    def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Timed]]:
+        queries = self._queries(job, samples)
+        for index, one in self.engine.latencies(queries, job.configuration, sampling=job.sampling):
+            yield index, Timed(one.seconds, one.tokens, one.forward_passes, one.first_token_s)
 
     def costs(self) -> dict[str, Any]:
         """Seconds to load base and adapter, the mean of a switch between them, and the most memory
@@ -99,16 +87,15 @@ class EngineSource:
         return {
             "load_s": round(self.load_seconds, 3),
             "adapter_swap_s": self._swap_seconds(),
-            "peak_memory_bytes": max(self.load_peak, peak_memory(resolve_device(self.plan.device))),
+            "peak_memory_bytes": max(self.load_peak, peak_memory(self.device)),
         }
 
     def _swap_seconds(self) -> float | None:
-        level = self.plan.settings.level
-        if level not in self.engine.adapters:
+        if self.level not in self.engine.adapters:
             return None
         began = time.perf_counter()
         for adapter in (True, False) * SWAPS:
-            with self.engine.configured(level, Configuration(adapter)):
+            with self.engine.configured(self.level, Configuration(adapter)):
                 pass
         return round((time.perf_counter() - began) / (2 * SWAPS), 6)
 
@@ -117,8 +104,6 @@ class EngineSource:
 
     def _queries(self, job: Job, samples: Sequence[Sample]) -> list[Query]:
         return [
-            self.engine.query(
-                self.plan.settings.level, sample.record, with_vocabulary=job.with_vocabulary
-            )
+            self.engine.query(self.level, sample.record, with_vocabulary=job.with_vocabulary)
             for sample in samples
         ]

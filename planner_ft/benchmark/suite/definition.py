@@ -15,17 +15,20 @@ from planner_ft.support.files import read_text
 from planner_ft.vocabulary.plans import LEVELS, Level
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
+REQUIRED = {
+    "suite": ("title", "candidates", "configurations", "parts"),
+    "part": ("name", "level", "data"),
+}
+COMMON: dict[str, type] = {"configurations": list, "latency_samples": int, "max_new_tokens": int}
 SUITE_KEYS: dict[str, type] = {
     "title": str,
     "candidates": list,
-    "configurations": list,
     "parts": list,
     "vocabulary": str,
     "quantization": str,
-    "latency_samples": int,
-    "max_new_tokens": int,
     "stall_minutes": int,
     "adapters": dict,
+    **COMMON,
 }
 PART_KEYS: dict[str, type] = {
     "name": str,
@@ -33,15 +36,11 @@ PART_KEYS: dict[str, type] = {
     "data": str,
     "apart": bool,
     "limit": int,
-    "configurations": list,
-    "latency_samples": int,
-    "max_new_tokens": int,
     "planning_samples": int,
+    **COMMON,
 }
-REQUIRED = {
-    "suite": ("title", "candidates", "configurations", "parts"),
-    "part": ("name", "level", "data"),
-}
+LOWEST = {"limit": 1, "max_new_tokens": 1, "stall_minutes": 1}
+"""The smallest value of a number, else 0."""
 
 
 @dataclass(frozen=True)
@@ -91,29 +90,18 @@ def load_suite(path: Path) -> Suite:
     except tomllib.TOMLDecodeError as error:
         raise PlannerError(f"{path}: not TOML: {error}") from None
     problems = _problems(raw, "suite", SUITE_KEYS)
-    parts: list[Any] = raw["parts"] if isinstance(raw.get("parts"), list) else []
-    for index, part in enumerate(parts):
-        where = f"parts[{index}]"
-        problems += (
-            [f"{where} must be a table"]
-            if not isinstance(part, dict)
-            else [f"{where}: {text}" for text in _part_problems(part)]
-        )
-    names = [part.get("name") for part in parts if isinstance(part, dict)]
-    problems += [
-        f"two parts are named {name}" for name in dict.fromkeys(names) if names.count(name) > 1
-    ]
-    problems += [
-        f"{key} is empty" for key in ("candidates", "configurations", "parts") if raw.get(key) == []
-    ]
-    for key in ("candidates", "configurations"):
-        problems += [
-            f"{key}: {value!r} is no text"
-            for value in _list(raw.get(key))
-            if not isinstance(value, str)
-        ]
     if raw.get("quantization") not in (None, "nf4", "none"):
         problems.append("quantization must be nf4 or none")
+    names: list[Any] = []
+    for index, part in enumerate(_list(raw.get("parts"))):
+        where = f"parts[{index}]"
+        if not isinstance(part, dict):
+            problems.append(f"{where} must be a table")
+            continue
+        problems += [f"{where}: {text}" for text in _part_problems(part)]
+        if part.get("name") in names:
+            problems.append(f"two parts are named {part['name']}")
+        names.append(part.get("name"))
     if problems:
         raise PlannerError(f"{path}: {'; '.join(problems)}")
     return _suite(path, raw)
@@ -121,51 +109,36 @@ def load_suite(path: Path) -> Suite:
 
 def _problems(raw: dict[str, Any], kind: str, keys: dict[str, type]) -> list[str]:
     problems = [f"{key} is missing" for key in REQUIRED[kind] if key not in raw]
-    problems += [
-        f"unknown key {key!r} (there are {', '.join(keys)})" for key in raw if key not in keys
-    ]
-    problems += [
-        f"{key} must be a {keys[key].__name__}"
-        for key, value in raw.items()
-        if key in keys and type(value) is not keys[key]
-    ]
-    low = {
-        "limit": 1,
-        "max_new_tokens": 1,
-        "stall_minutes": 1,
-        "latency_samples": 0,
-        "planning_samples": 0,
-    }
-    problems += [
-        f"{key} must be at least {low[key]}"
-        for key, value in raw.items()
-        if key in low and type(value) is int and value < low[key]
-    ]
-    return problems + [
-        text
-        for value in _list(raw.get("configurations"))
-        if isinstance(value, str)
-        for text in _configuration_problem(value)
-    ]
-
-
-def _part_problems(part: dict[str, Any]) -> list[str]:
-    problems = _problems(part, "part", PART_KEYS)
-    if isinstance(part.get("name"), str) and not NAME.fullmatch(part["name"]):
-        problems.append(f"name {part['name']!r} becomes a folder: letters, digits, - and _ alone")
-    if isinstance(part.get("level"), str) and part["level"] not in LEVELS:
-        problems.append(f"level {part['level']!r} must be {' or '.join(LEVELS)}")
-    if part.get("planning_samples") and part.get("level") == "task":
-        problems.append("planning_samples belongs to a part of the mission level")
+    for key, value in raw.items():
+        if key not in keys:
+            problems.append(f"unknown key {key!r} (there are {', '.join(keys)})")
+        elif type(value) is not keys[key]:
+            problems.append(f"{key} must be a {keys[key].__name__}")
+        elif type(value) is int and value < LOWEST.get(key, 0):
+            problems.append(f"{key} must be at least {LOWEST.get(key, 0)}")
+        elif value == []:
+            problems.append(f"{key} is empty")
+    for key in ("candidates", "configurations"):
+        texts = [value for value in _list(raw.get(key)) if isinstance(value, str)]
+        others = [value for value in _list(raw.get(key)) if not isinstance(value, str)]
+        problems += [f"{key}: {value!r} is no text" for value in others]
+        for text in texts if key == "configurations" else ():
+            try:
+                parse_configuration(text)
+            except PlannerError as error:
+                problems.append(str(error).removeprefix("--"))
     return problems
 
 
-def _configuration_problem(text: str) -> list[str]:
-    try:
-        parse_configuration(text)
-    except PlannerError as error:
-        return [str(error).removeprefix("--")]
-    return []
+def _part_problems(part: dict[str, Any]) -> list[str]:
+    problems, name, level = _problems(part, "part", PART_KEYS), part.get("name"), part.get("level")
+    if isinstance(name, str) and not NAME.fullmatch(name):
+        problems.append(f"name {name!r} becomes a folder: letters, digits, - and _ alone")
+    if isinstance(level, str) and level not in LEVELS:
+        problems.append(f"level {level!r} must be {' or '.join(LEVELS)}")
+    if part.get("planning_samples") and level == "task":
+        problems.append("planning_samples belongs to a part of the mission level")
+    return problems
 
 
 def _list(value: Any) -> list[Any]:
@@ -173,29 +146,15 @@ def _list(value: Any) -> list[Any]:
 
 
 def _suite(path: Path, raw: dict[str, Any]) -> Suite:
-    common = {key: raw[key] for key in ("latency_samples", "max_new_tokens") if key in raw}
+    common = {key: raw[key] for key in COMMON if key in raw}
     here = path.parent
     parts = []
-    for part in raw["parts"]:
-        configurations = tuple(
-            parse_configuration(text).name
-            for text in part.get("configurations", raw["configurations"])
-        )
-        parts.append(
-            Part(
-                **{
-                    **common,
-                    **part,
-                    "data": here / part["data"],
-                    "configurations": tuple(dict.fromkeys(configurations)),
-                }
-            )
-        )
+    for own in raw["parts"]:
+        part = {**common, **own}
+        names = (parse_configuration(text).name for text in part.pop("configurations"))
+        part["data"] = here / part["data"]
+        parts.append(Part(**part, configurations=tuple(dict.fromkeys(names))))
     vocabulary = raw.get("vocabulary", "usv")
-    adapters = {
-        candidate: {level: here / folder for level, folder in folders.items()}
-        for candidate, folders in raw.get("adapters", {}).items()
-    }
     return Suite(
         path,
         raw["title"],
@@ -204,5 +163,8 @@ def _suite(path: Path, raw: dict[str, Any]) -> Suite:
         vocabulary=str(here / vocabulary) if vocabulary.endswith(".toml") else vocabulary,
         quantization=raw.get("quantization"),
         stall_minutes=raw.get("stall_minutes", Suite.stall_minutes),
-        adapters=adapters,
+        adapters={
+            candidate: {level: here / folder for level, folder in folders.items()}
+            for candidate, folders in raw.get("adapters", {}).items()
+        },
     )

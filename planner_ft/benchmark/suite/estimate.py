@@ -1,12 +1,20 @@
-"""The time that a suite has left: what is left to do, at the pace of what was done."""
+"""The time that a suite has left: the queries that are left, at the pace of those that were done."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 Kind = Literal["answers", "latency"]
+NEAREST = (
+    ("candidate", "level", "configuration", "kind"),
+    ("candidate", "level", "kind"),
+    ("level", "configuration", "kind"),
+    ("level", "kind"),
+    (),
+)
+"""The fields that queries share, from the same queries to any."""
 
 
 @dataclass(frozen=True)
@@ -32,40 +40,32 @@ class Pace:
 
     def add(self, work: Work, seconds: float) -> None:
         """Note that the queries of `work` took so long."""
-        key = _key(work)
+        key = replace(work, count=0)
         before, count = self.measured.get(key, (0.0, 0))
         self.measured[key] = before + seconds, count + work.count
 
     def add_overhead(self, candidate: str, seconds: float) -> None:
-        """Note what one process took beside its queries."""
+        """Note the seconds of one process beside its queries."""
         self.overheads.setdefault(candidate, []).append(max(0.0, seconds))
 
     def seconds_per_query(self, work: Work) -> float | None:
-        """The pace of the nearest thing that was measured, from the same queries to any; of another
-        candidate, in proportion to its size.
+        """The pace of the nearest queries that were measured; of another candidate, in proportion
+        to its size.
         """
-        known = [(key, seconds / count) for key, (seconds, count) in self.measured.items() if count]
-        for same in (
-            ("candidate", "level", "configuration", "kind"),
-            ("candidate", "level", "kind"),
-            ("level", "configuration", "kind"),
-            ("level", "kind"),
-            (),
-        ):
+        for same in NEAREST:
             found = [
-                _scaled(rate, key, work)
-                for key, rate in known
-                if all(getattr(key, name) == getattr(work, name) for name in same)
+                _scaled(seconds / count, key, work)
+                for key, (seconds, count) in self.measured.items()
+                if count and all(getattr(key, name) == getattr(work, name) for name in same)
             ]
             if found:
                 return sum(found) / len(found)
         return None
 
     def overhead(self, candidate: str) -> float:
-        """What the next process of a candidate takes beside its queries."""
-        known = self.overheads.get(candidate) or [
-            seconds for all_of in self.overheads.values() for seconds in all_of
-        ]
+        """Seconds of the next process of a candidate beside its queries."""
+        everything = [seconds for found in self.overheads.values() for seconds in found]
+        known = self.overheads.get(candidate) or everything
         return sum(known) / len(known) if known else 0.0
 
 
@@ -73,20 +73,14 @@ def time_left(pace: Pace, work: Iterable[Work], processes: Iterable[str]) -> flo
     """Seconds for the queries that are left and the `processes` (by candidate) that are not begun;
     None while nothing was measured.
     """
-    total = 0.0
+    total = sum(pace.overhead(candidate) for candidate in processes)
     for part in work:
         if part.count:
             rate = pace.seconds_per_query(part)
             if rate is None:
                 return None
             total += rate * part.count
-    return total + sum(pace.overhead(candidate) for candidate in processes)
-
-
-def _key(work: Work) -> Work:
-    return Work(
-        work.candidate, work.level, work.configuration, work.kind, parameters=work.parameters
-    )
+    return total
 
 
 def _scaled(rate: float, measured: Work, wanted: Work) -> float:

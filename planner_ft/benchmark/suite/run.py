@@ -1,16 +1,72 @@
-"""`plannerft bench --suite`: run what is missing, then write the tables."""
+"""`plannerft bench --suite`: run missing units, then write a folder per data set, scored again from
+the answers that are there, and one overview of all.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from typing import Any
 
-from planner_ft.benchmark.suite.combine import PartResults, combine
-from planner_ft.benchmark.suite.definition import Suite
-from planner_ft.benchmark.suite.session import Report, State, opened
-from planner_ft.benchmark.suite.tables import write_suite
-from planner_ft.benchmark.suite.units import Flags
+from planner_ft.benchmark import folder
+from planner_ft.benchmark.catalogue import METRIC, METRICS
+from planner_ft.benchmark.records import measured_in, read_run
+from planner_ft.benchmark.results import Measured, Results, Row, assemble, heading
+from planner_ft.benchmark.statistics import Estimate
+from planner_ft.benchmark.suite.definition import Part, Suite
+from planner_ft.benchmark.suite.session import Report, Session, State, opened
+from planner_ft.benchmark.suite.units import Flags, Unit
+from planner_ft.benchmark.tables import render_tables
+from planner_ft.report.tables import (
+    NOTHING,
+    Cell,
+    Table,
+    TableRow,
+    csv_text,
+    latex_table,
+    markdown_table,
+    row,
+)
+from planner_ft.support.files import sha256_file, write_json, write_jsonl, write_text
+from planner_ft.support.manifest import build_manifest
 
 __all__ = ["State", "run_suite"]
+
+FIGURES = ("f1", "whole_plan", "latency_s")
+"""The metrics of the overview."""
+GROUPS = {False: "Published-size splits", True: "Reported apart: data beyond the published size"}
+
+
+@dataclass(frozen=True)
+class Failed:
+    """A candidate in a configuration that could not be measured, and why."""
+
+    candidate: str
+    label: str
+    configuration: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class PartResults:
+    """One data set of a suite with everything that was measured on it; `results` may have no
+    rows.
+    """
+
+    part: Part
+    results: Results
+    failed: tuple[Failed, ...]
+
+    def to_json(self) -> dict[str, Any]:
+        return {
+            "name": self.part.name,
+            "apart": self.part.apart,
+            "level": self.part.level,
+            "data": self.results.data,
+            "rows": [one.to_json() for one in self.results.rows],
+            "failed": [asdict(one) for one in self.failed],
+        }
 
 
 def run_suite(
@@ -25,10 +81,187 @@ def run_suite(
     """Run every unit of a suite that is not finished and write the tables of all into `out`.
 
     A unit that fails is named in the result and in the tables, and the others go on. Raises
-    PlannerError for what keeps the suite from starting.
+    PlannerError for problems that keep the suite from starting.
     """
     with opened(suite, out, flags, report, resume=resume, overwrite=overwrite) as session:
         session.run()
         parts, manifest = combine(session)
         write_suite(out, suite.title, parts, manifest)
     return parts
+
+
+def combine(session: Session) -> tuple[list[PartResults], dict[str, Any]]:
+    """The results of every part, and the suite's manifest."""
+    manifest = _manifest(session)
+    return [_part(session, part, manifest) for part in session.suite.parts], manifest
+
+
+def _manifest(session: Session) -> dict[str, Any]:
+    """One manifest for all: the suite file, every data set, and what each unit was run with and
+    took.
+    """
+    suite, flags, seconds = session.suite, session.units[0].flags, session.seconds
+    units: dict[str, Any] = {}
+    for unit in session.units:
+        recorded = read_run(unit.folder) if (unit.folder / folder.RUN).is_file() else None
+        units[unit.name] = {
+            "arguments": unit.arguments(),
+            "seconds": round(seconds[unit.name], 1) if unit.name in seconds else None,
+            "finished_before": unit.name in session.skipped,
+            "jobs": recorded.jobs if recorded else {},
+            "costs": recorded.costs if recorded else {},
+        }
+    configuration = {
+        "title": suite.title,
+        "vocabulary": {"name": session.vocabulary.name, "sha256": session.vocabulary.sha256},
+        "device": flags.device,
+        "batch_size": flags.batch_size or "auto",
+        "limit": flags.limit,
+        "processes": flags.processes,
+    }
+    inputs: dict[str, Path | str] = {"suite": suite.path}
+    inputs |= {part.name: part.data for part in suite.parts}
+    return build_manifest(
+        "suite", seed=flags.seed, configuration=configuration, inputs=inputs, units=units
+    )
+
+
+def _part(session: Session, part: Part, manifest: dict[str, Any]) -> PartResults:
+    units = [unit for unit in session.units if unit.part is part]
+    found: list[Measured] = []
+    failed: list[Failed] = []
+    for unit in units:
+        measured, n = _measured(unit), len(unit.data.samples)
+        for configuration in part.configurations:
+            candidate, entry = unit.candidate, measured.get(configuration)
+            answers = len(entry.predictions) if entry else 0
+            if entry is not None and answers >= n:
+                found.append(entry)
+                continue
+            key = part.name, candidate.name, configuration
+            kept = f" ({answers} of {n} answers are kept)" if answers else ""
+            reason = session.failures.get(key, "not run yet") + kept
+            failed.append(Failed(candidate.name, candidate.row_name, configuration, reason))
+    data, seed = units[0].data, units[0].flags.seed
+    own = {
+        **manifest,
+        "inputs": {"data": {"path": str(data.path), "sha256": sha256_file(data.path)}},
+        "units": {unit.name: manifest["units"][unit.name] for unit in units},
+    }
+    results = Results(part.level, data.summary(), (), own)
+    if found:
+        results = assemble(data, session.vocabulary, found, seed=seed, manifest=own)
+    return PartResults(part, results, tuple(failed))
+
+
+def _measured(unit: Unit) -> dict[str, Measured]:
+    """The answers in a unit's folder by configuration, of samples of its data alone."""
+    if not (unit.folder / folder.RUN).is_file():
+        return {}
+    known = {sample.id for sample in unit.data.samples}
+    found = {}
+    for entry in measured_in(unit.folder, read_run(unit.folder)):
+        lines = {key: line for key, line in entry.predictions.items() if key in known}
+        found[entry.system.configuration] = replace(entry, predictions=lines)
+    return found
+
+
+def write_suite(
+    out: Path, title: str, parts: Sequence[PartResults], manifest: dict[str, Any]
+) -> None:
+    """Write PART/ and the overview of all parts into `out`; results.json last, so that it is there
+    only when all is.
+    """
+    for one in parts:
+        where = out / one.part.name
+        where.mkdir(parents=True, exist_ok=True)
+        write_jsonl(where / folder.SCORES, one.results.scores)
+        write_jsonl(where / folder.BASELINES, one.results.baseline_scores)
+        texts = render_tables(one.results) if one.results.rows else {}
+        for name in folder.TABLES:
+            write_text(where / name, texts.get(name, "") + _not_measured(name, one))
+        write_json(where / folder.RESULTS, one.to_json() | one.results.to_json())
+    ordered = sorted(parts, key=lambda one: one.part.apart)
+    table, failed = _overview(ordered), _failed(ordered)
+    lines = [f"# {title}\n", markdown_table(table)]
+    lines += ["## Not measured\n", markdown_table(failed)] if failed.rows else []
+    lines.append(
+        "In brackets 95 % intervals. Every metric, published figures and notes: table.md in the"
+        " folder of each data set."
+    )
+    write_text(out / "table.md", "\n".join(lines) + "\n")
+    write_text(out / "table.csv", csv_text(_csv(parts)))
+    absent = "".join(_not_measured("table.tex", one) for one in ordered)
+    write_text(out / "table.tex", latex_table(table) + absent)
+    overview = {"title": title, "parts": [one.to_json() for one in parts], "manifest": manifest}
+    write_json(out / folder.RESULTS, overview)
+
+
+def _overview(parts: Sequence[PartResults]) -> Table:
+    """F1, whole plans and latency of everything in one table, a section per data set."""
+    rows: list[TableRow] = []
+    for one in parts:
+        named = f"{one.part.name}: {one.part.level} level, n = {one.results.data['n']}"
+        rows.append(row(f"{named} ({GROUPS[one.part.apart]})", kind="section"))
+        for found in one.results.rows:
+            name = heading(found.system.configuration)
+            rows.append(row(found.system.label, name, *_cells(found)))
+        for found in one.results.baselines:
+            rows.append(row(found.system.label, NOTHING, *_cells(found), kind="baseline"))
+        for entry in one.failed:
+            blank = [""] * (len(FIGURES) - 1)
+            name = heading(entry.configuration)
+            rows.append(row(entry.label, name, "not measured", *blank))
+    heads = ("Configuration", *(METRIC[name].title for name in FIGURES))
+    return Table("overview", "", "", "Model", heads, tuple(rows), texts=1)
+
+
+def _cells(found: Row) -> list[Cell]:
+    return [METRIC[name].cell(found.metrics.get(name, Estimate(None))) for name in FIGURES]
+
+
+def _failed(parts: Sequence[PartResults]) -> Table:
+    rows = tuple(
+        row(one.part.name, entry.label, heading(entry.configuration), entry.reason)
+        for one in parts
+        for entry in one.failed
+    )
+    return Table("failed", "", "", "Data", ("Model", "Configuration", "Why"), rows, texts=3)
+
+
+def _not_measured(name: str, one: PartResults) -> str:
+    """The lines of a table of one data set about the systems that it lacks."""
+    if not one.failed:
+        return ""
+    if name == "table.md":
+        return f"\nNot measured:\n\n{markdown_table(_failed([one]))}"
+    lines = [(entry.label, heading(entry.configuration), entry.reason) for entry in one.failed]
+    if name == "table.tex":
+        return "".join(f"% not measured: {', '.join(line[:2])}: {line[2]}\n" for line in lines)
+    n = one.results.data["n"]
+    return csv_text([(label, f"not measured: {why}", name, n) for label, name, why in lines])
+
+
+def _csv(parts: Sequence[PartResults]) -> list[list[Any]]:
+    """A line per data set, candidate and configuration with every metric; rates are fractions.
+    Failed ones have a reason and no figures.
+    """
+    heads = ["data", "level", "apart", "n", "model", "candidate", "configuration", "status"]
+    figures = [f"{name}{end}" for name in METRICS for end in ("", "_low", "_high")]
+    lines: list[list[Any]] = [[*heads, "reason", *figures]]
+    for one in parts:
+        common = [one.part.name, one.part.level, int(one.part.apart), one.results.data["n"]]
+        for found in (*one.results.rows, *one.results.baselines):
+            system = found.system
+            status = "baseline" if system.is_baseline else "measured"
+            values = [
+                None if bound is None else f"{bound:.6g}"
+                for name in METRICS
+                for bound in asdict(found.metrics.get(name, Estimate(None))).values()
+            ]
+            named = [system.label, system.candidate, system.configuration, status, None]
+            lines.append([*common, *named, *values])
+        for entry in one.failed:
+            named = [entry.label, entry.candidate, entry.configuration, "failed", entry.reason]
+            lines.append([*common, *named, *[None] * len(figures)])
+    return lines

@@ -4,12 +4,14 @@ own.
 
 from __future__ import annotations
 
-import json
+import signal
+import subprocess
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.folder import LATENCY, PLANNING, PREDICTIONS, RESULTS
+from planner_ft.benchmark.folder import RESULTS
 from planner_ft.benchmark.samples import BenchData, load_bench_data
 from planner_ft.benchmark.suite.definition import Part, Suite
 from planner_ft.candidates import Candidate, resolve_candidate
@@ -26,14 +28,17 @@ from planner_ft.decoding.configurations import parse_configuration
 from planner_ft.prompts.render import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, sha256_tree, write_json
+from planner_ft.support.resources import end_with_parent
 from planner_ft.vocabulary import Vocabulary
 
-UNIT = "unit.json"
+UNIT, LOG = "unit.json", "log.txt"
+PATIENCE = 20.0
+"""Seconds that an ended process has to go by itself."""
 
 
 @dataclass(frozen=True)
 class Flags:
-    """What the command line adds to a suite; `processes` share each run."""
+    """Flags that the command line adds to a suite; `processes` share each run."""
 
     device: str = "auto"
     batch_size: int | None = None
@@ -49,6 +54,7 @@ class Unit:
     reasons for the others.
     """
 
+    suite: Suite
     part: Part
     candidate: Candidate
     data: BenchData
@@ -57,8 +63,6 @@ class Unit:
     failed: dict[str, str]
     adapter: Path | None
     flags: Flags
-    vocabulary: str
-    quantization: str | None
 
     @property
     def name(self) -> str:
@@ -67,22 +71,16 @@ class Unit:
     @property
     def latency_samples(self) -> int:
         """Samples whose queries are timed."""
-        asked = (
-            self.part.latency_samples
-            if self.flags.latency_samples is None
-            else self.flags.latency_samples
-        )
-        return min(50 if asked is None else asked, len(self.data.samples))
+        asked = (self.flags.latency_samples, self.part.latency_samples, 50)
+        first = next(value for value in asked if value is not None)
+        return min(first, len(self.data.samples))
 
     def arguments(self) -> list[str]:
-        """The arguments of `plannerft` that run this unit: whoever wants to can run it alone with
-        them.
-        """
+        """The arguments of `plannerft` that run this unit, also alone."""
+        folder, named = self.candidate.folder, self.candidate.name
         values: dict[str, Any] = {
             "level": self.part.level,
-            "candidates": self.candidate.folder
-            if self.candidate.source == "path"
-            else self.candidate.name,
+            "candidates": folder if self.candidate.source == "path" else named,
             "configurations": ",".join(self.configurations),
             "data": self.part.data,
             "out": self.folder,
@@ -91,31 +89,21 @@ class Unit:
             "latency-samples": self.latency_samples,
             "max-new-tokens": self.part.max_new_tokens,
             "planning-samples": self.part.planning_samples,
-            "vocabulary": self.vocabulary,
-            "quantization": self.quantization,
+            "vocabulary": self.suite.vocabulary,
+            "quantization": self.suite.quantization,
             "device": self.flags.device,
             "batch-size": self.flags.batch_size or "auto",
             "seed": self.flags.seed,
         }
-        return [
-            "bench",
-            *(
-                str(item)
-                for name, value in values.items()
-                if value is not None
-                for item in (f"--{name}", value)
-            ),
-            "--resume",
-            "--no-report",
-        ]
+        given = [(f"--{name}", str(value)) for name, value in values.items() if value is not None]
+        return ["bench", *(text for pair in given for text in pair), "--resume", "--no-report"]
 
     def fingerprint(self, vocabulary: Vocabulary) -> dict[str, Any]:
         """Everything that the figures of this unit depend on, apart from the code that scores."""
-        folder = require_folder(self.candidate)
         return {
             "arguments": [text for text in self.arguments() if text != str(self.folder)],
             "data": self.data.sha256,
-            "model": weights_sha256(folder),
+            "model": weights_sha256(require_folder(self.candidate)),
             "adapter": sha256_tree(self.adapter, (WEIGHTS, CONFIG)) if self.adapter else None,
             "vocabulary": vocabulary.sha256,
             "prompt format": PROMPT_VERSION,
@@ -123,123 +111,139 @@ class Unit:
 
     def finished(self, vocabulary: Vocabulary) -> bool:
         """Whether an earlier session finished exactly this unit."""
-        if not (self.folder / UNIT).is_file() or not (self.folder / RESULTS).is_file():
+        if not all((self.folder / name).is_file() for name in (UNIT, RESULTS)):
             return False
-        return bool(
-            read_json(self.folder / UNIT).get("fingerprint") == self.fingerprint(vocabulary)
-        )
+        recorded = read_json(self.folder / UNIT).get("fingerprint")
+        return bool(recorded == self.fingerprint(vocabulary))
 
     def finish(self, vocabulary: Vocabulary, seconds: float) -> None:
         """Note that the unit is finished."""
-        write_json(
-            self.folder / UNIT,
-            {"fingerprint": self.fingerprint(vocabulary), "seconds": round(seconds, 1)},
-        )
-
-    def progress(self) -> Written:
-        """What the unit's process has written so far."""
-        return Written([PREDICTIONS, LATENCY, PLANNING], self.folder)
-
-
-class Written:
-    """Reads the records of a run folder as they are written, each once."""
-
-    def __init__(self, names: list[str], folder: Path) -> None:
-        self.offsets = {folder / name: 0 for name in names}
-
-    def new(self) -> list[tuple[str, dict[str, Any]]]:
-        """(file name, record) of the whole lines that were written since the last call."""
-        found = []
-        for path, offset in self.offsets.items():
-            if not path.is_file():
-                continue
-            with open(path, "rb") as stream:
-                stream.seek(offset)
-                text = stream.read()
-            whole = text[: text.rfind(b"\n") + 1]
-            self.offsets[path] += len(whole)
-            found += [
-                (path.name, record) for line in whole.splitlines() for record in _record(line)
-            ]
-        return found
-
-
-def _record(line: bytes) -> list[dict[str, Any]]:
-    try:
-        record = json.loads(line)
-    except ValueError:
-        return []
-    return [record] if isinstance(record, dict) else []
+        recorded = {"fingerprint": self.fingerprint(vocabulary), "seconds": round(seconds, 1)}
+        write_json(self.folder / UNIT, recorded)
 
 
 def make_units(suite: Suite, vocabulary: Vocabulary, out: Path, flags: Flags) -> list[Unit]:
     """Every candidate on every data set, a candidate's after one another. Raises PlannerError for
-    what no run could start with.
+    problems that no run could start with.
     """
-    data = {
-        part.name: load_bench_data(
-            part.data, part.level, vocabulary, _smaller(part.limit, flags.limit)
-        )
-        for part in suite.parts
-    }
-    candidates = [resolve_candidate(_path(suite, name)) for name in suite.candidates]
-    slugs = [candidate.slug for candidate in candidates]
-    double = next((slug for slug in slugs if slugs.count(slug) > 1), None)
-    if double:
-        raise PlannerError(
-            f"{suite.path}: two candidates are named {double}; leave one out, or rename its folder"
-        )
-    return [
-        _unit(suite, part, candidate, data[part.name], vocabulary, out, flags)
-        for candidate in candidates
-        for part in suite.parts
-    ]
+    data = {}
+    for part in suite.parts:
+        limit = _smaller(part.limit, flags.limit)
+        data[part.name] = load_bench_data(part.data, part.level, vocabulary, limit)
+    here = suite.path.parent
+    candidates = {}
+    for name in suite.candidates:
+        # A folder relative to the suite file, else a name or a hub id.
+        candidate = resolve_candidate(str(here / name) if (here / name).is_dir() else name)
+        if candidate.slug in candidates:
+            raise PlannerError(
+                f"{suite.path}: two candidates are named {candidate.slug}; leave one out, or rename"
+                " its folder"
+            )
+        candidates[candidate.slug] = candidate
+    units = []
+    for slug, candidate in candidates.items():
+        for part in suite.parts:
+            adapter, failed = _adapter(suite, part, candidate, vocabulary)
+            runs = tuple(name for name in part.configurations if name not in failed)
+            folder, samples = out / part.name / slug, data[part.name]
+            units.append(
+                Unit(suite, part, candidate, samples, folder, runs, failed, adapter, flags)
+            )
+    return units
 
 
-def _path(suite: Suite, name: str) -> str:
-    """A folder relative to the suite file, else the name as it is (a hub id)."""
-    return str(suite.path.parent / name) if (suite.path.parent / name).is_dir() else name
-
-
-def _unit(
-    suite: Suite,
-    part: Part,
-    candidate: Candidate,
-    data: BenchData,
-    vocabulary: Vocabulary,
-    out: Path,
-    flags: Flags,
-) -> Unit:
-    needs = {name for name in part.configurations if parse_configuration(name).adapter}
-    adapter, failed = None, {}
+def _adapter(
+    suite: Suite, part: Part, candidate: Candidate, vocabulary: Vocabulary
+) -> tuple[Path | None, dict[str, str]]:
+    """The adapter of a candidate, if a configuration needs it, and why configurations cannot be
+    run.
+    """
     try:
         require_folder(candidate)
     except PlannerError as error:
-        failed = dict.fromkeys(part.configurations, str(error))
-    if needs and not failed:
-        given = (suite.adapters or {}).get(candidate.name, {}).get(part.level)
-        adapter = (
-            given or find_adapter(candidate, part.level) or adapter_folder(candidate, part.level)
-        )
-        try:
-            check_adapter(adapter, candidate, level=part.level, vocabulary=vocabulary)
-        except PlannerError as error:
-            adapter, failed = None, dict.fromkeys(needs, str(error))
-    runs = tuple(name for name in part.configurations if name not in failed)
-    folder = out / part.name / candidate.slug
-    return Unit(
-        part,
-        candidate,
-        data,
-        folder,
-        runs,
-        failed,
-        adapter,
-        flags,
-        suite.vocabulary,
-        suite.quantization,
-    )
+        return None, dict.fromkeys(part.configurations, str(error))
+    needs = [name for name in part.configurations if parse_configuration(name).adapter]
+    if not needs:
+        return None, {}
+    given = (suite.adapters or {}).get(candidate.name, {}).get(part.level)
+    adapter = given or find_adapter(candidate, part.level) or adapter_folder(candidate, part.level)
+    try:
+        check_adapter(adapter, candidate, level=part.level, vocabulary=vocabulary)
+    except PlannerError as error:
+        return None, dict.fromkeys(needs, str(error))
+    return adapter, {}
 
 
 def _smaller(first: int | None, second: int | None) -> int | None:
     return min((value for value in (first, second) if value is not None), default=None)
+
+
+class Process:
+    """The process of a running unit: the same command line, ended with its parent, its output kept
+    in a log. Leaving the `with` block ends it if it has not ended itself.
+    """
+
+    def __init__(self, arguments: list[str], log: Path, processes: int = 1) -> None:
+        self.log = log
+        log.parent.mkdir(parents=True, exist_ok=True)
+        with open(log, "wb") as stream:
+            self.child = subprocess.Popen(
+                command(arguments, processes),
+                stdin=subprocess.DEVNULL,
+                stdout=stream,
+                stderr=subprocess.STDOUT,
+                preexec_fn=end_with_parent,
+            )
+
+    def running(self) -> bool:
+        return self.child.poll() is None
+
+    def end(self) -> None:
+        """End it: politely, then for good."""
+        self.child.terminate()
+        try:
+            self.child.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            self.child.kill()
+            self.child.wait()
+
+    def problem(self) -> str | None:
+        """Why it failed, in one line: the sentence with which a command refused, else its last
+        line; None when it did not.
+        """
+        code = self.child.wait()
+        if code == 0:
+            return None
+        if code < 0:
+            hint = ", most likely for want of memory" if -code == signal.SIGKILL else ""
+            return f"its process was ended by {signal.Signals(-code).name}{hint}"
+        text = self.log.read_text(encoding="utf-8", errors="replace")
+        lines = [line.strip() for line in text.splitlines() if line.strip()]
+        ours = [line for line in lines if line.startswith("plannerft: ")] or lines
+        return ours[-1].removeprefix("plannerft: ") if ours else f"its process ended with {code}"
+
+    def __enter__(self) -> Process:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self.running():
+            self.end()
+
+
+def command(arguments: list[str], processes: int = 1) -> list[str]:
+    """The command of a unit; with several processes, accelerate starts them."""
+    ours = ["-m", "planner_ft", *arguments]
+    if processes == 1:
+        return [sys.executable, *ours]
+    launch = [
+        "--num_machines",
+        "1",
+        "--mixed_precision",
+        "no",
+        "--dynamo_backend",
+        "no",
+        "--multi_gpu",
+    ]
+    shared = ["-m", "accelerate.commands.launch", "--num_processes", str(processes), *launch]
+    return [sys.executable, *shared, *ours]

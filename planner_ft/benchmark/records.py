@@ -1,0 +1,262 @@
+"""The files that a run writes as it goes: logs of answers and timed queries, and run.json.
+
+A run can end at any point and go on: logs are append-only and flushed line by line, and every line
+carries the key of what it depends on (`plan.Job.key`). run.json says what the folder was made with,
+so that it can be gone on with, refused, or scored again without any model.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+from planner_ft.benchmark.folder import LATENCY, PLANNING, PREDICTIONS, RUN
+from planner_ft.benchmark.results import Measured, System
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import compact_json, iterate_jsonl, read_json, write_json
+
+if TYPE_CHECKING:
+    from planner_ft.benchmark.plan import Plan
+
+Line = dict[str, Any]
+OTHER = "give --overwrite to start anew, or another --out"
+
+
+def hold(stream: IO[Any], problem: str) -> None:
+    """Lock an open file for this process until it is closed. Raises PlannerError with `problem`
+    when another process holds it.
+    """
+    try:
+        import fcntl
+    except ImportError:  # not on Windows
+        return
+    try:
+        fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        stream.close()
+        raise PlannerError(problem) from None
+
+
+class RecordLog:
+    """An append-only JSONL file of records with `key` and `id`, held by one process at a time.
+
+    Opening drops a last line that a killed run left without its end, reads the records and locks
+    the file. Raises PlannerError when another run holds it, a line is damaged, or it cannot be
+    written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        try:
+            # Unbuffered: after a failed write nothing is left to be written again at closing.
+            self.stream: IO[bytes] = open(path, "a+b", buffering=0)  # noqa: SIM115
+        except OSError as error:
+            reason = f"cannot be written ({error.strerror}); give another --out"
+            raise PlannerError(f"{path}: {reason}") from None
+        hold(self.stream, f"{path}: another run is writing here; wait for it or give another --out")
+        self._drop_unfinished_line()
+        self.records: dict[tuple[str, str], Line] = {}
+        for number, record, problem in iterate_jsonl(path):
+            if not problem and not _is_record(record):
+                problem = "no record of a run (key and id are expected)"
+            if problem:
+                self.close()
+                raise PlannerError(
+                    f"{path}:{number}: {problem}; remove the line, or start with --overwrite"
+                )
+            assert record is not None
+            self.records[record["key"], record["id"]] = record
+
+    def of_key(self, key: str) -> dict[str, Line]:
+        """The records of a key by sample id."""
+        return {sample: record for (known, sample), record in self.records.items() if known == key}
+
+    def append(self, record: Line) -> None:
+        """Write a record as one line and hand it to the operating system."""
+        self.records[record["key"], record["id"]] = record
+        try:
+            line = f"{compact_json(record)}\n".encode()
+            while line:
+                line = line[self.stream.write(line) :]
+        except OSError as error:
+            raise PlannerError(
+                f"{self.path}: cannot be written ({error.strerror}); free some space and run the"
+                " command again with --resume"
+            ) from error
+
+    def close(self) -> None:
+        self.stream.close()
+
+    def __enter__(self) -> RecordLog:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _drop_unfinished_line(self) -> None:
+        self.stream.seek(0)
+        content = self.stream.read()
+        self.stream.truncate(content.rfind(b"\n") + 1)
+        self.stream.seek(0, os.SEEK_END)
+
+
+def _is_record(record: Any) -> bool:
+    return isinstance(record, dict) and all(isinstance(record.get(n), str) for n in ("key", "id"))
+
+
+class Tail:
+    """Reads the records of files as they are written, each once."""
+
+    def __init__(self, *paths: Path) -> None:
+        self.offsets = dict.fromkeys(paths, 0)
+
+    def new(self) -> list[tuple[str, Line]]:
+        """(file name, record) of the whole lines that were written since the last call; lines that
+        are no JSON object are passed over.
+        """
+        found = []
+        for path, offset in self.offsets.items():
+            if not path.is_file():
+                continue
+            with open(path, "rb") as stream:
+                stream.seek(offset)
+                text = stream.read()
+            whole = text[: text.rfind(b"\n") + 1]
+            self.offsets[path] += len(whole)
+            for line in whole.splitlines():
+                try:
+                    record = json.loads(line)
+                except ValueError:
+                    continue
+                found += [(path.name, record)] if isinstance(record, dict) else []
+        return found
+
+
+def records_by_key(path: Path) -> dict[str, dict[str, Line]]:
+    """The records of a file by key and id, read without locking."""
+    found: dict[str, dict[str, Line]] = {}
+    for _name, record in Tail(path).new():
+        if _is_record(record):
+            found.setdefault(record["key"], {})[record["id"]] = record
+    return found
+
+
+@dataclass(frozen=True)
+class RunRecord:
+    """run.json. `jobs` are the parts that answers depend on, `keys` their digests, `systems` those
+    measured, all by job name; `costs` are a candidate's costs beside its queries; `settings` are
+    level, data, limit, vocabulary and seed.
+    """
+
+    jobs: dict[str, dict[str, Any]]
+    keys: dict[str, str]
+    systems: dict[str, System]
+    settings: dict[str, Any]
+    costs: dict[str, dict[str, Any]]
+
+
+def begin_run(plan: Plan, predictions: RecordLog) -> None:
+    """Write run.json. Raises PlannerError when the folder holds a run that was made with something
+    else.
+    """
+    path, settings = plan.settings.folder / RUN, plan.settings
+    before: dict[str, Any] = read_json(path) if path.is_file() else {}
+    _check_jobs(plan, path, before.get("jobs", {}))
+    _check_predictions(plan, predictions)
+    own: dict[str, dict[str, Any]] = {
+        "jobs": {job.name: job.parts for job in plan.jobs},
+        "keys": {job.name: job.key for job in plan.jobs},
+        "systems": {job.name: asdict(job.system) for job in plan.jobs},
+        "costs": {},
+    }
+    inputs = {
+        "level": settings.level,
+        "data": str(plan.data.path),
+        "data_sha256": plan.data.sha256,
+        "limit": settings.limit,
+        "vocabulary": settings.vocabulary,
+        "seed": settings.seed,
+    }
+    merged = {name: {**before.get(name, {}), **values} for name, values in own.items()}
+    write_json(path, {"settings": inputs, **merged})
+
+
+def add_costs(folder: Path, candidate: str, costs: Mapping[str, Any]) -> None:
+    """Record a candidate's costs; figures that are None leave those of an earlier session."""
+    record = read_json(folder / RUN)
+    known = {name: value for name, value in costs.items() if value is not None}
+    record["costs"][candidate] = {**record["costs"].get(candidate, {}), **known}
+    write_json(folder / RUN, record)
+
+
+def read_run(folder: Path) -> RunRecord:
+    """Read run.json. Raises PlannerError when there is none, or an earlier version wrote less."""
+    path = folder / RUN
+    if not path.is_file():
+        raise PlannerError(
+            f"{folder}: no {RUN}, so no run of `plannerft bench`; for other predictions give"
+            " --predictions FILE"
+        )
+    record = read_json(path)
+    names = [field.name for field in fields(RunRecord)]
+    whole = isinstance(record, dict) and all(isinstance(record.get(n), dict) for n in names)
+    if not whole:
+        raise PlannerError(
+            f"{path}: does not say what was run; score its answers with --predictions"
+            f" {folder / PREDICTIONS}"
+        )
+    values = {name: record[name] for name in names}
+    systems = {name: System(**system) for name, system in record["systems"].items()}
+    return RunRecord(**{**values, "systems": systems})
+
+
+def measured_in(folder: Path, record: RunRecord) -> list[Measured]:
+    """The systems of a run with their answers and timed queries, read without locking."""
+    answers, timed = (records_by_key(folder / name) for name in (PREDICTIONS, LATENCY))
+    return [
+        measured(folder, record.costs, system, answers.get(key, {}), timed.get(key, {}))
+        for system, key in ((one, record.keys[name]) for name, one in record.systems.items())
+    ]
+
+
+def measured(
+    folder: Path,
+    costs: Mapping[str, Mapping[str, Any]],
+    system: System,
+    predictions: dict[str, Line],
+    timed: dict[str, Line],
+) -> Measured:
+    """A system with the costs of its candidate and its lines of planning.jsonl."""
+    beside = costs.get(system.candidate, {})
+    key = beside.get("planning_keys", {}).get(system.configuration)
+    planning = list(records_by_key(folder / PLANNING).get(key, {}).values()) if key else []
+    return Measured(system, predictions, timed, beside, planning)
+
+
+def _check_jobs(plan: Plan, path: Path, recorded: dict[str, dict[str, Any]]) -> None:
+    """Jobs of one folder share level, data and vocabulary; a job is gone on with as it was."""
+    same = {name: plan.jobs[0].parts[name] for name in ("level", "data", "vocabulary")}
+    wanted = [(name, parts, same) for name, parts in recorded.items()]
+    wanted += [(job.name, recorded.get(job.name, job.parts), job.parts) for job in plan.jobs]
+    for name, before, now in wanted:
+        if changed := [part for part in now if before.get(part) != now[part]]:
+            raise PlannerError(
+                f"{path}: {name} was begun with another {' and another '.join(changed)}; {OTHER}"
+            )
+
+
+def _check_predictions(plan: Plan, predictions: RecordLog) -> None:
+    keys: dict[tuple[str, str], set[str]] = {}
+    for job in plan.jobs:
+        keys.setdefault((job.candidate.name, job.configuration.name), set()).add(job.key)
+    for record in predictions.records.values():
+        name = str(record.get("candidate")), str(record.get("configuration"))
+        if record["key"] not in keys.get(name, {record["key"]}):
+            raise PlannerError(
+                f"{predictions.path}: holds answers of {' '.join(name)} that are not of this run;"
+                " give --overwrite or another --out"
+            )
