@@ -350,7 +350,8 @@ def _tables(report: Report, *, raw: bool = True) -> list[Table]:
             figure(value, scale=metric.scale, decimals=metric.decimals)
             for value in (found.first, found.second)
         ]
-        shown = [*values, replace(one.difference(), mark=""), *([p_text(found.p)] if raw else [])]
+        before = [p_text(found.p)] if raw else []
+        shown = (*values, replace(one.difference(), mark=""), *before)
         verdict = f"{one.mark} {one.verdict}".strip()
         of_pair = rows.setdefault(f"{one.second} against {one.first}", [])
         of_pair.append(row(metric.name, str(found.n), *shown, p_text(one.p_adjusted), verdict))
