@@ -23,6 +23,7 @@ from planner_ft.benchmark.verdicts import (
     p_text,
 )
 from planner_ft.report.tables import (
+    Cell,
     Table,
     TableRow,
     csv_text,
@@ -350,8 +351,8 @@ def _tables(report: Report, *, raw: bool = True) -> list[Table]:
             figure(value, scale=metric.scale, decimals=metric.decimals)
             for value in (found.first, found.second)
         ]
-        before = [p_text(found.p)] if raw else []
-        shown = (*values, replace(one.difference(), mark=""), *before)
+        shown: list[Cell | str] = [*values, replace(one.difference(), mark="")]
+        shown += [p_text(found.p)] if raw else []
         verdict = f"{one.mark} {one.verdict}".strip()
         of_pair = rows.setdefault(f"{one.second} against {one.first}", [])
         of_pair.append(row(metric.name, str(found.n), *shown, p_text(one.p_adjusted), verdict))
