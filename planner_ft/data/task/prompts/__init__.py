@@ -1,3 +1,1 @@
-"""Whole-prompt templates: prompts written out in full, with slots, and the steps that they ask for.
-See README.md here.
-"""
+"""Prompt templates: prompts written out in full, with slots, and the steps that they ask for."""
