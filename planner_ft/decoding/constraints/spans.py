@@ -14,11 +14,10 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from planner_ft.data.lexicon import corrections, is_known
-from planner_ft.data.words import edit_distance
 from planner_ft.decoding.constraints.budget import LONGEST_WORD
 from planner_ft.decoding.constraints.grammar import Grammar, none_of_texts
 from planner_ft.decoding.constraints.patterns import QUOTE, escaped, literal, quoted, regex
+from planner_ft.facts import corrections, edit_distance, is_known
 
 IDENTIFIER = r"(?:[A-Za-z]+(?=[\w-]*[\d_])[\w-]*\w|\d+(?=[\w-]*[A-Za-z_])[\w-]*\w)"
 MOST_WORDS = 2000
