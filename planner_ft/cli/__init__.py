@@ -9,9 +9,7 @@ from planner_ft.support.errors import GateError, IncompleteError, PlannerError
 
 
 def main() -> None:
-    """Entry point. A user's mistake prints one sentence and exits with 2; `--debug` shows the
-    traceback instead.
-    """
+    """Entry point: a user's mistake is one sentence and exit 2; `--debug` shows a traceback."""
     # OpenMP threads that wait should sleep: spinning ones make a shared machine ten times slower.
     # Read when torch is imported.
     os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")

@@ -153,9 +153,7 @@ def _settings(named: dict[str, Any], served: dict[str, Any], **common: Any) -> B
 def _with_endpoint(
     named: dict[str, Any], served: dict[str, Any]
 ) -> tuple[dict[str, Any], EndpointSettings | None]:
-    """The run's flags with the served model as its only candidate, and the server, if --endpoint is
-    given. Raises PlannerError.
-    """
+    """The run's flags with --endpoint's model as candidate, and the server. Raises PlannerError."""
     if not served:
         return named, None
     from planner_ft.benchmark.settings import EndpointSettings

@@ -67,9 +67,7 @@ def _is_given(context: typer.Context, name: str) -> bool:
 
 
 def _check_kind(plan: Path | None, given: set[str]) -> None:
-    """Raise PlannerError for flags of a model beside a plan, flags of a plan without one, and for
-    neither plan nor model.
-    """
+    """Raise PlannerError for flags of a model beside a plan, and the reverse, and for neither."""
 
     wrong = [name for name in (PLAN_FLAGS if plan is None else MODEL_FLAGS) if name in given][:1]
     if wrong and plan is not None:

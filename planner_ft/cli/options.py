@@ -1,6 +1,4 @@
-"""Options of the commands: their help texts are in help.toml, their types and defaults in the
-signatures.
-"""
+"""Options of the commands: help texts in help.toml, types and defaults in the signatures."""
 
 from __future__ import annotations
 
@@ -26,9 +24,7 @@ class Help(NamedTuple):
 
 
 def command(function: Command) -> Command:
-    """Give every parameter of a command without an option of its own its help from help.toml, and
-    join the lines of its paragraphs.
-    """
+    """Give parameters of a command their help from help.toml, and join lines of paragraphs."""
     parameters = list(inspect.signature(function, eval_str=True).parameters.values())
     help_of = helps(function.__name__)
     set_parameters(

@@ -1,6 +1,4 @@
-"""Progress of a long command: bars with the time left on a terminal, lines now and then elsewhere;
-and what Ctrl-C leaves.
-"""
+"""Progress of a long command: bars on a terminal, lines elsewhere; and what Ctrl-C leaves."""
 
 from __future__ import annotations
 
@@ -25,9 +23,7 @@ EVERY = 30.0
 
 @contextlib.contextmanager
 def interruptible(kept: Callable[[], str] | None = None, *, lines: bool = True) -> Iterator[Report]:
-    """Show progress of the block; after Ctrl-C print what is `kept`, and exit with 130. Without
-    `lines` nothing is shown where there is no terminal.
-    """
+    """Show progress (without `lines` on terminals alone); after Ctrl-C print `kept`, exit 130."""
     with (
         _interruptible(kept) as (console, stopped),
         (_bars if console.is_terminal else _lines)(console) as report,
@@ -67,9 +63,7 @@ def resume_command() -> str:
 
 @contextlib.contextmanager
 def _interruptible(kept: Callable[[], str] | None) -> Iterator[tuple[Console, threading.Event]]:
-    """A console for the block, and an event that Ctrl-C sets: libraries swallow a KeyboardInterrupt
-    while they load.
-    """
+    """A console, and an event that Ctrl-C sets: libraries swallow KeyboardInterrupt."""
     from rich.console import Console
 
     console, pressed = Console(stderr=True, highlight=False), threading.Event()

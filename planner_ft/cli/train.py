@@ -22,9 +22,7 @@ DATA_OPTIONS = (
 
 
 def _with_settings(function: Callable[..., None]) -> Callable[..., None]:
-    """Give the command an option for every training setting, so that flags, recipes and settings
-    cannot drift apart.
-    """
+    """An option for every training setting, so that flags, recipes and settings cannot differ."""
     own, keyword = inspect.signature(function).parameters.values(), inspect.Parameter.KEYWORD_ONLY
     settings = (
         inspect.Parameter(name, keyword, default=None, annotation=_option(name)) for name in FIELDS

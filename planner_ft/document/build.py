@@ -1,8 +1,6 @@
-"""A plan document of a planned command, and everything in a document that follows from the rest of
-it.
+"""A plan document of a planned command, and everything that derives from the rest of a document.
 
-A place that was filled in stands as `located` beside the parameters of its tasks: {parameter:
-name}, under the name by which the plan left it open.
+A place that was filled in stands as `located` beside the parameters of its tasks.
 """
 
 from __future__ import annotations
@@ -25,17 +23,13 @@ from planner_ft.vocabulary.document_schema import FORMAT, TASK_KEYS, VERSION, do
 from planner_ft.vocabulary.plans import canonical_parameters
 
 PlanDocument = dict[str, Any]
-"""A plan document (schemas/plan.schema.json). Nobody changes one in place: a change returns
-another.
-"""
+"""A plan document (schemas/plan.schema.json), never changed in place."""
 LARGEST = 2**53 - 1
 """Larger whole numbers have no exact form in RFC 8785 (I-JSON, RFC 7493)."""
 
 
 def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = None) -> PlanDocument:
-    """The document of a planned command. `vehicle` is what estimates rest on: the vocabulary's own
-    profile by default.
-    """
+    """The document of a planned command; `vehicle` is by default the vocabulary's."""
     plan = planned.mission.plan or {"tasks": []}
     tasks = [_task(number, task) for number, task in enumerate(planned.tasks, start=1)]
     places: dict[str, Any] = {}
@@ -93,9 +87,7 @@ def _problems(answer: Answer) -> dict[str, Any]:
 
 
 def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
-    """The document with all that derives made anew: open places, sources, estimate, warnings,
-    whether it is valid and complete, the digest.
-    """
+    """The document with derived keys, validity and digest made anew."""
     tasks = [_underived(task, vocabulary) for task in document["tasks"]]
     places = places_of(tasks, vocabulary)
     for place in places:
@@ -142,9 +134,7 @@ def places_of(tasks: Sequence[dict[str, Any]], vocabulary: Vocabulary) -> list[O
 def tasks_at(
     name: str, tasks: Sequence[dict[str, Any]], vocabulary: Vocabulary
 ) -> list[tuple[dict[str, Any], str]]:
-    """The tasks at a place, open or located already, each with the parameter that holds its
-    position.
-    """
+    """The tasks at a place, open or located, each with the parameter of its position."""
     places = [place for place in places_of(tasks, vocabulary) if place.name == name]
     waiting = [tasks[number - 1] for place in places for number in place.tasks]
     found = [(task, vocabulary.task[task["title"]].position_parameter or "") for task in waiting]
@@ -160,9 +150,7 @@ def tasks_at(
 
 
 def canonical(value: Any) -> bytes:
-    """A JSON value in the canonical form of RFC 8785; whole numbers beyond 2^53 - 1 as the
-    floating-point numbers that they are to most readers.
-    """
+    """The canonical form (RFC 8785); whole numbers beyond 2^53 - 1 as floating-point numbers."""
     import rfc8785
 
     return rfc8785.dumps(_exact(value))
@@ -179,9 +167,7 @@ def document_digest(document: Mapping[str, Any]) -> str:
 
 
 def altered(document: Mapping[str, Any]) -> bool:
-    """Whether a document is not what its digest says: changed by hand, or by a program that does
-    not know it.
-    """
+    """Whether a document was changed without a new digest, as by hand."""
     return document.get("digest") != document_digest(document)
 
 

@@ -16,9 +16,7 @@ Kind = Literal["added", "removed", "moved", "parameter", "prompt", "skills", "lo
 
 @dataclass(frozen=True)
 class Difference:
-    """One change: to which task (None: to the plan), of what, from which value to which; `text`
-    says it in a sentence.
-    """
+    """One change of a task (None: of the plan); `text` is a sentence."""
 
     task: str | None
     kind: Kind
@@ -38,9 +36,7 @@ def differences(document: PlanDocument) -> list[Difference]:
 
 
 def compare(before: dict[str, Any], after: dict[str, Any]) -> list[Difference]:
-    """The differences between two plans of one command ({"tasks", "located"}), whose tasks are the
-    same when their ids are.
-    """
+    """The differences between two plans of one command; tasks of one id are the same."""
     old = {task["id"]: task for task in before["tasks"]}
     kept = {task["id"] for task in after["tasks"]}
     found = list(_changes(None, "located", "", before["located"], after["located"]))
@@ -86,9 +82,7 @@ def _changes(
 
 
 def _moved(old: Tasks, new: Tasks) -> Iterator[Difference]:
-    """The tasks that stand elsewhere among those that both plans have: as few as explain the new
-    order.
-    """
+    """The fewest tasks whose moves explain the new order."""
     was = {task["id"]: number for number, task in enumerate(old, start=1)}
     common = [(at, task) for at, task in enumerate(new, start=1) if task["id"] in was]
     kept = _longest_rising([was[task["id"]] for _at, task in common])

@@ -1,6 +1,4 @@
-"""An operator's changes to a plan document. Each is checked before it takes effect; the last one
-can be taken back.
-"""
+"""An operator's changes to a plan document, each checked before it takes effect, and undo."""
 
 from __future__ import annotations
 
@@ -38,11 +36,7 @@ POSITION = Parameter("position", "position", "m")
 def apply(
     document: PlanDocument, edit: Edit, vocabulary: Vocabulary, by: str | None = None
 ) -> PlanDocument:
-    """The document with one edit made, recorded and all that derives recomputed.
-
-    Raises PlannerError when it cannot be made, and for a document that was altered outside: its new
-    digest would hide that (see `adopt`).
-    """
+    """The document with one edit made and recorded. Raises PlannerError."""
     if altered(document):
         raise PlannerError(
             "the plan was altered outside of the review and has not the content of its digest;"
@@ -52,9 +46,7 @@ def apply(
 
 
 def adopt(document: PlanDocument, vocabulary: Vocabulary, by: str | None = None) -> PlanDocument:
-    """A document that was altered outside, its tasks as they stand recorded as an edit. Raises
-    PlannerError when they are not valid.
-    """
+    """A document altered outside, with its tasks recorded as an edit. Raises PlannerError."""
     derived = ("sources", "waits_for")
     tasks = [
         {key: value for key, value in task.items() if key not in derived}
@@ -65,9 +57,7 @@ def adopt(document: PlanDocument, vocabulary: Vocabulary, by: str | None = None)
 
 
 def undo(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
-    """The document without its last edit: the proposal with the edits before it made again. Raises
-    PlannerError when there is none.
-    """
+    """The document without its last edit. Raises PlannerError when there is none."""
     if not document["edits"]:
         raise PlannerError("there is no edit to take back; the plan is as it was proposed")
     undone = {**document, **copy.deepcopy(document["proposed"]), "edits": []}
@@ -241,20 +231,16 @@ KINDS: dict[str, tuple[Keys, tuple[str, ...], Callable[[PlanDocument, Edit, Voca
     "replace": ({"tasks": TASKS}, (), _replace),
     "skill": (SKILL, ("value",), _skill),
 }
-"""Per kind of edit the keys that it needs, those that it may have besides (the id of an inserted
-task is always given anew), and the function that makes it.
-"""
+"""Per kind of edit: keys that it needs, keys that it may have, and the function that makes it."""
 
 
 # ---------------------------------------------------------------- parts
 
 
 def reword(prompt: str, before: Any, after: Any) -> str:
-    """The prompt with the old value replaced where it stands there once, in digits or word by word;
-    else as it is. The Task Agent reads prompt and parameters: they must not contradict each other.
+    """The prompt with the one mention of the old value replaced, so that it fits the parameters.
 
-    Nothing that stays behind is silent: a value that a prompt says and its task does not have is a
-    warning.
+    A value that stays behind becomes a warning.
     """
     if is_number(before):
         wanted = rf"(?<![\w.,-]){re.escape(compact_json(before))}(?![\w]|[.,]\d)"

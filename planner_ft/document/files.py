@@ -20,10 +20,9 @@ LONGEST_SHOWN = 200
 
 
 def read_document(path: Path | str, vocabulary: Vocabulary | None = None) -> PlanDocument:
-    """The document in a file; without `vocabulary` that of the bundled vocabulary that it names.
+    """The document in a file, by default of the bundled vocabulary that it names.
 
-    A wrong digest is no error here: `altered` tells. Raises PlannerError for a file that is
-    missing, cut, no plan, of another version or made with another vocabulary.
+    A wrong digest is no error here: see `altered`. Raises PlannerError.
     """
     path = Path(path)
     if path.is_file() and path.stat().st_size > LARGEST_FILE:
@@ -58,10 +57,9 @@ def read_document(path: Path | str, vocabulary: Vocabulary | None = None) -> Pla
 
 
 def document_problem(document: Any, vocabulary: Vocabulary) -> str | None:
-    """Where and why a value is no plan document (schemas/plan.schema.json), or None when it is one.
+    """Where and why a value is no plan document, or None.
 
-    JSON Schema checks the frame; tasks and their steps are checked as plans are, which takes a
-    fraction of the time.
+    JSON Schema checks the frame alone; plan checks of the tasks take a fraction of its time.
     """
     from jsonschema.exceptions import best_match
 
@@ -98,9 +96,7 @@ def vocabulary_of(document: PlanDocument, path: Path | str) -> Vocabulary:
 
 
 def write_document(path: Path | str, document: PlanDocument) -> PlanDocument:
-    """Write a document atomically, with its digest; returns what was written. Raises PlannerError
-    when it cannot be written.
-    """
+    """Write a document with its digest, atomically; returns it. Raises PlannerError."""
     written = {**document, "digest": document_digest(document)}
     write_json(path, written)
     return written

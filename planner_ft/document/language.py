@@ -1,6 +1,4 @@
-"""The words that commands are checked by (english.toml, and NAME.ontology.toml beside a vocabulary's
-definition), and the clauses of a command with what it rules out or takes back.
-"""
+"""Words that commands are checked by (english.toml, NAME.ontology.toml), and clauses."""
 
 from __future__ import annotations
 
@@ -31,9 +29,7 @@ NO = re.compile(r"^no\W+", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Ask:
-    """Words that ask for a task, which one of `tasks` answers. With `sends`, other words of the
-    clause name what is sent.
-    """
+    """Words that ask for one of `tasks`; with `sends`, the clause also names what is sent."""
 
     said: re.Pattern[str]
     tasks: frozenset[str]
@@ -42,9 +38,7 @@ class Ask:
 
 @dataclass(frozen=True)
 class Language:
-    """Patterns by their name in english.toml, words for tasks of the vehicle, its sensors, and the
-    questions per missing element.
-    """
+    """Patterns by name, words for tasks and sensors, and the questions per missing element."""
 
     words: dict[str, re.Pattern[str]]
     asks: tuple[Ask, ...]
@@ -54,9 +48,7 @@ class Language:
 
 @functools.lru_cache(maxsize=16)
 def language(vocabulary: Vocabulary) -> Language:
-    """The words for a vehicle. Raises PlannerError that lists what is wrong with its ontology
-    file.
-    """
+    """The words for a vehicle. Raises PlannerError that lists what is wrong with its ontology."""
     english = tomllib.loads(read_text(ENGLISH))
     questions = english.pop("questions")
     own = vocabulary.beside(ONTOLOGY)
@@ -73,9 +65,7 @@ def language(vocabulary: Vocabulary) -> Language:
 
 
 def pattern(phrases: Sequence[str]) -> re.Pattern[str]:
-    """The phrases as one pattern of whole words, the longest first; without phrases one that is
-    never found.
-    """
+    """A pattern of whole words, the longest phrase first; without phrases it matches nothing."""
     written = "|".join(_phrase(phrase) for phrase in sorted(phrases, key=len, reverse=True))
     return re.compile(rf"(?<![\w-])(?:{written})(?![\w])" if written else r"(?!)", re.IGNORECASE)
 
@@ -113,10 +103,9 @@ def _are_words(value: Any) -> bool:
 
 @dataclass(frozen=True)
 class Clause:
-    """A clause of a command from `start` to `end`.
+    """A clause of a command. `corrected`: the next words take it back.
 
-    `excluded`: where words that rule something out begin, before `start` where the clause only
-    tells of something; `corrected`: the next words take it back.
+    `excluded`: where words that rule something out begin (before `start`: it only tells of it).
     """
 
     start: int

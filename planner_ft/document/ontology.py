@@ -1,9 +1,6 @@
-"""The elements of a command, and those that it lacks: objective, target or place, sensors and data,
-operational constraints.
+"""The elements of a command and those that it lacks: objective, target, sensors, constraints.
 
-The words stand in english.toml and in NAME.ontology.toml beside the vocabulary's definition. A
-missing element becomes a question to the operator and blocks nothing: most real commands lack one
-or two of the four. A command in another language mostly shows its numbers alone.
+A missing element becomes a question to the operator and blocks nothing: most commands lack some.
 """
 
 from __future__ import annotations
@@ -33,9 +30,7 @@ _NAME = re.compile(r"\s+((?:[A-Z][\w-]*|\d+)(?:\s+(?:[A-Z][\w-]*|\d+))?)(?!\w)")
 
 
 def check(command: str, vocabulary: Vocabulary) -> dict[str, Any]:
-    """{"elements": [{"element", "start", "end", "text"}], "missing": [element], "questions":
-    [text]} of a command, elements in its order.
-    """
+    """{"elements": [{"element", "start", "end", "text"}], "missing", "questions"} of a command."""
     spoken, clauses = language(vocabulary), read_clauses(command, vocabulary)
     found: dict[str, list[Span]] = {
         "objective": _merged(_objectives(clauses, spoken)),
@@ -81,9 +76,7 @@ def _constraints(clauses: Iterable[Clause], spoken: Language) -> Iterator[Span]:
 
 
 def _targets(command: str, spoken: Language) -> Iterator[Span]:
-    """Coordinates with the name before them, noun phrases, numbered and named things, and words for
-    where the vehicle is.
-    """
+    """Named coordinates, noun phrases, numbered and named things, the vehicle's whereabouts."""
     for offset, text in pieces(command):
         named = [*_noun_phrases(text, spoken), *_names(text, spoken)]
         places = [
@@ -99,9 +92,7 @@ def _targets(command: str, spoken: Language) -> Iterator[Span]:
 
 
 def _noun_phrases(text: str, spoken: Language) -> Iterator[Span]:
-    """Phrases from "the" or "a" to a word that ends them, unless their noun is a time, a sensor or
-    a task.
-    """
+    """Phrases from "the" or "a" to a word that ends them, but no times, sensors or tasks."""
     behind = 0
     for match in spoken.words["determiner"].finditer(text):
         end = _phrase_end(text, match.end(), spoken)

@@ -1,6 +1,4 @@
-"""Where each value of a plan is from: words of the command, a located place, a rule, the operator,
-or the model alone.
-"""
+"""Where a value of a plan is from: command, located place, rule, operator or model."""
 
 from __future__ import annotations
 
@@ -16,11 +14,7 @@ Source = dict[str, Any]
 
 
 def sources(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[str, Source]]:
-    """Per task, in order, {parameter: source}.
-
-    A value that the command says in several places is from the one that is nearest to the other
-    values of its task.
-    """
+    """Per task, in order, {parameter: source}; the mention nearest to the task's others."""
     command = read_input({"prompt": document["command"]}, vocabulary)
     proposed = {
         task["id"]: task["parameters"]
@@ -82,9 +76,7 @@ def _edited(
 
 
 def _by_rule(value: Any, parameter: Parameter, evidence: Evidence, command: Input) -> Source | None:
-    """The source of a value that a rule gives: the vehicle's own places, parts of a circle, what
-    follows by arithmetic.
-    """
+    """The source of a value that the vehicle's places, parts of a circle or arithmetic give."""
     text = command.facts.text
     if evidence.kind == "vehicle":
         if tuple(value) == command.vocabulary.unresolved:

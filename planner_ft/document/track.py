@@ -1,10 +1,7 @@
-"""The track of a plan: where its skills take the vehicle, leg by leg, in local metres (x east, y
-north), and how long that is.
+"""The track of a plan: movements of its skills, leg by leg, in local metres (x east, y north).
 
-It is read from the skill sequences by what the vocabulary's motion file says that skills do. A task
-without skills moves as its parameters say where they say it (a transit to a place); every other one
-is open. The vehicle starts at home with its bow to the north, and goes straight. Wind, current and
-obstacles are not known here.
+The vocabulary's motion file gives the movements; a task without skills moves only as its parameters
+say. The vehicle starts at home, bow north, and goes straight; wind and obstacles are not known.
 """
 
 from __future__ import annotations
@@ -30,9 +27,7 @@ MOST_TURNS = 10
 
 @dataclass(frozen=True)
 class Leg:
-    """One movement or hold of a step (from 0) of a task. `seconds` is None for a hold until a stop
-    condition, and where no speed is known.
-    """
+    """One movement or hold of a step (from 0); `seconds` is None when it is not known."""
 
     task: str
     step: int
@@ -73,9 +68,7 @@ class Target:
 
 @dataclass(frozen=True)
 class Track:
-    """Legs in the order of the plan. `open` are the tasks whose movement is not known, wholly or in
-    part.
-    """
+    """Legs in the order of the plan; `open` are tasks whose movement is not known in full."""
 
     legs: tuple[Leg, ...]
     circles: tuple[Circle, ...]
@@ -104,12 +97,7 @@ def track(document: Mapping[str, Any], vocabulary: Vocabulary) -> Track:
 
 
 def estimate(document: Mapping[str, Any], path: Track) -> dict[str, Any]:
-    """{"length" in metres, "seconds", "open"} of a document's track: sums over what is known, at
-    the vehicle's cruise speed where a task says none.
-
-    `open` are the tasks of which a part is not known: a place, the skills, or how long a hold
-    lasts. The sums are then the least it can be.
-    """
+    """Sums of what is known: {"length" in metres, "seconds", "open": tasks that lack a part}."""
     untimed = {leg.task for leg in path.legs if leg.seconds is None} | set(path.open)
     return {
         "length": round(sum(leg.metres for leg in path.legs), 1),
@@ -126,9 +114,7 @@ def place_of(task: TaskEntry, vocabulary: Vocabulary) -> Point | None:
 
 
 class _Pen:
-    """Draws task after task from where the vehicle is: `here` is None while that is not known,
-    `heading` in degrees from north.
-    """
+    """Draws tasks from `here` (None: not known), with `heading` in degrees from north."""
 
     def __init__(self, vocabulary: Vocabulary, vehicle: Mapping[str, Any]) -> None:
         self.vocabulary = vocabulary
@@ -191,11 +177,7 @@ class _Pen:
         self.here = goal
 
     def _arc(self, radius: float | None, angle: float | None) -> None:
-        """A circle around the task's centre, to which the vehicle first goes straight; without a
-        centre, a curve from where it heads.
-
-        How far round a centre is the vehicle's own affair where the skill does not say.
-        """
+        """A circle around the task's centre, reached straight; else a curve from the heading."""
         if angle is None and self._center is not None:
             angle = self.vehicle.get("orbit_angle")
         if self.here is None or radius is None or angle is None:

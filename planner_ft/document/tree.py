@@ -17,9 +17,7 @@ SIGNS = {"navigation": "", "filter": " | ", "perception": " + "}
 
 
 def plan_tree(document: PlanDocument) -> str:
-    """The plan, what it takes for granted, what is open and what it cost, one line each. Control
-    characters are spelt out.
-    """
+    """The plan, its assumptions, open places and cost as lines without control characters."""
     return "\n".join(map(plain, _lines(document)))
 
 
@@ -45,9 +43,7 @@ def _lines(document: PlanDocument) -> Iterator[str]:
 
 
 def task_tree(document: PlanDocument) -> Iterator[str]:
-    """The lines of the tasks with their skills, or what is wrong with the Mission Agent's
-    answer.
-    """
+    """The lines of tasks and skills, or what is wrong with the Mission Agent's answer."""
     if "problems" in document:
         yield from _invalid("the Mission Agent's answer", document)
     elif not document["tasks"]:
@@ -93,9 +89,7 @@ def _use(use: dict[str, Any]) -> str:
 
 
 def plain(line: str) -> str:
-    """The line with control characters (a command may bring some) as escapes, so that none reaches
-    a terminal.
-    """
+    """The line with control characters, which a command may bring, as escapes."""
     return "".join(char if char.isprintable() else repr(char)[1:-1] for char in line)
 
 

@@ -21,9 +21,7 @@ CLOCK = re.compile(r"\s*(?:o['’]?clock|am\b|pm\b|utc\b|gmt\b|zulu\b|local\b|ag
 MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORECASE)
 """Words that are no time to be kept: "a second", "a good day"."""
 NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
-"""All that stands between a value and the one that takes its place: "45 minutes, no, ten
-minutes".
-"""
+"""Stands between a value and its correction: "45 minutes, no, ten minutes"."""
 
 Place = tuple[float, float]
 
@@ -31,10 +29,9 @@ Place = tuple[float, float]
 def unused_facts(
     command: str, tasks: Sequence[Mapping[str, Any]], texts: Iterable[str], vocabulary: Vocabulary
 ) -> Iterator[str]:
-    """The words for each such value. It stands in a plan when a parameter of `tasks` or of their
-    skills has it, when one of them follows from it, or when one of `texts` says it.
+    """The words for each value that neither `tasks`, their skills nor `texts` have or imply.
 
-    What the command rules out, takes back or only tells of is not missing.
+    Values that the command rules out, takes back or only tells of are not missing.
     """
     plan = _Plan()
     plan.add_tasks(tasks)
@@ -66,9 +63,7 @@ def unused_facts(
 
 @dataclass
 class _Plan:
-    """The numbers and places of a plan; `apart` are the numbers that are no coordinates, `used` the
-    places that others follow from.
-    """
+    """Numbers and places of a plan: `apart` are no coordinates, `used` places imply others."""
 
     numbers: set[float] = field(default_factory=set)
     apart: set[float] = field(default_factory=set)

@@ -1,6 +1,4 @@
-"""The vehicle's profile: the figures that estimates of a plan rest on, and the area that the
-vehicle may be in.
-"""
+"""The vehicle's profile: figures that estimates rest on, and the area that it may be in."""
 
 from __future__ import annotations
 
@@ -27,10 +25,9 @@ FULL_CIRCLE = 360
 
 @dataclass(frozen=True)
 class Vehicle:
-    """`cruise_speed` in m/s, `endurance` in seconds, `turn_rate` in degrees per second, `area` in
-    local metres (None: anywhere).
+    """Speed in m/s, endurance in s, turn rate in degrees/s, `area` in metres (None: anywhere).
 
-    `orbit_angle` (degrees) is how far the vehicle goes round a target when nobody says how far.
+    `orbit_angle` (degrees) is how far the vehicle goes round a target by default.
     """
 
     name: str
@@ -46,11 +43,7 @@ class Vehicle:
 
 
 def load_vehicle(path: Path | str | None, vocabulary: Vocabulary) -> Vehicle:
-    """The profile in a TOML file; without a path NAME.vehicle.toml beside the vocabulary's
-    definition. What a file leaves out is as there.
-
-    Raises PlannerError that names the file and what is wrong.
-    """
+    """The profile in a TOML file, completed by NAME.vehicle.toml. Raises PlannerError."""
     own, where, raw = vocabulary.beside(VEHICLE), f"{vocabulary.name}{VEHICLE}", {}
     if path is not None:
         where = str(path)
@@ -71,9 +64,7 @@ def load_vehicle(path: Path | str | None, vocabulary: Vocabulary) -> Vehicle:
 
 
 def check_area(corners: Any) -> tuple[tuple[float, float], ...]:
-    """The corners of an area as pairs of metres. Raises PlannerError when they are no polygon
-    without crossing sides.
-    """
+    """The corners in metres. Raises PlannerError unless they are a simple polygon."""
     from shapely import Polygon
 
     pairs = [list(corner) if isinstance(corner, tuple) else corner for corner in corners or ()]

@@ -21,9 +21,7 @@ if TYPE_CHECKING:
 CUT_NOTE = "The answer met its limit of tokens"
 """How the note on an answer that was ended at the limit begins."""
 Progress = Callable[[str, int, int], None]
-"""Called with what is being done, how many of it are done and how many there are in all (0: not
-known).
-"""
+"""Called with what is being done, how many are done, and how many there are (0: not known)."""
 
 
 def silent(_label: str, _done: int, _total: int) -> None:
@@ -33,8 +31,7 @@ def silent(_label: str, _done: int, _total: int) -> None:
 class Agents:
     """Loads the agents' bases as they are needed and asks them.
 
-    Agents of one base share it, with an adapter each. Of two bases the first is released before the
-    second is loaded: the reference hardware has 6 GB for both.
+    Agents share one base. Of two bases one is in memory: the reference hardware has 6 GB for both.
     """
 
     def __init__(
@@ -119,9 +116,7 @@ class Agents:
 def read_answer(
     level: Level, text: str, generation: Generation, prompt_tokens: int, vocabulary: Vocabulary
 ) -> Answer:
-    """The plan of a generated text, None with the problems when it does not parse or is not
-    strictly valid.
-    """
+    """The plan of a text; None with the problems unless it is strictly valid."""
     parsed, tokens = parse_output(text), len(generation.ids)
     problems = [parsed.problem or "no plan"]
     if parsed.plan is not None:

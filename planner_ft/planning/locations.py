@@ -1,8 +1,7 @@
 """The places that a mission plan leaves open: their names, and filling them in.
 
-A task at a place that the command gives no coordinates for holds the vocabulary's unresolved
-location ([-99, -99]). The place is called by the target of the search that is to find it; a place
-that nothing searches (a berth) by the words of the task prompt.
+A task at such a place holds the vocabulary's unresolved location ([-99, -99]). The place is called
+by the target of the search that is to find it, a berth by words of the task prompt.
 """
 
 from __future__ import annotations
@@ -38,9 +37,7 @@ class OpenPlace:
 
 
 def open_places(plan: Mapping[str, Any], vocabulary: Vocabulary) -> list[OpenPlace]:
-    """The places that a mission plan leaves open, in the order of the first task that needs
-    each.
-    """
+    """The places that a mission plan leaves open, in the order of their first tasks."""
     needed: dict[str, list[int]] = {}
     searched: list[str] = []
     for number, entry in enumerate(plan["tasks"], start=1):
@@ -86,11 +83,9 @@ def parse_locations(texts: Sequence[str]) -> dict[str, Position]:
 def resolve(
     plan: dict[str, Any], locations: Mapping[str, Position], vocabulary: Vocabulary
 ) -> dict[str, Any]:
-    """The plan with the named places filled in; other places stay open.
+    """The plan with the named places filled in; names match by part, without case and article.
 
-    A name matches without regard to case and article, and so does a part of it that fits only one
-    place. Raises PlannerError for a name that the plan does not leave open, for a place that is
-    named twice, and for the position that stands for an unknown place.
+    Raises PlannerError for a name that is not open or given twice, and for the unknown position.
     """
     places = open_places(plan, vocabulary)
     filled = copy.deepcopy(plan)
@@ -130,9 +125,7 @@ def _matching(name: str, places: Sequence[OpenPlace]) -> OpenPlace:
 
 
 def _name_of(entry: Mapping[str, Any], searched: Sequence[str], vocabulary: Vocabulary) -> str:
-    """The searched target that the task prompt speaks of, else the last one; a berth, which is
-    never searched, in the prompt's own words.
-    """
+    """The searched target in the task prompt, else the last one; a berth in the prompt's words."""
     prompt = entry["task_prompt"]
     mentioned = [name for name in searched if name.lower() in prompt.lower()]
     if mentioned:

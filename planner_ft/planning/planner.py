@@ -21,9 +21,7 @@ from planner_ft.vocabulary import load_vocabulary
 
 @dataclass(frozen=True)
 class TasksKnown:
-    """The Mission Agent has answered: its tasks, without skills; those at an open place say what
-    they wait for.
-    """
+    """The Mission Agent's tasks, without skills; those at an open place say what they wait for."""
 
     tasks: tuple[PlannedTask, ...]
 
@@ -45,10 +43,7 @@ def unwatched(_event: TasksKnown | SkillsKnown) -> None:
 
 
 class Planner:
-    """Plans one command after the other:
-
-        from planner_ft.planning import Planner
-        planned = Planner.load().plan("Find the red buoy and come home.")
+    """Plans commands: `Planner.load().plan("Find the red buoy and come home.")`.
 
     In a `with` block the memory is given back at its end.
     """
@@ -69,9 +64,7 @@ class Planner:
         progress: Progress = silent,
         **settings: Any,
     ) -> Planner:
-        """A planner with the Mission Agent's base loaded; the keywords are the fields of
-        PlanSettings. Raises PlannerError.
-        """
+        """A planner of PlanSettings with the Mission Agent's base loaded. Raises PlannerError."""
         planner = cls(PlanSettings(candidate, **settings), progress)
         planner.agents.load("mission")
         return planner
@@ -82,13 +75,10 @@ class Planner:
         locations: Mapping[str, Position] | None = None,
         on_event: OnEvent = unwatched,
     ) -> Planned:
-        """The plan of a command. `locations` are positions (metres east and north of home) of
-        places that the command leaves open.
+        """The plan of a command; `locations` are positions (metres east, north) of open places.
 
-        `on_event` hears of the tasks as soon as they are known, and then of the skills of each.
-        What it raises ends planning. An answer that is not valid is part of what comes back (see
-        `Planned.valid`). Raises PlannerError for a command that is empty or too long, and for a
-        location that the plan does not leave open.
+        `on_event` gets the tasks, then the skills of each; an error in it ends planning. Raises
+        PlannerError for a bad command or location; invalid answers are part of the result.
         """
         mission = self._mission(check_command(command))
         tasks: tuple[PlannedTask, ...] = ()
@@ -112,11 +102,9 @@ class Planner:
         )
 
     def skills(self, task: Mapping[str, Any]) -> Answer:
-        """The Task Agent's answer for one task of a plan alone: its `title`, `parameters` and
-        `task_prompt`.
+        """The Task Agent's answer, valid or not, for `title`, `parameters` and `task_prompt`.
 
-        An answer that is not valid comes back with its problems. Raises PlannerError without a Task
-        Agent, and for a task whose place is open.
+        Raises PlannerError without a Task Agent, and for a task whose place is open.
         """
         if "task" not in self.agents.agents:
             raise PlannerError(
@@ -191,9 +179,7 @@ class Planner:
 
 
 def check_command(command: str) -> str:
-    """The command itself. Raises PlannerError when there is none in it, or when it is no Unicode
-    text.
-    """
+    """The command itself. Raises PlannerError when it is empty or no Unicode text."""
     if not command.strip():
         raise PlannerError(
             'the command is empty; say what is to be done, such as plannerft plan "Find the red'
@@ -221,9 +207,7 @@ def read_command(stream: Any) -> str:
 
 
 def new_file(path: Path, *, overwrite: bool) -> Path:
-    """The path itself. Raises PlannerError when there is a file already that is not to be replaced,
-    or a folder, or nothing can be written there.
-    """
+    """The path itself. Raises PlannerError for an existing or impossible file."""
     if path.is_dir():
         raise PlannerError(f"--out {path}: is a folder; give a file")
     if path.exists() and not overwrite:

@@ -10,11 +10,10 @@ from planner_ft.planning.locations import OpenPlace
 
 @dataclass(frozen=True)
 class Answer:
-    """One answer of an agent, and what it cost.
+    """One answer of an agent and its cost.
 
-    `plan` is None when the text does not parse or is not strictly valid: `problems` says why. `cut`
-    is True when the answer met the token limit. `seconds` is the time from prompt ids to the
-    complete answer.
+    `plan` is None unless the text is a strictly valid plan (see `problems`); `cut`: it met the token
+    limit; `seconds` from prompt ids to the complete answer.
     """
 
     text: str
@@ -30,11 +29,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class AgentUse:
-    """What one agent did in all.
-
-    `load_seconds` is the time to load its base, 0 where the other agent's serves it too; `seconds`
-    leaves it out.
-    """
+    """The work of one agent; `seconds` are without `load_seconds` (0: the other agent's base)."""
 
     candidate: str
     configuration: str
@@ -49,11 +44,7 @@ class AgentUse:
 
 @dataclass(frozen=True)
 class PlannedTask:
-    """A task of the mission with its skills.
-
-    `answer` is None where the Task Agent was not asked: because the task's place is open, which
-    `waits_for` names, or at all.
-    """
+    """A task with its skills; `answer` is None when not asked, as while `waits_for` is open."""
 
     title: str
     parameters: dict[str, Any]
@@ -64,12 +55,9 @@ class PlannedTask:
 
 @dataclass(frozen=True)
 class Planned:
-    """A command with everything that was planned for it.
+    """A command with its plan: the mission answer as it was, tasks with `located` places filled in.
 
-    `mission` is the Mission Agent's answer as it was, `tasks` have the places filled in that were
-    given (`located`). `open_places` are those that no position is known for. `peak_memory` is the
-    most memory of the whole process, in bytes (of the GPU, where there is one); `manifest` says
-    what the plan depended on.
+    `peak_memory` is that of the whole process in bytes (of the GPU, where there is one).
     """
 
     command: str

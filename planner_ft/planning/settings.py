@@ -25,12 +25,10 @@ OWN = ("candidate", "adapter", "configuration")
 
 @dataclass(frozen=True)
 class PlanSettings:
-    """What planning is asked to do; what is None is chosen.
+    """Settings of planning; None is chosen: the strongest configuration, a trained adapter.
 
-    `mission_candidate` and `task_candidate` overrule `candidate` for one agent, and so do the
-    configurations. An adapter that is not given is looked for where `plannerft train` writes it,
-    then in the package. The default configuration is the strongest, with the adapter where there is
-    one. With `mission_only` there is no Task Agent.
+    Those of one agent overrule the common ones. An adapter is looked for where
+    `plannerft train` writes it, then in the package. With `mission_only` there is no Task Agent.
     """
 
     candidate: str = DEFAULT_CANDIDATE
@@ -54,9 +52,7 @@ class PlanSettings:
 
 @dataclass(frozen=True)
 class Agent:
-    """One of the two agents: a candidate in a configuration. `with_vocabulary` says whether its
-    prompt lists the vocabulary.
-    """
+    """One agent: a candidate in a configuration, its prompt with or without the vocabulary."""
 
     level: Level
     candidate: Candidate
@@ -71,9 +67,7 @@ class Agent:
         return self.candidate.folder, self.quantization
 
     def record(self) -> dict[str, Any]:
-        """Everything that its answers depend on beside command, vocabulary and device, for the
-        manifest.
-        """
+        """Everything but command, vocabulary and device that its answers depend on."""
         folder = self.candidate.folder
         return {
             "candidate": self.candidate.name,
@@ -91,9 +85,7 @@ class Agent:
 
 
 def choose_agents(settings: PlanSettings, vocabulary: Vocabulary) -> dict[Level, Agent]:
-    """The agents that the settings ask for, checked as far as that goes without loading a model.
-    Raises PlannerError.
-    """
+    """The agents of the settings, checked without loading a model. Raises PlannerError."""
     if settings.mission_only:
         unused = [f"--task-{what}" for what in OWN if getattr(settings, f"task_{what}") is not None]
         if unused:

@@ -1,9 +1,4 @@
-"""Review of a plan by a person: approval log, verification, review in terminal and browser, harvest.
-
-`approval` takes decisions, `log` and `chain` keep them, `verify` and `changes` compare a plan with
-the approved one. `desk` is a plan in review, which `terminal` and `web` show; `commands` are typed
-edits. `harvest` turns reviewed plans into training samples.
-"""
+"""Review of a plan by a person: approval log, verification, terminal, browser, harvest."""
 
 from planner_ft.review.approval import approve, reject
 from planner_ft.review.log import append, check_log, log_beside, read_log

@@ -1,8 +1,4 @@
-"""A person's decision about a plan: approving and rejecting it, in the log.
-
-The log names a reviewer as he named himself. It notices later changes; it does not prove who
-decided.
-"""
+"""A person's decision about a plan in the log: it shows later changes, not who decided."""
 
 from __future__ import annotations
 
@@ -36,13 +32,7 @@ def approve(
     acknowledged: Collection[str] = (),
     reason: str = "",
 ) -> Appended:
-    """Record that `reviewer` approves the plan, with the warnings that they acknowledge by id
-    ("all" for every one).
-
-    Raises PlannerError for an empty name, a plan that is not valid or was altered, warnings that
-    are not acknowledged (UnacknowledgedError) or that the plan does not have, and a log that is
-    broken or cannot be written.
-    """
+    """Record an approval of the plan and its warnings (ids, or "all"). Raises PlannerError."""
     _check_texts(reviewer, reason)
     if altered(document):
         raise PlannerError(
@@ -60,9 +50,7 @@ def approve(
 
 
 def reject(document: PlanDocument, log: Path, reviewer: str, reason: str) -> Appended:
-    """Record that `reviewer` rejects the plan as it is, which withdraws an approval. Raises
-    PlannerError without a name or a reason.
-    """
+    """Record a rejection, which ends an approval. Raises PlannerError without name or reason."""
     if not reason.strip():
         raise PlannerError("a rejection needs its reason; give it with --reject REASON")
     _check_texts(reviewer, reason)

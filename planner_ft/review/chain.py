@@ -38,9 +38,7 @@ START = Head(0, "0" * 64)
 
 @dataclass(frozen=True)
 class Chain:
-    """A log as it was read: its records (none of a broken chain), problems, the number of lines,
-    and the bytes of a last line that was never finished.
-    """
+    """Records (none of a broken chain), problems, lines, and the bytes of an unfinished line."""
 
     records: tuple[Record, ...]
     problems: tuple[Problem, ...]
@@ -89,9 +87,7 @@ def _read_line(line: bytes) -> Record | str:
 
 
 def _line_problems(found: list[Record | str]) -> Iterator[Problem]:
-    """Lines that were changed, and records that do not follow the line before; a changed line
-    breaks nothing more.
-    """
+    """Changed lines, and records that do not follow the line before."""
     places: dict[int, int] = {}
     for number, item in enumerate(found, start=1):
         if isinstance(item, dict):

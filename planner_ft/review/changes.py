@@ -62,9 +62,7 @@ def _walk(path: str, words: Words, before: Any, after: Any) -> Iterator[Change]:
 
 
 def _keyed(before: Any, after: Any) -> tuple[dict[Any, Any], dict[Any, Any]] | None:
-    """Both values as dictionaries: lists by the ids of their items, else by place. None for values
-    that are compared as a whole.
-    """
+    """Both values as dictionaries (lists by id, else by place); None: compared as a whole."""
     if isinstance(before, dict) and isinstance(after, dict):
         return before, after
     if not (isinstance(before, list) and isinstance(after, list)):

@@ -1,6 +1,4 @@
-"""A sketch of a plan's track for a terminal: dots of braille characters, or points where a terminal
-has none.
-"""
+"""A sketch of a plan's track for a terminal: braille dots, or points where there are none."""
 
 from __future__ import annotations
 
@@ -19,9 +17,7 @@ MARGIN = 0.05
 
 
 class _Canvas:
-    """Dots, 2 by 4 in a character, over the part of the local frame that holds some points; letters
-    stand over the dots. A character is about twice as high as wide.
-    """
+    """Dots, 2 by 4 in a character, over the area of `points`, with letters on top."""
 
     def __init__(self, points: Sequence[Point], columns: int, rows: int) -> None:
         west, east = min(x for x, _y in points), max(x for x, _y in points)
@@ -74,12 +70,7 @@ def chart(
     rows: int = 22,
     braille: bool = True,
 ) -> list[str]:
-    """The track as lines of text at most `columns` wide, with a scale and a legend; `tasks` are the
-    ids in their order.
-
-    Legs, stand-offs and boundaries are dotted lines; a number is where that task ends, H is home, *
-    a target. Targets without a place are named below.
-    """
+    """Lines of the track, scale and legend; `tasks` are ids, a number is where that task ends."""
     shapes = [shape for shape in _shapes(track) if all(map(_drawable, shape))]
     missing = [f"not located yet: {item.name}" for item in track.targets if item.position is None]
     if not any(math.dist(point, home) > 0 for shape in shapes for point in shape):

@@ -39,8 +39,7 @@ VALUE = re.compile(r"(\d+(?:\.[\w#]+)+)\s*=\s*(.*)", re.DOTALL)
 
 
 def parse_edit(text: str, document: PlanDocument, vocabulary: Vocabulary) -> Edit:
-    """The edit that `text` asks for, as planner_ft.document applies it; also {"kind": "undo"} and
-    {"kind": "ask", "tasks": [ids]}.
+    """The edit for planner_ft.document, or {"kind": "undo"}, {"kind": "ask", "tasks": ids}.
 
     Raises PlannerError that says what was expected.
     """
@@ -95,9 +94,7 @@ def _assignment(
 
 
 def _skill(task: dict[str, Any], step: int, name: str | None) -> tuple[str, int, str]:
-    """Role, place within the role and name of a skill of a step (from 1): by its name, else the one
-    that moves the vehicle.
-    """
+    """Role, index in the role and name of a skill of a step: by name, else the navigation skill."""
     steps = task["skill_sequence"] or []
     if not 1 <= step <= len(steps):
         raise PlannerError(f"{task['title']}: has no step {step}; it has {len(steps)}")
@@ -122,9 +119,7 @@ def _parameter(name: str, owner: str, known: Mapping[str, Parameter]) -> Paramet
 
 
 def _value(text: str, parameter: Parameter) -> Any:
-    """A typed value as one of the parameter's type; None for nothing. Its range is checked when the
-    edit is applied.
-    """
+    """A typed value as JSON of the parameter's type, its range unchecked; None for nothing."""
     if not text:
         return None
     if parameter.type == "texts" and not text.startswith("["):

@@ -1,6 +1,4 @@
-"""One plan in review: the file, its document, and a reviewer's actions. Every change is saved
-before it is shown.
-"""
+"""One plan in review: file, document and a reviewer's actions, each saved before it is shown."""
 
 from __future__ import annotations
 
@@ -33,15 +31,11 @@ from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import DEFAULT
 
 Ask = Callable[[Mapping[str, Any]], Answer]
-"""Asks the Task Agent for the skills of a task of a document; PlannerError where there is no
-model.
-"""
+"""Asks the Task Agent for the skills of a document's task. Raises PlannerError without a model."""
 
 
 class Desk:
-    """A plan that is being reviewed. `by` is the reviewer's name, None while it is not known;
-    `revision` the digest of the file's content, whatever its key `digest` says.
-    """
+    """A plan in review: `by` is the reviewer (None: unknown), `revision` the content's digest."""
 
     def __init__(
         self, path: Path, log: Path, vocabulary: Vocabulary, ask: Ask, by: str | None = None
@@ -61,9 +55,7 @@ class Desk:
         return approval_of(self.document, self.log)
 
     def edit(self, text: str) -> list[Difference]:
-        """Make the edit that `text` asks for, save it, and return the differences. Raises
-        PlannerError; the plan is then as it was.
-        """
+        """Make and save the edit; returns the differences. Raises PlannerError."""
         edit = parse_edit(text, self.document, self.vocabulary)
         before = self.document
         if edit["kind"] == "undo":
@@ -83,17 +75,13 @@ class Desk:
         self._save(undo(self.document, self.vocabulary))
 
     def adopt(self) -> None:
-        """Take over what was changed by hand, as an edit. Raises PlannerError where nothing was, or
-        what was is not valid.
-        """
+        """Take over what was changed by hand, as an edit. Raises PlannerError."""
         if not altered(self.document):
             raise PlannerError(f"{self.path}: was not altered by hand; leave --adopt out")
         self._save(adopt(self.document, self.vocabulary, self.by))
 
     def approve(self, name: str, acknowledged: Collection[str]) -> Appended:
-        """Approve the plan as it is in the file. Raises PlannerError, also when its warnings were
-        worked out anew and are others now.
-        """
+        """Approve the plan in the file. Raises PlannerError, also for new warnings."""
         is_altered = altered(self.document)
         fresh = self.document if is_altered else revise(self.document, self.vocabulary)
         if document_digest(fresh) != self.revision:
@@ -150,11 +138,7 @@ def open_desk(
     candidate: str | None = None,
     device: str = "auto",
 ) -> Desk:
-    """The desk of a plan in a file: by default with the log beside it, the bundled vocabulary that
-    it names, and the Task Agent that planned it, loaded at the first question.
-
-    Raises PlannerError for a plan that cannot be read.
-    """
+    """The desk of a plan in a file with the vocabulary and agents that planned it by default."""
     document, known = read_plan(path, vocabulary)
     settings = settings_of(document, known, candidate, device)
     agents: list[Planner] = []
@@ -168,9 +152,7 @@ def open_desk(
 
 
 def read_plan(path: Path, vocabulary: str | None) -> tuple[PlanDocument, Vocabulary]:
-    """A plan with its vocabulary: the named one, else the bundled one that the plan names. Raises
-    PlannerError.
-    """
+    """A plan and its vocabulary, by default the bundled one that it names. Raises PlannerError."""
     known = load_vocabulary(vocabulary) if vocabulary else None
     document = read_document(path, known)
     return document, known or vocabulary_of(document, path)
@@ -198,9 +180,7 @@ def settings_of(
 def planning_of(
     plan: Path | None, vocabulary: str | None, candidate: str | None, device: str
 ) -> PlanSettings:
-    """The settings for planning beside a plan in a file: those under which it was planned; without
-    a file the defaults. Raises PlannerError.
-    """
+    """The settings under which the plan in a file was planned, without one the defaults."""
     if plan is not None:
         return settings_of(*read_plan(plan, vocabulary), candidate, device)
     named = vocabulary or DEFAULT

@@ -1,8 +1,6 @@
-"""Training samples from reviewed plans: the command with the plan that a person corrected and
-approved.
+"""Training samples from plans that a person corrected and approved.
 
-A sample obeys the labelling rules and is no near duplicate of validation, test or challenge; every
-other plan is left out with the reason.
+A sample obeys the labelling rules and is no near duplicate of validation, test or challenge.
 """
 
 from __future__ import annotations
@@ -45,9 +43,7 @@ class LeftOutError(PlannerError):
 
 @dataclass(frozen=True)
 class Harvest:
-    """Samples by the plan that each is from, why the other plans gave none, and the file of the
-    samples.
-    """
+    """Samples by plan, the reasons why other plans gave none, and the file of the samples."""
 
     samples: dict[Path, dict[str, Any]]
     left_out: dict[Path, str]
@@ -73,11 +69,9 @@ def harvest_files(
     overwrite: bool = False,
     vocabulary: str | None = None,
 ) -> Harvest:
-    """Write the samples of the plans to `out`; `log` is by default that beside each plan. Of
-    several plans of one command the last approval counts.
+    """Write the samples of the plans to `out`; of several plans of one command the last counts.
 
-    Raises PlannerError without plans or `out`, for a file that is there already, a broken log, and
-    where no plan gives a sample.
+    Raises PlannerError without plans or `out`, for an existing file, a broken log, and no sample.
     """
     if not plans or out is None:
         raise PlannerError(
@@ -106,9 +100,7 @@ def harvest_files(
 
 
 def held_out_records() -> HeldOut:
-    """The curated records that no sample may come near to. Raises PlannerError where the curated
-    set is not there.
-    """
+    """The curated records that no sample may come near to. Raises PlannerError without the set."""
     files = [find_source() / f"{name}.jsonl" for name in HELD_OUT]
     return {file.stem: read_jsonl(file) for file in files if file.is_file()}
 
@@ -116,9 +108,7 @@ def held_out_records() -> HeldOut:
 def sample(
     document: PlanDocument, approval: Approval, held_out: HeldOut, vocabulary: Vocabulary
 ) -> dict[str, Any]:
-    """The mission sample of an approved document. Raises LeftOutError with the reason where there
-    is none.
-    """
+    """The mission sample of an approved document. Raises LeftOutError with the reason for none."""
     if approval.status != "approved":
         raise LeftOutError(approval.text)
     command = document["command"]
@@ -158,11 +148,9 @@ def sample(
 
 
 def text_problems(record: dict[str, Any], proposed: Sequence[str]) -> Iterator[str]:
-    """Texts of a sample that speak of something else than the sample: of a text value that was
-    `proposed` and taken out, or in words that neither the command nor the lexicon has.
+    """Texts that speak of a text value that was `proposed` and taken out, or in unknown words.
 
-    A reviewer reads values before sentences, and a small model misspells names in sentences that it
-    spelt rightly in a value.
+    A small model misspells names in sentences that it spelt rightly in a value.
     """
     expected, prompt = record["expected"], record["prompt"]
     values = sorted(_texts_of(expected["tasks"]), key=len, reverse=True)
@@ -214,9 +202,7 @@ def _as_commanded(task: dict[str, Any], command: str, vocabulary: Vocabulary) ->
 def _expected(
     document: PlanDocument, tasks: Sequence[dict[str, Any]], vocabulary: Vocabulary
 ) -> dict[str, Any]:
-    """The mission plan, with the model's assumptions; notes of the decoding about its own reading
-    of the command are none.
-    """
+    """The mission plan with the model's assumptions, without the notes of the decoding."""
     notes = {*read(document["command"]).unread, TOO_LONG, UNPAIRED, RAN_ON}
     assumptions = [
         text

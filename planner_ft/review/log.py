@@ -1,9 +1,7 @@
-"""The approval log: an append-only file of JSON Lines in which every decision about a plan is kept
-with the plan itself.
+"""The approval log: append-only JSON Lines that keep every decision with the plan itself.
 
-Nothing in it is ever deleted or replaced. A record has "sequence", "time" (UTC), "event",
-"reviewer", "reason", "digest", "plan", "acknowledged", "differences", "models", "previous" and
-"hash"; `chain` says how records hang together.
+A record has "sequence", "time" (UTC), "event", "reviewer", "reason", "digest", "plan",
+"acknowledged", "differences", "models", "previous" and "hash" (see `chain`).
 """
 
 from __future__ import annotations
@@ -24,9 +22,7 @@ LOG_NAME = "approvals.jsonl"
 
 
 class Appended(NamedTuple):
-    """A record as it stands in the log now, and the file that an unfinished last line was moved to,
-    if there was one.
-    """
+    """A record as it stands in the log, and the file that an unfinished last line was moved to."""
 
     record: Record
     set_aside: Path | None
@@ -52,12 +48,9 @@ def existing_log(log: Path) -> Path:
 
 
 def append(log: Path, values: Record) -> Appended:
-    """Add a record of `values` (without sequence, time, previous and hash). When this returns, the
-    record is on the disk.
+    """Add a record of `values`, sealed and timed; it is on the disk when this returns.
 
-    A process that is killed here leaves the record whole or not at all: what it left of a line is
-    moved aside by the next one. Raises PlannerError when the chain is broken, or the record cannot
-    be written.
+    A killed process leaves a record whole or not at all. Raises PlannerError for a broken chain.
     """
     with exclusive(log):
         chain = _sound(log)
@@ -73,16 +66,12 @@ def append(log: Path, values: Record) -> Appended:
 
 
 def read_log(log: Path) -> tuple[Record, ...]:
-    """The records in their order; none where there is no log yet. Raises PlannerError when the
-    chain is broken.
-    """
+    """The records in order; none without a log. Raises PlannerError when the chain is broken."""
     return _sound(log).records
 
 
 def check_log(log: Path) -> Chain:
-    """The log as it is: `problems` says what was removed, changed, reordered or cut. Raises
-    PlannerError when it cannot be read.
-    """
+    """The log as it is, with its `problems`. Raises PlannerError when it cannot be read."""
     while True:
         head, data = _read_head(log), _read_bytes(log)
         # Another process may have added a record in between.
@@ -154,9 +143,7 @@ def _write_line(log: Path, line: bytes) -> None:
 
 
 def _set_aside(log: Path, chain: Chain) -> Path | None:
-    """Move the bytes of a line that was never finished, and so never confirmed, into a file of
-    their own.
-    """
+    """Move the bytes of an unfinished, never confirmed line into a file of their own."""
     if not chain.torn:
         return None
     aside = log.with_name(f"{log.name}.unfinished-{sha256_text(chain.torn.hex())[:12]}")

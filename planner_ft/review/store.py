@@ -1,6 +1,4 @@
-"""Files that several terminals and browsers may have open: locks, and plans that nobody overwrites
-unseen.
-"""
+"""Files that several terminals and browsers have open: locks, and safe saving."""
 
 from __future__ import annotations
 
@@ -28,11 +26,7 @@ class ChangedError(PlannerError):
 
 @contextlib.contextmanager
 def exclusive(path: Path) -> Iterator[None]:
-    """Hold the lock of `path` (the hidden file .NAME.lock beside it, which stays); waits while
-    another process or thread holds it. Not re-entrant.
-
-    Raises PlannerError when the lock file cannot be made.
-    """
+    """Hold the lock file .NAME.lock beside `path`; waits for other holders. Not re-entrant."""
     lock = FileLock(path.with_name(f".{path.name}.lock"))
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -50,9 +44,7 @@ def exclusive(path: Path) -> Iterator[None]:
 
 @contextlib.contextmanager
 def unchanged(path: Path, digest: str) -> Iterator[None]:
-    """Hold the plan's lock while its file has the content of `digest` (`document_digest` of what
-    was read; the key `digest` may be wrong). Raises ChangedError when it has another.
-    """
+    """Hold the plan's lock while its content has this `document_digest`. Raises ChangedError."""
     with exclusive(path):
         value = read_json(path)
         if not isinstance(value, dict) or document_digest(value) != digest:
@@ -61,8 +53,6 @@ def unchanged(path: Path, digest: str) -> Iterator[None]:
 
 
 def save(path: Path, document: PlanDocument, digest: str) -> PlanDocument:
-    """Write `document` over the plan whose content had `digest` when it was read; returns what was
-    written. Raises ChangedError.
-    """
+    """Write `document` over a plan whose content had `digest`. Raises ChangedError."""
     with unchanged(path, digest):
         return write_document(path, document)

@@ -35,9 +35,7 @@ Line = tuple[str, str]
 
 
 def terminal() -> Console:
-    """A console that shows texts as they are: no markup, no emoji names, no colours that nobody
-    asked for.
-    """
+    """A console without markup, emoji names and colours."""
     return Console(markup=False, highlight=False, emoji=False, soft_wrap=True)
 
 
@@ -134,9 +132,7 @@ def _estimate(document: PlanDocument) -> str:
 
 
 class Conversation:
-    """A reviewer at a desk: each action does its work and prints its result. Raises PlannerError
-    where an action is impossible.
-    """
+    """A reviewer at a desk: each action prints its result. Raises PlannerError."""
 
     def __init__(self, desk: Desk, console: Console, read: Read = input) -> None:
         self.desk, self.console, self.read = desk, console, read
@@ -170,9 +166,7 @@ class Conversation:
             self._decided(self.desk.reject(self.desk.by or "", reason))
 
     def converse(self) -> None:
-        """Show the plan and do what the reviewer types, until a decision is recorded or they leave
-        (also by the end of the input).
-        """
+        """Show the plan and do what is typed, until a decision, `quit` or the end of the input."""
         self.show()
         with contextlib.suppress(EOFError):
             while not self._step():

@@ -17,12 +17,10 @@ Status = Literal["approved", "rejected", "altered", "unknown"]
 
 @dataclass(frozen=True)
 class Approval:
-    """The log's knowledge of a plan.
+    """The log's knowledge of a plan; who, when and why are None without a decision.
 
     `approved` and `rejected`: the last decision about exactly this plan. `altered`: another version
-    of it was approved, and `changes` says what is different now, or the file is not what its digest
-    says. `unknown`: no decision. `sequence`, `reviewer`, `time` and `reason` are those of the
-    decision, None without one.
+    was approved (`changes`: the differences), or the digest is wrong. `unknown`: no decision.
     """
 
     status: Status
@@ -39,9 +37,7 @@ class Approval:
 
 
 def approval_of(document: PlanDocument, log: Path) -> Approval:
-    """What the log says about a plan as it is now. Raises PlannerError for a log that is broken or
-    cannot be read.
-    """
+    """The log's knowledge of the plan as it is now. Raises PlannerError for a broken log."""
     records, digest = read_log(log), document_digest(document)
     intact = document.get("digest") == digest
     last = next((record for record in reversed(records) if record["digest"] == digest), None)
@@ -80,11 +76,7 @@ def _decision(record: Record) -> dict[str, Any]:
 
 
 def _earlier_approval(document: PlanDocument, records: Sequence[Record]) -> Record | None:
-    """The last approval of the same digest, else of the same proposal, else of the same command in
-    the same run.
-
-    A command that is planned again makes another plan: nobody altered the first.
-    """
+    """The last approval of the same digest, else proposal, else command in the same run."""
     approved = [record for record in reversed(records) if record["event"] == "approved"]
     for keys in (("digest",), ("proposed", "manifest"), ("command", "manifest")):
         for record in approved:

@@ -1,6 +1,4 @@
-"""The vocabulary of a vehicle: one TOML definition from which schemas, prompts, samplers and
-scorers derive.
-"""
+"""The vocabulary of a vehicle: a TOML definition for schemas, prompts, samplers and scorers."""
 
 from planner_ft.vocabulary.definition import Parameter, Skill, Task, Vocabulary, load_vocabulary
 

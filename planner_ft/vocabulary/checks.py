@@ -61,9 +61,7 @@ NESTED = {"task": ("parameters", "skills"), "skill": ("parameters",)}
 
 
 def shape_problems(raw: Table, phrases: Table) -> list[str]:
-    """Problems of keys and kinds of values in a definition and its phrase file; names are not
-    looked up.
-    """
+    """Problems of keys and kinds of values in definition and phrases; names are not looked up."""
     problems = [f"unknown key {key!r}" for key in raw if key not in ("vehicle", "task", "skill")]
     vehicle = raw.get("vehicle")
     if isinstance(vehicle, dict):
@@ -82,9 +80,7 @@ def shape_problems(raw: Table, phrases: Table) -> list[str]:
 
 
 def _table(table: Table, kind: str, where: str) -> Iterator[str]:
-    """Problems of the keys and values of a table; those that are tables themselves are not looked
-    at.
-    """
+    """Problems of keys and values of a table, without its subtables."""
     needed = _keys()[kind]["needed"]
     known = {**needed, **_keys()[kind].get("optional", {})}
     missing = [name for name in needed if name not in table]

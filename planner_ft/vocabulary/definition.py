@@ -30,9 +30,7 @@ DEFAULT = "usv"
 PHRASES, VEHICLE, ONTOLOGY = ".phrases.toml", ".vehicle.toml", ".ontology.toml"
 MISSIONS = ".missions.toml"
 UNHASHED = (LOGIC, MOTION, VEHICLE, ONTOLOGY, MISSIONS)
-"""Files beside a definition that no prompt, schema or grammar depends on: they are no part of what
-adapters were trained on.
-"""
+"""Files beside a definition that no prompt, schema or grammar, and so no adapter depends on."""
 
 
 @dataclass(frozen=True)
@@ -60,9 +58,7 @@ class _Owner:
 
 @dataclass(frozen=True)
 class Task(_Owner):
-    """A task title with its parameters, the movement it stands for and the skills that fit it, by
-    role.
-    """
+    """A task title with parameters, the movement that it stands for, and skills by role."""
 
     title: str
     category: str
@@ -87,9 +83,7 @@ class Task(_Owner):
 
 @dataclass(frozen=True)
 class Skill(_Owner):
-    """A skill with its parameters, the role it takes in a step and the strings a step with it
-    reports.
-    """
+    """A skill with its parameters, role, and the strings that a step with it reports."""
 
     name: str
     category: str
@@ -111,13 +105,10 @@ class Skill(_Owner):
 
 @dataclass(frozen=True, eq=False)
 class Vocabulary:
-    """A vehicle's tasks and skills. Positions are metres in the local frame. Two are the same only
-    when they are one object.
+    """A vehicle's tasks and skills, compared by identity; positions are metres in the local frame.
 
-    `phrases` is the content of NAME.phrases.toml, from which the task sampler words its prompts,
-    `logic` that of NAME.logic.toml: what tasks give and need when a plan is carried out, `motion`
-    that of NAME.motion.toml: what skills do to the vehicle. `beside` reads other such files.
-    `sha256` is the digest of the definition alone.
+    `phrases`, `logic` and `motion` are the content of NAME.phrases.toml (wordings for sampling),
+    NAME.logic.toml and NAME.motion.toml. `sha256` is the digest of the definition alone.
     """
 
     name: str
@@ -147,9 +138,7 @@ class Vocabulary:
         return {skill.name: skill for skill in self.skills}
 
     def beside(self, ending: str) -> dict[str, Any]:
-        """The content of the file NAME + `ending` beside the definition; nothing where there is
-        none. Raises PlannerError when it is not TOML.
-        """
+        """The file NAME + `ending` beside the definition ({} without). Raises PlannerError."""
         return _beside(self.path, ending) if self.path else {}
 
     def skills_in_role(self, role: Role) -> tuple[Skill, ...]:
@@ -166,10 +155,7 @@ def bundled_vocabularies() -> list[str]:
 
 @functools.lru_cache(maxsize=16)
 def load_vocabulary(source: str | Path = DEFAULT) -> Vocabulary:
-    """Load a definition by the name of a bundled one ("usv") or by path.
-
-    Raises PlannerError that lists everything wrong with the file.
-    """
+    """Load a bundled definition ("usv") or a path. Raises PlannerError listing all problems."""
     bundled = BUNDLED / f"{source}.toml"
     path = bundled if str(source).isidentifier() and bundled.is_file() else Path(source)
     if not path.is_file():
@@ -192,9 +178,7 @@ def build_vocabulary(
     logic: dict[str, Any] | None = None,
     motion: dict[str, Any] | None = None,
 ) -> Vocabulary:
-    """The vocabulary of a parsed definition, its phrases, its logic and its motions. Raises
-    PlannerError that lists everything wrong, and says `where`.
-    """
+    """The vocabulary of parsed files. Raises PlannerError that lists everything wrong."""
     logic, motion = logic or {}, motion or {}
     problems = shape_problems(raw, phrases)
     if not problems:

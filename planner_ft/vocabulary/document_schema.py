@@ -1,6 +1,4 @@
-"""The JSON Schema of a plan document (schemas/plan.schema.json): the frame of shapes/document.schema.json
-with the tasks of a vocabulary.
-"""
+"""The JSON Schema of a plan document: shapes/document.schema.json with a vocabulary's tasks."""
 
 from __future__ import annotations
 
@@ -23,9 +21,7 @@ TASK_KEYS = (
 
 @functools.cache
 def frame_schema() -> Schema:
-    """The schema of a document but for what the vocabulary says of tasks and skills: titles,
-    parameters and steps are of any kind.
-    """
+    """The schema of a document with titles, parameters and steps of any kind."""
     frame: Schema = json.loads(read_text(Path(__file__).parent / "shapes" / "document.schema.json"))
     return frame
 
@@ -36,9 +32,7 @@ def document_keys() -> tuple[str, ...]:
 
 
 def document_schema(vocabulary: Vocabulary) -> Schema:
-    """The schema of what `plannerft plan` writes: a command with its tasks and skills, where each
-    value is from, and what a reviewer must know.
-    """
+    """The schema of the documents that `plannerft plan` writes."""
     frame = frame_schema()
     properties = frame["properties"]
     proposed = properties["proposed"]

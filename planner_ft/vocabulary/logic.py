@@ -1,8 +1,4 @@
-"""What tasks bring about and need beyond their places: the file NAME.logic.toml of a definition.
-
-Replaying a plan reads it (planner_ft.vocabulary.replay). No prompt, schema or grammar depends on
-it, and so it is no part of the vocabulary's digest.
-"""
+"""What tasks bring about and need beyond their places: NAME.logic.toml, no part of the digest."""
 
 from __future__ import annotations
 
@@ -16,9 +12,7 @@ LISTS = ("gives", "needs", "yields")
 
 @dataclass(frozen=True)
 class TaskLogic:
-    """Facts that a task `gives` and `needs`, words for what it `yields`, and the parameter that
-    lists what it `sends`.
-    """
+    """Facts that a task gives and needs, words for its yield, and the parameter of sent items."""
 
     gives: tuple[str, ...] = ()
     needs: tuple[str, ...] = ()

@@ -1,9 +1,4 @@
-"""What skills do to the vehicle, and the circles that tasks keep: the file NAME.motion.toml of a
-definition.
-
-Drawing, measuring and exporting a plan read it. No prompt, schema or grammar depends on it, and so
-it is no part of the vocabulary's digest.
-"""
+"""Movements of skills and circles of tasks: NAME.motion.toml, no part of the digest."""
 
 from __future__ import annotations
 
@@ -19,11 +14,9 @@ MotionKind = Literal[
 
 @dataclass(frozen=True)
 class Motion:
-    """What a skill does to the vehicle, and which of its parameters plays which role ("time" ->
-    "time", "angle" -> "delta_yaw").
+    """What a skill does to the vehicle, and its parameters by role ("angle" -> "delta_yaw").
 
-    Lengths are metres, times seconds, angles degrees; headings and arcs clockwise. A hold without a
-    time lasts until a stop condition.
+    Metres, seconds, degrees clockwise; a hold without a time lasts until a stop condition.
     """
 
     kind: MotionKind

@@ -22,13 +22,10 @@ class Parsed:
 
 
 def parse_output(output: str | dict[str, Any] | None) -> Parsed:
-    """Read an answer as one JSON object; white space around it is allowed, nothing else.
+    """Read an answer (text, or an object already) as one JSON object, as the published metric does.
 
-    The published definition is "parses as one JSON object". A Markdown fence, a sentence before the
-    object, a second object or a cut end therefore do not parse, whatever they contain. An answer
-    that is an object already is taken as it is; the working before a skill sequence is no part of
-    the plan. NaN and Infinity are not JSON; numbers that a float cannot hold and strings that UTF-8
-    cannot hold are refused with them.
+    White space and working before a skill sequence are allowed; fences, sentences, cut ends, NaN,
+    Infinity, too large numbers and strings that are not UTF-8 are not.
     """
     if output is None or (isinstance(output, str) and not output.strip()):
         return Parsed(None, "empty")

@@ -1,10 +1,9 @@
-"""The two plan forms: what stands in them, in which order, and what makes one valid.
+"""The two plan forms: their content, key order and validity.
 
 A mission plan is `{"tasks": [{"title", "parameters", "task_prompt"}], "assumptions",
 "constraints"}`, a skill plan `{"skill_sequence": [{"navigation_skill", "filter_skills",
-"perception_skills", "stop_conditions", "failure_modes", "expected_outputs"}]}`. `plan_problems`
-says what is wrong with one in words and is fast enough for every sample that the sampler writes;
-schema.py states the same rules as JSON Schema, and a test holds the two together.
+"perception_skills", "stop_conditions", "failure_modes", "expected_outputs"}]}`. `plan_problems` is
+fast enough for every sample; schema.py states the same rules as JSON Schema, and a test compares.
 """
 
 from __future__ import annotations
@@ -34,9 +33,7 @@ SKILL_KEYS = ("name", "parameters")
 ENTRIES = ("tasks", "skill_sequence", "filter_skills", "perception_skills")
 """Keys of lists whose items are objects."""
 WORKING = "working"
-"""Stands before a skill sequence where a model writes sums down before it needs their results. No
-part of the plan.
-"""
+"""Stands before a skill sequence, with sums that the model needs; no part of the plan."""
 _WORKED = re.compile(rf'\s*\{{"{WORKING}":"[^"\\]*",(?="skill_sequence")')
 
 
@@ -54,9 +51,7 @@ def list_key(level: Level) -> str:
 
 
 def named_entries(level: Level, plan: Any) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield (name, parameters) of every task or skill of a plan in order; entries of another form
-    are passed over.
-    """
+    """(name, parameters) of every well-formed task or skill of a plan, in order."""
     entries = _items(plan, list_key(level))
     key = "title" if level == "mission" else "name"
     if level == "task":
@@ -68,9 +63,7 @@ def named_entries(level: Level, plan: Any) -> Iterator[tuple[str, dict[str, Any]
 
 
 def step_skills(step: Any) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield (role, skill) for every skill of a step: the navigation skill, then filters, then
-    perception skills.
-    """
+    """(role, skill) for every skill of a step: navigation, filters, perception."""
     if not isinstance(step, dict):
         return
     if isinstance(step.get("navigation_skill"), dict):
@@ -92,9 +85,7 @@ def task_entry(task: dict[str, Any]) -> dict[str, Any]:
 
 
 def without_working(text: str) -> tuple[str, str]:
-    """The text of an answer without the working before its skill sequence, and that working; no
-    other text is changed.
-    """
+    """The answer's text without the working before its skill sequence, and that working."""
     match = _WORKED.match(text)
     return ("{" + text[match.end() :], match[0].split('"')[3]) if match else (text, "")
 
@@ -103,12 +94,10 @@ def without_working(text: str) -> tuple[str, str]:
 
 
 def canonical_plan(level: Level, plan: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
-    """The plan with its keys in the fixed order, parameters in the order of the definition and
-    whole floats as integers.
+    """The plan in fixed key order, parameters as defined, whole floats as integers.
 
-    Training targets are serialised from this form, so that a grammar with fixed key order can
-    produce every one of them. Missing free-text fields become empty; keys that the form does not
-    know are dropped.
+    Training targets have this form, which a grammar can produce. Missing free texts become empty,
+    unknown keys are dropped.
     """
     if level == "task":
         steps = [_canonical_step(step, vocabulary) for step in plan["skill_sequence"]]
@@ -165,11 +154,9 @@ def _items(value: Any, key: str) -> list[Any]:
 
 
 def plan_problems(level: Level, plan: Any, vocabulary: Vocabulary, *, strict: bool) -> list[str]:
-    """What keeps `plan` from being schema-valid, or strictly valid; empty when it is valid.
+    """Problems of `plan`; empty when it is schema-valid (`strict`: strictly valid).
 
-    Schema-valid: the structure alone, names are any strings. Strictly valid: also every name is in
-    the vocabulary, every skill stands in its role, and every parameter has a known name, the right
-    type and a value in range.
+    Schema-valid: the structure. Strictly valid: also names, roles, parameters, types and ranges.
     """
     if not isinstance(plan, dict):
         return [f"a JSON object is expected, not {_kind(plan)}"]
@@ -226,9 +213,7 @@ def _object_problems(
     texts: Iterable[str] = (),
     lists: Iterable[str] = (),
 ) -> Iterator[str]:
-    """Problems of an object's keys, of those that are texts, and of those that are lists, in which
-    all but entries are texts.
-    """
+    """Problems of an object's keys, texts and lists, which but for entries hold texts."""
     if not isinstance(value, dict):
         yield f"{where}: an object is expected, not {_kind(value)}"
         return
@@ -286,9 +271,7 @@ def value_problem(value: Any, parameter: Parameter) -> str | None:
 
 
 def is_number(value: Any) -> bool:
-    """Whether a JSON value is a number to calculate with: not true or false, NaN, infinity or
-    beyond the largest float.
-    """
+    """Whether a JSON value is a finite number that a float holds, and no boolean."""
     return (
         isinstance(value, int | float)
         and not isinstance(value, bool)

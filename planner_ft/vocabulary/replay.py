@@ -1,9 +1,7 @@
 """Replaying a mission plan: where the vehicle stands behind its tasks, and where it must stop.
 
-The plan is replayed against the preconditions and effects of its tasks, as planning systems
-validate plans (VAL: Howey, Long and Fox 2004). They stand in the vocabulary: where a task takes
-place, what locates a target and what brings the vehicle there in the definition, facts that tasks
-give and need in its logic file.
+Preconditions and effects are checked as planning systems validate plans (VAL: Howey, Long and Fox
+2004); they stand in the definition and its logic file.
 """
 
 from __future__ import annotations
@@ -30,12 +28,9 @@ Condition = Literal[
 
 @dataclass(frozen=True)
 class Progress:
-    """Where a plan stands behind some of its tasks.
+    """Where a plan stands: `here` is the vehicle's place (None: unknown), `found`: a target.
 
-    `here` is the place the vehicle was brought to, None when that is unknown; `found`: a target was
-    located and not gone to yet; `moved`: tasks since then may have taken the vehicle off `here`.
-    `searched` are the targets of all searches, `done` the titles of all tasks, `visited` the places
-    that they were sent to.
+    `moved`: tasks may have left `here`. `searched` targets, `done` titles and `visited` places.
     """
 
     tasks: int = 0
@@ -47,9 +42,7 @@ class Progress:
     visited: tuple[Position, ...] = ()
 
     def after(self, task: Task, parameters: dict[str, Any], vocabulary: Vocabulary) -> Progress:
-        """Where the plan stands behind one more task; a position among its parameters is a pair of
-        numbers.
-        """
+        """Progress behind one more task; a position is a pair of numbers."""
         done, moved = (*self.done, task.title), self.moved or task.leaves
         ahead = replace(self, tasks=self.tasks + 1, moved=moved, done=done)
         if task.title == vocabulary.locate:
@@ -84,9 +77,7 @@ def target(task: Task, parameters: dict[str, Any]) -> str:
 
 @dataclass(frozen=True)
 class Stop:
-    """Where a plan stops: number (from 0) and title of the task, the condition that does not hold,
-    and why in words.
-    """
+    """Where a plan stops: index and title of the task, the unmet condition, and why in words."""
 
     index: int
     title: str
@@ -96,9 +87,7 @@ class Stop:
 
 @dataclass(frozen=True)
 class Holds:
-    """What holds before a task. `items` may be sent although the plan collects them later, if at
-    all: they are on board.
-    """
+    """What holds before a task; `items` on board may be sent before the plan collects them."""
 
     progress: Progress = START
     facts: frozenset[str] = frozenset()
@@ -109,16 +98,12 @@ class Holds:
 def replay(
     plan: Mapping[str, Any], vocabulary: Vocabulary, holds: Holds | None = None
 ) -> Stop | None:
-    """The first task of a mission plan that cannot be carried out, or None. `holds` is what holds
-    at the start: nothing by default.
-    """
+    """The first task that cannot be carried out from `holds` (by default nothing), or None."""
     return next((stop for stop, _missing in stops(plan, vocabulary, holds)), None)
 
 
 def on_board(plan: Mapping[str, Any], vocabulary: Vocabulary) -> Holds:
-    """What a plan takes for granted: the facts that it needs and the items that it sends before it
-    brings them about.
-    """
+    """The facts and items that a plan needs before it brings them about."""
     found = stops(plan, vocabulary)
     missing = {
         fact for stop, facts in found if stop.condition == "data collected" for fact in facts
@@ -130,9 +115,7 @@ def on_board(plan: Mapping[str, Any], vocabulary: Vocabulary) -> Holds:
 def stops(
     plan: Mapping[str, Any], vocabulary: Vocabulary, holds: Holds | None = None
 ) -> Iterator[tuple[Stop, frozenset[str]]]:
-    """Every unmet condition with the facts and items that are missing; a plan goes on behind one
-    as if it were met.
-    """
+    """Every unmet condition with missing facts and items; the plan goes on as if it were met."""
     holds = holds or Holds()
     entries = [entry if isinstance(entry, dict) else {} for entry in plan["tasks"]]
     logics = [vocabulary.logic.of(str(entry.get("title"))) for entry in entries]
@@ -204,11 +187,7 @@ def _absent_place(task: Task, parameters: Mapping[str, Any]) -> str | None:
 def _missing(
     logic: TaskLogic, parameters: Mapping[str, Any], holds: Holds, later: list[TaskLogic]
 ) -> frozenset[str]:
-    """The facts that a task needs and the items that it sends, as far as they are not there.
-
-    An item that a task of the plan yields must have been yielded before; any other comes with the
-    facts that are needed.
-    """
+    """The facts that a task needs and the items that it sends, as far as they are missing."""
     items = [item.casefold() for item in parameters.get(logic.sends or "", ())]
     waiting = [
         item
@@ -222,9 +201,7 @@ def _missing(
 
 
 def collects(logic: TaskLogic, item: str) -> bool:
-    """Whether what is sent under a name is what a task yields: they share a word, in the singular
-    or plural.
-    """
+    """Whether a name shares a word, singular or plural, with what a task yields."""
     return any(
         word.removesuffix(ending) in logic.yields
         for word in re.findall(r"[^\W_]+(?:[-'’.][^\W_]+)*", item.lower())

@@ -1,7 +1,7 @@
-"""JSON Schemas (Draft 2020-12) of plans, dataset records and manifests, derived from a vocabulary.
+"""JSON Schemas (Draft 2020-12) of plans, records and manifests, derived from a vocabulary.
 
-Key order in `properties` is the order in which plans are serialised. Alternatives are `anyOf` with
-inline `const` names, the form that grammar compilers for constrained decoding take.
+`properties` are in the order of serialisation. Alternatives are `anyOf` with inline `const` names,
+the form that grammar compilers take.
 """
 
 from __future__ import annotations
@@ -31,15 +31,11 @@ VALUES: dict[str, Schema] = {
 }
 """Per type of parameter, except for numbers, the schema of a value."""
 ELEMENTS = ("objective", "target", "sensor", "constraint")
-"""The elements of a well-formed command: objective, target or location, sensor and data,
-operational constraint.
-"""
+"""Elements of a well-formed command: objective, target, sensor and data, constraint."""
 
 
 def plan_schema(level: Level, vocabulary: Vocabulary, *, strict: bool) -> Schema:
-    """The schema of a plan: its structure alone, or also names, roles, parameter names, types and
-    ranges.
-    """
+    """The schema of a plan: the structure, or also names, roles, parameters, types and ranges."""
     if level == "mission":
         task: Schema = {"anyOf": [_named_task(task) for task in vocabulary.tasks]}
         if not strict:
@@ -56,9 +52,7 @@ def plan_schema(level: Level, vocabulary: Vocabulary, *, strict: bool) -> Schema
 
 
 def record_schema(vocabulary: Vocabulary) -> Schema:
-    """The schema of a dataset record of either level; `expected` may hold names and parameters
-    alone.
-    """
+    """The schema of a dataset record; `expected` may hold names and parameters alone."""
     titles, names = list(vocabulary.task), list(vocabulary.skill)
     task = object_schema({"title": {"enum": titles}, "parameters": OBJECT}, required=["title"])
     skill = object_schema({"name": {"enum": names}, "parameters": OBJECT}, required=["name"])
@@ -119,9 +113,7 @@ def write_schemas(folder: Path, vocabulary: Vocabulary) -> list[Path]:
 
 
 def stale_schemas(folder: Path, vocabulary: Vocabulary) -> list[str]:
-    """Names of the schema files in `folder` that are missing or differ from what the vocabulary
-    gives.
-    """
+    """Names of schema files in `folder` that are missing or stale."""
     return [
         name
         for name, schema in all_schemas(vocabulary).items()
@@ -170,9 +162,7 @@ def step_schema(vocabulary: Vocabulary, strict: bool) -> Schema:
 def object_schema(
     properties: dict[str, Schema], *, strict: bool = False, required: list[str] | None = None
 ) -> Schema:
-    """The schema of an object with these properties, and no others if `strict`; all of them are
-    required unless `required` says which.
-    """
+    """An object with these properties (and no others if `strict`), by default all required."""
     schema: Schema = {
         "type": "object",
         "properties": properties,

@@ -28,9 +28,7 @@ FORMS = {
 
 
 def prompt_text(level: Level, vocabulary: Vocabulary) -> str:
-    """The names of this level with their parameters, one per line, as base models are shown
-    them.
-    """
+    """Names and parameters of this level, one a line, as base models are shown them."""
     if level == "mission":
         return "\n".join(map(_line, vocabulary.tasks))
     return "\n".join(

@@ -1,6 +1,4 @@
-"""What a reviewer must know about a plan before it is approved: one plain sentence each, the most
-serious first.
-"""
+"""What a reviewer must know before approval: one plain sentence each, the most serious first."""
 
 from __future__ import annotations
 
@@ -18,9 +16,7 @@ __all__ = ["KINDS", "NOTES", "SERIOUS", "warnings"]
 
 
 def warnings(document: Mapping[str, Any], vocabulary: Vocabulary, path: Track) -> list[Warning]:
-    """The warnings of a document, by kind as in KINDS and in the order of the plan. It needs the
-    tasks' sources, the estimate and the track.
-    """
+    """The warnings by kind, then in the plan's order; needs sources, estimate and track."""
     tasks = [{**task, "number": number} for number, task in enumerate(document["tasks"], start=1)]
     document = {**document, "tasks": tasks}
     found = [

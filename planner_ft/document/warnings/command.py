@@ -14,9 +14,7 @@ LONGEST = 60
 
 
 def command_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
-    """Instructions that nothing in the plan answers, and of which the plan does not say that it
-    leaves them out.
-    """
+    """Instructions that nothing in the plan answers or declines."""
     planned, spoken = {task["title"] for task in document["tasks"]}, language(vocabulary)
     texts = [*document.get("constraints", ()), *document.get("assumptions", ())]
     declined = " ".join(text for text in texts if spoken.words["declined"].search(text)).casefold()
@@ -29,9 +27,7 @@ def command_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Ite
 
 
 def _unanswered(clause: Clause, planned: set[str], spoken: Language) -> Iterator[tuple[str, int]]:
-    """(words, where in the clause) that ask for a task that is not planned, or for something that
-    no task can do.
-    """
+    """(words, where in the clause) that ask for an unplanned task, or one that is impossible."""
     if clause.corrected:
         return
     sends = any(ask.sends and ask.said.search(clause.text) for ask in spoken.asks)

@@ -1,6 +1,4 @@
-"""Whether the vehicle can carry the plan out: places and their order, boundaries, area, range and
-endurance, and where the plan leaves it.
-"""
+"""Whether the vehicle can carry the plan out: order, boundaries, area, range, endurance, return."""
 
 from __future__ import annotations
 
@@ -64,9 +62,7 @@ def _not_there(kind: str, task: TaskEntry, reason: str) -> Warning:
 
 
 def _elsewhere(tasks: list[TaskEntry], vocabulary: Vocabulary) -> Iterator[tuple[int, str]]:
-    """(index, reason) of tasks that the vehicle must be brought to, at a place that their prompt
-    names and no task before goes to.
-    """
+    """(index, reason) of tasks at a place of their prompt that no task before goes to."""
     progress, transit = START, vocabulary.transit
     for index, task in enumerate(tasks):
         known, text = vocabulary.task[task["title"]], task["task_prompt"]
@@ -83,9 +79,7 @@ def _elsewhere(tasks: list[TaskEntry], vocabulary: Vocabulary) -> Iterator[tuple
 def space_warnings(
     document: Mapping[str, Any], path: Track, vocabulary: Vocabulary
 ) -> Iterator[Warning]:
-    """Waypoints outside a boundary that is stated for them, outside the vehicle's area, or too far
-    away to come back from.
-    """
+    """Waypoints outside their boundary, outside the vehicle's area, or too far away to return."""
     tasks = {task["id"]: task for task in document["tasks"]}
     vehicle = document.get("vehicle") or {}
     for name, step, polygon in _boundaries(document, path, vocabulary):
@@ -133,9 +127,7 @@ def _too_far(
 def _boundaries(
     document: Mapping[str, Any], path: Track, vocabulary: Vocabulary
 ) -> Iterator[tuple[str, int | None, Any]]:
-    """(task, step or None for all of them, polygon): of filter skills, of task parameters, and of
-    the plan's constraints for every task.
-    """
+    """(task, step or None for all, polygon) of filter skills, task parameters and constraints."""
     for boundary in path.boundaries:
         yield boundary.task, boundary.step, _polygon(boundary.polygon)
     plan = [corners for text in document.get("constraints", ()) for corners in _corners(text)]
@@ -169,9 +161,7 @@ def _polygon(corners: Iterable[Any]) -> Any:
 
 @functools.lru_cache(maxsize=512)
 def _prepared(corners: tuple[Point, ...]) -> Any:
-    """The area inside, with what is its line still; corners in an order with crossing sides enclose
-    what any reading of them does.
-    """
+    """The area with its line; corners with crossing sides enclose every reading of them."""
     from shapely import Polygon, make_valid, prepare
 
     shape = Polygon(corners)

@@ -69,9 +69,7 @@ def _proposed(document: Mapping[str, Any], task: Mapping[str, Any]) -> list[dict
 def _unsaid_skills(
     task: Mapping[str, Any], proposed: list[dict[str, Any]], said: Facts, vocabulary: Vocabulary
 ) -> Iterator[Warning]:
-    """One warning per skill and parameter of a task. What an operator has changed is not the
-    model's own.
-    """
+    """One per skill and parameter of a task, unless an operator has changed the value."""
     steps = task.get("skill_sequence") or []
     if not steps or task.get("stale"):
         return
@@ -114,9 +112,7 @@ def _unsaid_skills(
 def _values(
     step: Mapping[str, Any], vocabulary: Vocabulary
 ) -> Iterator[tuple[str, Parameter, Any]]:
-    """Every value of a step's skills with its parameter; the two coordinates of a destination as
-    one.
-    """
+    """Values of a step's skills with parameters; a destination's coordinates as one."""
     for _role, skill in step_skills(step):
         known = vocabulary.skill[skill["name"]].by_name
         motion = vocabulary.motion.of(skill["name"])

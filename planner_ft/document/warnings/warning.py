@@ -6,9 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 Warning = dict[str, Any]
-"""{"id", "kind", "task", "parameter", "text"}. The id is made of kind, task and what it is about:
-edits elsewhere leave it as it is.
-"""
+"""{"id", "kind", "task", "parameter", "text"}; edits elsewhere leave the id as it is."""
 SERIOUS = (
     *("invalid-answer", "unresolved-location", "used-before-found", "not-at-place"),
     *("position-missing", "outside-boundary", "outside-area", "out-of-reach", "over-endurance"),
@@ -28,9 +26,7 @@ def warning(
     parameter: str | None = None,
     about: str = "",
 ) -> Warning:
-    """A warning about a task, one of its parameters, or the plan; `about` tells several of one kind
-    apart.
-    """
+    """A warning about a task, a parameter or the plan; `about` tells several of a kind apart."""
     name = task["id"] if task else None
     return {
         "id": ":".join(part for part in (kind, name, parameter, about) if part),

@@ -1,6 +1,4 @@
-"""The application: page, state, changes, events. Which requests come in at all is the guard's
-matter.
-"""
+"""The web application: page, state, changes, events. The guard decides which requests come in."""
 
 from __future__ import annotations
 
@@ -120,9 +118,7 @@ def _api_routes(session: Session) -> list[Route]:
         return StreamingResponse(session.events.listen(), media_type="text/event-stream")
 
     def change(method: Callable[..., Any], *keys: str) -> Route:
-        """A method of the session, asked for with POST: 200 with the state that it leads to, 202
-        when the agents are at work on it.
-        """
+        """POST to a method of the session: 200 with the new state, 202 while agents work."""
 
         async def answer(request: Request) -> Response:
             body = await _body(request)

@@ -18,9 +18,7 @@ MOST_WAITING = 1000
 
 
 class Events:
-    """Sent from any thread, heard in the server's loop. A page that comes while a command is
-    planned hears first what is known of its plan.
-    """
+    """Sent from any thread, heard in the server's loop; a new page starts with the plan so far."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()

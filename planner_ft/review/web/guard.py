@@ -39,9 +39,7 @@ ASK_THE_TERMINAL = (
 
 @dataclass
 class Keys:
-    """The key of a session, and one that opens it once: the command line of a browser, which others
-    on the machine can read, holds the latter.
-    """
+    """The key of a session, and one for a browser's command line, which opens it once."""
 
     session: str = field(default_factory=lambda: secrets.token_urlsafe(32))
     once: str | None = field(default_factory=lambda: secrets.token_urlsafe(32))
@@ -51,9 +49,7 @@ class Keys:
         return _same(key, self.session)
 
     def opens(self, key: str) -> bool:
-        """Whether this key opens the session: its own, or the one that does so once and is then
-        used up.
-        """
+        """Whether this key opens the session; the other key does so once."""
         if self.once is not None and _same(key, self.once):
             self.once = None
             return True
@@ -78,11 +74,7 @@ class Door:
         return f"plannerft_{self.port}"
 
     def knows(self, host: str) -> bool:
-        """Whether a Host header names this server.
-
-        On a wildcard address any IP address does: a name could be anybody's, an address cannot be
-        made to point elsewhere.
-        """
+        """Whether a Host header names this server; any IP address does on a wildcard."""
         name, _colon, port = host.rpartition(":")
         if port != str(self.port):
             return False
@@ -98,9 +90,7 @@ class Door:
         return self.keys.is_session(cookie) or self.is_bearer(request)
 
     def is_bearer(self, request: Request) -> bool:
-        """Whether a request has the session's key in its Authorization header: a program that was
-        given it, no page of another site.
-        """
+        """Whether the Authorization header has the session's key, which no other site has."""
         scheme, _space, key = request.headers.get("authorization", "").partition(" ")
         return scheme.lower() == "bearer" and self.keys.is_session(key)
 

@@ -1,6 +1,4 @@
-"""The agents behind the page: one thread that loads them at the start and then plans one command,
-or one task's skills, at a time.
-"""
+"""The agents behind the page: a thread that loads them, then plans one command or task."""
 
 from __future__ import annotations
 
@@ -29,9 +27,7 @@ class StoppedError(Exception):
 
 
 class Planning:
-    """`busy` is the agents' work now (None: nothing), `why` the sentence that says why they cannot
-    be asked.
-    """
+    """`busy` is the agents' work now (None: nothing), `why` says why they cannot be asked."""
 
     def __init__(self, settings: PlanSettings, events: Events, changed: Callable[[], None]) -> None:
         """`changed` is called when the agents are loaded, or not, and when their work is done."""
@@ -78,9 +74,7 @@ class Planning:
         }
 
     def ask(self, busy: dict[str, Any], work: Work) -> None:
-        """Have the agents do `work`, which reports its result itself. Raises BusyError while they
-        are at work, PlannerError when there are none.
-        """
+        """Have the agents do `work`. Raises BusyError, and PlannerError without agents."""
         with self._lock:
             if self.why is not None:
                 raise PlannerError(self.why)

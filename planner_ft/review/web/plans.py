@@ -25,9 +25,7 @@ def plan_names(folder: Path) -> list[str]:
 
 
 def add_plan(folder: Path, document: PlanDocument) -> Path:
-    """Write a new plan into a file of its own, named by the time (UTC). Raises PlannerError when it
-    cannot be written.
-    """
+    """Write a new plan into a file named by the time (UTC). Raises PlannerError."""
     stem = f"plan-{datetime.now(UTC):%Y%m%d-%H%M%S}"
     for number in count(1):
         path = folder / f"{stem}{f'-{number}' if number > 1 else ''}.json"

@@ -32,12 +32,9 @@ GRACE = 1
 
 
 def serve(plan: Path | None, settings: WebSettings) -> None:
-    """Serve the review of a plan, or of the plans to come, until Ctrl-C. Plans to come are for the
-    vehicle of the plan that is given.
+    """Serve the review of a plan, or of plans to come (for that plan's vehicle), until Ctrl-C.
 
-    Prints the address with its key, and opens it in the browser where there is a screen. Ends the
-    process itself when the agents are still at work. Raises PlannerError for a plan that cannot be
-    read and an address that cannot be listened on.
+    Ends the process itself when the agents are still at work. Raises PlannerError.
     """
     vocabulary = load_vocabulary(settings.planning.vocabulary)
     vehicle = Vehicle(**read_document(plan, vocabulary)["vehicle"]) if plan is not None else None
@@ -82,9 +79,7 @@ class _Server(uvicorn.Server):
 
 
 class _PromptProtocol(H11Protocol):
-    """Closes connections whose request does not come in within SLOWEST_REQUEST; uvicorn itself
-    waits for ever.
-    """
+    """Closes connections whose request is not in within SLOWEST_REQUEST; uvicorn waits for ever."""
 
     _limit: asyncio.TimerHandle | None = None
 
@@ -140,9 +135,7 @@ def _listening(settings: WebSettings) -> socket.socket:
 
 
 def _say_where(settings: WebSettings, door: Door) -> None:
-    """Print the address, warn where others can reach it, and open it. The browser gets a key that
-    opens the page once.
-    """
+    """Print the address, warn where others can reach it, and open it with the key for once."""
     if not settings.is_loopback:
         print(
             f"--host {settings.host}: others on the network can reach this page, and what it sends"

@@ -1,6 +1,4 @@
-"""A review in the browser: the plan on the disk, the approval log, the agents, and the events for
-every page.
-"""
+"""A review in the browser: plan and log on the disk, the agents, and events for every page."""
 
 from __future__ import annotations
 
@@ -41,12 +39,7 @@ State = dict[str, Any]
 
 @dataclass(frozen=True)
 class WebSettings:
-    """Address of the page, files and agents behind it.
-
-    `port` 0 takes a free one. `log` is the approval log: beside the plan by default. `folder` is
-    where new plans are written: that of the plan by default, else the current one. `planning` says
-    which agents plan and which vehicle this is about.
-    """
+    """Address, files and agents: `port` 0 is a free one, log and folder are the plan's."""
 
     host: str = LOOPBACK
     port: int = 0
@@ -72,9 +65,7 @@ class WebSettings:
 
 
 class Session:
-    """State and actions of the pages. Its methods raise PlannerError with the sentence that the
-    page shows, and may be called from any thread.
-    """
+    """State and actions of the pages, from any thread; a PlannerError is shown to people."""
 
     def __init__(
         self,
@@ -83,9 +74,7 @@ class Session:
         vocabulary: Vocabulary,
         vehicle: Vehicle | None = None,
     ) -> None:
-        """`plan` is shown first. `vehicle` is the one that new commands are planned for: the
-        vocabulary's own by default.
-        """
+        """`plan` is shown first; `vehicle` is for new commands, the vocabulary's own by default."""
         self.path, self.vocabulary, self.vehicle = plan, vocabulary, vehicle
         self.folder = settings.folder or (plan.parent if plan else Path())
         self.log = settings.log or log_beside(self.folder / "any")
@@ -95,9 +84,7 @@ class Session:
         self._shown: tuple[Any, State] = (None, {})
 
     def state(self) -> State:
-        """Everything that a page shows; the part of plan and log is computed anew when one of them
-        changed. Raises PlannerError when the plan cannot be read.
-        """
+        """What a page shows, computed anew when plan or log changed. Raises PlannerError."""
         now = self._signature()
         if self._shown[0] != now:
             self._shown = (now, self._plan_state())
@@ -151,9 +138,7 @@ class Session:
         return self._changed()
 
     def open(self, name: str) -> State:
-        """Show another plan of the folder. Raises PlannerError when there is none of that name, or
-        it cannot be read.
-        """
+        """Show another plan of the folder. Raises PlannerError."""
         if name not in plan_names(self.folder):
             raise PlannerError(f"{name}: is no plan in {self.folder}; choose one that is listed")
         read_document(self.folder / name, self.vocabulary)
@@ -161,9 +146,7 @@ class Session:
         return self._changed()
 
     def plan(self, command: str, locations: Mapping[str, Position]) -> None:
-        """Have a command planned; the plan is a file of its own, and is shown when it is done.
-        Raises BusyError.
-        """
+        """Have a command planned into a file of its own, shown when done. Raises BusyError."""
         if len(command) > LONGEST_COMMAND:
             raise PlannerError(
                 f"the command has {len(command)} characters, and at most {LONGEST_COMMAND} are"
@@ -180,9 +163,7 @@ class Session:
         self.planning.ask({"what": "planning", "label": "planning", "command": command}, work)
 
     def skills(self, revision: str, task: str) -> None:
-        """Have the Task Agent asked again for one task; its answer becomes an edit. Raises
-        BusyError, ChangedError.
-        """
+        """Ask the Task Agent again for a task, as an edit. Raises BusyError, ChangedError."""
         desk = self._desk(revision)
         asked = _task(desk.document, task)
         if is_open(asked, self.vocabulary):
@@ -202,9 +183,7 @@ class Session:
     # ------------------------------------------------------------ parts
 
     def _desk(self, revision: str | None = None) -> Desk:
-        """The plan as the review in the terminal has it, as it is on the disk now. Raises
-        ChangedError when it is of another revision than the given one.
-        """
+        """The plan as on the disk. Raises ChangedError when it is not of the given revision."""
         if self.path is None:
             raise ChangedError("there is no plan yet; plan a command first")
         desk = Desk(self.path, self.log, self.vocabulary, _no_agent)
@@ -223,9 +202,7 @@ class Session:
         return desk
 
     def _take_skills(self, path: Path, asked: dict[str, Any], edit: dict[str, Any]) -> None:
-        """Put the skills of a task into the plan, which may have been edited elsewhere since they
-        were asked for.
-        """
+        """Put a task's skills into the plan, which may have been edited meanwhile."""
         desk = self._desk()
         if desk.path != path:
             raise PlannerError(
@@ -287,9 +264,7 @@ class Session:
 
 
 def vocabulary_json(vocabulary: Vocabulary) -> dict[str, Any]:
-    """The vocabulary for the page: tasks and skills with their parameters, home, and the place that
-    stands for an unknown one.
-    """
+    """The vocabulary for the page: tasks, skills, home, and the place that is not known."""
 
     def described(entry: Any, *keys: str) -> dict[str, Any]:
         parameters = [asdict(parameter) for parameter in entry.parameters]
