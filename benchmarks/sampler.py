@@ -15,7 +15,8 @@ from collections import defaultdict
 from collections.abc import Callable
 from typing import Any
 
-from planner_ft.data.task import frames, geometry, sampler
+from planner_ft.data.task import frames, sampler
+from planner_ft.facts import geometry
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.definition import Vocabulary, load_vocabulary
 

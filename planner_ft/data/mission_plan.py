@@ -13,8 +13,8 @@ from random import Random
 from typing import Any
 
 from planner_ft.data.numbers import digits
-from planner_ft.data.task.geometry import Point, tidy
 from planner_ft.data.templates.grammar import Nodes, Slot, choose, parse_text
+from planner_ft.facts.geometry import Point, tidy
 from planner_ft.vocabulary import Task, Vocabulary
 
 DOCKING = "approach"

@@ -27,7 +27,6 @@ from planner_ft.data.mission_plan import (
 )
 from planner_ft.data.noise import noisy
 from planner_ft.data.numbers import WRITTEN, Value, digits, feet, knots, pick, position
-from planner_ft.data.task.geometry import Point
 from planner_ft.data.task.values import Draw, draw_point, value_space
 from planner_ft.data.templates.grammar import (
     Argument,
@@ -45,6 +44,7 @@ from planner_ft.data.templates.grammar import (
 from planner_ft.data.templates.records import Template, templates
 from planner_ft.data.templates.render import PIECE, article_for, is_small, joined, plain
 from planner_ft.data.wordlists import WordLists
+from planner_ft.facts.geometry import Point
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Parameter, Task, Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import MISSIONS

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from random import Random
 from typing import Any, TypeVar
 
-from planner_ft.data.task.geometry import Point, tidy
+from planner_ft.facts.geometry import Point, tidy
 
 T = TypeVar("T")
 

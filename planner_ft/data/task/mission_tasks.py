@@ -14,8 +14,8 @@ from random import Random
 from typing import Any
 
 from planner_ft.data.missions import sample_missions
-from planner_ft.data.task import geometry as g
 from planner_ft.data.task.steps import Step, entry_of, plan_step
+from planner_ft.facts import geometry as g
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import canonical_parameters, plan_problems

@@ -22,7 +22,6 @@ from planner_ft.data.numbers import (
     position,
     rotation,
 )
-from planner_ft.data.task import geometry as g
 from planner_ft.data.task.context import Builder, Context, Movement
 from planner_ft.data.task.phrasebook import Saying, Slots
 from planner_ft.data.task.steps import Step
@@ -36,6 +35,7 @@ from planner_ft.data.task.values import (
     draw_rotation,
 )
 from planner_ft.data.wordlists import joined
+from planner_ft.facts import geometry as g
 
 STOPS = 0.07
 """Share of waypoint movements with a hold at each point."""

@@ -13,8 +13,8 @@ from collections.abc import Callable
 from typing import Any
 
 from planner_ft.data.numbers import Value, pick, polygon, position, say_number
-from planner_ft.data.task.geometry import Point, point, tidy
 from planner_ft.data.wordlists import WordLists
+from planner_ft.facts.geometry import Point, point, tidy
 from planner_ft.vocabulary.definition import Parameter
 
 Draw = Callable[[random.Random], Value]

@@ -2,7 +2,7 @@
 
 import pytest
 
-from planner_ft.data.task import geometry as g
+from planner_ft.facts import geometry as g
 
 
 def test_survey_square_starts_mid_east_and_runs_counter_clockwise():

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from planner_ft.data.task import geometry as g
 from planner_ft.decoding.constraints.waypoints import Waypoints, read_waypoints
+from planner_ft.facts import geometry as g
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()

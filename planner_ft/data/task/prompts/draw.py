@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from typing import Any
 
 from planner_ft.data.numbers import Value, angle, count_text, length, rotation
-from planner_ft.data.task import geometry as g
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.prompts import shapes
 from planner_ft.data.task.prompts.binding import Bound, Call, Fill, Source, Step
@@ -16,6 +15,7 @@ from planner_ft.data.task.steps import Step as Move
 from planner_ft.data.task.steps import plan_step
 from planner_ft.data.task.template import mark
 from planner_ft.data.templates.grammar import Part, Slot, base_of, choose
+from planner_ft.facts import geometry as g
 from planner_ft.vocabulary.plans import canonical_parameters
 
 LINKED = 0.75  # share of stated values that the task's parameters hold too

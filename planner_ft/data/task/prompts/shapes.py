@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from planner_ft.data.numbers import COMPASS, Value, bearing, count_text, length, position, rotation
-from planner_ft.data.task import geometry as g
 from planner_ft.data.task.steps import Step
 from planner_ft.data.task.values import Draw, draw_bearing, draw_number, draw_point, draw_rotation
 from planner_ft.data.templates.grammar import TemplateError
+from planner_ft.facts import geometry as g
 
 COMPASS_WORDS = {name: degrees for degrees, name in COMPASS.items()}
 TURNS = {"clockwise": True, "counter-clockwise": False, "anticlockwise": False}
