@@ -88,14 +88,12 @@ def _check_kind(plan: Path | None, given: set[str]) -> None:
 
 def _export_plan(plan: Path, formats: tuple[str, ...], origin: str | None, *settings: Any) -> None:
     """`settings` are those of PlanExportSettings after the origin, in their order."""
-    from planner_ft.exporters.geodesy import parse_origin
-    from planner_ft.exporters.losses import loss_lines, loss_summary
-    from planner_ft.exporters.run import PlanExportSettings, export_plan
+    from planner_ft.exporters import parse_origin, run
 
     place = parse_origin(origin) if origin is not None else None
-    for one in export_plan(PlanExportSettings(plan, formats, place, *settings)):
-        typer.echo(f"{one.file}: {loss_summary(one.account)} (report: {one.report})")
-        for line in loss_lines(one.account):
+    for one in run.export_plan(run.PlanExportSettings(plan, formats, place, *settings)):
+        typer.echo(f"{one.file}: {run.loss_summary(one.account)} (report: {one.report})")
+        for line in run.loss_lines(one.account):
             typer.echo(f"  {line}")
 
 

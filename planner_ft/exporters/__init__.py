@@ -4,27 +4,9 @@
 holds, and a module per format writes it. `tables.toml` holds the reasons of losses.
 """
 
-from planner_ft.exporters.formats import (
-    DRAFT,
-    Format,
-    PlanExport,
-    Written,
-    format_names,
-    load_format,
-)
+from planner_ft.exporters.formats import DRAFT, Format, PlanExport, Written, load_format
 from planner_ft.exporters.geodesy import Origin, parse_origin
-from planner_ft.exporters.ledger import Account, Ledger, Loss
+from planner_ft.exporters.ledger import Account, Ledger
 
-__all__ = [
-    "DRAFT",
-    "Account",
-    "Format",
-    "Ledger",
-    "Loss",
-    "Origin",
-    "PlanExport",
-    "Written",
-    "format_names",
-    "load_format",
-    "parse_origin",
-]
+__all__ = ["DRAFT", "Account", "Format", "Ledger", "Origin", "PlanExport", "Written"]
+__all__ += ["load_format", "parse_origin"]

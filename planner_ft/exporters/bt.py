@@ -14,23 +14,14 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 from xml.etree import ElementTree
 
-from planner_ft.exporters.bt_nodes import (
-    FIXED,
-    RESERVED,
-    TABLE,
-    Node,
-    attribute,
-    model_element,
-    nodes_of,
-    plain_name,
-    plain_names,
-    printable,
-    readable,
-)
+from planner_ft.exporters import bt_nodes
+from planner_ft.exporters.bt_nodes import FIXED, TABLE, Node, attribute, plain_names, printable
 from planner_ft.exporters.formats import Format, PlanExport, Written
-from planner_ft.exporters.ledger import Ledger, Path
+from planner_ft.exporters.ledger import Path
 
 Element = ElementTree.Element
+Entry = Mapping[str, Any]
+"""A task, a step, a skill or an open place of a plan document."""
 UNTIL_FAILURE = "KeepRunningUntilFailure"
 NO_NOTES = ("title", "task_prompt", "parameters", "waits_for", "skill_sequence")
 """Keys of a task that are more than words in a comment."""
@@ -45,21 +36,23 @@ class _Tree:
     """Builds the file and keeps account of it."""
 
     def __init__(self, plan: PlanExport) -> None:
-        self.plan, self.document = plan, plan.document
-        self.ledger: Ledger = plan.ledger()
-        self.nodes = nodes_of(plan.vocabulary)
-        self.tasks, self.open = self.document["tasks"], self.document["open_places"]
+        self.plan, self.vocabulary, self.ledger = plan, plan.vocabulary, plan.ledger()
+        self.nodes = bt_nodes.nodes_of(plan.vocabulary)
+        self.tasks, self.open = plan.document["tasks"], plan.document["open_places"]
         ids = {node.id for node in self.nodes.all}
         self.labels = [f"{task['id']} {task['title']}" for task in self.tasks]
         self.trees = plain_names(self.labels, ids)
         ports = {port.name for node in self.nodes.all for port in node.ports.values()}
-        self.places = plain_names([place["name"] for place in self.open], {*RESERVED, *ports})
+        taken = {*bt_nodes.RESERVED, *ports}
+        self.places = plain_names([place["name"] for place in self.open], taken)
         self.finders = {place["name"]: self._finder(place) for place in self.open}
 
     def written(self) -> Written:
-        main = plain_name(self.plan.name, self.trees.values())
+        main = bt_nodes.plain_name(self.plan.name, self.trees.values())
         root = Element("root", BTCPP_format="4", main_tree_to_execute=main)
-        _add_comments(root, self._head())
+        heads = [self.plan.name, f"approval: {self.plan.mark}"]
+        heads.append(f"local frame: {self.vocabulary.frame}")
+        _add_comments(root, [*heads, *self.plan.head_words(self.ledger, TABLE["comment"])])
         tree = _add(root, "BehaviorTree", ID=main)
         sequence = _add(tree, "Sequence", name=printable(self.plan.name))
         for index in range(len(self.open)):
@@ -69,17 +62,17 @@ class _Tree:
             root.append(self._task(index))
         if not self.tasks:
             _add(sequence, "AlwaysSuccess")
-        root.append(model_element(self.nodes))
+        root.append(bt_nodes.model_element(self.nodes))
         ElementTree.indent(root)
         xml = ElementTree.tostring(root, encoding="unicode")
         return Written(f'<?xml version="1.0" encoding="UTF-8"?>\n{xml}\n', self.ledger.close())
 
-    def _finder(self, place: Mapping[str, Any]) -> int | None:
+    def _finder(self, place: Entry) -> int | None:
         """The last task (index from 0) before those that need an open place that searches it."""
         searches = [
             index
             for index, task in enumerate(self.tasks[: place["tasks"][0] - 1])
-            if task["title"] == self.plan.vocabulary.locate
+            if task["title"] == self.vocabulary.locate
             and place["name"] in (task["title"], *task["parameters"].values())
         ]
         return searches[-1] if searches else None
@@ -91,29 +84,28 @@ class _Tree:
         return [place["name"] for place in self.open if index + 1 in place["tasks"]]
 
     def _reach(self, sequence: Element, index: int) -> None:
-        """Add a task to the mission, and before it the question where its place is, where no search
-        says it.
-        """
+        """Add a task to the mission, after asking where its place is when no search says it."""
         waits = self._needed_by(index)
         for place in self.open:
             if self.finders[place["name"]] is None and place["tasks"][0] == index + 1:
                 self._locate(sequence, place["name"])
         names = [self.places[place] for place in (*waits, *self._found_by(index))]
         entries = {name: f"{{{name}}}" for name in names}
+        if not waits:
+            ports = self.nodes.tasks[self.tasks[index]["title"]].ports
+            given = {**self._parameters(index), **self._prompt(index)}
+            entries |= {ports[name].name: text for name, text in given.items()}
         label = self.labels[index]
-        given = {} if waits else self._given(index)
-        entries = {"ID": self.trees[label], "name": printable(label), **entries, **given}
-        _add(sequence, "SubTree", **entries)
+        _add(sequence, "SubTree", **{"ID": self.trees[label], "name": printable(label), **entries})
 
-    def _given(self, index: int) -> dict[str, str]:
-        """A task's prompt and parameters, as entries of its own blackboard."""
-        task, at = self.tasks[index], ("tasks", index)
-        ports = self.nodes.tasks[task["title"]].ports
-        values = self._values((*at, "parameters"), task["parameters"])
-        values["task_prompt"] = self._value((*at, "task_prompt"), task["task_prompt"])
-        return {ports[name].name: text for name, text in values.items()}
+    def _prompt(self, index: int) -> dict[str, str]:
+        path = ("tasks", index, "task_prompt")
+        return {"task_prompt": self._value(path, self.tasks[index]["task_prompt"])}
 
-    def _values(self, at: Path, parameters: Mapping[str, Any]) -> dict[str, str]:
+    def _parameters(self, index: int) -> dict[str, str]:
+        return self._values(("tasks", index, "parameters"), self.tasks[index]["parameters"])
+
+    def _values(self, at: Path, parameters: Entry) -> dict[str, str]:
         return {name: self._value((*at, name), value) for name, value in parameters.items()}
 
     def _value(self, path: Path, value: Any) -> str:
@@ -122,8 +114,8 @@ class _Tree:
         return text
 
     def _locate(self, parent: Element, place: str) -> None:
-        position = f"{{{self.places[place]}}}"
-        _leaf(parent, FIXED["LocatePlace"], {"place": readable(place)[0], "position": position})
+        ports = {"place": bt_nodes.readable(place)[0], "position": f"{{{self.places[place]}}}"}
+        _leaf(parent, FIXED["LocatePlace"], ports)
 
     # ------------------------------------------------------------ tasks
 
@@ -137,7 +129,7 @@ class _Tree:
             self._plan_on_board(sequence, index)
         else:
             for number, step in enumerate(task["skill_sequence"]):
-                self._step(sequence, (*at, "skill_sequence", number), step, f"step {number + 1}")
+                self._step(sequence, (*at, "skill_sequence", number), step)
         for place in self._found_by(index):
             self._locate(sequence, place)
         if not len(sequence):
@@ -148,10 +140,9 @@ class _Tree:
         """The task as one leaf, with its place from the blackboard while that is open."""
         task, at = self.tasks[index], ("tasks", index)
         waits = self._needed_by(index)
-        values = {"task_prompt": self._value((*at, "task_prompt"), task["task_prompt"])}
-        values |= self._values((*at, "parameters"), task["parameters"])
+        values = {**self._prompt(index), **self._parameters(index)}
         for name, value in task["parameters"].items():
-            if waits and value == list(self.plan.vocabulary.unresolved):
+            if waits and value == list(self.vocabulary.unresolved):
                 values[name] = f"{{{self.places[waits[0]]}}}"
                 self.ledger.carry(*at, "parameters", name, form=TABLE["given"])
         _leaf(sequence, self.nodes.tasks[task["title"]], values)
@@ -160,75 +151,6 @@ class _Tree:
         if (*at, "skill_sequence") in self.ledger:
             self.ledger.lose(*at, "skill_sequence", why=TABLE["open_skills"])
 
-    # ------------------------------------------------------------ steps
-
-    def _step(self, sequence: Element, at: Path, step: Mapping[str, Any], where: str) -> None:
-        label = printable(f"{where}: {step['navigation_skill']['name']}")
-        parent = sequence
-        if step["failure_modes"]:
-            parent = _add(sequence, "Fallback", name=f"{label}, or recover")
-        parallel = _add(parent, "Parallel", name=label, success_count="1", failure_count="1")
-        left = list(range(len(step["expected_outputs"])))
-        for number, skill in enumerate(step["filter_skills"]):
-            keep = _add(parallel, UNTIL_FAILURE)
-            self._skill(keep, (*at, "filter_skills", number), skill, step, left)
-        if step["perception_skills"]:
-            beside = _add(parallel, "Sequence", name="beside the movement")
-            together = _add(_add(beside, "ForceSuccess"), "ParallelAll", max_failures="1")
-            for number, skill in enumerate(step["perception_skills"]):
-                self._skill(together, (*at, "perception_skills", number), skill, step, left)
-            _add(_add(beside, UNTIL_FAILURE, name="until the step ends"), "AlwaysSuccess")
-        self._skill(parallel, (*at, "navigation_skill"), step["navigation_skill"], step, left)
-        for number in range(len(step["stop_conditions"])):
-            keep = _add(_add(parallel, "Inverter", name="stops when"), UNTIL_FAILURE)
-            self._text(_add(keep, "Inverter"), "StopCondition", at, "stop_conditions", step, number)
-        for number in range(len(step["failure_modes"])):
-            self._text(parent, "HandleFailure", at, "failure_modes", step, number)
-        for number in left:
-            self._text(sequence, "ReportOutput", at, "expected_outputs", step, number)
-
-    def _text(
-        self, parent: Element, name: str, at: Path, key: str, step: Mapping[str, Any], number: int
-    ) -> None:
-        """Add a fixed node whose only port holds a sentence of the step."""
-        (port,) = FIXED[name].ports
-        _leaf(parent, FIXED[name], {port: self._value((*at, key, number), step[key][number])})
-
-    def _skill(
-        self,
-        parent: Element,
-        at: Path,
-        skill: Mapping[str, Any],
-        step: Mapping[str, Any],
-        left: list[int],
-    ) -> None:
-        """Add a skill; an expected output that is the skill's own becomes its output port, and is
-        taken from `left`.
-        """
-        node = self.nodes.skills[skill["name"]]
-        values = self._values((*at, "parameters"), skill["parameters"])
-        self.ledger.carry(*at, "name")
-        own = self.plan.vocabulary.skill[skill["name"]].output
-        number = next((one for one in left if step["expected_outputs"][one] == own), None)
-        if number is not None:
-            values["output"] = f"{{{node.ports['output'].name}}}"
-            self.ledger.carry(*at[:4], "expected_outputs", number)
-            left.remove(number)
-        _leaf(parent, node, values)
-
-    # ------------------------------------------------------------ comments
-
-    def _head(self) -> Iterator[str]:
-        """The words of the plan as a whole."""
-        yield self.plan.name
-        yield f"approval: {self.plan.mark}"
-        yield f"local frame: {self.plan.vocabulary.frame}"
-        for path, item in self.ledger.items.items():
-            if path[0] not in ("tasks", "open_places"):
-                self.ledger.carry(*path, form=TABLE["comment"])
-                command = f"command: {self.document['command']}"
-                yield command if path == ("command",) else item.what
-
     def _notes(self, index: int) -> Iterator[str]:
         """The words of a task beside its title, its parameters and its skills."""
         for path, item in self.ledger.items.items():
@@ -236,14 +158,61 @@ class _Tree:
                 self.ledger.carry(*path, form=TABLE["comment"])
                 yield item.what
 
+    # ------------------------------------------------------------ steps
 
-def _add(parent: Element, tag: str, **attributes: str) -> Element:
+    def _step(self, sequence: Element, at: Path, step: Entry) -> None:
+        label = printable(f"step {int(at[-1]) + 1}: {step['navigation_skill']['name']}")
+        parent = sequence
+        if step["failure_modes"]:
+            parent = _add(sequence, "Fallback", name=f"{label}, or recover")
+        parallel = _add(parent, "Parallel", name=label, success_count="1", failure_count="1")
+        outputs = dict(enumerate(step["expected_outputs"]))
+        for number, skill in enumerate(step["filter_skills"]):
+            keep = _add(parallel, UNTIL_FAILURE)
+            self._skill(keep, (*at, "filter_skills", number), skill, outputs)
+        if step["perception_skills"]:
+            beside = _add(parallel, "Sequence", name="beside the movement")
+            together = _add(_add(beside, "ForceSuccess"), "ParallelAll", max_failures="1")
+            for number, skill in enumerate(step["perception_skills"]):
+                self._skill(together, (*at, "perception_skills", number), skill, outputs)
+            _add(_add(beside, UNTIL_FAILURE, name="until the step ends"), "AlwaysSuccess")
+        self._skill(parallel, (*at, "navigation_skill"), step["navigation_skill"], outputs)
+        for number, text in enumerate(step["stop_conditions"]):
+            keep = _add(_add(parallel, "Inverter", name="stops when"), UNTIL_FAILURE)
+            path = (*at, "stop_conditions", number)
+            self._text(_add(keep, "Inverter"), "StopCondition", path, text)
+        for number, text in enumerate(step["failure_modes"]):
+            self._text(parent, "HandleFailure", (*at, "failure_modes", number), text)
+        for number, text in outputs.items():
+            self._text(sequence, "ReportOutput", (*at, "expected_outputs", number), text)
+
+    def _text(self, parent: Element, name: str, path: Path, text: str) -> None:
+        """Add a fixed node whose only port holds a sentence of the step."""
+        (port,) = FIXED[name].ports
+        _leaf(parent, FIXED[name], {port: self._value(path, text)})
+
+    def _skill(self, parent: Element, at: Path, skill: Entry, outputs: dict[int, str]) -> None:
+        """Add a skill; an expected output that is its own becomes its output port, and is taken
+        from `outputs`.
+        """
+        node = self.nodes.skills[skill["name"]]
+        values = self._values((*at, "parameters"), skill["parameters"])
+        self.ledger.carry(*at, "name")
+        own = self.vocabulary.skill[skill["name"]].output
+        number = next((number for number, text in outputs.items() if text == own), None)
+        if number is not None:
+            values["output"] = f"{{{node.ports['output'].name}}}"
+            self.ledger.carry(*at[:4], "expected_outputs", number)
+            del outputs[number]
+        _leaf(parent, node, values)
+
+
+def _add(parent: Element, tag: str, /, **attributes: str) -> Element:
     return ElementTree.SubElement(parent, tag, attributes)
 
 
 def _leaf(parent: Element, node: Node, values: Mapping[str, str]) -> None:
-    attributes = {node.ports[key].name: text for key, text in values.items()}
-    ElementTree.SubElement(parent, node.id, attributes)
+    _add(parent, node.id, **{node.ports[key].name: text for key, text in values.items()})
 
 
 def _add_comments(parent: Element, lines: Iterable[str]) -> None:

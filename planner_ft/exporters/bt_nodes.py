@@ -22,7 +22,7 @@ from xml.etree import ElementTree
 from planner_ft.exporters.formats import TABLES
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.definition import Parameter, Skill, Task
+from planner_ft.vocabulary.definition import Skill, Task
 
 TABLE: dict[str, Any] = TABLES["bt"]
 RESERVED = frozenset({"name", "ID"})
@@ -37,7 +37,7 @@ class Port:
     name: str
     type: str
     description: str
-    output: bool = False
+    tag: str = "input_port"
 
 
 @dataclass(frozen=True)
@@ -50,22 +50,22 @@ class Node:
     kind: str = "Action"
 
 
-def _fixed(name: str, entry: Mapping[str, Any]) -> Node:
-    ports = {key: Port(key, *port) for key, port in entry["ports"].items()}
-    ports |= {
-        key: Port(key, port[0], port[1], True) for key, port in entry.get("outputs", {}).items()
-    }
-    return Node(name, entry["description"], ports, entry.get("kind", "Action"))
-
-
-FIXED = {name: _fixed(name, entry) for name, entry in TABLE["nodes"].items()}
+FIXED = {
+    name: Node(
+        name,
+        entry["description"],
+        {key: Port(key, *port) for key, port in entry["ports"].items()},
+        entry.get("kind", "Action"),
+    )
+    for name, entry in TABLE["nodes"].items()
+}
 """The nodes that every plan needs: StopCondition, HandleFailure, ReportOutput, LocatePlace."""
 
 
 @dataclass(frozen=True)
 class Nodes:
-    """A node per skill, by its name, and per task, by its title: the latter plans the task's skills
-    on board and runs them.
+    """A node per skill, by its name, and per task, by its title, which plans the task's skills on
+    board and runs them.
     """
 
     skills: Mapping[str, Node]
@@ -81,20 +81,14 @@ class Nodes:
 def nodes_of(vocabulary: Vocabulary) -> Nodes:
     """The nodes of a vocabulary."""
     taken = {*TABLE["built_in"].split(), *FIXED}
-    skills = plain_names([skill.name for skill in vocabulary.skills], taken)
-    titles = [f"Plan{task.title}" for task in vocabulary.tasks]
-    tasks = plain_names(titles, {*taken, *skills.values()})
-    on_board = "plans the skills of this task on board and runs them: "
-    return Nodes(
-        {
-            one.name: Node(skills[one.name], one.description, _ports(one))
-            for one in vocabulary.skills
-        },
-        {
-            one.title: Node(tasks[f"Plan{one.title}"], on_board + one.description, _ports(one))
-            for one in vocabulary.tasks
-        },
-    )
+    ids = plain_names([skill.name for skill in vocabulary.skills], taken)
+    skills = {s.name: Node(ids[s.name], s.description, _ports(s)) for s in vocabulary.skills}
+    ids = plain_names([f"Plan{task.title}" for task in vocabulary.tasks], {*taken, *ids.values()})
+    tasks = {
+        task.title: Node(ids[f"Plan{task.title}"], TABLE["plan"] + task.description, _ports(task))
+        for task in vocabulary.tasks
+    }
+    return Nodes(skills, tasks)
 
 
 def model_element(nodes: Nodes) -> ElementTree.Element:
@@ -104,18 +98,18 @@ def model_element(nodes: Nodes) -> ElementTree.Element:
         element = ElementTree.SubElement(model, node.kind, ID=node.id)
         for port in node.ports.values():
             attributes = {"name": port.name, **({"type": port.type} if port.type else {})}
-            tag = "output_port" if port.output else "input_port"
-            ElementTree.SubElement(element, tag, attributes).text = port.description
+            ElementTree.SubElement(element, port.tag, attributes).text = port.description
         ElementTree.SubElement(element, "description").text = node.description
     return model
 
 
 def _ports(owner: Skill | Task) -> dict[str, Port]:
     names = plain_names([*owner.by_name, "task_prompt"], RESERVED)
-    ports = {
-        one.name: Port(names[one.name], TABLE["port_types"][one.type], _described(one))
-        for one in owner.parameters
-    }
+    ports = {}
+    for one in owner.parameters:
+        parts = (one.description, one.unit, TABLE["layouts"].get(one.type))
+        words = ", ".join(part for part in parts if part)
+        ports[one.name] = Port(names[one.name], TABLE["port_types"][one.type], words)
     if isinstance(owner, Task):
         prompt = Port(names["task_prompt"], "std::string", "the whole intent of the task")
         return {**ports, "task_prompt": prompt}
@@ -124,13 +118,8 @@ def _ports(owner: Skill | Task) -> dict[str, Port]:
         taken = {*RESERVED, *names.values()}
         name = owner.output + ("_out" if plain_name(owner.output) in taken else "")
         words = f"what the skill gives: {owner.output}"
-        ports["output"] = Port(plain_name(name, taken), "", words, output=True)
+        ports["output"] = Port(plain_name(name, taken), "", words, "output_port")
     return ports
-
-
-def _described(parameter: Parameter) -> str:
-    parts = (parameter.description, parameter.unit, TABLE["layouts"].get(parameter.type))
-    return ", ".join(part for part in parts if part)
 
 
 # ------------------------------------------------------------ names and values
@@ -162,9 +151,7 @@ def printable(text: str) -> str:
 
 
 def readable(text: str) -> tuple[str, str]:
-    """(the text as an attribute can hold it, how that differs from the plan's; "" where it does
-    not).
-    """
+    """(the text as an attribute can hold it, how that differs from the plan's or "")."""
     clean = printable(text)
     inner = clean.strip(" ")
     if len(inner) > 2 and inner[0] == "{" and inner[-1] == "}":
@@ -175,9 +162,7 @@ def readable(text: str) -> tuple[str, str]:
 
 
 def attribute(value: Any) -> tuple[str, str]:
-    """(a parameter's value as an attribute's text, how that differs from the value; "" where it
-    does not).
-    """
+    """(a parameter's value as an attribute's text, how that differs from the value or "")."""
     if isinstance(value, str):
         return readable(value)
     if isinstance(value, int | float) and not isinstance(value, bool):

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import functools
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
@@ -25,25 +25,17 @@ if TYPE_CHECKING:
     from planner_ft.document.track import Track
 
 GROUP = "planner_ft.formats"
-BUNDLED = {
-    "qgc": "planner_ft.exporters.mavlink:QGC",
-    "waypoints": "planner_ft.exporters.mavlink:WAYPOINTS",
-    "geojson": "planner_ft.exporters.geojson:FORMAT",
-    "bt": "planner_ft.exporters.bt:FORMAT",
-    "moos": "planner_ft.exporters.moos:FORMAT",
-}
 DRAFT = "DRAFT - NOT APPROVED"
-TABLES: dict[str, Any] = tomllib.loads(
-    Path(__file__).with_name("tables.toml").read_text(encoding="utf-8")
-)
+TABLES: dict[str, Any] = tomllib.loads(Path(__file__).with_name("tables.toml").read_text("utf-8"))
+BUNDLED: dict[str, str] = TABLES["formats"]
 
 
 @dataclass(frozen=True)
 class PlanExport:
     """A plan on its way to a vehicle.
 
-    `origin` is where [0, 0] lies, None where the format does not need it and it was not given.
-    `approval` says in one sentence who approved the plan and when; it is None for a draft.
+    `origin`, where [0, 0] lies, is None only for formats that do not need it. `approval` says in
+    one sentence who approved the plan and when; it is None for a draft.
     """
 
     document: dict[str, Any]
@@ -71,10 +63,8 @@ class PlanExport:
 
     @functools.cached_property
     def blocked(self) -> tuple[int, str] | None:
-        """(index from 0 of the first task that waits for a place or for its skills, why), or None.
-
-        A format that cannot wait carries no task from here on. A task that says its movement
-        without skills (a transit) waits for none.
+        """(index from 0 of the first task that waits for a place or for its skills, why), or None:
+        a format that cannot wait carries no task from here on.
         """
         for index, task in enumerate(self.document["tasks"]):
             name, place = task["id"], task.get("waits_for")
@@ -97,9 +87,15 @@ class PlanExport:
 
     def lose_blocked(self, ledger: Ledger) -> None:
         """Enter the tasks from the first blocked one on as lost."""
-        if self.blocked:
-            for index in range(self.ready, len(self.document["tasks"])):
-                ledger.lose("tasks", index, why=self.blocked[1])
+        for index in range(self.ready, len(self.document["tasks"])):
+            ledger.lose("tasks", index, why=self.blocked[1] if self.blocked else "")
+
+    def head_words(self, ledger: Ledger, form: str) -> Iterator[str]:
+        """The words of the plan as a whole, which are entered as carried in this form."""
+        for path, item in ledger.items.items():
+            if path[0] not in ("tasks", "open_places"):
+                ledger.carry(*path, form=form)
+                yield f"command: {self.document['command']}" if path[0] == "command" else item.what
 
 
 @dataclass(frozen=True)
@@ -112,10 +108,8 @@ class Written:
 
 @dataclass(frozen=True)
 class Format:
-    """A file format for approved plans.
-
-    `extension` begins with a dot. `write` may raise PlannerError for a plan that the format cannot
-    take at all. `PlanExport.origin` is never None for a format that `needs_origin`.
+    """A file format for approved plans; `extension` begins with a dot. `write` may raise
+    PlannerError for a plan that the format cannot take at all.
     """
 
     name: str
@@ -140,10 +134,8 @@ def load_format(name: str) -> Format:
     try:
         loaded = entry.load()
     except (ImportError, AttributeError) as error:
-        raise PlannerError(
-            f"{about} cannot be loaded ({error}); install what it needs, or the package that adds"
-            " it anew"
-        ) from error
+        hint = "install what it needs, or the package that adds it anew"
+        raise PlannerError(f"{about} cannot be loaded ({error}); {hint}") from error
     if not isinstance(loaded, Format):
         raise PlannerError(f"{about} is no planner_ft.exporters.Format; ask whoever wrote it")
     return loaded

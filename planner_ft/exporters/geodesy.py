@@ -18,8 +18,7 @@ from planner_ft.support.errors import PlannerError
 if TYPE_CHECKING:
     from pyproj import Geod
 
-NEAREST_POLE = 89.0
-"""Degrees of latitude beyond which there is no useful north for the local frame's y axis."""
+NEAREST_POLE = 89.0  # degrees of latitude beyond which the local frame's y axis has no useful north
 
 
 @functools.cache
@@ -43,15 +42,12 @@ class Origin:
         if not (north <= 90 and east <= 180):  # also where one is no number
             swapped = north <= 180 and east <= 90
             hint = "; the two may stand in the wrong order: latitude comes first" if swapped else ""
-            raise PlannerError(
-                f"{given}: a latitude lies between -90 and 90 degrees, a longitude between -180 and"
-                f" 180{hint}"
-            )
+            ranges = "a latitude lies between -90 and 90 degrees, a longitude between -180 and 180"
+            raise PlannerError(f"{given}: {ranges}{hint}")
         if north > NEAREST_POLE:
-            raise PlannerError(
-                f"{given}: too near a pole, where the local frame has no north; latitudes up to"
-                f" {NEAREST_POLE:g} degrees can be used"
-            )
+            limit = f"latitudes up to {NEAREST_POLE:g} degrees can be used"
+            why = "too near a pole, where the local frame has no north"
+            raise PlannerError(f"{given}: {why}; {limit}")
 
     def to_geographic(self, x: float, y: float) -> tuple[float, float]:
         """(latitude, longitude) in degrees, `x` metres east and `y` metres north of the origin."""
@@ -71,8 +67,7 @@ def parse_origin(text: str) -> Origin:
     try:
         latitude, longitude = (float(part) for part in text.split(","))
     except ValueError:
-        raise PlannerError(
-            f'--origin {text}: expected "LAT,LON" in decimal degrees, such as 59.9075,10.7231'
-            " (south and west are negative)"
-        ) from None
+        expected = 'expected "LAT,LON" in decimal degrees, such as 59.9075,10.7231'
+        hint = "south and west are negative"
+        raise PlannerError(f"--origin {text}: {expected} ({hint})") from None
     return Origin(latitude, longitude)

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.document.track import Circle, Leg, Point
-from planner_ft.exporters.formats import Format, PlanExport, Written
+from planner_ft.exporters.formats import TABLES, Format, PlanExport, Written
 from planner_ft.exporters.geodesy import Origin
 from planner_ft.support.files import indented_json
 
@@ -21,20 +22,10 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
 Feature = dict[str, Any]
-PLAN_KEYS = (
-    *("command", "vehicle", "assumptions", "constraints", "open_places", "located"),
-    *("problems", "warnings"),
-)
-TASK_KEYS = (
-    *("title", "parameters", "task_prompt", "skill_sequence", "waits_for", "stale", "located"),
-    *("assumptions", "problems"),
-)
-CORNERS = 72
-"""Of a circle."""
-DIGITS = 9
-"""Decimal places of degrees: a tenth of a millimetre."""
-LAWNMOWER = "lawnmower"
-"""The pattern of a task that covers an area (see the vocabulary's definition)."""
+TABLE: dict[str, list[str]] = TABLES["geojson"]
+CORNERS = 72  # of a circle
+DIGITS = 9  # decimal places of degrees: a tenth of a millimetre
+LAWNMOWER = "lawnmower"  # the pattern of a task that covers an area (vocabulary definition)
 
 
 def write(plan: PlanExport) -> Written:
@@ -56,7 +47,7 @@ class _Drawing:
 
     def features(self) -> Iterator[Feature]:
         """The plan, then its tasks with their waypoints, then the surroundings."""
-        track = self.plan.track
+        track, area = self.plan.track, self.document["vehicle"]["area"]
         yield self._plan()
         for number, task in enumerate(self.document["tasks"], start=1):
             legs = [leg for leg in track.legs if leg.task == task["id"] and leg.points]
@@ -64,47 +55,35 @@ class _Drawing:
             yield from map(self._waypoint, legs)
             yield from self._grid(task, legs)
         for target in track.targets:
-            known = target.position is not None
-            points = [target.position] if target.position else []
-            words: Feature = {"name": target.name, "task": target.task, "located": known}
-            yield self._feature("target", points, **words)
+            points = [target.position] if target.position is not None else []
+            words: Feature = {"name": target.name, "task": target.task, "located": bool(points)}
+            yield self._feature("target", points, words)
         for boundary in track.boundaries:
             words = {"task": boundary.task, "step": boundary.step + 1}
-            yield self._feature("boundary", boundary.polygon, ring=True, **words)
-        if self.document["vehicle"]["area"]:
-            yield self._feature("area", self.document["vehicle"]["area"], ring=True)
+            yield self._feature("boundary", boundary.polygon, words, ring=True)
+        if area:
+            yield self._feature("area", area, {}, ring=True)
         for circle in track.circles:
-            words = {"task": circle.task, "center": list(circle.center)}
-            words |= {"radius": circle.radius, "arc": circle.arc}
-            yield self._feature("stand-off", _corners(circle), ring=True, **words)
+            yield self._feature("stand-off", _corners(circle), asdict(circle), ring=True)
 
     def _plan(self) -> Feature:
-        words = {
-            "name": self.plan.name,
-            "approval": self.plan.mark,
-            "digest": self.document["digest"],
-            "vocabulary": self.document["vocabulary"]["name"],
-            "origin": {"latitude": self.origin.latitude, "longitude": self.origin.longitude},
-        }
-        words |= {key: self.document[key] for key in PLAN_KEYS if key in self.document}
-        return self._feature("plan", [], **words)
+        words: Feature = {"name": self.plan.name, "approval": self.plan.mark}
+        words["digest"] = self.document["digest"]
+        words |= {"vocabulary": self.document["vocabulary"]["name"], "origin": asdict(self.origin)}
+        words |= {key: self.document[key] for key in TABLE["plan"] if key in self.document}
+        return self._feature("plan", [], words)
 
     def _task(self, number: int, task: dict[str, Any], legs: Sequence[Leg]) -> Feature:
         points: list[Point] = []
         for leg in legs:
             points += leg.points if leg.points[:1] != tuple(points[-1:]) else leg.points[1:]
-        words = {key: task[key] for key in TASK_KEYS if key in task}
-        return self._feature("task", points, task=task["id"], number=number, **words)
+        words = {key: task[key] for key in TABLE["task"] if key in task}
+        return self._feature("task", points, {"task": task["id"], "number": number, **words})
 
     def _waypoint(self, leg: Leg) -> Feature:
-        words: Feature = {
-            "task": leg.task,
-            "step": leg.step + 1,
-            "skill": leg.skill,
-            "motion": leg.kind,
-        }
-        words |= {"metres": leg.metres, "seconds": leg.seconds}
-        return self._feature("waypoint", [leg.points[-1]], **words)
+        words: Feature = {"task": leg.task, "step": leg.step + 1, "skill": leg.skill}
+        words |= {"motion": leg.kind, "metres": leg.metres, "seconds": leg.seconds}
+        return self._feature("waypoint", [leg.points[-1]], words)
 
     def _grid(self, task: dict[str, Any], legs: Sequence[Leg]) -> Iterator[Feature]:
         """The area that the lanes of a survey span."""
@@ -115,10 +94,11 @@ class _Drawing:
             ends = [leg.points[-1] for leg in legs if leg.kind == "go"]
             hull = shapely.MultiPoint(ends).convex_hull
             if isinstance(hull, shapely.Polygon) and not hull.is_empty:
-                yield self._feature("grid", hull.exterior.coords[:-1], ring=True, task=task["id"])
+                corners = hull.exterior.coords[:-1]
+                yield self._feature("grid", corners, {"task": task["id"]}, ring=True)
 
     def _feature(
-        self, kind: str, points: Sequence[Sequence[float]], *, ring: bool = False, **words: Any
+        self, kind: str, points: Sequence[Sequence[float]], words: Feature, *, ring: bool = False
     ) -> Feature:
         local = [list(point) for point in points]
         geometry = _geometry([self._place(x, y) for x, y in local], ring) if local else None
@@ -161,8 +141,7 @@ def _cut(shape: BaseGeometry) -> BaseGeometry:
         pieces = shapely.get_parts(translate(whole.intersection(window), -360 * turn))
         same = [piece for piece in pieces if piece.geom_type == shape.geom_type]
         parts += [piece for piece in same if not piece.is_empty]
-    if not parts:
-        # A polygon without an inside.
+    if not parts:  # a polygon without an inside
         return translate(shape, -360 * round(shape.bounds[0] / 360))
     several = getattr(shapely, f"Multi{shape.geom_type}")
     return shapely.orient_polygons(parts[0] if len(parts) == 1 else several(parts))

@@ -21,9 +21,7 @@ LISTS = ("stop_conditions", "failure_modes", "expected_outputs")
 
 @dataclass(frozen=True)
 class Item:
-    """One thing that a plan says: its place, the task's id (None: of the whole plan), the words
-    for it, and the step (from 1).
-    """
+    """One thing that a plan says, of which task's id (None: the whole plan) and step (from 1)."""
 
     path: Path
     task: str | None
@@ -33,9 +31,7 @@ class Item:
 
 @dataclass(frozen=True)
 class Loss:
-    """Something that a file does not hold as the plan says it: of which task (None: of the whole
-    plan), what, and why or how.
-    """
+    """Something of a task (None: the whole plan) that a file holds otherwise or not, and why."""
 
     task: str | None
     what: str
@@ -70,17 +66,13 @@ class Ledger:
         return path in self._below
 
     def carry(self, *path: str | int, form: str = "") -> None:
-        """The file holds this; `form` says how, where it is not as the plan says it. Raises
-        KeyError where the plan says nothing.
-        """
+        """The file holds this, in another `form` if one is given. Raises KeyError for no item."""
         for item in self._below[path]:
             self._carried[item] = form
             self._lost.pop(item, None)
 
     def lose(self, *path: str | int, why: str) -> None:
-        """The file does not hold this, unless it is carried already. Raises KeyError where the
-        plan says nothing.
-        """
+        """The file does not hold this, unless it is carried already. Raises KeyError for no item."""
         for item in self._below[path]:
             if item not in self._carried:
                 self._lost[item] = why
@@ -89,13 +81,8 @@ class Ledger:
         """The account; `why` is the reason for losing items that were never mentioned."""
         lost = {path: self._lost.get(path, why) for path in self.items if path not in self._carried}
         changed = {path: self._carried[path] for path in self.items if self._carried.get(path)}
-        return Account(
-            frozenset(self._carried),
-            self._losses(changed),
-            self._losses(lost),
-            frozenset(changed),
-            frozenset(lost),
-        )
+        losses = self._losses(changed), self._losses(lost)
+        return Account(frozenset(self._carried), *losses, frozenset(changed), frozenset(lost))
 
     def _losses(self, entries: Mapping[Path, str]) -> tuple[Loss, ...]:
         """One loss per task and reason, in the plan's order; equal words of several steps once."""
@@ -132,8 +119,7 @@ def plan_items(document: dict[str, Any]) -> Iterator[Item]:
     yield Item(("command",), None, "the command")
     for key, value in document["vehicle"].items():
         if value is not None:
-            words = f"the vehicle's {key.replace('_', ' ')}: {_words(value)}"
-            yield Item(("vehicle", key), None, words)
+            yield Item(("vehicle", key), None, f"the vehicle's {_named(key, value)}")
     for index, task in enumerate(document["tasks"]):
         for path, what in _task_items(task):
             yield Item(("tasks", index, *path), task["id"], what)
@@ -159,7 +145,7 @@ def _task_items(task: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:
         yield ("parameters", key), f"{key} = {_words(value)}"
     for key in ("waits_for", "stale"):
         if task.get(key):
-            yield (key,), f"{key.replace('_', ' ')}: {_words(task[key])}"
+            yield (key,), _named(key, task[key])
     for key, place in task.get("located", {}).items():
         yield ("located", key), f"{key} is the place of {place}"
     for key in ("assumptions", "problems"):
@@ -181,7 +167,11 @@ def _step_items(step: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:
 def _texts(owner: Mapping[str, Any], key: str) -> Iterator[tuple[Path, str]]:
     """The sentences of a list: "stop_conditions" are "stop condition: ..."."""
     for index, text in enumerate(owner.get(key, ())):
-        yield (key, index), f"{key[:-1].replace('_', ' ')}: {text}"
+        yield (key, index), _named(key[:-1], text)
+
+
+def _named(key: str, value: Any) -> str:
+    return f"{key.replace('_', ' ')}: {_words(value)}"
 
 
 def _words(value: Any) -> str:

@@ -16,29 +16,24 @@ source (Rover/mode_auto.cpp):
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from planner_ft.document.track import Leg, Point, bearing
 from planner_ft.exporters.formats import TABLES, PlanExport
-from planner_ft.exporters.geodesy import Origin
-from planner_ft.exporters.ledger import Ledger, Path
+from planner_ft.exporters.ledger import Path
 from planner_ft.support.errors import PlannerError
 
-NAV_WAYPOINT = 16
-NAV_LOITER_UNLIM = 17
-NAV_LOITER_TIME = 19
-DO_CHANGE_SPEED = 178
-NAV_SET_YAW_SPEED = 213
+NAV_WAYPOINT, NAV_LOITER_UNLIM, NAV_LOITER_TIME = 16, 17, 19
+DO_CHANGE_SPEED, NAV_SET_YAW_SPEED = 178, 213
 """MAV_CMD values (https://mavlink.io/en/messages/common.html#mav_commands)."""
 FRAME_GLOBAL, FRAME_MISSION, FRAME_RELATIVE_ALTITUDE = 0, 2, 3
 """MAV_FRAME values."""
 SURFACE_BOAT, QUADROTOR = 11, 2
 """MAV_TYPE values."""
 LONGEST_HOLD = 32767
-WIDEST_TURN = 120.0
-"""Degrees that one item turns at most: the vehicle takes the shorter way."""
+WIDEST_TURN = 120.0  # degrees that one item turns at most: the vehicle takes the shorter way
 REASONS, BY_MOTION = TABLES["mission"]["reasons"], TABLES["mission"]["motion"]
 WORDS: str = TABLES["mission"]["words"]
 
@@ -49,9 +44,7 @@ Polygon = tuple[tuple[float, float], ...]
 
 @dataclass(frozen=True)
 class MissionItem:
-    """One item: a MAV_CMD, its first four parameters, and degrees and metres where it has a
-    place.
-    """
+    """A MAV_CMD, its first four parameters, and degrees and metres where it has a place."""
 
     command: int
     parameters: tuple[float, float, float, float] = (0, 0, 0, 0)
@@ -66,55 +59,44 @@ class MissionItem:
         return [*self.parameters, self.latitude, self.longitude, self.altitude]
 
 
-@dataclass(frozen=True)
+def build_mission(plan: PlanExport, *, fences: bool) -> Mission:
+    """The mission of a plan, up to the first task that waits. Raises PlannerError where no item is
+    left.
+    """
+    mission = Mission(plan)
+    for index in range(plan.ready):
+        mission.write_task(index)
+    if not mission.items:
+        why = plan.blocked[1] if plan.blocked else "it has no movement that a mission can hold"
+        raise PlannerError(f"nothing of the plan can be written as a mission: {why}")
+    if fences:
+        mission.write_fences()
+    plan.lose_blocked(mission.ledger)
+    return mission
+
+
 class Mission:
     """The items of a plan, the polygons that fence it in and its home as (latitude, longitude), and
     the account, still open.
 
     `vehicle_type` is a MAV_TYPE: a surface boat, or a quadrotor for a vocabulary whose vehicle has
-    altitudes.
-    """
-
-    items: tuple[MissionItem, ...]
-    fences: tuple[Polygon, ...]
-    home: tuple[float, float]
-    vehicle_type: int
-    ledger: Ledger
-
-
-def build_mission(plan: PlanExport, *, fences: bool) -> Mission:
-    """The mission of a plan, up to the first task that waits. Raises PlannerError where no item is
-    left.
-    """
-    writer = _Writer(plan)
-    for index in range(plan.ready):
-        writer.write_task(index)
-    if not writer.items:
-        no_item = "it has no movement that a mission can hold"
-        why = plan.blocked[1] if plan.blocked else no_item
-        raise PlannerError(f"nothing of the plan can be written as a mission: {why}")
-    polygons = writer.write_fences() if fences else ()
-    plan.lose_blocked(writer.ledger)
-    vehicle = QUADROTOR if writer.flies else SURFACE_BOAT
-    home = writer.place(*plan.vocabulary.home)
-    return Mission(tuple(writer.items), polygons, home, vehicle, writer.ledger)
-
-
-class _Writer:
-    """Writes item after item and keeps account; `heading` is where the bow points, None while that
-    is not known.
+    altitudes. `heading` is where the bow points, None while that is not known.
     """
 
     def __init__(self, plan: PlanExport) -> None:
         assert plan.origin is not None
-        self.origin: Origin = plan.origin
-        self.vocabulary, self.motions = plan.vocabulary, plan.vocabulary.motion
-        self.vehicle = plan.document["vehicle"]
+        self.origin, self.vocabulary = plan.origin, plan.vocabulary
+        self.motions, self.vehicle = plan.vocabulary.motion, plan.document["vehicle"]
         self.tasks = plan.document["tasks"][: plan.ready]
         moves = [motion for motion in self.motions.skills.values() if motion.kind == "go"]
         self.flies = any("altitude" in motion.parameters for motion in moves)
+        self.vehicle_type = QUADROTOR if self.flies else SURFACE_BOAT
         self.legs = {(leg.task, leg.step): leg for leg in plan.track.legs}
         self.items: list[MissionItem] = []
+        self.fences: tuple[Polygon, ...] = ()
+        area: list[tuple[Path, Sequence[Point]]] = [(("vehicle", "area"), self.vehicle["area"])]
+        self.boundaries = area if self.vehicle["area"] else []
+        self.home = self.place(*plan.vocabulary.home)
         self.way: list[Point] = [plan.vocabulary.home]
         self.heading: float | None = None
         self.speed = self.vehicle["cruise_speed"]
@@ -130,52 +112,36 @@ class _Writer:
 
     def write_task(self, index: int) -> None:
         """Write the steps of a task; a task without skills goes where its parameters say."""
-        task, at = self.tasks[index], ("tasks", index)
-        first = len(self.way)
+        task, at, first = self.tasks[index], ("tasks", index), len(self.way)
+        known = self.vocabulary.task.get(task["title"])
         self._change_speed(task, at)
         for number, step in enumerate(task["skill_sequence"] or ()):
             leg = self.legs.get((task["id"], number))
             self._write_step((*at, "skill_sequence", number), step, leg)
         if task["skill_sequence"] is None:
             self._go(self.legs[task["id"], 0])
-        known = self.vocabulary.task.get(task["title"])
         name = known.position_parameter if known else None
         goal = task["parameters"].get(name) if name else None
         if name and goal and any(math.dist(goal, point) < 0.01 for point in self.way[first:]):
             self.ledger.carry(*at, "parameters", name)
 
-    def write_fences(self) -> tuple[Polygon, ...]:
-        """The boundaries and the vehicle's area that hold the whole mission; others cannot be
-        fences.
-        """
+    def write_fences(self) -> None:
+        """Fence the mission by the boundaries and the vehicle's area that hold all of it."""
         import shapely
 
         way = shapely.LineString([*self.way, self.way[-1]])
         fences: dict[tuple[Point, ...], None] = {}
-        for path, corners in self._boundaries():
+        for path, corners in self.boundaries:
             polygon = shapely.Polygon(corners)
             if not polygon.is_valid:
-                self.ledger.lose(*path, why="its sides cross, and a fence's may not")
+                self.ledger.lose(*path, why=TABLES["mission"]["crossed"])
             elif not polygon.covers(way):
-                why = "a fence holds for the whole mission, and the mission leaves this one"
-                self.ledger.lose(*path, why=why)
+                self.ledger.lose(*path, why=TABLES["mission"]["left"])
             else:
-                self.ledger.carry(*path, form="as an inclusion fence of the whole mission")
+                self.ledger.carry(*path, form=TABLES["mission"]["fence"])
                 ring = shapely.orient_polygons(polygon, exterior_cw=True).exterior
                 fences[tuple(ring.coords)[:-1]] = None
-        return tuple(tuple(self.place(*corner) for corner in corners) for corners in fences)
-
-    def _boundaries(self) -> Iterator[tuple[Path, Sequence[Point]]]:
-        if self.vehicle["area"]:
-            yield ("vehicle", "area"), self.vehicle["area"]
-        for index, task in enumerate(self.tasks):
-            for number, step in enumerate(task["skill_sequence"] or ()):
-                for place, skill in enumerate(step["filter_skills"]):
-                    motion = self.motions.of(skill["name"])
-                    corners = motion.value("polygon", skill["parameters"]) if motion else None
-                    if corners:
-                        at = ("tasks", index, "skill_sequence", number, "filter_skills", place)
-                        yield at, corners
+        self.fences = tuple(tuple(self.place(*corner) for corner in corners) for corners in fences)
 
     def _change_speed(self, task: dict[str, Any], at: Path) -> None:
         """Write the speed that a task states; a task that states none goes at the vehicle's own."""
@@ -191,9 +157,11 @@ class _Writer:
 
     def _write_step(self, at: Path, step: dict[str, Any], leg: Leg | None) -> None:
         for place, skill in enumerate(step["filter_skills"]):
-            motion = self.motions.of(skill["name"])
+            motion, path = self.motions.of(skill["name"]), (*at, "filter_skills", place)
             if motion and motion.kind in BY_MOTION:
-                self.ledger.lose(*at, "filter_skills", place, why=BY_MOTION[motion.kind])
+                self.ledger.lose(*path, why=BY_MOTION[motion.kind])
+            if motion and (corners := motion.value("polygon", skill["parameters"])):
+                self.boundaries.append((path, corners))
         skill, at = step["navigation_skill"], (*at, "navigation_skill")
         motion = self.motions.of(skill["name"])
         if motion is None:
@@ -202,11 +170,11 @@ class _Writer:
             self.ledger.lose(*at, why=BY_MOTION[motion.kind])
         if leg is None or motion.kind == "drift":
             return
-        write = {"go": self._move, "arc": self._arc, "hold": self._hold, "wait": self._wait}
-        given = {role: motion.value(role, skill["parameters"]) for role in motion.parameters}
         if self.flies and motion.kind in ("turn-to", "turn-by"):
             self.ledger.lose(*at, why="an ArduPilot multicopter turns only beside a movement")
             return
+        write = {"go": self._move, "arc": self._arc, "hold": self._hold, "wait": self._wait}
+        given = {role: motion.value(role, skill["parameters"]) for role in motion.parameters}
         carried = write.get(motion.kind, self._turn)(given, leg)
         if carried:
             roles, form = carried
@@ -236,7 +204,7 @@ class _Writer:
     def _hold(self, given: Mapping[str, Any], leg: Leg) -> Carried:
         if given.get("time") is not None:
             return self._wait(given, leg)
-        self._at(NAV_LOITER_UNLIM, self._start(leg))
+        self._at(NAV_LOITER_UNLIM, self._start(leg), 0)
         return (), "without an end: the operator sends the vehicle on"
 
     def _wait(self, given: Mapping[str, Any], leg: Leg) -> Carried:
@@ -275,12 +243,9 @@ class _Writer:
 
     def _waypoint(self, point: Point, altitude: float = 0.0) -> None:
         self.way.append(point)
-        self._at(NAV_WAYPOINT, self.place(*point), altitude=altitude)
+        self._at(NAV_WAYPOINT, self.place(*point), 0, altitude)
 
-    def _at(
-        self, command: int, place: tuple[float, float], first: float = 0, altitude: float = 0.0
-    ) -> None:
-        parameters = (first, 0, 0, 0)
-        self.items.append(
-            MissionItem(command, parameters, *place, altitude, FRAME_RELATIVE_ALTITUDE)
-        )
+    def _at(self, command: int, place: Point, first: float, altitude: float = 0.0) -> None:
+        """Add an item at (latitude, longitude) with its first parameter."""
+        item = MissionItem(command, (first, 0, 0, 0), *place, altitude, FRAME_RELATIVE_ALTITUDE)
+        self.items.append(item)

@@ -9,31 +9,26 @@ moos_behaviours.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from planner_ft.exporters.formats import Format, PlanExport, Written
-from planner_ft.exporters.ledger import LISTS, Ledger, Path
+from planner_ft.exporters.ledger import LISTS, Path
 from planner_ft.exporters.moos_behaviours import (
+    STEP,
     TABLE,
-    Guard,
     Move,
     guard_form,
     guards,
     is_region,
     move_of,
 )
-from planner_ft.exporters.moos_text import block, comment, is_changed, quoted, variable
+from planner_ft.exporters.moos_text import block, comment, quoted, variable
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.plans import step_skills
 
-STEP = "MISSION_STEP"
-FIRST, SECOND = "move", "speed"
-"""Endings of the names of a movement's behaviours."""
-DEFAULT_SPEED = 1.0
-"""Metres per second where the plan's vehicle says none."""
+DEFAULT_SPEED = 1.0  # metres per second where the plan's vehicle says none
 NO_SKILL = {"name": "", "parameters": {}}
 
 
@@ -44,61 +39,55 @@ def write(plan: PlanExport) -> Written:
 
 @dataclass(frozen=True)
 class _Place:
-    """A movement in the plan: its number from 1, its task's index, where its step stands and what
-    it says (None and nothing: a task without skills), its name, and what is done.
+    """A movement in the plan: its task's index and its name, its step and where that stands
+    (nothing and None: a task without skills), and what is done.
     """
 
-    number: int
     task: int
+    name: str
     at: Path | None
     step: Mapping[str, Any]
-    name: str
     move: Move
 
 
 class _File:
-    """Builds the file and keeps account of it."""
+    """Builds the file and keeps account of it. Movements are numbered from 1."""
 
     def __init__(self, plan: PlanExport) -> None:
         self.plan, self.document, self.vocabulary = plan, plan.document, plan.vocabulary
-        self.ledger: Ledger = plan.ledger()
+        self.ledger, self.motions = plan.ledger(), plan.vocabulary.motion
         vehicle = self.document.get("vehicle") or {}
         self.area = vehicle.get("area")
         self.cruise_speed = float(vehicle.get("cruise_speed") or DEFAULT_SPEED)
         self.tasks = self.document["tasks"][: plan.ready]
-        self.places = list(self._places())
+        self.places = list(enumerate(self._places(), start=1))
 
     def _places(self) -> Iterator[_Place]:
-        """The movements of every task that can be exported; a step whose movement is not known is
-        lost.
-        """
+        """The movements of the tasks; a step whose movement is not known is lost."""
         legs = {(leg.task, leg.step): leg for leg in self.plan.track.legs}
-        count = itertools.count(1)
         for index, task in enumerate(self.tasks):
             steps = task["skill_sequence"]
             for number, step in enumerate([{}] if steps is None else steps):
                 skill = step.get("navigation_skill", NO_SKILL)
-                motion = self.vocabulary.motion.of(skill["name"])
+                motion = self.motions.of(skill["name"])
                 at: Path | None = ("tasks", index, "skill_sequence", number) if step else None
-                move = None
+                move, leg = None, legs.get((task["id"], number))
                 if motion or at is None:
-                    leg = legs.get((task["id"], number))
                     move = move_of(motion, skill["parameters"], leg, self.cruise_speed)
                 if move:
-                    name = f"{task['id']}_{number + 1}"
-                    yield _Place(next(count), index, at, step, name, move)
+                    yield _Place(index, f"{task['id']}_{number + 1}", at, step, move)
                 elif at:
                     self.ledger.lose(*at, why=TABLE["unknown"])
 
     def written(self) -> Written:
         lines = [*self._head(), ""]
         for guard in guards(self._filters()):
-            lines += [*self._guard(guard), ""]
+            lines += [*guard, ""]
         for index, task in enumerate(self.tasks):
             lines += [*comment("-" * 100), *self._task_words(index, task)]
-            for place in self.places:
+            for number, place in self.places:
                 if place.task == index:
-                    lines += [*self._movement(place), ""]
+                    lines += [*self._movement(number, place), ""]
         if self.plan.blocked:
             lines += comment(f"the plan goes on, and this file does not: {self.plan.blocked[1]}")
             self.plan.lose_blocked(self.ledger)
@@ -108,26 +97,19 @@ class _File:
 
     def _head(self) -> Iterator[str]:
         """The words of the plan as a whole, and the variables with which the mission begins."""
-        where, origin = (
-            "LatOrigin and LongOrigin are where the plan's [0, 0] lies",
-            self.plan.origin,
-        )
+        origin = self.plan.origin
+        where = "LatOrigin and LongOrigin are where the plan's [0, 0] lies"
         if origin:
             where = f"LatOrigin = {origin.latitude:.8f}, LongOrigin = {origin.longitude:.8f}"
         yield from comment(self.plan.name)
         yield from comment(f"approval: {self.plan.mark}")
         yield from comment(f"{self.vocabulary.frame}: the helm's own x and y")
         yield from comment(f"in the .moos file: {where}")
-        for path, item in self.ledger.items.items():
-            if path[0] not in ("tasks", "open_places"):
-                command = f"command: {self.document['command']}"
-                yield from comment(command if path == ("command",) else item.what)
-                self.ledger.carry(*path, form=TABLE["comment"])
+        for text in self.plan.head_words(self.ledger, TABLE["comment"]):
+            yield from comment(text)
         yield from ("", "initialize DEPLOY = false", f"initialize {STEP} = 1")
-        yield from (
-            "initialize MISSION = open",
-            f"initialize MISSION_NAME = {quoted(self.plan.name)}",
-        )
+        yield "initialize MISSION = open"
+        yield f"initialize MISSION_NAME = {quoted(self.plan.name)}"
 
     def _task_words(self, index: int, task: Mapping[str, Any]) -> Iterator[str]:
         yield from comment(f"{task['id']} {task['title']}: {task['task_prompt']}")
@@ -139,7 +121,7 @@ class _File:
 
     # ------------------------------------------------------------ movements
 
-    def _movement(self, place: _Place) -> Iterator[str]:
+    def _movement(self, number: int, place: _Place) -> Iterator[str]:
         skill = place.step.get("navigation_skill", NO_SKILL)
         yield from comment(f"{place.name}: {skill['name']} {compact_json(skill['parameters'])}")
         for key in LISTS:
@@ -150,31 +132,28 @@ class _File:
         else:
             known = self.vocabulary.task[self.tasks[place.task]["title"]]
             self.ledger.carry("tasks", place.task, "parameters", known.position_parameter or "")
+        base = [("pwt", "100"), ("condition", "DEPLOY = true"), ("condition", f"{STEP} = {number}")]
         # The helm takes no name that another one begins with: "t1_1" and "t1_10" could not stand in
         # one file.
-        base = [("pwt", "100"), ("condition", "DEPLOY = true")]
-        base.append(("condition", f"{STEP} = {place.number}"))
-        for number, (kind, settings) in enumerate(place.move.behaviours):
-            name = f"{place.name}_{SECOND if number else FIRST}"
-            flags = [] if number else list(self._flags(place))
-            yield from block(kind, name, [*base, *flags, *settings])
+        flags: list[tuple[str, str]] = [*self._flags(number, place)]
+        for ending, (kind, settings) in zip(("move", "speed"), place.move.behaviours, strict=False):
+            yield from block(kind, f"{place.name}_{ending}", [*base, *flags, *settings])
+            flags = []
 
-    def _flags(self, place: _Place) -> Iterator[tuple[str, str]]:
-        """The skills beside the movement: on with their parameters when the step begins, off when
-        it ends; and the next step.
-        """
+    def _flags(self, number: int, place: _Place) -> Iterator[tuple[str, str]]:
+        """The skills beside the movement, on while the step lasts; and the next step."""
         beside = [skill for role, skill in step_skills(place.step) if role != "navigation"]
         for skill in beside:
-            state = "on"
-            for key, value in skill["parameters"].items():
-                state += f"; {key}={value if isinstance(value, str) else compact_json(value)}"
+            given = skill["parameters"].items()
+            texts = {key: one if isinstance(one, str) else compact_json(one) for key, one in given}
+            state = "; ".join(["on", *(f"{key}={text}" for key, text in texts.items())])
             yield "activeflag", f"{variable(skill['name'])} = {quoted(state)}"
         ending = "endflag" if place.move.ends else "idleflag"
         for name in dict.fromkeys(skill["name"] for skill in beside):
             yield ending, f"{variable(name)} = {quoted('off')}"
         if place.move.ends:
-            yield "endflag", f"{STEP} = {place.number + 1}"
-            if place.number == len(self.places):
+            yield "endflag", f"{STEP} = {number + 1}"
+            if number == len(self.places):
                 yield "endflag", f"MISSION = {'partly' if self.plan.blocked else 'complete'}"
                 yield "endflag", "DEPLOY = false"
 
@@ -182,15 +161,14 @@ class _File:
         """Enter what becomes of a step's movement and words; `_filters` enters its other skills."""
         skill, steered = step["navigation_skill"], (*at, "navigation_skill")
         self.ledger.carry(*steered, "name", form="" if move.ends else TABLE["unended"])
-        motion = self.vocabulary.motion.of(skill["name"])
+        motion = self.motions.of(skill["name"])
         roles = {key: role for role, key in motion.parameters.items()} if motion else {}
         for key in skill["parameters"]:
-            role = roles.get(key, key)
+            role, path = roles.get(key, key), (*steered, "parameters", key)
             if role in move.forms:
-                self.ledger.carry(*steered, "parameters", key, form=move.forms[role])
+                self.ledger.carry(*path, form=move.forms[role])
             else:
-                why = move.losses.get(role, TABLE["no_setting"])
-                self.ledger.lose(*steered, "parameters", key, why=why)
+                self.ledger.lose(*path, why=move.losses.get(role, TABLE["no_setting"]))
         own = self.vocabulary.skill[skill["name"]].stop if move.ends else None
         for words in LISTS:
             for number, text in enumerate(step[words]):
@@ -207,35 +185,28 @@ class _File:
             region = is_region(self.area)
             self.ledger.carry("vehicle", "area", form="" if region else TABLE["area"])
             if region:
-                yield from ((place.number, "boundary", self.area) for place in self.places)
-        for place in self.places:
-            if place.at is None:
-                continue
+                yield from ((number, "boundary", self.area) for number, _place in self.places)
+        for number, place in self.places:
             for key in ("filter_skills", "perception_skills"):
-                for number, skill in enumerate(place.step[key]):
+                for index, skill in enumerate(place.step.get(key, ())):
                     form, guard = self._guarded(skill)
-                    self.ledger.carry(*place.at, key, number, form=form)
+                    self.ledger.carry(*(place.at or ()), key, index, form=form)
                     if guard:
-                        yield (place.number, *guard)
+                        yield (number, *guard)
 
     def _guarded(self, skill: Mapping[str, Any]) -> tuple[str, tuple[str, Any] | None]:
-        """(how the file holds a skill beside a movement, (kind, polygon or distance) where a
-        behaviour stands for it).
+        """How the file holds a skill beside a movement, and (kind, polygon or distance) where a
+        behaviour stands for it.
         """
-        motion, given = self.vocabulary.motion.of(skill["name"]), skill["parameters"]
+        motion, given = self.motions.of(skill["name"]), skill["parameters"]
         if motion and motion.kind in ("boundary", "clearance"):
             value = motion.value("polygon" if motion.kind == "boundary" else "distance", given)
             stands, form = guard_form(motion.kind, value)
             return form, (motion.kind, value) if stands else None
-        changed = any(map(is_changed, [skill["name"], *map(str, given.values())]))
+        changed = any(
+            quoted(one) != f'"{one}"' for one in (skill["name"], *map(str, given.values()))
+        )
         return f"{TABLE['flag']}; {TABLE['changed']}" if changed else TABLE["flag"], None
-
-    def _guard(self, guard: Guard) -> list[str]:
-        span = f"{STEP} = {guard.first}"
-        if guard.first != guard.last:
-            span = f"({STEP} >= {guard.first}) and ({STEP} <= {guard.last})"
-        base = [("pwt", "500"), ("condition", "DEPLOY = true"), ("condition", span)]
-        return block(guard.behaviour, guard.name, [*base, *guard.settings])
 
 
 FORMAT = Format("moos", ".bhv", "behaviour file for the helm of MOOS-IvP", False, write)

@@ -13,9 +13,7 @@ import re
 import textwrap
 from collections.abc import Iterable, Sequence
 
-WIDTH = 160
-POINTS_PER_LINE = 20
-LONGEST_LINE = 4000
+WIDTH, POINTS_PER_LINE, LONGEST_LINE = 160, 20, 4000
 CONTROL = re.compile("[\x00-\x1f\x7f\x85\u2028\u2029\ud800-\udfff]+")
 MACRO = re.compile(r"([$%])(?=[\[({])")
 
@@ -25,22 +23,18 @@ Settings = Sequence[tuple[str, str]]
 
 
 def block(kind: str, name: str, settings: Settings) -> list[str]:
-    """The lines of a behaviour, such as BHV_Waypoint. Lines longer than the helm reads are broken;
-    the helm joins the parts again.
-    """
+    """The lines of a behaviour such as BHV_Waypoint, broken where the helm joins them again."""
     lines = [f"  {key} = {value}" for key, value in (("name", name), *settings)]
-    starts = [range(0, len(line), LONGEST_LINE) for line in lines]
-    parts = [
+    cuts = (range(0, len(line), LONGEST_LINE) for line in lines)
+    parts = (
         "\\\n".join(line[start : start + LONGEST_LINE] for start in found)
-        for line, found in zip(lines, starts, strict=True)
-    ]
+        for line, found in zip(lines, cuts, strict=True)
+    )
     return [f"Behavior = {kind}", "{", *parts, "}"]
 
 
 def words(text: str) -> str:
-    """Text without what the helm reads as its own: line ends, comments, continuations, macros,
-    conditions.
-    """
+    """Text without line ends, comments, continuations, macros and conditions of the helm."""
     plain = MACRO.sub(r"\1 ", CONTROL.sub(" ", text).replace("\\", "/")).replace("[if]", "[ if ]")
     while "//" in plain:
         plain = plain.replace("//", "/ /")
@@ -50,11 +44,6 @@ def words(text: str) -> str:
 def quoted(text: str) -> str:
     """Text as the value of a flag or a variable."""
     return '"{}"'.format(words(text).replace('"', "'"))
-
-
-def is_changed(text: str) -> bool:
-    """Whether `quoted` gives another text."""
-    return quoted(text) != f'"{text}"'
 
 
 def comment(text: str) -> list[str]:

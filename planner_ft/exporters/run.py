@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from planner_ft.document import read_document
-from planner_ft.exporters.formats import (
-    DRAFT,
-    Format,
-    PlanExport,
-    Written,
-    format_names,
-    load_format,
-)
+from planner_ft.document.tree import plain
+from planner_ft.exporters.formats import DRAFT, Format, PlanExport, format_names, load_format
 from planner_ft.exporters.geodesy import Origin
-from planner_ft.exporters.ledger import Account
-from planner_ft.exporters.losses import loss_report
+from planner_ft.exporters.ledger import Account, Loss, ranges
 from planner_ft.review.log import log_beside
 from planner_ft.review.verify import approval_of
 from planner_ft.support.errors import PlannerError
@@ -57,16 +51,20 @@ class ExportedPlan:
 
 
 def export_plan(settings: PlanExportSettings) -> list[ExportedPlan]:
-    """Write an approved plan in every format that was asked for, each with its report; all are made
-    before any is written.
+    """Write an approved plan in every format asked for, each with its report; all are made before
+    any is written.
 
     Raises PlannerError for a plan that is not approved (without `draft`), and for what a format
     cannot take.
     """
-    formats = _formats(settings)
-    plan = _plan(settings)
+    formats, plan = _formats(settings), _plan(settings)
     files = [_file(settings, chosen, draft=plan.approval is None) for chosen in formats]
-    made = [_write(chosen, plan) for chosen in formats]
+    made = []
+    for chosen in formats:
+        try:
+            made.append(chosen.write(plan))
+        except PlannerError as error:
+            raise PlannerError(f"--format {chosen.name}: {error}") from error
     done = []
     for chosen, file, written in zip(formats, files, made, strict=True):
         report = file.with_name(file.name + REPORT)
@@ -83,16 +81,12 @@ def _formats(settings: PlanExportSettings) -> list[Format]:
         raise PlannerError(f"--format: say for which vehicle; there is {', '.join(known)}, or all")
     formats = [load_format(name) for name in dict.fromkeys(names)]
     if settings.out is not None and len(formats) > 1:
-        raise PlannerError(
-            f"--out {settings.out}: names one file, and {len(formats)} formats are asked for; leave"
-            " it out, or give one --format"
-        )
+        asked = f"names one file, and {len(formats)} formats are asked for"
+        raise PlannerError(f"--out {settings.out}: {asked}; leave it out, or give one --format")
     needing = next((chosen.name for chosen in formats if chosen.needs_origin), None)
     if needing and settings.origin is None:
-        raise PlannerError(
-            f"--format {needing}: needs --origin LAT,LON, where the plan's [0, 0] lies, such as"
-            " 59.9075,10.7231"
-        )
+        where = "where the plan's [0, 0] lies, such as 59.9075,10.7231"
+        raise PlannerError(f"--format {needing}: needs --origin LAT,LON, {where}")
     return formats
 
 
@@ -102,10 +96,9 @@ def _plan(settings: PlanExportSettings) -> PlanExport:
     approval = approval_of(document, settings.log or log_beside(settings.plan))
     approved = approval.status == "approved"
     if not approved and not settings.draft:
-        raise PlannerError(
-            f"{settings.plan}: {approval.text}; approve it with `plannerft review {settings.plan}`,"
-            f" or give --draft for a file that is marked {DRAFT}"
-        )
+        way = f"approve it with `plannerft review {settings.plan}`"
+        draft = f"give --draft for a file that is marked {DRAFT}"
+        raise PlannerError(f"{settings.plan}: {approval.text}; {way}, or {draft}")
     vocabulary = vocabulary or load_vocabulary(document["vocabulary"]["name"])
     words = f"{approval.text}; digest {approval.digest}" if approved else None
     return PlanExport(document, vocabulary, settings.origin, words)
@@ -123,14 +116,46 @@ def _file(settings: PlanExportSettings, chosen: Format, *, draft: bool) -> Path:
         if path.is_dir():
             raise PlannerError(f"--out {path}: is a folder; give a file")
         if path.exists() and not settings.overwrite:
-            raise PlannerError(
-                f"{path}: exists; give --overwrite to replace it, or another file with --out"
-            )
+            hint = "give --overwrite to replace it, or another file with --out"
+            raise PlannerError(f"{path}: exists; {hint}")
     return file
 
 
-def _write(chosen: Format, plan: PlanExport) -> Written:
-    try:
-        return chosen.write(plan)
-    except PlannerError as error:
-        raise PlannerError(f"--format {chosen.name}: {error}") from error
+# ------------------------------------------------------------ the report of losses
+
+
+def loss_summary(account: Account) -> str:
+    """One line: how much of the plan is in the file, and which tasks do not move as planned."""
+    carried, lost, changed = map(len, (account.carried, account.lost_paths, account.changed_paths))
+    movement = ("navigation_skill", "name")
+    still = sorted({int(path[1]) + 1 for path in account.lost_paths if path[4:] == movement})
+    ending = f"; MOVEMENTS LOST in task{'s' if len(still) > 1 else ''} {ranges(still)}"
+    entries = f"{carried} of {carried + lost} entries carried, {changed} of them in another form"
+    return f"{entries}; {lost} lost{ending if still else ''}"
+
+
+def loss_lines(account: Account) -> Iterator[str]:
+    """The losses, then what is carried in another form; one line per task and reason."""
+    for word, losses in (("lost     ", account.lost), ("changed  ", account.changed)):
+        for loss in losses:
+            yield word + plain(f"{loss.task or 'plan'}: {loss.what} - {loss.why}")
+
+
+def loss_report(plan: PlanExport, written: Format, file: str, account: Account) -> str:
+    """The report as Markdown."""
+    parts = [f"# What {_cell(file)} does not hold", f"{_cell(written.description)}."]
+    parts[1] += f" {_cell(plan.mark)}."
+    parts += [loss_summary(account) + ".", *_section("Lost", "Why", account.lost)]
+    parts += _section("Carried in another form", "How", account.changed)
+    return "\n\n".join(parts) + "\n"
+
+
+def _section(title: str, column: str, losses: Sequence[Loss]) -> list[str]:
+    rows = [f"| {one.task or 'plan'} | {_cell(one.what)} | {_cell(one.why)} |" for one in losses]
+    table = "\n".join([f"| Task | What | {column} |", "|---|---|---|", *rows])
+    return [f"## {title}", table] if losses else []
+
+
+def _cell(text: str) -> str:
+    """Text of a command in a table: no line of its own, no column, no markup."""
+    return "".join(f"\\{sign}" if sign in "\\`*_[]<>|#" else sign for sign in plain(text))

@@ -8,17 +8,8 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, given, settings
 
-from planner_ft.exporters import (
-    DRAFT,
-    Format,
-    Origin,
-    PlanExport,
-    Written,
-    format_names,
-    formats,
-    load_format,
-)
-from planner_ft.exporters.formats import GROUP
+from planner_ft.exporters import DRAFT, Format, Origin, PlanExport, Written, formats, load_format
+from planner_ft.exporters.formats import GROUP, format_names
 from planner_ft.support.errors import PlannerError
 
 from .plans import BUOY, DRONE, MAST, USV, document, documents, step, task
