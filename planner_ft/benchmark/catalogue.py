@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from planner_ft.benchmark.statistics import Estimate
-from planner_ft.report.tables import Cell, figure
+from planner_ft.support.tables import Cell, figure
 
 Kind = Literal["rate", "mean", "ratio"]
 

@@ -22,7 +22,9 @@ from planner_ft.benchmark.verdicts import (
     adjusted,
     p_text,
 )
-from planner_ft.report.tables import (
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import iterate_jsonl, read_json
+from planner_ft.support.tables import (
     Cell,
     Table,
     TableRow,
@@ -33,8 +35,6 @@ from planner_ft.report.tables import (
     row,
     terminal_table,
 )
-from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import iterate_jsonl, read_json
 
 SHOWN = 5
 """Ids that a note names before it only counts the rest."""

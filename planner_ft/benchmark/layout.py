@@ -10,7 +10,7 @@ from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.contrasts import contrast_notes, marks, system_key
 from planner_ft.benchmark.results import Results, Row, heading
 from planner_ft.benchmark.statistics import Estimate
-from planner_ft.report.tables import NOTHING, Cell, RowKind, Table, row
+from planner_ft.support.tables import NOTHING, Cell, RowKind, Table, row
 
 
 class Line(NamedTuple):

@@ -18,7 +18,8 @@ from planner_ft.benchmark.layout import by_candidate, lines, metric_table, notes
 from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
 from planner_ft.benchmark.results import Results, Row
 from planner_ft.benchmark.verdicts import MARKS, Comparison, difference_cell, verdict
-from planner_ft.report.tables import (
+from planner_ft.support.resources import memory_size
+from planner_ft.support.tables import (
     NOTHING,
     Cell,
     Table,
@@ -29,7 +30,6 @@ from planner_ft.report.tables import (
     markdown_table,
     row,
 )
-from planner_ft.support.resources import memory_size
 
 SHOWN_PAIRS, SHOWN_IDS, SHOWN_OTHERS = 15, 3, 10
 Figures = Mapping[str, Any]

@@ -12,7 +12,7 @@ from planner_ft.benchmark import published
 from planner_ft.benchmark.catalogue import MAIN, METRIC, RIGHT
 from planner_ft.benchmark.layout import Line, has_figure, lines, notes
 from planner_ft.benchmark.results import Results
-from planner_ft.report.tables import Cell, Table, TableRow, row, terminal_table
+from planner_ft.support.tables import Cell, Table, TableRow, row, terminal_table
 
 SHORT = {
     "hallucination": "halluc.\n% ↓",

@@ -9,7 +9,7 @@ from typing import Any, Literal
 from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.paired import Paired, holm
 from planner_ft.benchmark.statistics import Estimate
-from planner_ft.report.tables import NOTHING, Cell, figure
+from planner_ft.support.tables import NOTHING, Cell, figure
 
 Verdict = Literal["better", "worse", "higher", "lower", "equal", "not told apart", "not compared"]
 

@@ -11,9 +11,9 @@ from planner_ft.candidates.adapters import CONFIG, MANIFEST, WEIGHTS
 from planner_ft.report.contents import failure_words
 from planner_ft.report.metrics import MAIN, column, estimate, figure_cell
 from planner_ft.report.runs import Record, System, TestSet, load_test_sets
-from planner_ft.report.tables import Table, TableRow, markdown_table
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, read_text, sha256_tree, write_text
+from planner_ft.support.tables import Table, TableRow, markdown_table
 
 CARD = "README.md"
 START, END = (

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from planner_ft.report.tables import NOTHING, Cell, Table, TableRow, row
+from planner_ft.support.tables import NOTHING, Cell, Table, TableRow, row
 
 HEATS = 6
 """Shades of a count, beside none."""

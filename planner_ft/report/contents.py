@@ -15,7 +15,7 @@ from planner_ft.report.figures import charts, system_charts
 from planner_ft.report.metrics import cost_table, estimate, group_table, main_table, metric_tables
 from planner_ft.report.runs import Record, System, TestSet
 from planner_ft.report.significance import Significance, significance
-from planner_ft.report.tables import Table
+from planner_ft.support.tables import Table
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from planner_ft.benchmark.results import heading
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.report.charts import number
 from planner_ft.report.runs import System, TestSet
-from planner_ft.report.tables import NOTHING, Cell, Table, TableRow
+from planner_ft.support.tables import NOTHING, Cell, Table, TableRow
 
 MAIN = (
     "f1",

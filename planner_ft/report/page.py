@@ -17,7 +17,7 @@ from planner_ft.report.charts import Chart, Matrix, chart_table
 from planner_ft.report.contents import Section
 from planner_ft.report.pictures import NARROW, WIDE, inline_svg
 from planner_ft.report.runs import TestSet
-from planner_ft.report.tables import Table
+from planner_ft.support.tables import Table
 
 if TYPE_CHECKING:
     from jinja2 import Environment

@@ -13,7 +13,7 @@ from planner_ft.benchmark.statistics import Estimate
 from planner_ft.benchmark.verdicts import EXPLAINED, MARKS, p_text, signed
 from planner_ft.report.metrics import column
 from planner_ft.report.runs import Record, TestSet
-from planner_ft.report.tables import Cell, Table, TableRow
+from planner_ft.support.tables import Cell, Table, TableRow
 
 NOT_WORSE = ("better", "equal", "not told apart")
 Compared = Mapping[str, Sequence[Record]]

@@ -11,9 +11,9 @@ from planner_ft.report.charts import Matrix, chart_table
 from planner_ft.report.contents import Section, provenance, section
 from planner_ft.report.page import page
 from planner_ft.report.runs import load_test_sets
-from planner_ft.report.tables import csv_table, latex_table, markdown_table
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import atomic_writer, write_text
+from planner_ft.support.tables import csv_table, latex_table, markdown_table
 
 Pictures = Literal["all", "overall", "none"]
 PAGE, FIGURES, TABLES = "report.html", "figures", "tables"

@@ -9,7 +9,7 @@ import pytest
 from planner_ft.benchmark.changes import changes
 from planner_ft.benchmark.summary import group_figures
 from planner_ft.benchmark.tables import change_tables, group_tables
-from planner_ft.report.tables import markdown_table
+from planner_ft.support.tables import markdown_table
 
 
 def shown(tables: Any) -> str:

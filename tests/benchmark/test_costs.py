@@ -8,7 +8,7 @@ from planner_ft.benchmark.costs import cost_figures
 from planner_ft.benchmark.planning_time import MOST, planning_command
 from planner_ft.benchmark.statistics import quantile
 from planner_ft.benchmark.tables import cost_tables
-from planner_ft.report.tables import markdown_table
+from planner_ft.support.tables import markdown_table
 
 
 @pytest.mark.parametrize(

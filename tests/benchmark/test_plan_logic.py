@@ -11,7 +11,7 @@ from planner_ft.benchmark.results import Results, System, score_system
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.tables import tables
 from planner_ft.facts import read_input
-from planner_ft.report.tables import markdown_table
+from planner_ft.support.tables import markdown_table
 from planner_ft.vocabulary import load_vocabulary
 
 USV = load_vocabulary()

@@ -16,8 +16,8 @@ from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.submission import score_predictions, score_run
 from planner_ft.benchmark.summary import all_of, any_of, pass_figures
 from planner_ft.benchmark.tables import repeat_tables
-from planner_ft.report.tables import markdown_table
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.tables import markdown_table
 from planner_ft.vocabulary import load_vocabulary
 
 NAME = "Llama-3.2-1B-Instruct"

@@ -114,7 +114,7 @@ def settings(data: Path, adapter: Path, tmp_path: Path) -> Any:
 def work(monkeypatch: pytest.MonkeyPatch) -> dict[str, int]:
     """Counts models loaded and rows generated."""
     counts = {"models": 0, "rows": 0}
-    load, batch = engine_module.load_model, generate_module._generate_batch
+    load, batch = engine_module.load_model, generate_module._run
 
     def counting_load(*args: Any, **kwargs: Any) -> Any:
         counts["models"] += 1
@@ -125,7 +125,7 @@ def work(monkeypatch: pytest.MonkeyPatch) -> dict[str, int]:
         return batch(decoder, rows, *args)
 
     monkeypatch.setattr(engine_module, "load_model", counting_load)
-    monkeypatch.setattr(generate_module, "_generate_batch", counting_batch)
+    monkeypatch.setattr(generate_module, "_run", counting_batch)
     return counts
 
 
@@ -705,7 +705,7 @@ def test_a_device_whose_memory_is_full_gets_smaller_batches(
     import torch
 
     run_bench(settings(out=tmp_path / "whole", latency_samples=0))
-    batch, sizes = generate_module._generate_batch, []
+    batch, sizes = generate_module._run, []
 
     def full(decoder: Any, rows: Any, *args: Any) -> Any:
         sizes.append(len(rows))
@@ -713,7 +713,7 @@ def test_a_device_whose_memory_is_full_gets_smaller_batches(
             raise torch.OutOfMemoryError("CUDA out of memory")
         return batch(decoder, rows, *args)
 
-    monkeypatch.setattr(generate_module, "_generate_batch", full)
+    monkeypatch.setattr(generate_module, "_run", full)
     run_bench(settings(batch_size=4, latency_samples=0))
     assert sizes == [4, 2] + [1] * 2 * COUNT
     assert answers(tmp_path / "out") == answers(tmp_path / "whole")

@@ -9,7 +9,7 @@ from rich.console import Console
 
 from planner_ft.report.charts import number
 from planner_ft.report.page import html_table
-from planner_ft.report.tables import (
+from planner_ft.support.tables import (
     Cell,
     Table,
     TableRow,

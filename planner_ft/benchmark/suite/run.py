@@ -18,7 +18,9 @@ from planner_ft.benchmark.suite.definition import Part, Suite
 from planner_ft.benchmark.suite.session import Report, Session, State, opened
 from planner_ft.benchmark.suite.units import Flags, Unit
 from planner_ft.benchmark.tables import render_tables
-from planner_ft.report.tables import (
+from planner_ft.support.files import sha256_file, write_json, write_jsonl, write_text
+from planner_ft.support.manifest import build_manifest
+from planner_ft.support.tables import (
     NOTHING,
     Cell,
     Table,
@@ -28,8 +30,6 @@ from planner_ft.report.tables import (
     markdown_table,
     row,
 )
-from planner_ft.support.files import sha256_file, write_json, write_jsonl, write_text
-from planner_ft.support.manifest import build_manifest
 
 __all__ = ["State", "run_suite"]
 
