@@ -17,43 +17,36 @@ from planner_ft.vocabulary.plans import Level
 
 SEED = 0
 TOKEN_CHECKS = 1000
+Record = dict[str, Any]
+Records = Sequence[Record]
 
 
 @dataclass(frozen=True)
 class Agreement:
-    """How far two models agree: `same` of `count` greedy answers, and the largest difference of a
-    logit on those answers.
-    """
+    """How far two models agree: `same` of `count` greedy answers, and the logits along them."""
 
     count: int
     same: int
     largest_logit_difference: float
 
     def to_json(self) -> dict[str, Any]:
-        return {
-            "commands": self.count,
-            "same_answers": self.same,
-            "largest_logit_difference": self.largest_logit_difference,
-            "dtype": "float32",
-        }
+        found = {"commands": self.count, "same_answers": self.same}
+        largest = self.largest_logit_difference
+        return {**found, "largest_logit_difference": largest, "dtype": "float32"}
 
 
 def check_records(
     level: Level, vocabulary: Vocabulary, count: int, data: Path | None = None
-) -> list[dict[str, Any]]:
-    """The first records of `data`, or of the level's validation set: the curated commands, sampled
-    tasks. Raises PlannerError.
-    """
+) -> list[Record]:
+    """The first records of `data`, or of the level's validation set. Raises PlannerError."""
     if data is not None:
         records = read_jsonl(data)[:count]
         needed = ("prompt",) if level == "mission" else ("prompt", "task")
         for number, record in enumerate(records, 1):
             missing = [key for key in needed if not isinstance(record.get(key), str)]
             if missing:
-                raise PlannerError(
-                    f"{data}: record {number} has no {missing[0]}; give commands of the {level}"
-                    " level"
-                )
+                hint = f"give commands of the {level} level"
+                raise PlannerError(f"{data}: record {number} has no {missing[0]}; {hint}")
         return records
     if level == "mission":
         return read_jsonl(find_source() / "validation.jsonl")[:count]
@@ -62,12 +55,8 @@ def check_records(
     return list(itertools.islice(sample_tasks(vocabulary, SEED, count, "validation"), count))
 
 
-def token_records(
-    level: Level, vocabulary: Vocabulary, records: Sequence[dict[str, Any]]
-) -> list[dict[str, Any]]:
-    """These records and a thousand drawn ones, to compare the ids of their prompts in two
-    tokenizers.
-    """
+def token_records(level: Level, vocabulary: Vocabulary, records: Records) -> list[Record]:
+    """These records and a thousand drawn ones, for comparing two tokenizers."""
     if level == "task":
         return [*records, *check_records(level, vocabulary, TOKEN_CHECKS)]
     from planner_ft.data.missions import sample_missions
@@ -84,7 +73,7 @@ class Answers:
     def __init__(
         self,
         level: Level,
-        records: Sequence[dict[str, Any]],
+        records: Records,
         tokenizer: Any,
         vocabulary: Vocabulary,
         *,
@@ -92,14 +81,11 @@ class Answers:
     ) -> None:
         from planner_ft.decoding.generate import Query
 
-        def query(record: dict[str, Any]) -> Query:
-            ids = render_prompt(
-                level, record, tokenizer, vocabulary, with_vocabulary=with_vocabulary
-            )
-            return Query(level, record, tuple(ids))
-
-        self.queries = [query(record) for record in records]
-        self.level, self.tokenizer = level, tokenizer
+        self.level, self.tokenizer, self.queries = level, tokenizer, list[Query]()
+        known: dict[str, Any] = {"vocabulary": vocabulary, "with_vocabulary": with_vocabulary}
+        for record in records:
+            ids = render_prompt(level, record, tokenizer, **known)
+            self.queries.append(Query(level, record, tuple(ids)))
 
     def of(self, model: Any) -> list[tuple[int, ...]]:
         """The ids of the model's answers."""
@@ -127,18 +113,17 @@ class Answers:
 def agreement(
     answers: Answers, expected: Sequence[tuple[int, ...]], logits: Sequence[Any], model: Any
 ) -> Agreement:
-    """Compare a model with the answers and logits of another. Raises PlannerError when an answer
-    differs.
-    """
+    """Compare a model with another's answers and logits. Raises PlannerError when one differs."""
     found = answers.of(model)
     pairs = zip(logits, answers.logits(model, expected), strict=True)
     largest = max(float((one - other).abs().max()) for one, other in pairs)
     same = sum(one == other for one, other in zip(expected, found, strict=True))
     count = len(expected)
     if same < count:
-        raise PlannerError(
+        what = (
             f"{count - same} of {count} answers differ between the adapter and the merged weights"
-            f" (logits by up to {largest:.3g}), so nothing was written; give other commands with"
-            " --check-data, or serve base and adapter as they are"
         )
+        way = "give other commands with --check-data, or serve base and adapter as they are"
+        logits_by = f"(logits by up to {largest:.3g}), so nothing was written"
+        raise PlannerError(f"{what} {logits_by}; {way}")
     return Agreement(count, same, largest)

@@ -8,8 +8,6 @@ transformers rotates halves; Qwen2's are not.
 from __future__ import annotations
 
 import math
-import os
-import secrets
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,18 +21,16 @@ from planner_ft.support.errors import PlannerError
 if TYPE_CHECKING:
     import numpy as np
 
+    Array = np.ndarray[Any, Any]
+
 ARCHITECTURES = {"LlamaForCausalLM": "llama", "Qwen2ForCausalLM": "qwen2"}
+NOT_HERE = f"is not written as GGUF here; leave out --gguf and {CONVERTER}"
 PLAIN_ROPE = ("default", "llama3")
-LLAMA_3_ROPE = (
-    *("low_freq_factor", "high_freq_factor", "factor"),
-    "original_max_position_embeddings",
-)
+LLAMA_3_ROPE = "low_freq_factor high_freq_factor factor original_max_position_embeddings"
 
 
 def check_architecture(folder: Path) -> str:
-    """llama.cpp's name of the folder's architecture. Raises PlannerError when it is none that is
-    written here.
-    """
+    """llama.cpp's name of the folder's architecture. Raises PlannerError when it has none here."""
     config = read_config(folder)
     names = config.get("architectures") or []
     found = next((ARCHITECTURES[name] for name in names if name in ARCHITECTURES), None)
@@ -42,50 +38,29 @@ def check_architecture(folder: Path) -> str:
     plain = rope in PLAIN_ROPE and config.get("hidden_act") == "silu"
     if found is None or not plain or Dimensions.from_config(config) is None:
         what = f"architecture {config.get('architectures')} with positions of type {rope}"
-        raise PlannerError(
-            f"{folder}: {what} is not written as GGUF here; leave out --gguf and {CONVERTER}"
-        )
+        raise PlannerError(f"{folder}: {what} {NOT_HERE}")
     return found
 
 
 def write_gguf(
-    folder: Path,
-    path: Path,
-    table: TokenTable,
-    tokenizer: Any,
-    *,
-    name: str,
-    outtype: OutType = "f32",
+    folder: Path, path: Path, table: TokenTable, tokenizer: Any, name: str, outtype: OutType
 ) -> None:
-    """Write weights and tokenizer of a transformers folder to `path`, atomically. Raises
-    PlannerError.
-    """
+    """Write weights and tokenizer of a transformers folder to `path`. Raises PlannerError."""
     gguf = import_gguf()
     architecture, config = check_architecture(folder), read_config(folder)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.{secrets.token_hex(3)}.tmp")
-    writer = gguf.GGUFWriter(str(temporary), architecture)
-    try:
-        writer.add_name(name)
-        half = outtype == "f16"
-        types = gguf.LlamaFileType
-        writer.add_file_type(types.MOSTLY_F16 if half else types.ALL_F32)
-        _write_settings(writer, config, architecture)
-        _write_tokenizer(writer, table, tokenizer)
-        for tensor_name, tensor in _tensors(gguf, folder, architecture):
-            dtype = "float16" if half and tensor.ndim > 1 else "float32"
-            writer.add_tensor(tensor_name, tensor.astype(dtype))
-        writer.write_header_to_file()
-        writer.write_kv_data_to_file()
-        writer.write_tensors_to_file()
-        writer.close()
-        temporary.replace(path)
-    except OSError as error:
-        raise PlannerError(
-            f"{path}: cannot be written ({error.strerror or error}); choose another folder or free"
-            " some space"
-        ) from error
-    finally:
-        temporary.unlink(missing_ok=True)
+    half, types = outtype == "f16", gguf.LlamaFileType
+    writer = gguf.GGUFWriter(str(path), architecture)
+    writer.add_name(name)
+    writer.add_file_type(types.MOSTLY_F16 if half else types.ALL_F32)
+    _write_settings(writer, config, architecture)
+    _write_tokenizer(writer, table, tokenizer)
+    for tensor_name, tensor in _tensors(gguf, folder, architecture):
+        dtype = "float16" if half and tensor.ndim > 1 else "float32"
+        writer.add_tensor(tensor_name, tensor.astype(dtype))
+    writer.write_header_to_file()
+    writer.write_kv_data_to_file()
+    writer.write_tensors_to_file()
+    writer.close()
 
 
 def import_gguf() -> Any:
@@ -93,9 +68,8 @@ def import_gguf() -> Any:
     try:
         import gguf
     except ImportError:
-        raise PlannerError(
-            "--gguf needs the package gguf; install it with: pip install 'planner_ft[export]'"
-        ) from None
+        way = "install it with: pip install 'planner_ft[export]'"
+        raise PlannerError(f"--gguf needs the package gguf; {way}") from None
     return gguf
 
 
@@ -134,12 +108,8 @@ def _write_tokenizer(writer: Any, table: TokenTable, tokenizer: Any) -> None:
         writer.add_chat_template(tokenizer.chat_template)
 
 
-def _tensors(
-    gguf: Any, folder: Path, architecture: str
-) -> Iterator[tuple[str, np.ndarray[Any, Any]]]:
-    """The tensors under llama.cpp's names, as float32. Raises PlannerError for one that has
-    none.
-    """
+def _tensors(gguf: Any, folder: Path, architecture: str) -> Iterator[tuple[str, Array]]:
+    """The tensors under llama.cpp's names, as float32. Raises PlannerError where one has none."""
     import numpy as np
     from safetensors import safe_open
 
@@ -156,15 +126,12 @@ def _tensors(
                     continue
                 known = names.get_name(name, try_suffixes=(".weight", ".bias"))
                 if known is None:
-                    raise PlannerError(
-                        f"{folder}: the tensor {name} has no place in a GGUF file as it is written"
-                        f" here; leave out --gguf and {CONVERTER}"
-                    )
+                    raise PlannerError(f"{folder}: the tensor {name} {NOT_HERE}")
                 tensor, count = stored.get_tensor(name), heads.get(name.split(".")[-2])
                 yield known, _interleaved(tensor, count) if count else tensor
 
 
-def _interleaved(tensor: np.ndarray[Any, Any], heads: int) -> np.ndarray[Any, Any]:
+def _interleaved(tensor: Array, heads: int) -> Array:
     """Rows of each head from halves (transformers) to neighbouring pairs (llama.cpp)."""
     halves = tensor.reshape(heads, 2, tensor.shape[0] // heads // 2, *tensor.shape[1:])
     return halves.swapaxes(1, 2).reshape(tensor.shape)
@@ -184,13 +151,11 @@ def _rope(config: dict[str, Any]) -> dict[str, Any]:
 
 
 def _rope_factors(config: dict[str, Any], sizes: Dimensions) -> list[float]:
-    """Divisors of the rotary frequencies in llama.cpp, for Llama 3's scaling (Llama 3.1 model card,
-    `transformers` modeling_rope_utils).
-    """
+    """Divisors of the rotary frequencies for Llama 3's scaling (transformers' modeling_rope_utils)."""
     rope = _rope(config)
     if rope.get("rope_type") != "llama3":
         return []
-    low, high, factor, before = (float(rope[key]) for key in LLAMA_3_ROPE)
+    low, high, factor, before = (float(rope[key]) for key in LLAMA_3_ROPE.split())
     factors = []
     for place in range(0, sizes.head_dim, 2):
         wavelength = 2 * math.pi * float(rope["rope_theta"]) ** (place / sizes.head_dim)

@@ -1,5 +1,4 @@
-"""A byte-level BPE tokenizer as llama.cpp takes it: tokens, their types, merges, and the name of a
-way to split text.
+"""A byte-level BPE tokenizer as llama.cpp takes it: tokens, types, merges, and how to split text.
 
 llama.cpp knows a fixed list of ways to split text before merging ("pre-tokenizers",
 `llama-vocab.cpp`). Two of them are those of Llama 3 and Qwen2. Any other tokenizer is given the one
@@ -12,7 +11,6 @@ which they are not is refused.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
@@ -32,8 +30,7 @@ KNOWN = {LLAMA_3: "llama-bpe", QWEN_2: "qwen2"}
 LEAST = "superbpe"
 LEAST_PATTERNS = (r"\p{N}+", r"(?=(\d{3})+(?!\d))")
 CONVERTER = "convert it with llama.cpp's convert_hf_to_gguf.py"
-SHORT = 32
-"""Bytes from which llama-cpp-python drops a token from the text of an answer (its issue 2362)."""
+SHORT = 32  # bytes: llama-cpp-python drops longer tokens from an answer's text (its issue 2362)
 
 
 class Kind(IntEnum):
@@ -47,10 +44,8 @@ class Kind(IntEnum):
 
 @dataclass(frozen=True)
 class TokenTable:
-    """`tokens` and `kinds` by id, `merges` as "LEFT RIGHT" in order, and `split`, the name in
-    tokenizer.ggml.pre.
-
-    `added` are the texts that became user-defined tokens beyond the tokenizer's own, by id.
+    """`tokens` and `kinds` by id, `merges` as "LEFT RIGHT", and `split` for tokenizer.ggml.pre;
+    `added` are the texts, by id, that became user-defined tokens beyond the tokenizer's own.
     """
 
     tokens: tuple[str, ...]
@@ -61,15 +56,9 @@ class TokenTable:
 
     @property
     def long_words(self) -> int:
-        """Tokens with letters that are longer than SHORT; in byte-level BPE a character stands for
-        a byte.
-        """
-        normal = [
-            token
-            for token, kind in zip(self.tokens, self.kinds, strict=True)
-            if kind == Kind.NORMAL
-        ]
-        long = [token for token in normal if len(token) > SHORT]
+        """Tokens with letters that are longer than SHORT: a character stands for a byte."""
+        pairs = zip(self.tokens, self.kinds, strict=True)
+        long = [token for token, kind in pairs if kind == Kind.NORMAL and len(token) > SHORT]
         return sum(any("a" <= sign <= "z" for sign in token) for token in long)
 
 
@@ -78,19 +67,17 @@ def token_table(path: Path, size: int) -> TokenTable:
     no byte-level BPE.
     """
     settings = read_json(path)
-    model, steps = settings.get("model", {}), _steps(settings)
+    model, step = settings.get("model", {}), settings.get("pre_tokenizer") or {}
+    steps = list(step["pretokenizers"]) if step.get("type") == "Sequence" else [step]
     bytewise = [step for step in steps if step.get("type") == "ByteLevel"]
     plain = model.get("type") == "BPE" and not model.get("byte_fallback")
-    normalizer = settings.get("normalizer")
-    if not (plain and normalizer in (None, {"type": "NFC"})) or not any(
-        not step.get("add_prefix_space") for step in bytewise
-    ):
-        raise PlannerError(
-            f"{path}: only byte-level BPE tokenizers are written as GGUF here; {CONVERTER}"
-        )
+    plain = plain and settings.get("normalizer") in (None, {"type": "NFC"})
+    if not plain or all(step.get("add_prefix_space") for step in bytewise):
+        what = "only byte-level BPE tokenizers are written as GGUF here"
+        raise PlannerError(f"{path}: {what}; {CONVERTER}")
     patterns = [step["pattern"].get("Regex") for step in steps if step.get("type") == "Split"]
     split = KNOWN.get(patterns[0] or "", LEAST) if len(patterns) == 1 else LEAST
-    added = _torn_apart(settings) if split == LEAST else {}
+    added = _torn_apart(path, settings) if split == LEAST else {}
     tokens, kinds = [f"[PAD{number}]" for number in range(size)], [Kind.UNUSED] * size
     entries = [(number, text, Kind.NORMAL) for text, number in model["vocab"].items()]
     entries += [
@@ -105,16 +92,20 @@ def token_table(path: Path, size: int) -> TokenTable:
 
 
 def check_ids(path: Path, table: TokenTable, texts: Iterable[str]) -> int:
-    """The number of texts, each with the same ids in both tokenizers. Raises PlannerError, with the
+    """The number of texts, all with the same ids in both tokenizers. Raises PlannerError, with the
     first text that differs.
 
     llama.cpp's way is computed with the tokenizers library: the same merges after the other split.
     """
-    from tokenizers import Tokenizer
+    from tokenizers import AddedToken, Regex, Tokenizer
+    from tokenizers.pre_tokenizers import ByteLevel, Sequence, Split
 
-    settings = read_json(path)
-    ours = Tokenizer.from_str(json.dumps(settings))
-    theirs = Tokenizer.from_str(json.dumps(_with_split(settings, table)))
+    ours, theirs = Tokenizer.from_file(str(path)), Tokenizer.from_file(str(path))
+    if table.split == LEAST:
+        splits = [Split(Regex(pattern), "isolated") for pattern in LEAST_PATTERNS]
+        bytewise = ByteLevel(add_prefix_space=False, use_regex=False)
+        theirs.pre_tokenizer = Sequence([*splits, bytewise])
+        theirs.add_tokens([AddedToken(text, normalized=False) for text in table.added.values()])
     # The library gives the added texts new ids.
     back = {theirs.token_to_id(text): number for number, text in table.added.items()}
     count = 0
@@ -122,42 +113,16 @@ def check_ids(path: Path, table: TokenTable, texts: Iterable[str]) -> int:
         found = theirs.encode(text, add_special_tokens=False).ids
         expected = ours.encode(text, add_special_tokens=False).ids
         if expected != [back.get(number, number) for number in found]:
-            raise PlannerError(
-                f"{path}: no way in which llama.cpp splits text gives this tokenizer's ids for"
-                f" {text[:80]!r}; {CONVERTER}, if it knows one"
-            )
+            why = "no way in which llama.cpp splits text gives this tokenizer's ids for"
+            raise PlannerError(f"{path}: {why} {text[:80]!r}; {CONVERTER}, if it knows one")
     return count
 
 
-def _with_split(settings: dict[str, Any], table: TokenTable) -> dict[str, Any]:
-    """A tokenizer.json that splits as the table says."""
-    if table.split != LEAST:
-        return settings
-    steps: list[dict[str, Any]] = [
-        {"type": "Split", "pattern": {"Regex": pattern}, "behavior": "Isolated", "invert": False}
-        for pattern in LEAST_PATTERNS
-    ]
-    byte_level = {"add_prefix_space": False, "trim_offsets": True, "use_regex": False}
-    steps.append({"type": "ByteLevel", **byte_level})
-    flags = dict.fromkeys(("single_word", "lstrip", "rstrip", "normalized", "special"), False)
-    more = [
-        {"id": len(table.tokens) + place, "content": text, **flags}
-        for place, text in enumerate(table.added.values())
-    ]
-    return {
-        **settings,
-        "pre_tokenizer": {"type": "Sequence", "pretokenizers": steps},
-        "added_tokens": [*settings["added_tokens"], *more],
-    }
-
-
-def _torn_apart(settings: dict[str, Any]) -> dict[int, str]:
-    """Tokens with digits and other characters that the tokenizer itself can produce, as text by
-    id.
-    """
+def _torn_apart(path: Path, settings: dict[str, Any]) -> dict[int, str]:
+    """The tokens with digits and other characters that a tokenizer itself can produce, by id."""
     from tokenizers import Tokenizer
 
-    tokenizer = Tokenizer.from_str(json.dumps(settings))
+    tokenizer = Tokenizer.from_file(str(path))
     own = {entry["content"] for entry in settings["added_tokens"]}
     found = {}
     for token, number in settings["model"]["vocab"].items():
@@ -168,8 +133,3 @@ def _torn_apart(settings: dict[str, Any]) -> dict[int, str]:
         if tokenizer.encode(text, add_special_tokens=False).ids == [number]:
             found[number] = text
     return found
-
-
-def _steps(settings: dict[str, Any]) -> list[dict[str, Any]]:
-    step = settings.get("pre_tokenizer") or {}
-    return list(step["pretokenizers"]) if step.get("type") == "Sequence" else [step]

@@ -5,14 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from planner_ft.candidates import Candidate
+from planner_ft.candidates import Candidate, loading
 from planner_ft.candidates.adapters import check_adapter
-from planner_ft.candidates.loading import (
-    load_tokenizer,
-    quiet_bars,
-    quiet_libraries,
-    require_folder,
-)
 from planner_ft.candidates.registry import VOCABULARY_KEY
 from planner_ft.prompts.render import TODAY
 from planner_ft.support.errors import PlannerError
@@ -20,48 +14,41 @@ from planner_ft.support.files import read_json, write_json
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level
 
-LOCAL: dict[str, Any] = {"local_files_only": True, "trust_remote_code": False}
+LOCAL = {"local_files_only": True, "trust_remote_code": False, "use_safetensors": True}
 
 
 def load_full(
     candidate: Candidate, adapter: Path | None, level: Level, vocabulary: Vocabulary
 ) -> Any:
-    """The candidate's model in float32 on the CPU, with the adapter beside its weights if there is
-    one. Raises PlannerError.
+    """The candidate's model in float32 on the CPU, with an adapter beside its weights. Raises
+    PlannerError.
     """
     import torch
     from transformers import AutoModelForCausalLM
 
-    folder = require_folder(candidate)
+    folder = loading.require_folder(candidate)
     if adapter is not None:
         check_adapter(adapter, candidate, level=level, vocabulary=vocabulary)
-    quiet_libraries()
+    loading.quiet_libraries()
     try:
-        with quiet_bars():
-            model = AutoModelForCausalLM.from_pretrained(
-                str(folder), dtype=torch.float32, use_safetensors=True, **LOCAL
-            )
+        with loading.quiet_bars():
+            options = {**LOCAL, "dtype": torch.float32}
+            model = AutoModelForCausalLM.from_pretrained(str(folder), **options)
             if adapter is not None:
                 from peft import PeftModel
 
                 model = PeftModel.from_pretrained(model, str(adapter), use_safetensors=True)
     except MemoryError as error:
-        raise PlannerError(
-            f"{candidate.name} does not fit the memory in float32; close other programs, or export"
-            " on a larger machine"
-        ) from error
+        way = "close other programs, or export on a larger machine"
+        raise PlannerError(f"{candidate.name} does not fit the memory in float32; {way}") from error
     except (OSError, ValueError, RuntimeError) as error:
-        why = " ".join(str(error).split())[:200]
-        raise PlannerError(
-            f"{folder}: the model cannot be loaded ({why}); check its files"
-        ) from error
+        why = f"the model cannot be loaded ({' '.join(str(error).split())[:200]})"
+        raise PlannerError(f"{folder}: {why}; check its files") from error
     return model.eval()
 
 
 def merged(model: Any) -> Any:
-    """The model with its adapter folded into its weights (W + alpha / r * B A); a model without one
-    as it is. Raises PlannerError.
-    """
+    """The model with its adapter, if any, folded in: W + alpha / r * B A. Raises PlannerError."""
     if not hasattr(model, "merge_and_unload"):
         return model
     try:
@@ -76,12 +63,12 @@ def save_full(model: Any, candidate: Candidate, learned: Vocabulary | None, fold
     `learned` is the vocabulary that the model knows without a prompt; config.json names it, so that
     the benchmark does not put it into prompts.
     """
-    with quiet_bars():
+    with loading.quiet_bars():
         model.save_pretrained(str(folder), safe_serialization=True)
     config = folder / "config.json"
     for path in folder.glob("*.safetensors"):  # written readable for their owner alone
         path.chmod(config.stat().st_mode)
-    tokenizer = load_tokenizer(candidate)
+    tokenizer = loading.load_tokenizer(candidate)
     tokenizer.chat_template = with_fixed_date(tokenizer.chat_template)
     tokenizer.save_pretrained(str(folder))
     if learned is not None and _is_bundled(learned):

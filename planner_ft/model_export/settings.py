@@ -16,10 +16,9 @@ OutType = Literal["f32", "f16"]
 class ExportSettings:
     """An export of `candidate` into the folder `out`.
 
-    `merge` folds the adapter of `level` in: `adapter` ("DIR" or "LEVEL=DIR"), or the one that the
-    candidate has. With `gguf` a GGUF file is written, too, its matrices in `outtype`. `checks`
-    commands are answered before and after, those of `data` or, without it, of the level's
-    validation set.
+    `merge` folds the adapter of `level` in: `adapter` ("DIR" or "LEVEL=DIR"), or the candidate's
+    own. `gguf` writes a GGUF file, too, its matrices in `outtype`. `checks` commands are answered
+    before and after: those of `data`, or of the level's validation set.
     """
 
     candidate: str
