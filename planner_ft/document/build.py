@@ -64,16 +64,11 @@ def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = No
 
 
 def _task(number: int, task: PlannedTask) -> dict[str, Any]:
-    entry: dict[str, Any] = {
-        "id": f"t{number}",
-        "title": task.title,
-        "parameters": task.parameters,
-        "task_prompt": task.task_prompt,
-        "skill_sequence": None,
-    }
-    answer = task.answer
-    if answer is not None:
-        entry["skill_sequence"] = answer.plan["skill_sequence"] if answer.plan is not None else None
+    entry: dict[str, Any] = {"id": f"t{number}", "title": task.title}
+    entry |= {"parameters": task.parameters, "task_prompt": task.task_prompt}
+    entry["skill_sequence"] = None
+    if answer := task.answer:
+        entry["skill_sequence"] = answer.plan and answer.plan["skill_sequence"]
         entry |= {"assumptions": list(answer.notes)} if answer.notes else {}
         entry |= _problems(answer)
     return copy.deepcopy(entry)
@@ -88,7 +83,7 @@ def _problems(answer: Answer) -> dict[str, Any]:
 
 def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
     """The document with derived keys, validity and digest made anew."""
-    tasks = [_underived(task, vocabulary) for task in document["tasks"]]
+    tasks = [_ordered_task(task, vocabulary) for task in document["tasks"]]
     places = places_of(tasks, vocabulary)
     for place in places:
         for number in place.tasks:
@@ -112,11 +107,15 @@ def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
     return {**ordered, "digest": document_digest(ordered)}
 
 
-def _underived(task: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
+def _ordered_task(task: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
     """A task without what derives, its parameters in the order of the definition."""
-    kept = {key: value for key, value in task.items() if key not in ("waits_for", "sources")}
     known = vocabulary.task.get(task["title"])
-    return {**kept, "parameters": canonical_parameters(task["parameters"], known)}
+    return {**without_derived(task), "parameters": canonical_parameters(task["parameters"], known)}
+
+
+def without_derived(task: Mapping[str, Any]) -> dict[str, Any]:
+    """A task without what derives."""
+    return {key: value for key, value in task.items() if key not in ("waits_for", "sources")}
 
 
 def _ordered(value: Mapping[str, Any], keys: Sequence[str]) -> dict[str, Any]:

@@ -41,18 +41,17 @@ def compare(before: dict[str, Any], after: dict[str, Any]) -> list[Difference]:
     kept = {task["id"] for task in after["tasks"]}
     found = list(_changes(None, "located", "", before["located"], after["located"]))
     for name, task in old.items():
-        title = task["title"]
+        title, given = task["title"], task["parameters"]
         if name not in kept:
             text = f"{title} ({name}): removed"
-            found.append(Difference(name, "removed", title, task["parameters"], None, text))
+            found.append(Difference(name, "removed", title, given, None, text))
     for number, task in enumerate(after["tasks"], start=1):
-        name, title = task["id"], task["title"]
+        name, title, given = task["id"], task["title"], task["parameters"]
         where = f"task {number}, {title}: "
-        if name not in old:
-            given = task["parameters"]
-            found.append(Difference(name, "added", title, None, given, f"{where}added"))
-        else:
+        if name in old:
             found += _within(where, old[name], task)
+        else:
+            found.append(Difference(name, "added", title, None, given, f"{where}added"))
     return found + list(_moved(before["tasks"], after["tasks"]))
 
 

@@ -10,19 +10,20 @@ from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
 from typing import Any
 
-from planner_ft.document.build import PlanDocument, altered, places_of, revise, tasks_at
+from planner_ft.document.build import (
+    PlanDocument,
+    altered,
+    places_of,
+    revise,
+    tasks_at,
+    without_derived,
+)
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
+from planner_ft.vocabulary import plans as rules
 from planner_ft.vocabulary.document_schema import task_schema
-from planner_ft.vocabulary.plans import (
-    canonical_value,
-    is_number,
-    plan_problems,
-    step_skills,
-    task_problems,
-    value_problem,
-)
+from planner_ft.vocabulary.plans import canonical_value, is_number, step_skills
 
 Edit = dict[str, Any]
 """{"kind": one of KINDS, ...}: what to change."""
@@ -38,20 +39,14 @@ def apply(
 ) -> PlanDocument:
     """The document with one edit made and recorded. Raises PlannerError."""
     if altered(document):
-        raise PlannerError(
-            "the plan was altered outside of the review and has not the content of its digest;"
-            " adopt it as it is, or take the file as it was"
-        )
+        problem = "the plan was altered outside of the review and has not the content of its digest"
+        raise PlannerError(f"{problem}; adopt it as it is, or take the file as it was")
     return revise(_applied(document, _record(edit, by), vocabulary), vocabulary)
 
 
 def adopt(document: PlanDocument, vocabulary: Vocabulary, by: str | None = None) -> PlanDocument:
     """A document altered outside, with its tasks recorded as an edit. Raises PlannerError."""
-    derived = ("sources", "waits_for")
-    tasks = [
-        {key: value for key, value in task.items() if key not in derived}
-        for task in document["tasks"]
-    ]
+    tasks = [without_derived(task) for task in document["tasks"]]
     record = _record({"kind": "replace", "tasks": tasks}, by)
     return revise(_applied(document, record, vocabulary), vocabulary)
 
@@ -148,22 +143,14 @@ def _insert(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
         known = ", ".join(vocabulary.task)
         raise PlannerError(f"{_short(title)}: is no task of this vehicle; there is {known}")
     if len(document["tasks"]) >= MOST_TASKS:
-        raise PlannerError(
-            f"insert {title}: the plan has {MOST_TASKS} tasks, and no more fit; plan two missions"
-        )
+        problem = f"the plan has {MOST_TASKS} tasks, and no more fit; plan two missions"
+        raise PlannerError(f"insert {title}: {problem}")
     if not isinstance(given, dict):
         raise PlannerError("edit insert: parameters must be an object")
-    owner = vocabulary.task[title]
-    edit["id"] = _new_id(document)
-    task = {
-        "id": edit["id"],
-        "title": title,
-        "parameters": {
-            name: _value(value, _known(owner, title, name)) for name, value in given.items()
-        },
-        "task_prompt": _prompt_text(edit.get("task_prompt", "")),
-        "skill_sequence": None,
-    }
+    edit["id"], owner = _new_id(document), vocabulary.task[title]
+    values = {name: _value(value, _known(owner, title, name)) for name, value in given.items()}
+    task = {"id": edit["id"], "title": title, "parameters": values}
+    task |= {"task_prompt": _prompt_text(edit.get("task_prompt", "")), "skill_sequence": None}
     _check(task, vocabulary)
     document["tasks"].insert(_index(edit["at"], len(document["tasks"])), task)
 
@@ -186,11 +173,10 @@ def _skill(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
     if not 0 <= number < len(steps):
         raise PlannerError(f"{where}: the task has {len(steps)} steps")
     skills = [skill for known, skill in step_skills(steps[number]) if known == role]
-    if not 0 <= edit["index"] < len(skills):
-        raise PlannerError(
-            f"{where}: has {len(skills)} {role} skills, and none of number {edit['index'] + 1}"
-        )
-    skill = skills[edit["index"]]
+    if not 0 <= (index := edit["index"]) < len(skills):
+        count = f"has {len(skills)} {role} skills"
+        raise PlannerError(f"{where}: {count}, and none of number {index + 1}")
+    skill = skills[index]
     parameter = _known(vocabulary.skill[skill["name"]], skill["name"], edit["name"])
     _set(skill["parameters"], parameter, edit.get("value"))
     _check_skills(steps, where, vocabulary)
@@ -212,13 +198,10 @@ def _replace(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None
 
 
 Keys = Mapping[str, tuple[type, str]]
-TEXT, WHOLE, LIST = (str, "a text"), (int, "a whole number"), (list, "a list")
+TEXT, WHOLE = (str, "a text"), (int, "a whole number")
 TASK: Keys = {"task": (str, "the id of a task")}
-STEPS, TASKS, PLACE = (
-    (list, "a list of steps"),
-    (list, "a list of tasks"),
-    (list, "a position [x, y]"),
-)
+STEPS, TASKS = (list, "a list of steps"), (list, "a list of tasks")
+PLACE = (list, "a position [x, y]")
 SKILL: Keys = {**TASK, "step": WHOLE, "role": TEXT, "index": WHOLE, "name": TEXT}
 KINDS: dict[str, tuple[Keys, tuple[str, ...], Callable[[PlanDocument, Edit, Vocabulary], None]]] = {
     "locate": ({"name": TEXT, "position": PLACE}, (), _locate),
@@ -290,7 +273,7 @@ def _set(parameters: dict[str, Any], parameter: Parameter, value: Any) -> None:
 
 
 def _value(value: Any, parameter: Parameter) -> Any:
-    problem = value_problem(value, parameter)
+    problem = rules.value_problem(value, parameter)
     if problem:
         unit = f" ({parameter.unit})" if parameter.unit else ""
         raise PlannerError(f"{parameter.name}: {_short(problem)}{unit}")
@@ -322,13 +305,13 @@ def _index(index: int, count: int) -> int:
 
 def _check(task: dict[str, Any], vocabulary: Vocabulary) -> None:
     """Raises PlannerError when a task is not valid, such as without a parameter that it needs."""
-    found = task_problems(task, vocabulary)
+    found = rules.task_problems(task, vocabulary)
     if found:
         raise PlannerError(f"{task['id']}: {found[0]}; give it, or remove the task")
 
 
 def _check_skills(steps: Any, where: str, vocabulary: Vocabulary) -> None:
-    found = plan_problems("task", {"skill_sequence": steps}, vocabulary, strict=True)
+    found = rules.plan_problems("task", {"skill_sequence": steps}, vocabulary, strict=True)
     if found:
         raise PlannerError(f"{where}: {found[0]}")
 

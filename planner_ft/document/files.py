@@ -17,6 +17,7 @@ from planner_ft.vocabulary.plans import plan_problems, task_problems
 LARGEST_FILE = 64 * 2**20
 """Bytes of a file that is read at most: a plan of 500 tasks has about 2 MB."""
 LONGEST_SHOWN = 200
+AS_WRITTEN = "take the file as `plannerft plan` or `plannerft review` wrote it"
 
 
 def read_document(path: Path | str, vocabulary: Vocabulary | None = None) -> PlanDocument:
@@ -25,21 +26,17 @@ def read_document(path: Path | str, vocabulary: Vocabulary | None = None) -> Pla
     A wrong digest is no error here: see `altered`. Raises PlannerError.
     """
     path = Path(path)
-    if path.is_file() and path.stat().st_size > LARGEST_FILE:
-        raise PlannerError(
-            f"{path}: has {path.stat().st_size} bytes, more than the {LARGEST_FILE} of any plan;"
-            " give the file that `plannerft plan --out` wrote"
-        )
+    size = path.stat().st_size if path.is_file() else 0
+    if size > LARGEST_FILE:
+        problem = f"has {size} bytes, more than the {LARGEST_FILE} of any plan"
+        raise PlannerError(f"{path}: {problem}; {AS_WRITTEN}")
     document = read_json(path)
     if not isinstance(document, dict) or document.get("format") != FORMAT:
-        raise PlannerError(
-            f"{path}: is no plan document; write one with `plannerft plan COMMAND --out {path.name}`"
-        )
-    if document.get("version") != VERSION:
-        raise PlannerError(
-            f"{path}: is of version {document.get('version')!r}, and this program reads version"
-            f" {VERSION}; plan the command again"
-        )
+        way_out = f"write one with `plannerft plan COMMAND --out {path.name}`"
+        raise PlannerError(f"{path}: is no plan document; {way_out}")
+    if (found := document.get("version")) != VERSION:
+        problem = f"is of version {found!r}, and this program reads version {VERSION}"
+        raise PlannerError(f"{path}: {problem}; plan the command again")
     vocabulary = vocabulary or vocabulary_of(document, path)
     made = document.get("vocabulary")
     named = made if isinstance(made, dict) else {}
@@ -48,11 +45,8 @@ def read_document(path: Path | str, vocabulary: Vocabulary | None = None) -> Pla
             f"{path}: was made with another vocabulary ({named.get('name')!r}, other content) than"
             f" {vocabulary.name!r}; give its file with --vocabulary, or plan again"
         )
-    problem = document_problem(document, vocabulary)
-    if problem is not None:
-        raise PlannerError(
-            f"{path}: {problem}; take the file as `plannerft plan` or `plannerft review` wrote it"
-        )
+    if (wrong := document_problem(document, vocabulary)) is not None:
+        raise PlannerError(f"{path}: {wrong}; {AS_WRITTEN}")
     return document
 
 
@@ -65,10 +59,8 @@ def document_problem(document: Any, vocabulary: Vocabulary) -> str | None:
 
     found = best_match(_frame().iter_errors(document))
     if found is not None:
-        where = "".join(
-            f"[{key}]" if isinstance(key, int) else f".{key}" for key in found.absolute_path
-        )
-        return f"{where.lstrip('.') or 'the document'}: {_short(found.message)}"
+        where = found.json_path.removeprefix("$").lstrip(".") or "the document"
+        return f"{where}: {_short(found.message)}"
     for where, part in (("tasks", document), ("proposed.tasks", document["proposed"])):
         for index, task in enumerate(part["tasks"]):
             steps = {"skill_sequence": task["skill_sequence"] or []}
@@ -84,14 +76,10 @@ def vocabulary_of(document: PlanDocument, path: Path | str) -> Vocabulary:
     made = document.get("vocabulary")
     name = made.get("name") if isinstance(made, dict) else None
     if not isinstance(name, str):
-        raise PlannerError(
-            f"{path}: names no vocabulary; take the file as `plannerft plan` wrote it"
-        )
+        raise PlannerError(f"{path}: names no vocabulary; {AS_WRITTEN}")
     if name not in bundled_vocabularies():
-        raise PlannerError(
-            f"{path}: was made with the vocabulary {name!r}, which is not bundled; give its file"
-            " with --vocabulary"
-        )
+        problem = f"was made with the vocabulary {name!r}, which is not bundled"
+        raise PlannerError(f"{path}: {problem}; give its file with --vocabulary")
     return load_vocabulary(name)
 
 

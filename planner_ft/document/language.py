@@ -71,12 +71,10 @@ def pattern(phrases: Sequence[str]) -> re.Pattern[str]:
 
 
 def _phrase(phrase: str) -> str:
-    parts = [
-        r"[\s-]+".join(
-            re.escape(word).replace(r"\*", r"\w*").replace("'", "['’]") for word in part.split()
-        )
-        for part in phrase.split("...")
-    ]
+    parts = [re.escape(" ".join(part.split())) for part in phrase.split("...")]
+    changes = ((r"\ ", r"[\s-]+"), (r"\*", r"\w*"), ("'", "['’]"))
+    for plain, written in changes:
+        parts = [part.replace(plain, written) for part in parts]
     return GAP.join(parts)
 
 

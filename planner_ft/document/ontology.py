@@ -32,22 +32,18 @@ _NAME = re.compile(r"\s+((?:[A-Z][\w-]*|\d+)(?:\s+(?:[A-Z][\w-]*|\d+))?)(?!\w)")
 def check(command: str, vocabulary: Vocabulary) -> dict[str, Any]:
     """{"elements": [{"element", "start", "end", "text"}], "missing", "questions"} of a command."""
     spoken, clauses = language(vocabulary), read_clauses(command, vocabulary)
-    found: dict[str, list[Span]] = {
-        "objective": _merged(_objectives(clauses, spoken)),
-        "target": _merged(_targets(command, spoken)),
-        "sensor": _merged(_sensors(clauses, spoken)),
-        "constraint": _merged(_constraints(clauses, spoken)),
-    }
-    elements = sorted((*span, element) for element in ELEMENTS for span in found[element])
+    parts = (_objectives(clauses, spoken), _targets(command, spoken), _sensors(clauses, spoken))
+    spans = (*parts, _constraints(clauses, spoken))
+    found = {element: _merged(some) for element, some in zip(ELEMENTS, spans, strict=True)}
+    elements = [
+        {"element": element, "start": start, "end": end, "text": command[start:end]}
+        for start, end, element in sorted(
+            (*span, name) for name in ELEMENTS for span in found[name]
+        )
+    ]
     missing = [element for element in ELEMENTS if not found[element]]
-    return {
-        "elements": [
-            {"element": element, "start": start, "end": end, "text": command[start:end]}
-            for start, end, element in elements
-        ],
-        "missing": missing,
-        "questions": [spoken.questions[element] for element in missing],
-    }
+    questions = [spoken.questions[element] for element in missing]
+    return {"elements": elements, "missing": missing, "questions": questions}
 
 
 def _objectives(clauses: Iterable[Clause], spoken: Language) -> Iterator[Span]:
@@ -79,13 +75,10 @@ def _targets(command: str, spoken: Language) -> Iterator[Span]:
     """Named coordinates, noun phrases, numbered and named things, the vehicle's whereabouts."""
     for offset, text in pieces(command):
         named = [*_noun_phrases(text, spoken), *_names(text, spoken)]
+        certain = [(place.start, place.end) for place in read_positions(text) if place.certain]
         places = [
-            (
-                _before(text, place.start, named),
-                place.end + (text[place.end : place.end + 1] in CLOSED),
-            )
-            for place in read_positions(text)
-            if place.certain
+            (_before(text, start, named), end + (text[end : end + 1] in CLOSED))
+            for start, end in certain
         ]
         here = [match.span() for match in spoken.words["here"].finditer(text)]
         yield from ((start + offset, end + offset) for start, end in (*named, *places, *here))

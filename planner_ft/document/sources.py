@@ -16,10 +16,8 @@ Source = dict[str, Any]
 def sources(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[str, Source]]:
     """Per task, in order, {parameter: source}; the mention nearest to the task's others."""
     command = read_input({"prompt": document["command"]}, vocabulary)
-    proposed = {
-        task["id"]: task["parameters"]
-        for task in document.get("proposed", {"tasks": document["tasks"]})["tasks"]
-    }
+    before = document.get("proposed", document)["tasks"]
+    proposed = {task["id"]: task["parameters"] for task in before}
     found, place = [], 0
     for task in document["tasks"]:
         of_task, place = _of_task(task, proposed.get(task["id"]), command, place)
@@ -44,9 +42,7 @@ def _of_task(
             open_values[name] = evidence
         if source is not None:
             fixed[name] = source
-    mentions = {
-        name: evidence.mentions for name, evidence in open_values.items() if name not in fixed
-    }
+    mentions = {name: found.mentions for name, found in open_values.items() if name not in fixed}
     certain = [found[0][0][0] for found in mentions.values() if len(found) == 1]
     certain += [source["spans"][0][0] for source in fixed.values() if source.get("spans")]
     anchor = sum(certain) / len(certain) if certain else place
@@ -101,13 +97,8 @@ def _without_words(evidence: Evidence) -> Source:
     """The source of a value of which no words were found."""
     if evidence.given:
         return _from("command")
-    unread = evidence.given is None
-    return _from(
-        "model",
-        note="the command could not be read with certainty"
-        if unread
-        else "the command does not say it",
-    )
+    unread = "the command could not be read with certainty"
+    return _from("model", note=unread if evidence.given is None else "the command does not say it")
 
 
 def _from(kind: str, spans: tuple[Span, ...] = (), note: str = "") -> Source:

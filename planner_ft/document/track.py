@@ -87,13 +87,9 @@ def track(document: Mapping[str, Any], vocabulary: Vocabulary) -> Track:
     pen = _Pen(vocabulary, document.get("vehicle") or {})
     for task in tasks:
         pen.draw(task)
-    return Track(
-        tuple(pen.legs),
-        tuple(_circles(tasks, vocabulary)),
-        tuple(_boundaries(tasks, vocabulary)),
-        tuple(_targets(document, vocabulary)),
-        tuple(pen.open),
-    )
+    circles, boundaries = _circles(tasks, vocabulary), _boundaries(tasks, vocabulary)
+    shapes = tuple(circles), tuple(boundaries), tuple(_targets(document, vocabulary))
+    return Track(tuple(pen.legs), *shapes, tuple(pen.open))
 
 
 def estimate(document: Mapping[str, Any], path: Track) -> dict[str, Any]:
@@ -117,8 +113,7 @@ class _Pen:
     """Draws tasks from `here` (None: not known), with `heading` in degrees from north."""
 
     def __init__(self, vocabulary: Vocabulary, vehicle: Mapping[str, Any]) -> None:
-        self.vocabulary = vocabulary
-        self.vehicle = vehicle
+        self.vocabulary, self.vehicle = vocabulary, vehicle
         self.here: Point | None = vocabulary.home
         self.heading = 0.0
         self.legs: list[Leg] = []

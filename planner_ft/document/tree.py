@@ -24,10 +24,10 @@ def plan_tree(document: PlanDocument) -> str:
 def _lines(document: PlanDocument) -> Iterator[str]:
     yield document["command"]
     yield from task_tree(document)
-    places = [
-        f"{place['name']}: task{'s' * (len(place['tasks']) > 1)} {', '.join(map(str, place['tasks']))}"
-        for place in document["open_places"]
-    ]
+    places = []
+    for place in document["open_places"]:
+        numbers = ", ".join(map(str, place["tasks"]))
+        places.append(f"{place['name']}: task{'s' * (len(place['tasks']) > 1)} {numbers}")
     sections = {
         "Assumptions": document["assumptions"],
         "Constraints": document["constraints"],
@@ -66,10 +66,8 @@ def _task_lines(number: int, task: dict[str, Any]) -> Iterator[str]:
         yield f"{INDENT}(the skills were planned before the task was edited)"
     for place, step in enumerate(task["skill_sequence"] or (), start=1):
         # The navigation skill, filters after "|", what gathers data after "+".
-        skills = [
-            SIGNS[role] + call(skill["name"], skill["parameters"])
-            for role, skill in step_skills(step)
-        ]
+        used = step_skills(step)
+        skills = [SIGNS[role] + call(skill["name"], skill["parameters"]) for role, skill in used]
         yield f"{INDENT}{place:2d}. {''.join(skills)}"
     yield from (f"{INDENT}({note})" for note in task.get("assumptions", ()))
 

@@ -37,10 +37,8 @@ def unused_facts(
     plan.add_tasks(tasks)
     plan.add_texts(texts)
     plan.add_ways(command, vocabulary)
-    clauses, correction = (
-        read_clauses(command, vocabulary),
-        language(vocabulary).words["correction"],
-    )
+    clauses = read_clauses(command, vocabulary)
+    correction = language(vocabulary).words["correction"]
     text = without_geographic(command)
     numbers = read_numbers(text)
     found: dict[str, None] = {}
@@ -49,11 +47,8 @@ def unused_facts(
             continue
         if following and _replaced(text[number.end : following.start], correction):
             continue
-        sums = [
-            total
-            for total in neighbours(numbers, number.unit)
-            if total.start <= number.start and number.end <= total.end
-        ]
+        start, end, totals = number.start, number.end, neighbours(numbers, number.unit)
+        sums = [total for total in totals if total.start <= start and end <= total.end]
         if not any(plan.has(one.value) for one in (number, *sums)):
             whole = (*sums, number)[0]
             found[text[whole.start : whole.end]] = None
@@ -72,12 +67,8 @@ class _Plan:
 
     def add_tasks(self, tasks: Sequence[Mapping[str, Any]]) -> None:
         """The values of tasks with their skills."""
-        skills = (
-            skill
-            for task in tasks
-            for step in task.get("skill_sequence") or ()
-            for _role, skill in step_skills(step)
-        )
+        steps = [step for task in tasks for step in task.get("skill_sequence") or ()]
+        skills = [skill for step in steps for _role, skill in step_skills(step)]
         values = [value for owner in (*tasks, *skills) for value in owner["parameters"].values()]
         self.apart |= {float(value) for value in values if is_number(value)}
         self.numbers |= {float(number) for value in values for number in _flat(value)}
@@ -125,9 +116,8 @@ def _unused_places(
             continue
         behind = text[end : end + 40]
         following = read_numbers(behind)
-        if following and correction.search(behind, 0, following[0].start):
-            continue
-        if any(plan.has_place(place) for place in options):
+        replaced = following and correction.search(behind, 0, following[0].start)
+        if replaced or any(plan.has_place(place) for place in options):
             continue
         # In brackets it is a place as a whole, whatever its signs; else its numbers may stand
         # apart.
@@ -149,26 +139,21 @@ def _flat(value: Any) -> Iterator[float]:
 def _is_wanted(clauses: tuple[Clause, ...], place: int) -> bool:
     """Whether words at a place are neither ruled out nor taken back."""
     index = bisect.bisect_right(clauses, place, key=lambda clause: clause.start) - 1
-    clause = clauses[index] if index >= 0 else None
-    return clause is None or (
-        not clause.corrected and (clause.excluded is None or place < clause.excluded)
-    )
+    if index < 0:
+        return True
+    clause = clauses[index]
+    return not clause.corrected and (clause.excluded is None or place < clause.excluded)
 
 
 def _replaced(between: str, correction: re.Pattern[str]) -> bool:
     """Whether the words between two values say that the second takes the place of the first."""
-    return len(between) <= 30 and (
-        correction.search(between) is not None or NO.fullmatch(between) is not None
-    )
+    return len(between) <= 30 and bool(correction.search(between) or NO.fullmatch(between))
 
 
 def _is_measure(text: str, number: Number) -> bool:
     """Whether a number is a measure or a course. Counts, ids, parts and times of day are none."""
-    if (
-        CLOCK.match(text, number.end)
-        or number.unit == "%"
-        or MOMENT.fullmatch(text, number.start, number.end)
-    ):
+    moment = MOMENT.fullmatch(text, number.start, number.end)
+    if moment or number.unit == "%" or CLOCK.match(text, number.end):
         return False
     course = COURSE.search(text, max(0, number.start - 20), number.start)
     return number.unit is not None or course is not None

@@ -13,12 +13,7 @@ from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import VEHICLE
 from planner_ft.vocabulary.plans import is_number, is_position
 
-UNITS = {
-    "cruise_speed": "m/s",
-    "endurance": "s",
-    "turn_rate": "degrees per second",
-    "orbit_angle": "degrees",
-}
+UNITS = {"cruise_speed": "m/s", "endurance": "s", "turn_rate": "deg/s", "orbit_angle": "degrees"}
 LARGEST = 1e9
 FULL_CIRCLE = 360
 
@@ -45,18 +40,15 @@ class Vehicle:
 def load_vehicle(path: Path | str | None, vocabulary: Vocabulary) -> Vehicle:
     """The profile in a TOML file, completed by NAME.vehicle.toml. Raises PlannerError."""
     own, where, raw = vocabulary.beside(VEHICLE), f"{vocabulary.name}{VEHICLE}", {}
-    if path is not None:
-        where = str(path)
-        try:
-            raw = tomllib.loads(read_text(path))
-        except tomllib.TOMLDecodeError as error:
-            raise PlannerError(f"{path}: not TOML: {error}") from None
-    elif not own:
+    if path is None and not own:
         stem = vocabulary.path.stem if vocabulary.path else vocabulary.name
-        raise PlannerError(
-            f"vocabulary {vocabulary.name}: has no vehicle profile; write {stem}{VEHICLE} beside its"
-            " definition, or give one with --vehicle FILE"
-        )
+        ways = f"write {stem}{VEHICLE} beside its definition, or give one with --vehicle FILE"
+        raise PlannerError(f"vocabulary {vocabulary.name}: has no vehicle profile; {ways}")
+    try:
+        if path is not None:
+            where, raw = str(path), tomllib.loads(read_text(path))
+    except tomllib.TOMLDecodeError as error:
+        raise PlannerError(f"{path}: not TOML: {error}") from None
     try:
         return _built({"orbit_angle": FULL_CIRCLE, **own, **raw})
     except PlannerError as error:
@@ -68,18 +60,14 @@ def check_area(corners: Any) -> tuple[tuple[float, float], ...]:
     from shapely import Polygon
 
     pairs = [list(corner) if isinstance(corner, tuple) else corner for corner in corners or ()]
-    if len(pairs) < 3 or not all(is_position(pair) and _is_near(pair) for pair in pairs):
-        raise PlannerError(
-            f"area = {corners!r}: must be a list of at least three positions [x, y] in local metres"
-        )
+    near = all(is_position(pair) and max(map(abs, pair)) <= LARGEST for pair in pairs)
+    if len(pairs) < 3 or not near:
+        wanted = "must be a list of at least three positions [x, y] in local metres"
+        raise PlannerError(f"area = {corners!r}: {wanted}")
     area = tuple((float(x), float(y)) for x, y in pairs)
     if not Polygon(area).is_valid:
         raise PlannerError("area: its sides cross or touch each other; give its corners in order")
     return area
-
-
-def _is_near(pair: list[float]) -> bool:
-    return max(map(abs, pair)) <= LARGEST
 
 
 def _built(raw: dict[str, Any]) -> Vehicle:

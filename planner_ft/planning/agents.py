@@ -42,11 +42,9 @@ class Agents:
         progress: Progress = silent,
     ) -> None:
         """Raises PlannerError for a device that there is not."""
-        self.agents = agents
-        self.vocabulary = vocabulary
+        self.agents, self.vocabulary, self._progress = agents, vocabulary, progress
         self.device = resolve_device(device)
         self.load_seconds: dict[Level, float] = dict.fromkeys(agents, 0.0)
-        self._progress = progress
         self._engine: Engine | None = None
         self._serves: tuple[Level, ...] = ()
 
@@ -54,10 +52,8 @@ class Agents:
         """The engine that answers for an agent, loaded if it is not. Raises PlannerError."""
         if self._engine is None or level not in self._serves:
             self.release()
-            base = self.agents[level].base
-            self._serves = tuple(
-                other for other, agent in self.agents.items() if agent.base == base
-            )
+            base, agents = self.agents[level].base, self.agents.items()
+            self._serves = tuple(other for other, agent in agents if agent.base == base)
             started = time.perf_counter()
             self._engine = self._loaded(self.agents[level])
             self.load_seconds[level] = time.perf_counter() - started
@@ -100,9 +96,8 @@ class Agents:
         from planner_ft.decoding.engine import Engine, decoding_threads
 
         self._progress(f"{agent.candidate.name}: loading", 0, 0)
-        adapters = {
-            level: adapter for level in self._serves if (adapter := self.agents[level].adapter)
-        }
+        own = {level: self.agents[level].adapter for level in self._serves}
+        adapters = {level: adapter for level, adapter in own.items() if adapter}
         return Engine.load(
             agent.candidate,
             self.vocabulary,

@@ -60,15 +60,13 @@ def parse_location(text: str) -> tuple[str, Position]:
     """Read "NAME=x,y" (metres). Raises PlannerError that says what was expected."""
     name, _equals, place = text.rpartition("=")
     try:
-        x, y = (float(part) for part in place.strip().strip("[]()").split(","))
+        x, y = map(float, place.strip().strip("[]()").split(","))
     except ValueError:
         x = y = math.nan
-    if not name.strip() or not (math.isfinite(x) and math.isfinite(y)):
-        raise PlannerError(
-            f'--locate {text}: expected "NAME=x,y" in metres east and north of home, such as "green'
-            ' buoy=120,-35"'
-        )
-    return name.strip(), (x, y)
+    if name.strip() and math.isfinite(x) and math.isfinite(y):
+        return name.strip(), (x, y)
+    expected = '"NAME=x,y" in metres east and north of home, such as "green buoy=120,-35"'
+    raise PlannerError(f"--locate {text}: expected {expected}")
 
 
 def parse_locations(texts: Sequence[str]) -> dict[str, Position]:
@@ -91,16 +89,14 @@ def resolve(
     filled = copy.deepcopy(plan)
     named: dict[OpenPlace, str] = {}
     for name, position in locations.items():
-        flag, at = f"--locate {name}:", [float(value) for value in position]
-        if at == list(vocabulary.unresolved):
-            raise PlannerError(
-                f"{flag} {list(vocabulary.unresolved)} stands for an unknown place; give where it is"
-            )
+        at, unknown = [float(value) for value in position], list(vocabulary.unresolved)
+        if at == unknown:
+            problem = f"{unknown} stands for an unknown place; give where it is"
+            raise PlannerError(f"--locate {name}: {problem}")
         place = _matching(name, places)
         if (other := named.setdefault(place, name)) != name:
-            raise PlannerError(
-                f'{flag} "{place.name}" is located by "{other}" already; leave one of them out'
-            )
+            problem = f'"{place.name}" is located by "{other}" already; leave one of them out'
+            raise PlannerError(f"--locate {name}: {problem}")
         for number in place.tasks:
             entry = filled["tasks"][number - 1]
             parameter = vocabulary.task[entry["title"]].position_parameter
@@ -114,14 +110,10 @@ def _matching(name: str, places: Sequence[OpenPlace]) -> OpenPlace:
     found = exact or [place for place in places if wanted in _plain(place.name)]
     if len(found) == 1:
         return found[0]
-    if not places:
-        raise PlannerError(
-            f"--locate {name}: the plan of this command leaves no place open; plan without it"
-            " to see"
-        )
     names = ", ".join(f'"{place.name}"' for place in found or places)
     problem = "fits several places" if found else "no such place is open"
-    raise PlannerError(f"--locate {name}: {problem}; there is {names}")
+    there = f"there is {names}" if places else "the plan leaves no place open; plan without it"
+    raise PlannerError(f"--locate {name}: {problem}; {there}")
 
 
 def _name_of(entry: Mapping[str, Any], searched: Sequence[str], vocabulary: Vocabulary) -> str:

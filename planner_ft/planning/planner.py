@@ -6,13 +6,12 @@ import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 from planner_ft.planning.agents import Agents, Progress, silent
 from planner_ft.planning.locations import OpenPlace, Position, is_open, open_places, resolve
-from planner_ft.planning.result import Answer, Planned, PlannedTask
-from planner_ft.planning.settings import PlanSettings, choose_agents
+from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask
+from planner_ft.planning.settings import DEFAULT_CANDIDATE, PlanSettings, choose_agents
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import nearest_folder
 from planner_ft.support.manifest import build_manifest
@@ -34,6 +33,7 @@ class SkillsKnown:
     answer: Answer
 
 
+Locations = Mapping[str, Position]
 OnEvent = Callable[[TasksKnown | SkillsKnown], None]
 """Called while a command is planned, as soon as something of the plan is known."""
 
@@ -58,11 +58,7 @@ class Planner:
 
     @classmethod
     def load(
-        cls,
-        candidate: str = PlanSettings.candidate,
-        *,
-        progress: Progress = silent,
-        **settings: Any,
+        cls, candidate: str = DEFAULT_CANDIDATE, *, progress: Progress = silent, **settings: Any
     ) -> Planner:
         """A planner of PlanSettings with the Mission Agent's base loaded. Raises PlannerError."""
         planner = cls(PlanSettings(candidate, **settings), progress)
@@ -70,10 +66,7 @@ class Planner:
         return planner
 
     def plan(
-        self,
-        command: str,
-        locations: Mapping[str, Position] | None = None,
-        on_event: OnEvent = unwatched,
+        self, command: str, locations: Locations | None = None, on_event: OnEvent = unwatched
     ) -> Planned:
         """The plan of a command; `locations` are positions (metres east, north) of open places.
 
@@ -90,16 +83,10 @@ class Planner:
             places = open_places(filled, self.vocabulary)
             tasks = self._tasks(filled, places, on_event)
         answers = {"mission": [mission], "task": [task.answer for task in tasks if task.answer]}
-        return Planned(
-            command,
-            mission,
-            tasks,
-            tuple(places),
-            located,
-            usage={level: self.agents.use(level, answers[level]) for level in self.agents.agents},
-            peak_memory=self.agents.peak_memory(),
-            manifest=self._manifest(),
-        )
+        agents, manifest = self.agents, self._manifest()
+        use: dict[str, AgentUse] = {of: agents.use(of, answers[of]) for of in agents.agents}
+        what = command, mission, tasks, tuple(places), located
+        return Planned(*what, use, agents.peak_memory(), manifest)
 
     def skills(self, task: Mapping[str, Any]) -> Answer:
         """The Task Agent's answer, valid or not, for `title`, `parameters` and `task_prompt`.
@@ -111,28 +98,17 @@ class Planner:
                 f"{task['title']}: there is no Task Agent with --mission-only; leave the flag out"
             )
         if is_open(task, self.vocabulary):
-            raise PlannerError(
-                f"{task['title']}: its place is open, and skills to nowhere would be worth nothing;"
-                " say where it is first"
-            )
+            problem = "its place is open, and skills to nowhere would be worth nothing"
+            raise PlannerError(f"{task['title']}: {problem}; say where it is first")
         self.agents.load("task")
         record = {"task": task["title"], "parameters": task["parameters"]}
         return self.agents.ask("task", {**record, "prompt": task["task_prompt"]})
 
-    def close(self) -> None:
-        """Give the memory back; a later `plan` loads again."""
-        self.agents.release()
-
     def __enter__(self) -> Planner:
         return self
 
-    def __exit__(
-        self,
-        _kind: type[BaseException] | None,
-        _error: BaseException | None,
-        _trace: TracebackType | None,
-    ) -> None:
-        self.close()
+    def __exit__(self, *_error: object) -> None:
+        self.agents.release()
 
     def _mission(self, command: str) -> Answer:
         self.agents.load("mission")
@@ -169,13 +145,10 @@ class Planner:
     def _manifest(self) -> dict[str, Any]:
         """What the plan depended on."""
         named = {"name": self.vocabulary.name, "sha256": self.vocabulary.sha256}
-        return build_manifest(
-            "plan",
-            seed=None,
-            configuration={"decoding": "greedy", "vocabulary": named},
-            device=str(self.agents.device),
-            agents={level: agent.record() for level, agent in self.agents.agents.items()},
-        )
+        made: dict[str, Any] = {"configuration": {"decoding": "greedy", "vocabulary": named}}
+        agents = {level: agent.record() for level, agent in self.agents.agents.items()}
+        device = str(self.agents.device)
+        return build_manifest("plan", seed=None, device=device, agents=agents, **made)
 
 
 def check_command(command: str) -> str:

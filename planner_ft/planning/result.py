@@ -12,8 +12,8 @@ from planner_ft.planning.locations import OpenPlace
 class Answer:
     """One answer of an agent and its cost.
 
-    `plan` is None unless the text is a strictly valid plan (see `problems`); `cut`: it met the token
-    limit; `seconds` from prompt ids to the complete answer.
+    `plan` is None unless the text is a strictly valid plan (see `problems`); `cut`: it met the
+    token limit; `seconds` from prompt ids to the complete answer.
     """
 
     text: str

@@ -76,9 +76,7 @@ class Agent:
             "quantization": self.quantization,
             "weights_sha256": weights_sha256(folder) if folder else None,
             "adapter": str(self.adapter) if self.adapter else None,
-            "adapter_sha256": (
-                sha256_tree(self.adapter, (WEIGHTS, CONFIG)) if self.adapter else None
-            ),
+            "adapter_sha256": self.adapter and sha256_tree(self.adapter, (WEIGHTS, CONFIG)),
             "prompt_format": PROMPT_VERSION,
             "vocabulary_in_the_prompt": self.with_vocabulary,
         }
@@ -86,24 +84,19 @@ class Agent:
 
 def choose_agents(settings: PlanSettings, vocabulary: Vocabulary) -> dict[Level, Agent]:
     """The agents of the settings, checked without loading a model. Raises PlannerError."""
-    if settings.mission_only:
-        unused = [f"--task-{what}" for what in OWN if getattr(settings, f"task_{what}") is not None]
-        if unused:
-            raise PlannerError(
-                f"{', '.join(unused)}: there is no Task Agent with --mission-only; leave one of"
-                " them out"
-            )
+    unused = [f"--task-{what}" for what in OWN if getattr(settings, f"task_{what}") is not None]
+    if settings.mission_only and unused:
+        problem = "there is no Task Agent with --mission-only; leave one of them out"
+        raise PlannerError(f"{', '.join(unused)}: {problem}")
     levels = LEVELS[:1] if settings.mission_only else LEVELS
     return {level: _agent(level, settings, vocabulary) for level in levels}
 
 
 def _agent(level: Level, settings: PlanSettings, vocabulary: Vocabulary) -> Agent:
-    own_candidate, own_adapter, own_configuration = (
-        getattr(settings, f"{level}_{what}") for what in OWN
-    )
+    own_candidate, own_adapter, own = (getattr(settings, f"{level}_{what}") for what in OWN)
     candidate = resolve_candidate(own_candidate or settings.candidate)
     require_folder(candidate)
-    wanted = own_configuration or settings.configuration
+    wanted = own or settings.configuration
     configuration = parse_configuration(wanted) if wanted else None
     adapter = None
     if configuration is None or configuration.adapter:
@@ -117,11 +110,11 @@ def _agent(level: Level, settings: PlanSettings, vocabulary: Vocabulary) -> Agen
         check_adapter(adapter, candidate, level=level, vocabulary=vocabulary)
     chosen = configuration or Configuration(adapter is not None, STRENGTHS[-1])
     if chosen.adapter and adapter is None:
+        without = Configuration(False, chosen.strength).name
         raise PlannerError(
             f"configuration {chosen.name}: {candidate.name} has no adapter of the {level} level"
             f" here; train one with `plannerft train --level {level} --candidate {candidate.name}`,"
-            f" name one with --{level}-adapter, or give --configuration"
-            f" {Configuration(False, chosen.strength).name}"
+            f" name one with --{level}-adapter, or give --configuration {without}"
         )
     # A fine-tuned model has learned the vocabulary, and so has one that was pretrained on it.
     with_vocabulary = not chosen.adapter and not candidate.knows(vocabulary)

@@ -10,12 +10,7 @@ from typing import Any, Literal, get_args
 
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text, sha256_text
-from planner_ft.vocabulary.checks import (
-    logic_problems,
-    motion_problems,
-    reference_problems,
-    shape_problems,
-)
+from planner_ft.vocabulary import checks
 from planner_ft.vocabulary.logic import LOGIC, Logic, build_logic
 from planner_ft.vocabulary.motion import MOTION, Motions, build_motions
 
@@ -180,14 +175,12 @@ def build_vocabulary(
 ) -> Vocabulary:
     """The vocabulary of parsed files. Raises PlannerError that lists everything wrong."""
     logic, motion = logic or {}, motion or {}
-    problems = shape_problems(raw, phrases)
+    problems = checks.shape_problems(raw, phrases)
     if not problems:
         vocabulary = _build(raw, phrases)
-        problems = [
-            *reference_problems(vocabulary),
-            *logic_problems(logic, vocabulary.task),
-            *motion_problems(motion, vocabulary.task, vocabulary.skill),
-        ]
+        problems += checks.reference_problems(vocabulary)
+        problems += checks.logic_problems(logic, vocabulary.task)
+        problems += checks.motion_problems(motion, vocabulary.task, vocabulary.skill)
     if problems:
         raise PlannerError(f"{where}: " + "; ".join(problems))
     return replace(vocabulary, logic=build_logic(logic), motion=build_motions(motion))
@@ -206,18 +199,12 @@ def _parse(path: Path, text: str) -> dict[str, Any]:
 
 
 def _build(raw: dict[str, Any], phrases: dict[str, Any]) -> Vocabulary:
-    vehicle: dict[str, Any] = {
-        key: tuple(value) if isinstance(value, list) else value
-        for key, value in raw["vehicle"].items()
-    }
-    return Vocabulary(
-        **vehicle,
-        tasks=tuple(Task(**_values(entry)) for entry in raw["task"]),
-        skills=tuple(Skill(**_values(entry)) for entry in raw["skill"]),
-        source="",
-        sha256="",
-        phrases=phrases,
-    )
+    values: dict[str, Any] = {"source": "", "sha256": "", "phrases": phrases}
+    for key, value in raw["vehicle"].items():
+        values[key] = tuple(value) if isinstance(value, list) else value
+    tasks = tuple(Task(**_values(entry)) for entry in raw["task"])
+    skills = tuple(Skill(**_values(entry)) for entry in raw["skill"])
+    return Vocabulary(tasks=tasks, skills=skills, **values)
 
 
 def _values(entry: dict[str, Any]) -> dict[str, Any]:

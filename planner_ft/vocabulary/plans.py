@@ -22,12 +22,8 @@ LEVELS: tuple[Level, ...] = get_args(Level)
 MISSION_KEYS = ("tasks", "assumptions", "constraints")
 TASK_KEYS = ("title", "parameters", "task_prompt")
 STEP_KEYS = (
-    "navigation_skill",
-    "filter_skills",
-    "perception_skills",
-    "stop_conditions",
-    "failure_modes",
-    "expected_outputs",
+    *("navigation_skill", "filter_skills", "perception_skills"),
+    *("stop_conditions", "failure_modes", "expected_outputs"),
 )
 SKILL_KEYS = ("name", "parameters")
 ENTRIES = ("tasks", "skill_sequence", "filter_skills", "perception_skills")
@@ -102,14 +98,11 @@ def canonical_plan(level: Level, plan: dict[str, Any], vocabulary: Vocabulary) -
     if level == "task":
         steps = [_canonical_step(step, vocabulary) for step in plan["skill_sequence"]]
         return {"skill_sequence": steps}
-    tasks = [
-        {
-            "title": task["title"],
-            "parameters": _ordered(task, vocabulary.task.get(task["title"])),
-            "task_prompt": task.get("task_prompt", ""),
-        }
-        for task in plan["tasks"]
-    ]
+    tasks = []
+    for task in plan["tasks"]:
+        parameters = _ordered(task, vocabulary.task.get(task["title"]))
+        values = (task["title"], parameters, task.get("task_prompt", ""))
+        tasks.append(dict(zip(TASK_KEYS, values, strict=True)))
     return {"tasks": tasks, **{key: list(plan.get(key, [])) for key in MISSION_KEYS[1:]}}
 
 
@@ -240,12 +233,11 @@ def _parameter_problems(
     if not isinstance(parameters, dict):
         yield f"{where}.parameters: an object is expected, not {_kind(parameters)}"
         return
-    if not strict:
+    if not strict or (owner is None and not isinstance(name, str)):
         return
     if owner is None:
-        if isinstance(name, str):
-            what = "task title" if key == "title" else "skill name"
-            yield f"{where}: {name!r} is no {what} of the vocabulary"
+        what = "task title" if key == "title" else "skill name"
+        yield f"{where}: {name!r} is no {what} of the vocabulary"
         return
     for given, value in parameters.items():
         known = owner.by_name.get(given)
@@ -272,11 +264,8 @@ def value_problem(value: Any, parameter: Parameter) -> str | None:
 
 def is_number(value: Any) -> bool:
     """Whether a JSON value is a finite number that a float holds, and no boolean."""
-    return (
-        isinstance(value, int | float)
-        and not isinstance(value, bool)
-        and abs(value) <= sys.float_info.max
-    )
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    return number and abs(value) <= sys.float_info.max
 
 
 def is_position(value: Any) -> bool:

@@ -16,14 +16,8 @@ from planner_ft.vocabulary.logic import TaskLogic
 from planner_ft.vocabulary.plans import value_problem
 
 Position = tuple[float, float]
-Condition = Literal[
-    "plan given",
-    "task known",
-    "position known",
-    "target located",
-    "vehicle at the place",
-    "data collected",
-]
+Places = Literal["position known", "target located", "vehicle at the place"]
+Condition = Literal["plan given", "task known", Places, "data collected"]
 
 
 @dataclass(frozen=True)
@@ -104,12 +98,9 @@ def replay(
 
 def on_board(plan: Mapping[str, Any], vocabulary: Vocabulary) -> Holds:
     """The facts and items that a plan needs before it brings them about."""
-    found = stops(plan, vocabulary)
-    missing = {
-        fact for stop, facts in found if stop.condition == "data collected" for fact in facts
-    }
+    missing = frozenset().union(*(facts for _stop, facts in stops(plan, vocabulary)))
     known = vocabulary.logic.lacking.keys()
-    return Holds(facts=frozenset(missing & known), items=frozenset(missing - known))
+    return Holds(facts=missing & known, items=missing - known)
 
 
 def stops(
@@ -154,23 +145,16 @@ def _unmet_place(
         return "target located", f"its place is unresolved and no {locate} comes before it"
     stays = progress.here == vocabulary.unresolved and not progress.moved
     if unresolved and task.title == transit and stays and len(progress.searched) == 1:
-        found = progress.searched[0]
-        return (
-            "target located",
-            f"the only target that was located ({found}) is where the vehicle is",
-        )
+        only = f"the only target that was located ({progress.searched[0]})"
+        return "target located", f"{only} is where the vehicle is"
     if task.arrival != "transit":
         return None
     if not progress.offers(task):
-        return (
-            "vehicle at the place",
-            f"{locate} locates but does not arrive; no {transit} comes before this task",
-        )
+        reason = f"{locate} locates but does not arrive; no {transit} comes before this task"
+        return "vehicle at the place", reason
     if place is not None and (progress.here is None or list(progress.here) != place):
-        return (
-            "vehicle at the place",
-            f"performed at {place}, but no {transit} there comes before it",
-        )
+        reason = f"performed at {place}, but no {transit} there comes before it"
+        return "vehicle at the place", reason
     return None
 
 
@@ -189,11 +173,8 @@ def _missing(
 ) -> frozenset[str]:
     """The facts that a task needs and the items that it sends, as far as they are missing."""
     items = [item.casefold() for item in parameters.get(logic.sends or "", ())]
-    waiting = [
-        item
-        for item in items
-        if item not in holds.items and not any(collects(one, item) for one in holds.done)
-    ]
+    absent = [item for item in items if item not in holds.items]
+    waiting = [item for item in absent if not any(collects(one, item) for one in holds.done)]
     early = frozenset(item for item in waiting if any(collects(one, item) for one in later))
     if early or (items and not waiting):
         return early
@@ -211,9 +192,8 @@ def collects(logic: TaskLogic, item: str) -> bool:
 
 def _sound(parameters: Any, task: Task) -> dict[str, Any]:
     """The parameters that are valid by themselves; a place that is no position is none."""
-    given = parameters if isinstance(parameters, dict) else {}
+    given = parameters.items() if isinstance(parameters, dict) else ()
+    known = {name: value for name, value in given if name in task.by_name}
     return {
-        name: value
-        for name, value in given.items()
-        if name in task.by_name and value_problem(value, task.by_name[name]) is None
+        key: value for key, value in known.items() if not value_problem(value, task.by_name[key])
     }

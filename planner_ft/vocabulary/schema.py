@@ -91,17 +91,13 @@ def all_schemas(vocabulary: Vocabulary) -> dict[str, Schema]:
     """Every schema by file name."""
     from planner_ft.vocabulary.document_schema import document_schema
 
-    schemas = {
-        f"{level}.{'strict.' if strict else ''}schema.json": plan_schema(
-            level, vocabulary, strict=strict
-        )
-        for level in LEVELS
-        for strict in (False, True)
-    }
-    schemas["record.schema.json"] = record_schema(vocabulary)
-    schemas["plan.schema.json"] = document_schema(vocabulary)
-    schemas["manifest.schema.json"] = manifest_schema()
-    return schemas
+    schemas: dict[str, Schema] = {}
+    for level in LEVELS:
+        schemas[level] = plan_schema(level, vocabulary, strict=False)
+        schemas[f"{level}.strict"] = plan_schema(level, vocabulary, strict=True)
+    schemas |= {"record": record_schema(vocabulary), "plan": document_schema(vocabulary)}
+    schemas["manifest"] = manifest_schema()
+    return {f"{name}.schema.json": schema for name, schema in schemas.items()}
 
 
 def write_schemas(folder: Path, vocabulary: Vocabulary) -> list[Path]:

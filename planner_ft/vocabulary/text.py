@@ -10,10 +10,8 @@ from planner_ft.vocabulary.plans import Level
 
 PAGE = Path(__file__).parent / "shapes" / "vocabulary.md.j2"
 ROLE_HEADINGS: dict[Role, str] = {
-    "navigation": (
-        "navigation skills (exactly one per step; it moves or holds the vehicle and its end ends"
-        " the step)"
-    ),
+    "navigation": "navigation skills (exactly one per step; it moves or holds the vehicle and its"
+    " end ends the step)",
     "filter": "filter skills (run beside the navigation skill and constrain it)",
     "perception": "perception skills (run beside the navigation skill and gather data)",
 }

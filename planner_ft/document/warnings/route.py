@@ -26,9 +26,7 @@ TOLERANCE = 0.5
 MUCH = 0.5
 """The part of the endurance from which parts of unknown length matter."""
 MOST_LISTED = 6
-INSIDE = re.compile(
-    r"\b(?:inside|within|boundary|fence|geofence|box|polygon|leave)\b", re.IGNORECASE
-)
+INSIDE = re.compile(r"(?i)\b(?:inside|within|boundary|fence|geofence|box|polygon|leave)\b")
 
 
 # ---------------------------------------------------------------- order
@@ -38,20 +36,15 @@ def order_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Itera
     """One per open place, and per condition that a replay of the plan finds unmet."""
     tasks = document["tasks"]
     for place in document.get("open_places", ()):
-        first, several = tasks[place["tasks"][0] - 1], len(place["tasks"]) > 1
-        needed = f"task{'s' if several else ''} {', '.join(map(str, place['tasks']))}"
-        text = (
-            f"Where {place['name']} is, is not known; {needed} cannot be carried out before it is"
-            " located."
-        )
-        yield {
-            **warning("unresolved-location", text, about=place["name"]),
-            "task": first["id"],
-            "parameter": vocabulary.task[first["title"]].position_parameter,
-        }
-    unmet = [(tasks[at], reason) for at, reason in _elsewhere(tasks, vocabulary)]
-    for task, reason in unmet:
-        yield _not_there("not-at-place", task, reason)
+        name, first = place["name"], tasks[place["tasks"][0] - 1]
+        needed = f"task{'s' * (len(place['tasks']) > 1)} {', '.join(map(str, place['tasks']))}"
+        missing = f"{needed} cannot be carried out before it is located"
+        text = f"Where {name} is, is not known; {missing}."
+        parameter = vocabulary.task[first["title"]].position_parameter
+        made = warning("unresolved-location", text, about=name)
+        yield {**made, "task": first["id"], "parameter": parameter}
+    for index, reason in _elsewhere(tasks, vocabulary):
+        yield _not_there("not-at-place", tasks[index], reason)
     for stop, _missing in stops({"tasks": tasks}, vocabulary):
         if stop.condition in KIND_OF:
             yield _not_there(KIND_OF[stop.condition], tasks[stop.index], stop.reason)
@@ -83,29 +76,26 @@ def space_warnings(
     tasks = {task["id"]: task for task in document["tasks"]}
     vehicle = document.get("vehicle") or {}
     for name, step, polygon in _boundaries(document, path, vocabulary):
-        legs = [leg for leg in path.legs if leg.task == name and step in (None, leg.step)]
-        yield from _outside(
-            "outside-boundary", tasks[name], _reached(legs), polygon, "its boundary"
-        )
+        reached = _reached(path.legs, name, step)
+        yield from _outside("boundary", tasks[name], reached, polygon, "its boundary")
     for name, task in tasks.items():
         place = place_of(task, vocabulary)
-        reached = [place] if place else []
-        reached += _reached(leg for leg in path.legs if leg.task == name)
+        reached = [*([place] if place else ()), *_reached(path.legs, name)]
         if vehicle.get("area"):
             area = _polygon(vehicle["area"])
-            yield from _outside("outside-area", task, reached, area, "the vehicle's area")
+            yield from _outside("area", task, reached, area, "the vehicle's area")
         yield from _too_far(task, reached, vehicle, vocabulary)
 
 
 def _outside(
-    kind: str, task: TaskEntry, points: Iterable[Point], area: Any, what: str
+    kind: str, task: TaskEntry, points: list[Point], area: Any, what: str
 ) -> Iterator[Warning]:
     from shapely import intersects_xy
 
     outside = next((point for point in points if not intersects_xy(area, *point)), None)
     if outside:
         text = f"{named(task)} goes to {_shown(outside)}, which is outside {what}."
-        yield warning(kind, text, task)
+        yield warning(f"outside-{kind}", text, task)
 
 
 def _too_far(
@@ -117,11 +107,9 @@ def _too_far(
     farthest = max(reached, key=lambda point: math.dist(point, vocabulary.home), default=None)
     away = math.dist(farthest, vocabulary.home) if farthest else 0.0
     if farthest and away > reach:
-        text = (
-            f"{named(task)} goes to {_shown(farthest)}, {away:.0f} m from home; the vehicle comes"
-            f" {reach:.0f} m far and back."
-        )
-        yield warning("out-of-reach", text, task)
+        goes = f"{named(task)} goes to {_shown(farthest)}, {away:.0f} m from home"
+        limit = f"the vehicle comes {reach:.0f} m far and back"
+        yield warning("out-of-reach", f"{goes}; {limit}.", task)
 
 
 def _boundaries(
@@ -139,20 +127,17 @@ def _boundaries(
 
 def _corners(text: str) -> Iterator[list[Point]]:
     """The corners that a constraint names: "Stay inside [0, 0], [80, 0], [80, 50], [0, 50]."."""
-    found = [
-        (place.x, place.y)
-        for place in read_positions(text)
-        if text[place.start - 1 : place.start] in ("[", "(")
-    ]
-    corners = list(dict.fromkeys(found))
+    places = read_positions(text)
+    found = [place for place in places if text[place.start - 1 : place.start] in ("[", "(")]
+    corners = list(dict.fromkeys((place.x, place.y) for place in found))
     if len(corners) >= 3 and INSIDE.search(text):
         yield corners
 
 
-def _reached(legs: Iterable[Leg]) -> list[Point]:
-    """The points that legs lead to; where a leg begins was reached before."""
-    points = [leg.points[1:] if leg.kind in ("go", "arc") else leg.points for leg in legs]
-    return [point for some in points for point in some]
+def _reached(legs: Iterable[Leg], task: str, step: int | None = None) -> list[Point]:
+    """The points that legs of a task lead to; where a leg begins was reached before."""
+    own = [leg for leg in legs if leg.task == task and step in (None, leg.step)]
+    return [point for leg in own for point in leg.points[leg.kind in ("go", "arc") :]]
 
 
 def _polygon(corners: Iterable[Any]) -> Any:

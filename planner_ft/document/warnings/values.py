@@ -17,44 +17,29 @@ def value_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Itera
     source = read_input({"prompt": document["command"]}, vocabulary)
     said = source.facts
     if said.unread:
-        text = (
-            "The command has words or numbers that could not be read with certainty; values of the"
-            " plan are not all checked against it."
-        )
-        yield warning("unread-command", text)
+        unread = "has words or numbers that could not be read with certainty"
+        unchecked = "values of the plan are not all checked against it"
+        yield warning("unread-command", f"The command {unread}; {unchecked}.")
     for task in document["tasks"]:
         yield from _unsaid(task, source)
         yield from _unsaid_skills(task, _proposed(document, task), said, vocabulary)
     if document["tasks"] and not said.unread:
-        texts = [
-            *(task["task_prompt"] for task in document["tasks"]),
-            *document.get("assumptions", ()),
-            *document.get("constraints", ()),
-        ]
+        texts = [task["task_prompt"] for task in document["tasks"]]
+        texts += [*document.get("assumptions", ()), *document.get("constraints", ())]
         for words in unused_facts(document["command"], document["tasks"], texts, vocabulary):
-            yield warning(
-                "value-lost",
-                f'The command says "{words}", and no task has it.',
-                about=words.casefold(),
-            )
+            text = f'The command says "{words}", and no task has it.'
+            yield warning("value-lost", text, about=words.casefold())
 
 
 def _unsaid(task: Mapping[str, Any], command: Input) -> Iterator[Warning]:
     known = command.vocabulary.task[task["title"]].by_name
     for name, source in task.get("sources", {}).items():
-        value = task["parameters"][name]
-        if (
-            source["kind"] == "model"
-            and name in known
-            and command.facts.evidence(value, known[name]).given is False
-        ):
-            yield warning(
-                "value-not-said",
-                f"{named(task)}: {name} is {_shown(value, known[name])}, which the command does not"
-                " say.",
-                task,
-                name,
-            )
+        if source["kind"] != "model" or name not in known:
+            continue
+        value, parameter = task["parameters"][name], known[name]
+        if command.facts.evidence(value, parameter).given is False:
+            text = f"{name} is {_shown(value, parameter)}, which the command does not say."
+            yield warning("value-not-said", f"{named(task)}: {text}", task, name)
 
 
 # ---------------------------------------------------------------- skills
@@ -73,74 +58,46 @@ def _unsaid_skills(
     steps = task.get("skill_sequence") or []
     if not steps or task.get("stale"):
         return
-    record = {
-        "prompt": task["task_prompt"],
-        "task": task["title"],
-        "parameters": task["parameters"],
-    }
+    own = task["parameters"]
+    record = {"prompt": task["task_prompt"], "task": task["title"], "parameters": own}
     source, before = read_input(record, vocabulary), list[tuple[float, float]]()
-    own = [value for value in task["parameters"].values() if isinstance(value, list)]
-    told: set[str] = set()
+    known = [value for value in own.values() if isinstance(value, list)]
+    warned: set[str] = set()
     for number, step in enumerate(steps):
-        edited = number < len(proposed) and step != proposed[number]
-        for skill_name, parameter, value in _values(step, vocabulary):
-            key = f"{skill_name}.{parameter.name}"
-            if (
-                key in told
-                or (
-                    edited
-                    and not _stands(skill_name, parameter, value, proposed[number], vocabulary)
-                )
-                or value in own
-            ):
+        values = list(_values(step, vocabulary))
+        if number < len(proposed) and step != proposed[number]:
+            models = list(_values(proposed[number], vocabulary))
+            values = [entry for entry in values if entry in models]
+        for skill, parameter, value in values:
+            key = f"{skill}.{parameter.name}"
+            if key in warned or value in known:
                 continue
             found = source.evidence(value, parameter, SCORING, before)
             if parameter is WAYPOINT:
                 before.append((value[0], value[1]))
             if found.given is False and not said.evidence(value, parameter).given:
-                told.add(key)
-                text = (
-                    f"{named(task)}: {skill_name} has {parameter.name} {_shown(value, parameter)},"
-                    " which neither command nor task says or leads to."
-                )
-                yield {
-                    **warning("skill-value-not-said", text, task, about=key),
-                    "parameter": parameter.name,
-                }
+                warned.add(key)
+                text = f"{named(task)}: {skill} has {parameter.name} {_shown(value, parameter)},"
+                text += " which neither command nor task says or leads to."
+                made = warning("skill-value-not-said", text, task, about=key)
+                yield {**made, "parameter": parameter.name}
 
 
-def _values(
-    step: Mapping[str, Any], vocabulary: Vocabulary
-) -> Iterator[tuple[str, Parameter, Any]]:
+def _values(step: Mapping[str, Any], known: Vocabulary) -> Iterator[tuple[str, Parameter, Any]]:
     """Values of a step's skills with parameters; a destination's coordinates as one."""
     for _role, skill in step_skills(step):
-        known = vocabulary.skill[skill["name"]].by_name
-        motion = vocabulary.motion.of(skill["name"])
-        pair = (
-            [motion.parameters["x"], motion.parameters["y"]]
-            if motion and motion.kind == "go"
-            else []
-        )
-        if pair and all(is_number(skill["parameters"].get(name)) for name in pair):
-            yield skill["name"], WAYPOINT, [skill["parameters"][name] for name in pair]
-        for name, value in skill["parameters"].items():
-            if name not in pair and name in known:
-                yield skill["name"], known[name], value
-
-
-def _stands(
-    skill_name: str,
-    parameter: Parameter,
-    value: Any,
-    step: Mapping[str, Any],
-    vocabulary: Vocabulary,
-) -> bool:
-    return any(
-        (skill_name, parameter.name, value) == (name, other.name, proposed)
-        for name, other, proposed in _values(step, vocabulary)
-    )
+        name, given, motion = skill["name"], skill["parameters"], known.motion.of(skill["name"])
+        goes = motion if motion and motion.kind == "go" else None
+        pair = [goes.parameters["x"], goes.parameters["y"]] if goes else []
+        if pair and all(is_number(given.get(key)) for key in pair):
+            yield name, WAYPOINT, [given[key] for key in pair]
+        parameters = known.skill[name].by_name
+        for key, value in given.items():
+            if key not in pair and key in parameters:
+                yield name, parameters[key], value
 
 
 def _shown(value: Any, parameter: Parameter) -> str:
-    text = f"{value:g}" if is_number(value) else str(value)
-    return f"{text[:60]}{f' {parameter.unit}' if is_number(value) and parameter.unit not in (None, 'count') else ''}"
+    if not is_number(value):
+        return str(value)[:60]
+    return f"{value:g} {parameter.unit}" if parameter.unit not in (None, "count") else f"{value:g}"
