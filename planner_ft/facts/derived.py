@@ -16,7 +16,7 @@ from planner_ft.facts.geometry import Point, offset
 
 MOST_SECTORS = 36
 MOST_STARTS = 8
-"""Stated angles that even turns begin at."""
+"""Stated angles up to which parts of them, and even turns from them, are derived."""
 CLOSE = 0.02
 """Metres by which a computed coordinate, which has two decimals, can be off."""
 SQUARELY = (0.0, 90.0, 180.0, 270.0)
@@ -32,12 +32,12 @@ def turned(said: Sequence[float], counts: Iterable[int]) -> Iterator[float]:
     """Angles in degrees that follow from stated ones: parts of them, turns to port, headings to the
     side and back, and evenly round the compass.
     """
-    counts = sorted({2, *counts})
+    said, counts = list(dict.fromkeys(said)), sorted({2, *counts})
+    few = said if len(said) <= MOST_STARTS else []
     steps = [360 / count for count in counts if count > 2]
-    parts = [value / count for value in said for count in counts]
+    parts = [value / count for value in few for count in counts]
     yield from itertools.chain(steps, parts)
     yield from (-value for value in (*said, *steps, *parts))
-    few = said if len(said) <= MOST_STARTS else ()
     yield from ((value + turn) % 360 for value in few for turn in SQUARELY)
     for start, step in itertools.product({0.0, *(value % 360 for value in few)}, steps):
         yield from ((start + number * step) % 360 for number in range(round(360 / step)))

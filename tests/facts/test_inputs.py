@@ -115,3 +115,10 @@ def test_labelled_values_of_missions_have_evidence() -> None:
 def test_labelled_values_of_tasks_have_evidence(split: Split) -> None:
     missed, judged = nobodys("task", list(itertools.islice(sample_tasks(USV, 3, None, split), 150)))
     assert missed <= judged / 60
+
+
+def test_turns_of_a_list_that_takes_them_up_are_bounded() -> None:
+    values = [45.0]
+    values += itertools.islice(turned(values, {4}), 1000)
+    assert len(values) < 100
+    assert len(list(turned([float(angle) for angle in range(500)], {4, 36}))) < 1000
