@@ -4,6 +4,7 @@ decide.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from typing import Literal
 
@@ -16,6 +17,8 @@ from planner_ft.decoding.constraints import Constraint
 from planner_ft.decoding.lookup import LONGEST_DRAFT, Lookup
 from planner_ft.decoding.sampling import Sampler
 
+RELEASE = float(os.environ.get("REL", "3.0"))
+"""Nats by which the model must prefer its own value to every one with evidence to keep it."""
 FinishReason = Literal["stop", "length", "error"]
 
 
@@ -120,6 +123,9 @@ class SequenceState:
             token = best
         else:
             token = _best_allowed(constraint, logits)
+            doubt = float(logits[best]) - float(logits[token])
+            if doubt > RELEASE and constraint.release(best):
+                token = best
         self._add(token)
         self._add_forced()
         return self.ids[before:]
@@ -151,7 +157,9 @@ class SequenceState:
         """Draft what may follow."""
         self.draft = []
         if self.lookup is not None and not self.finished:
-            draft = self.lookup.propose(min(LONGEST_DRAFT, self.longest - len(self.ids) - 1))
+            room = min(LONGEST_DRAFT, self.longest - len(self.ids) - 1)
+            expected = self.constraint.expected() if self.constraint else []
+            draft = expected[:room] or self.lookup.propose(room)
             kept = len(draft) if self.constraint is None else self.constraint.admits(draft)
             self.draft = draft[:kept]
 

@@ -54,6 +54,16 @@ class Constraint(Protocol):
         choice. The state is unchanged.
         """
 
+    def expected(self) -> list[int]:
+        """Tokens that must follow, those among them that the facts of the input force included; a
+        draft for the model. The state is unchanged.
+        """
+
+    def release(self, token: int) -> bool:
+        """Leave the value that is being written to the model, which would go on with `token`, a
+        token without evidence. False where more than evidence forbids it.
+        """
+
     def accept(self, token: int) -> None:
         """A token was chosen. Raises ValueError when it is not allowed."""
 

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from llguidance import LLMatcher
 
 
+RELEASED = "A value of {name} has no evidence in the command; it is the model's."
+
+
 class Script(Protocol):
     """The grammars of an answer. Each one ends where nothing can follow it, at a place where no
     token spans both sides.
@@ -53,12 +56,24 @@ Notes = Callable[[str], list[str]]
 class Answer:
     """A Constraint (see the package) that follows a script and ends within `limit` tokens, the last
     `reserve` of them for closing.
+
+    `without_facts` is the same script without the facts of the input: a part of the answer is
+    released to it where the model finds no value with evidence likely.
     """
 
     def __init__(
-        self, tokens: Tokens, script: Script, limit: int, reserve: int, notes: Notes = lambda _: []
+        self,
+        tokens: Tokens,
+        script: Script,
+        limit: int,
+        reserve: int,
+        notes: Notes = lambda _: [],
+        without_facts: Script | None = None,
     ) -> None:
         self.cut = False
+        self._released: dict[str, None] = {}
+        self._loose_script = without_facts
+        self._loose = tokens.compile(without_facts.opening()) if without_facts else None
         self._tokens, self._script, self._left, self._reserve = tokens, script, limit, reserve
         self._notes = notes
         self._matcher: LLMatcher | None = tokens.compile(script.opening())
@@ -69,7 +84,8 @@ class Answer:
 
     @property
     def notes(self) -> list[str]:
-        return self._notes(b"".join(map(self._tokens.bytes_of, self._ids)).decode(errors="ignore"))
+        text = b"".join(map(self._tokens.bytes_of, self._ids)).decode(errors="ignore")
+        return [*self._notes(text), *(RELEASED.format(name=name) for name in self._released)]
 
     @property
     def ended(self) -> bool:
@@ -87,9 +103,25 @@ class Answer:
         return narrowed
 
     def forced(self) -> list[int]:
+        follows = self.expected()
+        if not follows or self._loose is None:
+            return follows
+        return follows[: _common(follows, self._tokens.spelt(self._ids, self._loose))]
+
+    def expected(self) -> list[int]:
         if self._matcher is None or self._hurried:
             return []
         return self._tokens.spelt(self._ids, self._matcher)[: self._left - self._reserve - 1]
+
+    def release(self, token: int) -> bool:
+        if self._matcher is None or self._loose is None or self._hurried:
+            return False
+        if not self._loose.validate_tokens([token]):
+            return False
+        self._matcher = self._loose.deep_copy()
+        if (chosen := getattr(self._script, "chosen", None)) is not None:
+            self._released[getattr(chosen, "title", None) or chosen.name] = None
+        return True
 
     def accept(self, token: int) -> None:
         if self._matcher is None:
@@ -102,6 +134,8 @@ class Answer:
             raise ValueError(
                 f"token {token} ({self._tokens.bytes_of(token)!r}) is not allowed here"
             )
+        if self._loose is not None and not self._loose.consume_token(token):
+            self._loose = None
         added = self._tokens.bytes_of(token)
         self._ids.append(token)
         self._text += added
@@ -133,7 +167,13 @@ class Answer:
         return self._left <= self._reserve
 
     def _advance(self) -> None:
-        following = self._script.following(self._text.decode())
+        text = self._text.decode()
+        following = self._script.following(text)
+        loose = self._loose_script.following(text) if self._loose_script and following else None
+        self._loose = None
+        if loose is not None:
+            self._loose = self._tokens.compile(loose[0])
+        self._loose_script = loose[1] if loose else None
         self._text = b""
         if following is None:
             self._matcher = None
@@ -145,7 +185,15 @@ class Answer:
         other = Answer.__new__(Answer)
         other.__dict__.update(self.__dict__)
         other._matcher = None if self._matcher is None else self._matcher.deep_copy()
+        other._loose = None if self._loose is None else self._loose.deep_copy()
+        other._released = dict(self._released)
         other._ids = list(self._ids)
         other._closing = self._closing.copy()
         other._mask = self._tokens.new_mask()
         return other
+
+
+def _common(one: Sequence[int], other: Sequence[int]) -> int:
+    """Length of the beginning that two rows of tokens share."""
+    pairs = enumerate(zip(one, other, strict=False))
+    return next((at for at, (left, right) in pairs if left != right), min(len(one), len(other)))

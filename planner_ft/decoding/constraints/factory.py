@@ -91,7 +91,7 @@ class Factory:
             moves = any(name in text for name in goes)
             return [*values.notes, *([free] if free and moves else [])]
 
-        return Answer(self.tokens, script, limit, self._reserve, notes)
+        return Answer(self.tokens, script, limit, self._reserve, notes, self._logic)
 
     def check(self, limit: int) -> None:
         """Raise PlannerError for a limit within which an answer cannot be guaranteed to end."""

@@ -67,7 +67,7 @@ class GroundedValues(Narrowed):
         self._units = {
             item.name: item.unit for item in (source.task.parameters if source.task else ())
         }
-        self._spans = Spans([facts.text, *own_texts], named=level == "task")
+        self._spans = Spans([facts.text, *own_texts])
         said = set(words(facts.text))
         self._multiples = {factor for word, factor in MULTIPLES.items() if word in said}
         coordinates = [item for skill in vocabulary.skills for item in skill.coordinates]
@@ -172,7 +172,7 @@ class GroundedValues(Narrowed):
             values += [value * factor for factor in self._multiples for value in values]
         if unit == "deg":
             values += [angle.value for angle in (*self._facts.bearings, *self._facts.turns)]
-            values += turned(values, self._counts) if self._level == "task" else ()
+            values += list(turned(values, self._counts)) if self._level == "task" else []
         return _usable(values, parameter)
 
     @functools.cached_property
