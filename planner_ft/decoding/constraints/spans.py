@@ -24,7 +24,33 @@ BLOCK = 60
 MOST_UNENDING = 4
 """Function words in a row behind which a span may end all the same: an answer must be able to."""
 FUNCTION_WORDS = frozenset(
-    "the a an and or of to at in on for from by with then now is are be it as so if but than".split()
+    [
+        "the",
+        "a",
+        "an",
+        "and",
+        "or",
+        "of",
+        "to",
+        "at",
+        "in",
+        "on",
+        "for",
+        "from",
+        "by",
+        "with",
+        "then",
+        "now",
+        "is",
+        "are",
+        "be",
+        "it",
+        "as",
+        "so",
+        "if",
+        "but",
+        "than",
+    ]
 )
 QUOTES = ('"', "'", "“", "‘", "«")
 
