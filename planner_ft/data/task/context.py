@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from planner_ft.data.numbers import Value, pick, say_number
-from planner_ft.data.task.phrasebook import Call, Phrasebook, Saying, Slots
+from planner_ft.data.task.phrase import Phrase, parse_phrase
+from planner_ft.data.task.phrasebook import Phrasebook, Saying, Slots
 from planner_ft.data.task.steps import Step
-from planner_ft.data.task.template import compile_template
 from planner_ft.data.task.values import Draw, draw_position, sense_of
 from planner_ft.vocabulary.definition import Task
 
 REPEATED = 0.08
-"""Share of calls said with an interval, which no skill has."""
+"""Share of calls with an interval in the prompt, which no skill has."""
 REFER = 0.3
 """Share of values that stand in the task's parameters alone."""
 UNRESOLVED = 0.05
@@ -24,13 +24,27 @@ UNRESOLVED = 0.05
 
 @dataclass
 class Movement:
-    """Steps that are said together. `saying` is None where the prompt asks for no movement, so that
-    the vehicle holds.
+    """Steps in one wording; `saying` is None where the prompt asks for no movement, so that the
+    vehicle holds.
     """
 
     kind: str
     steps: list[Step]
     saying: Saying | None
+
+
+@dataclass(eq=False)
+class Call:
+    """A skill with its parameters and its wordings: as a command, in other forms ("with",
+    "passive"). `skill` is None for words that ask for no skill of their own; `order` is the place
+    of its mention in the prompt.
+    """
+
+    skill: str | None
+    parameters: dict[str, Any]
+    saying: Saying
+    other: dict[str, Saying] = field(default_factory=dict)
+    order: int = 0
 
 
 class Context:
@@ -71,22 +85,17 @@ class Context:
         name = self.entry.links.get(place)
         return name if name in self.values and name not in self.used else None
 
-    def use(self, place: str) -> Any:
-        """The value of the task parameter that is linked to this place, which is used up now."""
-        name = self.entry.links[place]
-        self.used.add(name)
-        return self.values[name].value
-
     def fill(self, slots: Slots, slot: str, place: str) -> Any:
         """Put the linked task parameter into `slot`, stated or only referred to; its value."""
         name = self.entry.links[place]
         value = self.values[name]
         referred = name not in self.entry.stated and self.rng.random() < REFER
         if self.unresolved(value) or referred:
-            slots.put_words(slot, self.refer(name))
+            slots[slot] = self.refer(name)
         else:
             slots.put(slot, value)
-        return self.use(place)
+        self.used.add(name)
+        return value.value
 
     def take(self, slots: Slots, slot: str, place: str, draw: Draw) -> Any:
         """The value of the linked task parameter, else a new one that only the prompt states."""
@@ -96,13 +105,13 @@ class Context:
 
     def refer(self, name: str) -> str:
         """Words for the task parameter's value."""
-        templates = self.entry.refer[name]
+        phrases = self.entry.refer[name]
         if self.entry.unresolved and self.unresolved(self.values[name]) and self.rng.random() < 0.7:
-            templates = self.entry.unresolved
-        return str(pick(templates, self.rng).render(self.slots(), self.rng))
+            phrases = self.entry.unresolved
+        return pick(phrases, self.rng).render(self.slots(), self.rng)
 
     def call(self, name: str) -> Call:
-        """A skill with drawn parameters, as it is said."""
+        """A skill with drawn parameters and its wordings."""
         entry, rng, slots = self.book.skills[name], self.rng, self.slots()
         parameters: dict[str, Any] = {}
         goto = entry.skill.motion == "goto"
@@ -115,32 +124,30 @@ class Context:
                 parameters[key] = self._linked_value(slots, name, key)
             elif rng.random() < entry.often[key]:
                 parameters[key] = slots.put(key, entry.draws[key](rng))
-        given = frozenset(slots.given)
-        templates = entry.fitting(given)
-        if name == self.entry.phrases_for or goto:
-            own = self.entry.patterns.get("goto", []) if goto else self.entry.phrases
-            if rng.random() < 0.6:
-                templates = [template for template in own if template.fits(given)] or templates
+        given = frozenset(slots)
+        phrases = entry.fitting(given)
+        if (name == self.entry.phrases_for or goto) and rng.random() < 0.6:
+            own = self.entry.phrases
+            if goto:
+                own = self.book.pattern("goto", self.task.title, given)
+            phrases = [phrase for phrase in own if phrase.fits(given)] or phrases
         repeat = self.book.sentences.get("repeat")
         if entry.repeats and repeat and rng.random() < REPEATED:
-            words = compile_template(pick(repeat, rng)).render(self.slots(), rng)
-            return Call(name, parameters, Saying(templates, slots, f" {words}"), {})
-        other = {
-            kind: Saying(found, slots)
-            for kind in ("with", "nouns", "passive")
-            if (found := entry.fitting(given, kind))
-        }
-        return Call(name, parameters, Saying(templates, slots), other)
+            words = parse_phrase(pick(repeat, rng)).render(self.slots(), rng)
+            return Call(name, parameters, Saying(phrases, slots, f" {words}"))
+        forms = {kind: entry.fitting(given, kind) for kind in ("with", "passive")}
+        other = {kind: Saying(found, slots) for kind, found in forms.items() if found}
+        return Call(name, parameters, Saying(phrases, slots), other)
 
     def _linked_value(self, slots: Slots, name: str, key: str) -> Any:
-        """The task parameter's value, said in the way of the skill's parameter ("an arc of 90" as
-        "90 degrees to the right").
+        """The task parameter's value, in the words of the skill's parameter ("an arc of 90" as "90
+        degrees to the right").
         """
         entry = self.book.skills[name]
         parameter = entry.skill.by_name[key]
         value = self.fill(slots, key, f"{name}.{key}")
         sense = sense_of(parameter, entry.values[key])
-        if sense == "rotation" and f"{key}#" in slots:
+        if sense == "rotation" and f"{key} full" in slots:
             slots.put(key, say_number(value, sense, parameter.unit, self.rng))
         return [value] if parameter.type == "texts" and isinstance(value, str) else value
 
@@ -150,19 +157,14 @@ class Context:
         kind = self.book.skills[name].skill.motion or name
         return Movement(kind, [(name, call.parameters)], call.saying)
 
-    def movement(
-        self, pattern: str, steps: Sequence[Step], slots: Slots, kind: str | None = None
-    ) -> Movement | None:
-        """Steps said in a phrase of the pattern; None where no phrase says what is given."""
-        templates = self.book.pattern(pattern, self.task.title, frozenset(slots.given))
-        if not steps or not templates:
-            return None
-        return Movement(kind or pattern, list(steps), Saying(templates, slots))
+    def movement(self, pattern: str, steps: Sequence[Step], slots: Slots) -> Movement | None:
+        """Steps in a phrase of the pattern; None where no phrase says what is given."""
+        phrases = self.phrases(pattern, slots)
+        return Movement(pattern, list(steps), Saying(phrases, slots)) if steps and phrases else None
 
-    def phrase(self, pattern: str, key: str, slots: Slots) -> str:
-        """A part of a pattern's phrase that says what is given; empty where none does."""
-        found = self.book.pattern(pattern, self.task.title, frozenset(slots.given), key)
-        return str(pick(found, self.rng).render(slots, self.rng)) if found else ""
+    def phrases(self, pattern: str, slots: Slots, key: str = "phrases") -> list[Phrase]:
+        """The pattern's phrases that say exactly what is given."""
+        return self.book.pattern(pattern, self.task.title, frozenset(slots), key)
 
     def goto(self, points: Sequence[tuple[float, float]]) -> list[Step]:
         """Steps to these points; none for a vehicle that cannot go to one."""

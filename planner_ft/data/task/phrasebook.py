@@ -1,4 +1,4 @@
-"""The phrases of a vocabulary, compiled, by skill and by task.
+"""The phrases of a vocabulary by skill and by task.
 
 A definition without phrases still works: each skill falls back on a phrase made from its name and
 parameter names.
@@ -14,15 +14,17 @@ from dataclasses import dataclass
 from typing import Any
 
 from planner_ft.data.numbers import Value, pick
-from planner_ft.data.task.template import Form, Template, compile_template, mark
+from planner_ft.data.task.phrase import FORMS, Given, Phrase, mark, parse_phrase, parse_phrases
 from planner_ft.data.task.values import Draw, number_space, value_space
+from planner_ft.data.templates.grammar import all_slots
 from planner_ft.data.wordlists import FALLBACK, MADE_UP, WordLists
 from planner_ft.support.errors import PlannerError
-from planner_ft.vocabulary.definition import ROLES, Parameter, Role, Skill, Task, Vocabulary
+from planner_ft.support.files import compact_json
+from planner_ft.vocabulary.definition import Parameter, Skill, Task, Vocabulary
 
-Given = frozenset[str]
+KINDS = ("phrases", "with", "passive")
 SETTINGS = {"values", "links", "often", "stated", "phrases_for", "lead_skill", "openers"}
-"""Keys of the phrase file that hold no phrases of the phrase language."""
+"""Keys of the phrase file that hold no phrases."""
 
 
 def spaced(name: str) -> str:
@@ -31,9 +33,8 @@ def spaced(name: str) -> str:
 
 
 class Slots(dict[str, str]):
-    """Wordings by slot. A slot that begins with an underscore is said for the context's sake and is
-    no value of the plan: the task parameter of that name, if the task has it, else a number of
-    [decor] or an entry of a word list.
+    """Wordings by slot. A slot that begins with an underscore is no value of the plan: the task
+    parameter of that name, if the task has it, else a number of [decor] or an entry of a word list.
     """
 
     def __init__(
@@ -41,7 +42,6 @@ class Slots(dict[str, str]):
     ) -> None:
         super().__init__()
         self._book, self._rng, self._task_values = book, rng, task_values or {}
-        self.given: set[str] = set()
 
     def __missing__(self, key: str) -> str:
         name = key[1:]
@@ -54,43 +54,25 @@ class Slots(dict[str, str]):
 
     def put(self, name: str, value: Value) -> Any:
         """Say the value's wordings in the slot, set apart as values; the value."""
-        wordings = {"": value.text, "#": value.text, "!": value.short, "^": value.noun}
-        for sign, wording in (*wordings.items(), ("+", value.way)):
+        self[name] = mark(value.text)
+        wordings = (value.text, value.short, value.noun, value.way)
+        for form, wording in zip(FORMS.values(), wordings, strict=True):
             if wording is not None:
-                self.put_words(name + sign, mark(wording))
+                self[f"{name} {form}"] = mark(wording)
         return value.value
-
-    def put_words(self, name: str, text: str) -> None:
-        """Say words in the slot that refer to a value without stating it."""
-        self.given.add(name)
-        self[name] = text
 
 
 @dataclass
 class Saying:
     """Phrases, any of which says the same thing with these slots."""
 
-    templates: Sequence[Template]
+    phrases: Sequence[Phrase]
     slots: Slots
     suffix: str = ""
 
-    def render(self, rng: random.Random, form: Form = "base") -> str:
+    def render(self, rng: random.Random, *, ing: bool = False) -> str:
         """One wording."""
-        return str(pick(self.templates, rng).render(self.slots, rng, form)) + self.suffix
-
-
-@dataclass(eq=False)
-class Call:
-    """A skill with its parameters and how it is said; `skill` is None for words that ask for no
-    skill of their own. `order` is the place of its mention in the prompt.
-    """
-
-    skill: str | None
-    parameters: dict[str, Any]
-    saying: Saying
-    other: Mapping[str, Saying]
-    """Wordings of other forms: "with" (behind that word), "nouns" (behind "log"), "passive"."""
-    order: int = 0
+        return pick(self.phrases, rng).render(self.slots, rng, ing=ing) + self.suffix
 
 
 class SkillEntry:
@@ -102,43 +84,29 @@ class SkillEntry:
         self.skill = skill
         spaces, often = config.get("values", {}), config.get("often", {})
         self.values: dict[str, dict[str, Any]] = {
-            parameter.name: spaces.get(parameter.name, {}) for parameter in skill.parameters
+            name: spaces.get(name, {}) for name in skill.by_name
         }
-        self.draws: dict[str, Draw] = {
-            parameter.name: value_space(parameter, self.values[parameter.name], lexicon)
-            for parameter in skill.parameters
-        }
+        self.draws = _draws(skill, self.values, lexicon)
         self.often = {
-            parameter.name: 1.0 if parameter.required else float(often.get(parameter.name, 0.5))
-            for parameter in skill.parameters
+            item.name: 1.0 if item.required else float(often.get(item.name, 0.5))
+            for item in skill.parameters
         }
-        fallback = compiled([_generic_phrase(skill)])
-        seen = compiled(config["phrases"]) if "phrases" in config else fallback
-        self._layers = {"phrases": [seen, fallback], "with": [compiled(config.get("with", []))]}
+        self._layers = {kind: [parse_phrases(config.get(kind, ()))] for kind in KINDS}
+        self._layers["phrases"].append([parse_phrase(_generic_phrase(skill))])
         if unseen:
-            self._layers["phrases"].insert(0, compiled(config.get("unseen", [])))
-        for kind in ("nouns", "passive"):
-            self._layers[kind] = [] if unseen else [compiled(config.get(kind, []))]
-        self.during = compiled(config.get("during", []))
+            self._layers["phrases"].insert(0, parse_phrases(config.get("unseen", ())))
+            self._layers["passive"] = []
         self.none: list[str] = config.get("none", [])
         self.several = bool(config.get("several", True))
         self.repeats = bool(config.get("repeats"))
-        self._cache: dict[tuple[Given, str], list[Template]] = {}
+        self._fitting: dict[tuple[Given, str], list[Phrase]] = {}
 
-    def fitting(self, given: Given, kind: str = "phrases") -> list[Template]:
-        """Phrases of the kind that say exactly `given`; there always are some of the kind
-        "phrases".
-        """
-        if (given, kind) not in self._cache:
+    def fitting(self, given: Given, kind: str = "phrases") -> list[Phrase]:
+        """Phrases that say exactly `given`; of the kind "phrases" there always are some."""
+        if (given, kind) not in self._fitting:
             layers = ([one for one in layer if one.fits(given)] for layer in self._layers[kind])
-            self._cache[given, kind] = next(filter(None, layers), [])
-        return self._cache[given, kind]
-
-    @property
-    def bare(self) -> bool:
-        """Whether a phrase names the skill without any parameter."""
-        first = next(filter(None, self._layers["phrases"]))
-        return any(template.fits(frozenset()) for template in first)
+            self._fitting[given, kind] = next(filter(None, layers), [])
+        return self._fitting[given, kind]
 
 
 class TaskEntry:
@@ -146,13 +114,11 @@ class TaskEntry:
 
     def __init__(self, task: Task, book: Phrasebook) -> None:
         config = book.raw.get("task", {}).get(task.title, {})
-        spaces, refer = config.get("values", {}), config.get("refer", {})
-        self.draws: dict[str, Draw] = {
-            parameter.name: value_space(parameter, spaces.get(parameter.name, {}), book.lexicon)
-            for parameter in task.parameters
-        }
+        refer = config.get("refer", {})
+        self.draws = _draws(task, config.get("values", {}), book.lexicon)
         self.refer = {
-            name: compiled(refer.get(name, [f"the given {spaced(name)}"])) for name in task.by_name
+            name: parse_phrases(refer.get(name, [f"the given {spaced(name)}"]))
+            for name in task.by_name
         }
         self.links: dict[str, str] = {}
         """The task parameter that fills a place: "StationKeep.time", "square.center"."""
@@ -160,17 +126,15 @@ class TaskEntry:
             own = config.get("links", {}).get(parameter.name)
             for place in own or _default_links(task, parameter, book.vocabulary):
                 self.links.setdefault(place, parameter.name)
-        lead = (config.get("lead_unseen") if book.unseen else None) or config.get("lead", [])
-        self.lead = compiled(lead)
+        lead = (config.get("lead_unseen") if book.unseen else None) or config.get("lead", ())
+        self.lead = parse_phrases(lead)
         self.lead_skill: dict[str, str] = config.get("lead_skill", {})
         self.stated = frozenset(config.get("stated", ()))
-        self.phrases = [] if book.unseen else compiled(config.get("phrases", []))
+        self.phrases = [] if book.unseen else parse_phrases(config.get("phrases", ()))
         self.phrases_for: str | None = config.get("phrases_for")
         self.openers: list[str] = config.get("openers", [])
-        self.unresolved = compiled(config.get("unresolved", []))
-        self.patterns = {
-            name: compiled(texts) for name, texts in config.get("pattern_phrases", {}).items()
-        }
+        self.unresolved = parse_phrases(config.get("unresolved", ()))
+        self.patterns: dict[str, list[str]] = config.get("pattern_phrases", {})
 
 
 class Phrasebook:
@@ -197,47 +161,42 @@ class Phrasebook:
         self.motions: dict[str, str] = {
             skill.motion: skill.name for skill in reversed(vocabulary.skills) if skill.motion
         }
-        verbs = (
-            node[1][0].lower()
-            for phrase in _phrases({**self.raw, "words": {}})
-            for node in _flat(compile_template(phrase.replace("{}", "")).nodes)
-            if node[0] == "verb"
-        )
-        self.verbs = frozenset(verbs)
-        self.by_role: dict[Role, list[str]] = {
-            role: [skill.name for skill in vocabulary.skills_in_role(role)] for role in ROLES
-        }
-        self._fitting: dict[tuple[str, str, str, Given], list[Template]] = {}
+        self.verbs = {"run", *re.findall(r"~([A-Za-z-]+)", compact_json(self.raw))}
+        self._patterns: dict[tuple[str, str, str, Given], list[Phrase]] = {}
 
     def say(self, source: str, rng: random.Random) -> str:
         """A wording of a phrase without values."""
-        return compile_template(source).render(Slots(self, rng), rng)
+        return parse_phrase(source).render(Slots(self, rng), rng)
 
-    def pattern(self, name: str, title: str, given: Given, key: str = "phrases") -> list[Template]:
+    def pattern(self, name: str, title: str, given: Given, key: str = "phrases") -> list[Phrase]:
         """Phrases of a movement of several steps that say exactly `given`: the task's own ones,
         twice as often, and the general ones.
         """
         place = (name, title, key, given)
-        if place not in self._fitting:
+        if place not in self._patterns:
             general = self.raw.get("pattern", {}).get(name, {})
             texts = general.get(key, [])
-            own = self.tasks[title].patterns.get(name, []) if key == "phrases" else []
             if self.unseen and key == "phrases" and general.get("unseen"):
-                texts, own = general["unseen"], []
-            known = [*own, *own, *compiled(texts)]
-            self._fitting[place] = [template for template in known if template.fits(given)]
-        return self._fitting[place]
+                texts = general["unseen"]
+            elif key == "phrases":
+                texts = [*self.tasks[title].patterns.get(name, []) * 2, *texts]
+            self._patterns[place] = [one for one in parse_phrases(texts) if one.fits(given)]
+        return self._patterns[place]
 
 
 @functools.lru_cache(maxsize=8)
 def phrasebook(vocabulary: Vocabulary, *, unseen: bool) -> Phrasebook:
-    """The vocabulary's phrases, compiled once."""
+    """The vocabulary's phrases, parsed once."""
     return Phrasebook(vocabulary, unseen=unseen)
 
 
-def compiled(texts: Sequence[str]) -> list[Template]:
-    """The phrases, parsed."""
-    return [compile_template(text) for text in texts]
+def _draws(
+    owner: Skill | Task, spaces: Mapping[str, dict[str, Any]], lexicon: WordLists
+) -> dict[str, Draw]:
+    return {
+        item.name: value_space(item, spaces.get(item.name, {}), lexicon)
+        for item in owner.parameters
+    }
 
 
 def _generic_phrase(skill: Skill) -> str:
@@ -249,48 +208,32 @@ def _generic_phrase(skill: Skill) -> str:
 
 
 def _check_phrases(vocabulary: Vocabulary) -> None:
-    raw = vocabulary.phrases
+    raw, where = vocabulary.phrases, f"vocabulary {vocabulary.source}: phrase"
     known = {*raw.get("words", {}), *raw.get("decor", {}), *FALLBACK, *MADE_UP, "step"}
     known.update(name for task in vocabulary.tasks for name in task.by_name)
     for section in ("skill", "task", "pattern", "sentence"):
-        for phrase in _phrases(raw.get(section, {})):
+        for phrase in _texts(raw.get(section, {})):
             try:
-                nodes = compile_template(phrase.replace("{}", "")).nodes
+                slots = all_slots(parse_phrase(phrase.replace("{}", "")).nodes)
             except ValueError as error:
+                raise PlannerError(f"{where} file, [{section}]: {phrase!r}: {error}") from None
+            for name in (slot.key for slot in slots if slot.sign and slot.key not in known):
                 raise PlannerError(
-                    f"vocabulary {vocabulary.source}: phrase file, [{section}]: {error}"
-                ) from None
-            for kind, content in _flat(nodes):
-                if kind == "slot" and content[0] == "_" and content[1:] not in known:
-                    raise PlannerError(
-                        f"vocabulary {vocabulary.source}: phrase {phrase!r} names the word list"
-                        f" {content[1:]!r}; add it to [words] or [decor]"
-                    )
+                    f"{where} {phrase!r} names the word list {name!r}; add it to [words] or [decor]"
+                )
 
 
-def _flat(nodes: Sequence[tuple[str, Any]]) -> Iterator[tuple[str, Any]]:
-    """All nodes of a phrase, those of alternatives and optional parts included."""
-    for kind, content in nodes:
-        if kind == "choice":
-            for branch in content:
-                yield from _flat(branch)
-        elif kind == "optional":
-            yield from _flat(content[1])
-        else:
-            yield kind, content
-
-
-def _phrases(value: Any) -> Iterator[str]:
+def _texts(value: Any) -> Iterator[str]:
     """All phrases in a section of the phrase file."""
     if isinstance(value, str):
         yield value
     elif isinstance(value, list):
         for item in value:
-            yield from _phrases(item)
+            yield from _texts(item)
     elif isinstance(value, dict):
         for key, item in value.items():
             if key not in SETTINGS:
-                yield from _phrases(item)
+                yield from _texts(item)
 
 
 def _default_links(task: Task, parameter: Parameter, vocabulary: Vocabulary) -> Iterator[str]:

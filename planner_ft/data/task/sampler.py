@@ -19,12 +19,12 @@ from typing import Any, Literal, get_args
 from planner_ft.data.noise import noisy
 from planner_ft.data.numbers import pick
 from planner_ft.data.task.context import Context
-from planner_ft.data.task.frames import Speaker, sentences
+from planner_ft.data.task.frames import Speaker, opened, with_aside
+from planner_ft.data.task.phrase import finished
 from planner_ft.data.task.phrasebook import phrasebook
 from planner_ft.data.task.prompts.draw import draw_template
 from planner_ft.data.task.prompts.library import bindings
 from planner_ft.data.task.script import draw_script, expected_plan
-from planner_ft.data.task.template import close_gaps
 from planner_ft.data.templates.records import templates
 from planner_ft.data.templates.render import plain, skeleton
 from planner_ft.support.errors import PlannerError
@@ -42,10 +42,6 @@ TEMPLATES = 0.5
 """Share of the samples that come from a whole-prompt template."""
 HELD_OUT = 6
 """Percent of the skeletons that belong to validation, and as many to test."""
-OPENERS = (
-    *("please", "you are to", "now", "your task:", "task:", "I want you to"),
-    "could you please",
-)
 Draw = Callable[[], dict[str, Any] | None]
 
 
@@ -113,7 +109,7 @@ class _Draws:
         if drawn is None or len(drawn[1]["skill_sequence"]) > LONGEST:
             return None
         text, expected, skills = drawn
-        said = close_gaps(_aside(text, skills, context))
+        said = finished(with_aside(text, skills, context), small=not text[:1].isupper())
         if split_of(_key(context, said)) not in ("train", self.split):
             return None
         return self._record(f"template/{len(expected['skill_sequence'])}", context, said, expected)
@@ -126,7 +122,8 @@ class _Draws:
             return None
         for _ in range(WORDINGS):
             frame, text = Speaker(self.rng, self.book).script(script)
-            said = close_gaps(_aside(_opened(text, context), script.skills, context))
+            text = finished(opened(text, context))
+            said = finished(with_aside(text, script.skills, context))
             if self.unseen or split_of(_key(context, said)) == self.split:
                 break
         else:
@@ -169,45 +166,3 @@ def _has_texts(expected: dict[str, Any]) -> bool:
         for _role, call in step_skills(step)
         for value in call["parameters"].values()
     )
-
-
-def _opened(text: str, context: Context) -> str:
-    """The prompt, now and then with polite or official words before it, or with the task's own
-    opener.
-    """
-    rng, openers = context.rng, context.entry.openers
-    command = text.partition(" ")[0].lower() in context.book.verbs
-    if context.book.unseen or not command or rng.random() < 0.85:
-        return text
-    opener = pick(openers if openers and rng.random() < 0.7 else OPENERS, rng)
-    return sentences(f"{opener} {text[0].lower()}{text[1:]}")
-
-
-def _aside(text: str, skills: set[str], context: Context) -> str:
-    """The prompt, now and then with a sentence that changes nothing: background, a reason, what is
-    not wanted.
-    """
-    book, rng = context.book, context.rng
-    known, roll = book.sentences, rng.random()
-    if roll < 0.03 and "background" in known:
-        remark = book.say(pick(known["background"], rng), rng)
-        return f"{text} {remark}" if rng.random() < 0.5 else f"{remark} {sentences(text)}"
-    if roll < 0.05 and "reason" in known:
-        return f"{text[:-1]} {book.say(pick(known['reason'], rng), rng)}."
-    if roll < 0.075 and "nothing" in known and not book.unseen:
-        return f"{text} {pick(known['nothing'], rng)}"
-    if roll < 0.115 and not book.unseen:
-        others = [entry.none for name, entry in book.skills.items() if name not in skills]
-        refused = [phrase for phrases in others for phrase in phrases]
-        if refused:
-            phrase = pick(refused, rng)
-            if text[-1] != "." or rng.random() < 0.5:
-                return f"{text} {sentences(phrase)}"
-            return f"{text[:-1]}{pick((', ', '; ', ' - '), rng)}{phrase}."
-    elif roll < 0.14 and "negation" in known:
-        names = [name for name in context.task.skills.get("perception", ()) if name not in skills]
-        if bare := [book.skills[name] for name in names if book.skills[name].bare]:
-            template = pick(pick(bare, rng).fitting(frozenset()), rng)
-            refusal = template.render(context.slots(), rng)
-            return f"{text} {pick(known['negation'], rng).format(refusal)}"
-    return text

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from planner_ft.data.numbers import pick
-from planner_ft.data.task.context import Context, Movement
-from planner_ft.data.task.movements import EXTRA, go_back, home, main_movement
-from planner_ft.data.task.phrasebook import Call, Saying
+from planner_ft.data.task.context import Call, Context, Movement
+from planner_ft.data.task.movements import EXTRA, home, main_movement
+from planner_ft.data.task.phrasebook import Saying
 from planner_ft.data.task.steps import entry_of, plan_step
 from planner_ft.vocabulary.definition import Vocabulary
 
@@ -20,8 +20,6 @@ EXTRA_MOVEMENTS = (0.56, 0.2, 0.13, 0.07, 0.04)
 """How often a prompt has none, one, ... movements beside the main one."""
 AGAIN = 0.15
 """Share of skills that stand a second time with other parameters."""
-LEGS = 0.06
-"""Share of prompts that are a route of several legs."""
 
 Beside = Literal["filter", "perception"]
 SHARES: dict[Beside, Sequence[float]] = {
@@ -41,7 +39,7 @@ class Run:
 
 @dataclass
 class Script:
-    """What a prompt has to say."""
+    """The movements in their order, and the skills beside them."""
 
     movements: list[Movement]
     runs: list[Run]
@@ -56,8 +54,6 @@ def draw_script(c: Context) -> Script | None:
     """The script of one sample; None when the draw came to nothing."""
     lead = _lead(c)
     movements = _movements(c, lead is not None)
-    if movements is None:
-        return None
     every = frozenset(range(len(movements)))
     runs = [Run(lead, "perception", every)] if lead else []
     for role, shares in SHARES.items():
@@ -68,10 +64,8 @@ def draw_script(c: Context) -> Script | None:
             share = AGAIN if others != every else AGAIN / 2 if role == "perception" else 0
             if c.rng.random() < share and (other := _another(c, call)):
                 runs.append(Run(other, role, others))
-    if movements[0].saying is None and not any(run.role == "perception" for run in runs):
-        return None
-    _at_each(c, movements, runs)
-    return Script(movements, runs)
+    silent = movements[0].saying is None and not any(run.role == "perception" for run in runs)
+    return None if silent else Script(movements, runs)
 
 
 def _count(rng: random.Random, shares: Sequence[float]) -> int:
@@ -103,29 +97,23 @@ def _lead(c: Context) -> Call | None:
             value = c.fill(slots, name, place)
             if name == entry.lead_skill.get("from"):
                 parameters[entry.lead_skill["parameter"]] = [value]
-    given = frozenset(slots.given)
-    templates = [template for template in entry.lead if template.fits(given)]
-    if not templates:
-        return None
-    return Call(entry.lead_skill.get("skill"), parameters, Saying(templates, slots), {})
+    phrases = [phrase for phrase in entry.lead if phrase.fits(frozenset(slots))]
+    call = Call(entry.lead_skill.get("skill"), parameters, Saying(phrases, slots))
+    return call if phrases else None
 
 
-def _movements(c: Context, lead: bool) -> list[Movement] | None:
+def _movements(c: Context, lead: bool) -> list[Movement]:
     rng, motions = c.rng, c.book.motions
     holds = c.task.arrival == "none" and c.task.pattern == "hold"
-    if rng.random() < (0.55 if lead else 0.35 if holds else 0.02):
+    if "hold" in motions and rng.random() < (0.55 if lead else 0.35 if holds else 0.02):
         # The hold of a prompt that asks for no movement.
-        return [Movement("implied", [(motions["hold"], {})], None)] if "hold" in motions else None
-    if not lead and "goto" in motions and rng.random() < LEGS:
-        route = [c.simple(motions["goto"]) for _ in range(2 + int(rng.random() ** 1.5 * 3))]
-        last = home(c) if rng.random() < 0.15 else None
-        return [*route[:-1], last or route[-1]]
+        return [Movement("implied", [(motions["hold"], {})], None)]
     waits = lead and "hold" in motions and rng.random() < 0.7
     movements = [c.simple(motions["hold"]) if waits else main_movement(c)]
     for _ in range(_count(rng, EXTRA_MOVEMENTS)):
         if extra := _extra(c):
             movements.insert(int(rng.random() * (len(movements) + 1)), extra)
-    if rng.random() < 0.05 and (back := (home if rng.random() < 0.4 else go_back)(c)):
+    if rng.random() < 0.03 and (back := home(c)):
         movements.append(back)
     return movements
 
@@ -134,20 +122,21 @@ def _extra(c: Context) -> Movement | None:
     roll = c.rng.random()
     if roll < 0.1:
         return pick(EXTRA, c.rng)(c)
-    if roll < 0.3 and "goto" in c.book.motions:
+    if roll < 0.35 and "goto" in c.book.motions:
         return c.simple(c.book.motions["goto"])
-    names = c.task.skills["navigation"] if roll < 0.6 else c.book.by_role["navigation"]
-    return c.simple(pick(names, c.rng))
+    if roll < 0.65:
+        return c.simple(pick(c.task.skills["navigation"], c.rng))
+    return c.simple(pick(c.book.vocabulary.skills_in_role("navigation"), c.rng).name)
 
 
 def _calls(c: Context, role: Beside, count: int) -> list[Call]:
     """Different skills of the role, mostly those that fit the task."""
-    rng, fitting = c.rng, c.task.skills.get(role, ())
-    share = 0.8 if role == "perception" else 0.9
+    every = [skill.name for skill in c.book.vocabulary.skills_in_role(role)]
+    fitting = c.task.skills.get(role, ())
     calls: dict[str, Call] = {}
-    for _ in range(count):
-        names = fitting if fitting and rng.random() < share else c.book.by_role[role]
-        if names and (name := pick(names, rng)) not in calls:
+    for _ in range(count if every else 0):
+        name = pick(fitting if fitting and c.rng.random() < 0.85 else every, c.rng)
+        if name not in calls:
             calls[name] = c.call(name)
     return list(calls.values())
 
@@ -160,36 +149,20 @@ def _another(c: Context, call: Call) -> Call | None:
     return other if other.parameters and other.parameters != call.parameters else None
 
 
-def _at_each(c: Context, movements: list[Movement], runs: list[Run]) -> None:
-    """Now and then say that a skill runs "at each waypoint", where there is but one movement and it
-    has several.
-    """
-    movement = movements[0]
-    if len(movements) > 1 or len(movement.steps) < 3 or movement.kind.endswith("_stops"):
-        return
-    goto = c.book.skills[movement.steps[0][0]].skill.motion == "goto"
-    phrases = c.book.sentences.get("each" if goto else "each_turn", [])
-    for call in (run.call for run in runs if run.role == "perception"):
-        repeats = call.skill and c.book.skills[call.skill].repeats
-        if phrases and repeats and c.rng.random() < 0.4:
-            call.other, call.saying.suffix = {}, f" {pick(phrases, c.rng)}"
-
-
 def expected_plan(script: Script, vocabulary: Vocabulary) -> dict[str, Any]:
     """The skill plan in canonical form. Within a step, filters and perception skills stand in the
     order of mention.
     """
     runs = sorted((run for run in script.runs if run.call.skill), key=lambda run: run.call.order)
-    entries = [entry_of(str(run.call.skill), run.call.parameters, vocabulary) for run in runs]
+    entries = [
+        (run, entry_of(run.call.skill or "", run.call.parameters, vocabulary)) for run in runs
+    ]
     steps = []
     for place, movement in enumerate(script.movements):
-        here = [
-            (run.role, entry)
-            for run, entry in zip(runs, entries, strict=True)
-            if place in run.steps
-        ]
-        filters = [entry for role, entry in here if role == "filter"]
-        perceptions = [entry for role, entry in here if role == "perception"]
+        filters, perceptions = (
+            [entry for run, entry in entries if run.role == role and place in run.steps]
+            for role in ("filter", "perception")
+        )
         steps += [
             plan_step(name, parameters, filters, perceptions, vocabulary)
             for name, parameters in movement.steps

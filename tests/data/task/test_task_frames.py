@@ -7,20 +7,11 @@ import pytest
 
 from planner_ft.data.task.context import Movement
 from planner_ft.data.task.frames import Scopes
-from planner_ft.data.task.phrasebook import Phrasebook, Saying, Slots
+from planner_ft.data.task.phrase import finished
 from planner_ft.data.task.sampler import sample_tasks
-from planner_ft.data.task.template import close_gaps, compile_template
 from planner_ft.vocabulary.definition import load_vocabulary
 
 USV = load_vocabulary("usv")
-BOOK = Phrasebook(USV, unseen=False)
-SKILLS = {
-    "goto": "GoToXY",
-    "hold": "StationKeep",
-    "wait": "WaitForStability",
-    "turn_to": "RotateToHeading",
-    "waypoints": "GoToXY",
-}
 
 
 @pytest.fixture(scope="module")
@@ -32,51 +23,29 @@ def records():
     ]
 
 
-def scope_words(kinds, chosen, *, numbered=False):
-    """Every wording found for the steps `chosen` of movements of these kinds; "waypoints" has two
-    steps.
-    """
-    rng = random.Random(5)
-    saying = Saying([compile_template("~move on")], Slots(BOOK, rng))
-    movements = [
-        Movement(kind, [(SKILLS[kind], {})] * (2 if kind == "waypoints" else 1), saying)
-        for kind in kinds
-    ]
-    scopes = Scopes(movements, BOOK, rng, numbered=numbered)
-    return {scopes.alone(frozenset(chosen)) for _ in range(600)}
+def scope_words(count, chosen, *, numbered=False):
+    """Every wording found for the steps `chosen` of so many movements of one step each."""
+    movements = [Movement("hold", [("StationKeep", {})], None)] * count
+    scopes = Scopes(movements, random.Random(5), numbered=numbered)
+    return {scopes.words(frozenset(chosen)) for _ in range(600)}
 
 
-def test_all_steps():
-    said = scope_words(["goto", "hold"], [0, 1])
-    assert {"throughout", "in every step", "in both steps"} <= said
-    assert not any(re.search("first|second|last|only|not", words) for words in said)
-
-
-def test_one_of_two_holds_is_told_from_both():
-    assert {"in both holds", "while holding"} <= scope_words(["hold", "goto", "hold"], [0, 2])
-    first = scope_words(["hold", "goto", "hold"], [0])
-    assert {"in the first hold", "in the first step only"} <= first
-    assert not any("both" in words or words.startswith("while holding") for words in first)
-
-
-def test_the_only_movement_of_its_kind_is_named_by_it():
-    said = scope_words(["goto", "hold"], [1])
-    assert {"during the hold", "in the second step", "during the hold, not on the way"} & said
-    assert all(re.search("hold|station|spot|second|last|stop", words) for words in said)
+@pytest.mark.parametrize(
+    ("count", "chosen", "numbered", "some"),
+    [
+        (2, [0, 1], False, {"throughout", "in every step", "in both steps"}),
+        (2, [1], False, {"in the second step", "only during the last step"}),
+        (3, [0, 2], False, {"in all steps but the second", "in the first and third steps"}),
+        (3, [0, 2], True, {"in steps 1 and 3"}),
+    ],
+)
+def test_words_for_the_steps_in_which_a_skill_runs(count, chosen, numbered, some):
+    assert some <= scope_words(count, chosen, numbered=numbered)
 
 
 def test_nothing_is_said_that_could_mean_another_step():
-    assert not any("waiting" in words for words in scope_words(["wait", "hold"], [0]))
-    assert not any("leg" in words for words in scope_words(["waypoints", "goto"], [1]))
-
-
-def test_all_but_one_and_numbers():
-    assert {"in all steps but the second", "in the first and third steps"} <= scope_words(
-        ["goto", "hold", "turn_to"], [0, 2]
-    )
-    assert {"in steps 1 and 3", "in the first and third steps"} <= scope_words(
-        ["goto", "hold", "turn_to"], [0, 2], numbered=True
-    )
+    assert not any(re.search("first|second|last|only|not", text) for text in scope_words(2, [0, 1]))
+    assert all(re.search("second|last|but the first|except", text) for text in scope_words(2, [1]))
 
 
 def test_refusals_add_nothing(records):
@@ -107,10 +76,10 @@ def test_one_skill_can_stand_twice_with_other_parameters(records):
 
 def test_articles_fit_what_stands_behind_them():
     assert (
-        close_gaps("Take a image every \x02a minute in a \x028-second hold .")
-        == "Take an image every \x02minute in an \x028-second hold."
+        finished("take a image every \x02a minute\x03 in a \x028-second\x03 hold .")
+        == "Take an image every \x02minute\x03 in an \x028-second\x03 hold."
     )
-    assert close_gaps("a USV, a unit, a one-off, a hold") == "a USV, a unit, a one-off, a hold"
+    assert finished("a USV, a unit, a one-off, a hold") == "A USV, a unit, a one-off, a hold."
 
 
 def test_most_answers_are_short(records):

@@ -5,7 +5,7 @@ import random
 import pytest
 
 from planner_ft.data.numbers import bearing, duration, polygon, position, rotation
-from planner_ft.data.task.template import compile_template, gerund, mark
+from planner_ft.data.task.phrase import gerund, mark, parse_phrase
 from planner_ft.data.templates.render import plain, skeleton
 from planner_ft.data.wordlists import made_up_code, made_up_name
 
@@ -16,7 +16,7 @@ def wordings(make, count=400):
 
 
 def test_optional_parts_stand_exactly_when_their_slot_is_given():
-    template = compile_template("(~hold|~keep) station[ for {time}]")
+    template = parse_phrase("(~hold|~keep) station[ for {time}]")
     assert (
         template.fits(frozenset())
         and template.fits(frozenset({"time"}))
@@ -26,15 +26,15 @@ def test_optional_parts_stand_exactly_when_their_slot_is_given():
         "hold station for 60 s",
         "keep station for 60 s",
     }
-    assert wordings(lambda rng: template.render({}, rng, "ing")) == {
+    assert wordings(lambda rng: template.render({}, rng, ing=True)) == {
         "holding station",
         "keeping station",
     }
 
 
 def test_a_phrase_for_stated_values_is_not_used_for_a_referred_one():
-    template = compile_template("~survey it from {radius#} away")
-    assert template.fits(frozenset({"radius", "radius#"})) and not template.fits(
+    template = parse_phrase("~survey it from {radius#} away")
+    assert template.fits(frozenset({"radius", "radius full"})) and not template.fits(
         frozenset({"radius"})
     )
 
@@ -44,7 +44,7 @@ def test_a_phrase_for_stated_values_is_not_used_for_a_referred_one():
 )
 def test_phrases_that_could_leave_a_value_unsaid_are_refused(phrase):
     with pytest.raises(ValueError):
-        compile_template(phrase)
+        parse_phrase(phrase)
 
 
 def test_gerund():

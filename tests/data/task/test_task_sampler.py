@@ -189,25 +189,10 @@ def test_refused_skills_are_not_planned():
     }
 
 
-def test_a_referred_grid_is_computed_from_the_task_parameters():
-    unaltered = r"^(?!.*(corner|axis|along|running|lanes|then|before|after|not|from))"
-    record = label(
-        unaltered + r"(Survey|Mow|Cover|Run)\b[^.,;\d]* the (planned |given )(survey"
-        r" )?(area|grid)\b[^.,;\d]*\.$"
-    )
-    given = record["parameters"]
-    first = navigation(record)[0]["parameters"]
-    assert first == {
-        "x": pytest.approx(given["center"][0] - given["width"] / 2),
-        "y": pytest.approx(given["center"][1] - given["length"] / 2),
-    }
-    assert len(navigation(record)) == 2 * round(given["width"] / given["spacing"] + 1)
-
-
 @pytest.mark.parametrize(
     ("phrase", "message"),
     [
-        ("~go (to {xy}", "unbalanced"),
+        ("~go (to {xy}", "not closed"),
         ("~go (to {xy}|there)", "same slots"),
         ("~go to the {_castle}", "castle"),
     ],

@@ -9,11 +9,11 @@ from typing import Any
 
 from planner_ft.data.numbers import Value, angle, count_text, length, rotation
 from planner_ft.data.task.context import Context
+from planner_ft.data.task.phrase import mark
 from planner_ft.data.task.prompts import shapes
 from planner_ft.data.task.prompts.binding import Bound, Call, Fill, Source, Step
 from planner_ft.data.task.steps import Step as Move
 from planner_ft.data.task.steps import plan_step
-from planner_ft.data.task.template import mark
 from planner_ft.data.templates.grammar import Part, Slot, base_of, choose
 from planner_ft.facts import geometry as g
 from planner_ft.vocabulary.plans import canonical_parameters
