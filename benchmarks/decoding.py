@@ -1,7 +1,8 @@
 """What decoding costs in each strength: `model.generate` beside ours, on the same queries in one
 run.
 
-    python benchmarks/decoding.py [--candidate NAME] [--adapters LEVEL=DIR ...] [--levels mission,task] [--strengths free,schema,state,grounded]
+    python benchmarks/decoding.py [--candidate NAME] [--adapters LEVEL=DIR ...] \
+        [--levels mission,task] [--strengths free,schema,state,grounded]
 
 Every query is answered in every way, one after the other, before the next one is: what else the
 machine does falls on all alike. The first query is answered once before, uncounted. "passes" are

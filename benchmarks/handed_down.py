@@ -2,7 +2,8 @@
 asks the Task Agent.
 
     python benchmarks/handed_down.py --count 300 --out build/handed_down.jsonl
-    plannerft bench --level task --candidates embedded --configurations lora,lora+grounded --data build/handed_down.jsonl --out build/handed_down
+    plannerft bench --level task --candidates embedded --configurations lora,lora+grounded \
+        --data build/handed_down.jsonl --out build/handed_down
 
 The targets, places and figures are drawn anew; the sentences are those of the generator, which the
 embedded candidate was trained on. It says how well one agent understands the other, not how well it

@@ -1,6 +1,7 @@
 """How fast scoring is on one core, and what the time goes to.
 
-    python benchmarks/scoring.py [--level mission|task] [--count N] [--data FILE] [--profile] [--write DIR]
+    python benchmarks/scoring.py [--level mission|task] [--count N] [--data FILE] \
+        [--profile] [--write DIR]
 
 Expected plans come from the task sampler, or from `--data`; the predictions are those plans,
 damaged in ways that real answers are: tasks lost, added, renamed, swapped, values changed, text

@@ -1,7 +1,8 @@
 """Whether an exported model, served by llama.cpp, answers as it does here: the proof of `plannerft
 export --gguf` and `bench --endpoint`.
 
-    python benchmarks/served_agreement.py --server-python .venv-server/bin/python --out build/served.json
+    python benchmarks/served_agreement.py --server-python .venv-server/bin/python \
+        --out build/served.json
 
 Exports a candidate with its adapter merged, serves the GGUF file with llama-cpp-python's server,
 compares the ids of a thousand prompts, benchmarks the server with `plannerft bench --endpoint`,

@@ -1,8 +1,10 @@
 """Samples a second: our benchmark beside lm-evaluation-harness's Hugging Face backend, on the same
 samples, prompts and settings.
 
-    python benchmarks/throughput_bench.py --candidate embedded --batch-sizes 1,16 --out benchmarks/results/throughput_bench_embedded.json
-    python benchmarks/throughput_bench.py --candidate real-shape --with-vocabulary --limit 8 --max-new-tokens 128 --batch-sizes 8
+    python benchmarks/throughput_bench.py --candidate embedded --batch-sizes 1,16 \
+        --out benchmarks/results/throughput_bench_embedded.json
+    python benchmarks/throughput_bench.py --candidate real-shape --with-vocabulary \
+        --limit 8 --max-new-tokens 128 --batch-sizes 8
 
 Needs lm-eval (pip install -e ".[peers]"). Both sides have the base weights in the compute dtype of
 the machine, decode greedily with the same limit, and score every answer with the same functions;

@@ -1,7 +1,8 @@
 """Tokens a second: our training beside TRL's SFTTrainer, on the same model, samples, order and
 settings.
 
-    python benchmarks/throughput_train.py --candidate embedded --steps 40 --out benchmarks/results/throughput_train_embedded.json
+    python benchmarks/throughput_train.py --candidate embedded --steps 40 \
+        --out benchmarks/results/throughput_train_embedded.json
     python benchmarks/throughput_train.py --candidate real-shape --steps 4 --batch-sizes 1
 
 Needs TRL (pip install -e ".[peers]"). The settings are the published ones of the mission level
@@ -106,26 +107,11 @@ def ours(
             torch.amp.GradScaler("cpu", enabled=False),
         )
         log, trackers = TrainLog(output, 0), Trackers(settings, output, "throughput")
-        display = make_display(
-            Console(file=io.StringIO()), settings.max_steps or 0, 0, settings.log_every
-        )
-        state = TrainState()
-        train_loop(
-            Run(
-                settings,
-                trainee,
-                samples,
-                [],
-                pad,
-                device,
-                compute_dtype(device),
-                output,
-                log,
-                trackers,
-                display,
-            ),
-            state,
-        )
+        state, dtype = TrainState(), compute_dtype(device)
+        job = Run(settings, trainee, samples, [], pad, device, dtype, output, log, trackers)
+        console = Console(file=io.StringIO())
+        job.display = make_display(console, settings.max_steps or 0, 0, settings.log_every)
+        train_loop(job, state)
         log.close()
         return state.tokens, [
             record["loss"] for record in read_log(output / "train_log.jsonl") if "loss" in record

@@ -91,7 +91,7 @@ def initialise(model: Any, init: Path) -> None:
     """
     from transformers import LlamaForCausalLM
 
-    from planner_ft.pretraining.growth import deepened
+    from planner_ft.pretraining.weights import deepened
 
     weights = LlamaForCausalLM.from_pretrained(init, dtype=model.dtype).state_dict()
     try:

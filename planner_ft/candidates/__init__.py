@@ -1,6 +1,4 @@
-"""Candidate language models: which there are, where they lie, what memory they need, and how they
-are loaded.
-"""
+"""Candidate language models: their registry, files, memory needs and loading."""
 
 from planner_ft.candidates.registry import (
     AdapterDefaults,

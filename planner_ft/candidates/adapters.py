@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import planner_ft
-from planner_ft.candidates.location import check_safetensors, safe_weights, weights_sha256
+from planner_ft.candidates.location import (
+    check_safetensors,
+    file_sha256,
+    safe_weights,
+    weights_sha256,
+)
 from planner_ft.candidates.registry import Candidate, Dimensions
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
@@ -21,6 +27,8 @@ PACKAGE = Path(planner_ft.__file__).resolve().parent
 SHIPPED = Path("candidates") / "shipped_adapters"
 """Where a wheel carries the embedded candidate's (tool.hatch.build.targets.wheel.force-include)."""
 LAYERS = ("q_proj", "k_proj", "v_proj", "o_proj", "gate_proj", "up_proj", "down_proj")
+EXPONENTS = {"F32": ("<u4", 0x7F800000), "F16": ("<u2", 0x7C00), "BF16": ("<u2", 0x7F80)}
+"""Unsigned type and exponent bits of a safetensors dtype: all ones in NaN and infinity."""
 
 
 @dataclass(frozen=True)
@@ -87,15 +95,13 @@ def check_adapter(
 ) -> AdapterInfo:
     """Check that a PEFT adapter folder is complete, safe and made for this candidate.
 
-    Compares level and vocabulary too where they are given. Reads no weights but their shapes.
-    Raises PlannerError in one sentence.
+    Compares level and vocabulary too where they are given. Reads the weights once for a file that
+    does not change. Raises PlannerError in one sentence.
     """
     folder = Path(folder)
     if not folder.is_dir():
-        raise PlannerError(
-            f"{folder}: no such adapter folder; train one with `plannerft train --candidate"
-            f" {candidate.name}`"
-        )
+        command = f"`plannerft train --candidate {candidate.name}`"
+        raise PlannerError(f"{folder}: no such adapter folder; train one with {command}")
     config, manifest = _config(folder), _manifest(folder)
     shapes = check_safetensors(safe_weights(folder, WEIGHTS))
     base, trained_with = manifest.get("base", {}), manifest.get("vocabulary", {})
@@ -104,14 +110,14 @@ def check_adapter(
     else:
         _check_reference(folder, config.get("base_model_name_or_path"), candidate)
     _check_shapes(folder, shapes, candidate.dimensions)
-    its_level = manifest.get("level")
+    _check_content(folder, manifest.get("outputs", {}))
+    its_level, name = manifest.get("level"), trained_with.get("name")
     if level and its_level not in (None, level):
+        other = f"an adapter of the {its_level} level, not of the {level} level"
         raise PlannerError(
-            f"{folder}: this is an adapter of the {its_level} level, not of the {level} level;"
-            f" give --level {its_level} or another --adapter"
+            f"{folder}: this is {other}; give --level {its_level} or another --adapter"
         )
     if vocabulary and trained_with and trained_with.get("sha256") != vocabulary.sha256:
-        name = trained_with.get("name")
         other = f"the vocabulary {name}, not {vocabulary.name}"
         if name == vocabulary.name:
             other = f"another version of the vocabulary {name}"
@@ -119,24 +125,48 @@ def check_adapter(
             f"{folder}: this adapter was trained with {other}; give that one with --vocabulary, or"
             " train again"
         )
-    return AdapterInfo(
-        folder, int(config["r"]), its_level, base.get("name"), trained_with.get("name")
-    )
+    return AdapterInfo(folder, int(config["r"]), its_level, base.get("name"), name)
 
 
 def _manifest(folder: Path) -> dict[str, Any]:
     """Our manifest; empty for an adapter that another program has saved."""
     if not (folder / MANIFEST).is_file():
         return {}
-    manifest = read_json(folder / MANIFEST)
-    if isinstance(manifest, dict) and all(
-        isinstance(manifest.get(key, {}), dict) for key in ("base", "vocabulary")
-    ):
+    manifest, parts = read_json(folder / MANIFEST), ("base", "vocabulary", "outputs")
+    if isinstance(manifest, dict) and all(isinstance(manifest.get(p, {}), dict) for p in parts):
         return manifest
     raise PlannerError(
         f"{folder / MANIFEST}: no manifest of an adapter; restore it, or remove it to load the"
         " folder as a plain PEFT adapter"
     )
+
+
+def _check_content(folder: Path, digests: dict[str, str]) -> None:
+    """Weights must be finite, and files those that the manifest's `outputs` name."""
+    for path in (folder / WEIGHTS, folder / CONFIG):
+        if digests.get(path.name) not in (None, file_sha256(path)):
+            raise PlannerError(
+                f"{path}: not the file that training wrote ({MANIFEST} has another digest); copy"
+                " the adapter again, or train it again"
+            )
+    status = (folder / WEIGHTS).stat()
+    if name := _infinite_tensor(folder / WEIGHTS, status.st_size, status.st_mtime_ns):
+        way_out = "copy the adapter again, or train it again"
+        raise PlannerError(f"{folder / WEIGHTS}: {name} holds NaN or infinity; {way_out}")
+
+
+@functools.lru_cache(maxsize=64)
+def _infinite_tensor(path: Path, size: int, modified: int) -> str | None:
+    """The first tensor of a safetensors file with a value that is not finite."""
+    import numpy as np
+    from safetensors import deserialize
+
+    for name, tensor in deserialize(path.read_bytes()):  # type: ignore[no-untyped-call]
+        if tensor["dtype"] in EXPONENTS:
+            kind, ones = EXPONENTS[tensor["dtype"]]
+            if bool(((np.frombuffer(tensor["data"], kind) & ones) == ones).any()):
+                return str(name)
+    return None
 
 
 def _config(folder: Path) -> dict[str, Any]:
@@ -145,16 +175,11 @@ def _config(folder: Path) -> dict[str, Any]:
             f"{folder}: no {CONFIG}; an adapter is a PEFT folder as `plannerft train` writes it"
         )
     config = read_json(folder / CONFIG)
-    if (
-        isinstance(config, dict)
-        and config.get("peft_type") == "LORA"
-        and isinstance(config.get("r"), int)
-    ):
-        return config
-    raise PlannerError(
-        f"{folder / CONFIG}: peft_type LORA and a whole number r are expected; this is no LoRA"
-        " adapter"
-    )
+    lora = isinstance(config, dict) and config.get("peft_type") == "LORA"
+    if lora and isinstance(config.get("r"), int):
+        return dict(config)
+    wanted = "peft_type LORA and a whole number r are expected"
+    raise PlannerError(f"{folder / CONFIG}: {wanted}; this is no LoRA adapter")
 
 
 def _check_base(folder: Path, base: dict[str, Any], candidate: Candidate) -> None:
@@ -162,9 +187,9 @@ def _check_base(folder: Path, base: dict[str, Any], candidate: Candidate) -> Non
     trained = f"{base.get('name')}{' (stand-in)' if base.get('standin') else ''}"
     here = f"{candidate.name}{' (stand-in)' if candidate.is_standin else ''}"
     if trained != here:
+        way_out = f"give --candidate {base.get('name')} or another --adapter"
         raise PlannerError(
-            f"{folder}: this adapter was trained on {trained} and does not fit {here}; give"
-            f" --candidate {base.get('name')} or another --adapter"
+            f"{folder}: this adapter was trained on {trained} and does not fit {here}; {way_out}"
         )
     recorded = base.get("weights_sha256")
     if candidate.folder and recorded not in (None, weights_sha256(candidate.folder)):

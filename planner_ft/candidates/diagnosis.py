@@ -1,4 +1,4 @@
-"""The findings of `plannerft doctor`: versions, devices, 4-bit layers (tried), disk, candidates."""
+"""The list of candidates, and the findings of `plannerft doctor`, which tries 4-bit layers."""
 
 from __future__ import annotations
 
@@ -9,16 +9,24 @@ import shutil
 import sys
 import tempfile
 import time
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import planner_ft
-from planner_ft.candidates.listing import describe
-from planner_ft.candidates.loading import compute_dtype, quiet_libraries, resolve_device
-from planner_ft.candidates.location import MODELS_VARIABLE, hub_cache
+from planner_ft.candidates.loading import (
+    compute_dtype,
+    download_command,
+    how_to_get,
+    quiet_libraries,
+    resolve_device,
+)
+from planner_ft.candidates.location import MODELS_VARIABLE, check_folder, hub_cache
+from planner_ft.candidates.memory import GIB, memory_summary
 from planner_ft.candidates.packing import set_packing
-from planner_ft.candidates.registry import all_candidates
+from planner_ft.candidates.registry import Candidate, all_candidates
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import nearest_folder
 from planner_ft.support.manifest import hardware, library_versions, source_commit
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.schema import stale_schemas
@@ -26,7 +34,7 @@ from planner_ft.vocabulary.schema import stale_schemas
 if TYPE_CHECKING:
     import torch
 
-GIB = 2**30
+FIELDS = ("name", "repo", "parameters", "chat", "licence", "gated", "vocabulary")
 LITTLE_DISK_GIB = 5
 VARIABLES = (
     "HF_HUB_OFFLINE TRANSFORMERS_OFFLINE HF_HOME HF_HUB_CACHE CUDA_VISIBLE_DEVICES"
@@ -39,6 +47,32 @@ WEIGHT_ERROR = 0.15
 """NF4 of normal weights is off by 0.09 (relative norm, measured); more means a broken kernel."""
 GRADIENT_ERROR = 0.02
 """Against the same layer dequantised; bfloat16 arithmetic accounts for 0.004."""
+
+
+def describe(candidate: Candidate) -> dict[str, Any]:
+    """One row of `plannerft candidates` as JSON values.
+
+    `memory` is in GiB, None where the dimensions are unknown. `here` is true when the files are
+    complete; else `problem` or `get` says the way out, and `command` downloads it.
+    """
+    missing, problem = candidate.folder is None, None
+    try:
+        if candidate.folder:
+            check_folder(candidate.folder)
+    except PlannerError as error:
+        problem = str(error)
+    return {
+        **{name: getattr(candidate, name) for name in FIELDS},
+        "row": candidate.row_name,
+        "standin": candidate.is_standin,
+        "memory": memory_summary(candidate),
+        "here": not missing and problem is None,
+        "folder": None if missing else str(candidate.folder),
+        "source": candidate.source,
+        "problem": problem,
+        "get": how_to_get(candidate) if missing else None,
+        "command": download_command(candidate) if missing else None,
+    }
 
 
 @dataclass(frozen=True)
@@ -122,22 +156,18 @@ def _machine() -> dict[str, Any]:
     import psutil
 
     found, memory = hardware(), psutil.virtual_memory()
+    try:  # platform.processor() has no name on Linux
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+    except OSError:
+        lines = []
+    names = (line.split(":")[1].strip() for line in lines if line.startswith("model name"))
     return {
         "platform": found["platform"],
-        "processor": _processor() or found["processor"],
+        "processor": next(names, platform.processor() or found["processor"]),
         "cores": found["cores"],
         "memory_gib": round(memory.total / GIB, 1),
         "available_gib": round(memory.available / GIB, 1),
     }
-
-
-def _processor() -> str:
-    """The processor's name, which platform.processor() lacks on Linux."""
-    try:
-        lines = Path("/proc/cpuinfo").read_text().splitlines()
-    except OSError:
-        return platform.processor()
-    return next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), "")
 
 
 def _devices(warnings: list[str]) -> dict[str, Any]:
@@ -154,10 +184,8 @@ def _devices(warnings: list[str]) -> dict[str, Any]:
     for index in range(torch.cuda.device_count()):
         device = torch.cuda.get_device_properties(index)
         free, total = (size / GIB for size in torch.cuda.mem_get_info(index))
-        found[f"cuda:{index}"] = (
-            f"{device.name}, capability {device.major}.{device.minor}, {free:.1f} of"
-            f" {total:.1f} GiB free"
-        )
+        capability = f"{device.name}, capability {device.major}.{device.minor}"
+        found[f"cuda:{index}"] = f"{capability}, {free:.1f} of {total:.1f} GiB free"
     driver = shutil.which("nvidia-smi") or Path("/proc/driver/nvidia").exists()
     if driver and not torch.cuda.is_available():
         warnings.append(
@@ -173,10 +201,8 @@ def _four_bit(warnings: list[str]) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for device in ["cpu", *(f"cuda:{index}" for index in range(torch.cuda.device_count()))]:
         probe = probe_four_bit(device)
-        values = asdict(probe).items()
-        found[device] = {
-            name: round(value, 4) if isinstance(value, float) else value for name, value in values
-        }
+        rounded = ((k, round(v, 4) if isinstance(v, float) else v) for k, v in vars(probe).items())
+        found[device] = dict(rounded)
         if probe.problem:
             warnings.append(
                 f"4-bit layers do not work on {device} ({probe.problem}); use --quantization none"
@@ -215,9 +241,7 @@ def _try_layer(device: torch.device, dtype: torch.dtype) -> tuple[float, float, 
 
     generator = torch.Generator().manual_seed(0)
     weight = torch.randn(SIZE, SIZE, generator=generator) / SIZE**0.5
-    layer = Linear4bit(
-        SIZE, SIZE, bias=False, compute_dtype=dtype, compress_statistics=True, quant_type="nf4"
-    )
+    layer = Linear4bit(SIZE, SIZE, bias=False, compute_dtype=dtype, quant_type="nf4")
     layer.load_state_dict({"weight": weight.to(dtype)})
     layer = layer.to(device)
     packs = set_packing(layer, allowed=True) > 0
@@ -236,14 +260,11 @@ def _disk(warnings: list[str]) -> dict[str, Any]:
     places = {"working folder": Path.cwd(), "hub cache": hub_cache(), "temporary": temporary}
     found = {}
     for name, path in places.items():
-        existing = next(folder for folder in (path, *path.parents) if folder.exists())
-        free = shutil.disk_usage(existing).free / GIB
+        free = shutil.disk_usage(nearest_folder(path)).free / GIB
         found[name] = f"{path}, {free:.1f} GiB free"
         if free < LITTLE_DISK_GIB:
-            warnings.append(
-                f"only {free:.1f} GiB are free in the {name} ({path}); adapters, predictions and"
-                " downloads need more"
-            )
+            more = "adapters, predictions and downloads need more"
+            warnings.append(f"only {free:.1f} GiB are free in the {name} ({path}); {more}")
     return found
 
 
@@ -255,9 +276,8 @@ def _vocabulary(warnings: list[str]) -> dict[str, Any]:
         stale = ", ".join(stale_schemas(schemas, vocabulary))
         state = f"stale: {stale}" if stale else "current"
         if stale:
-            warnings.append(
-                f"stale or missing schemas: {stale}; run `plannerft vocabulary --schemas schemas`"
-            )
+            command = "`plannerft vocabulary --schemas schemas`"
+            warnings.append(f"stale or missing schemas: {stale}; run {command}")
     return {
         "name": vocabulary.name,
         "tasks": len(vocabulary.tasks),

@@ -32,85 +32,64 @@ LARGE = 2**30
 
 
 def resolve_device(device: str = "auto") -> torch.device:
-    """The torch device of "auto" (CUDA if there is one, else the CPU), "cpu", "cuda" or
-    "cuda:N".
-    """
+    """The torch device of "auto" (CUDA if there is one, else the CPU), "cpu", "cuda", "cuda:N"."""
     import torch
 
+    here, count = torch.cuda.is_available(), torch.cuda.device_count()
     if device == "auto":
-        return (
-            torch.device("cuda", torch.cuda.current_device())
-            if torch.cuda.is_available()
-            else torch.device("cpu")
-        )
+        return torch.device("cuda", torch.cuda.current_device()) if here else torch.device("cpu")
+    problem = None
     try:
         chosen = torch.device(device)
+        if chosen.type not in ("cpu", "cuda"):
+            problem = "only cpu and cuda are supported"
+        elif chosen.type == "cuda" and not here:
+            found = f"torch {torch.__version__} finds no CUDA device"
+            problem = f"{found}; use --device cpu, or see `plannerft doctor`"
+        elif chosen.type == "cuda" and (chosen.index or 0) >= count:
+            problem = f"there are {count} CUDA devices, numbered from 0"
     except RuntimeError:
-        raise PlannerError(
-            f"--device {device}: no such device; give auto, cpu, cuda or cuda:N"
-        ) from None
-    if chosen.type not in ("cpu", "cuda"):
-        raise PlannerError(f"--device {device}: only cpu and cuda are supported")
-    if chosen.type == "cuda" and not torch.cuda.is_available():
-        raise PlannerError(
-            f"--device {device}: torch {torch.__version__} finds no CUDA device; use --device cpu,"
-            " or see `plannerft doctor`"
-        )
-    if chosen.type == "cuda" and (chosen.index or 0) >= torch.cuda.device_count():
-        raise PlannerError(
-            f"--device {device}: there are {torch.cuda.device_count()} CUDA devices, numbered"
-            " from 0"
-        )
+        problem = "no such device; give auto, cpu, cuda or cuda:N"
+    if problem:
+        raise PlannerError(f"--device {device}: {problem}")
     return chosen
 
 
 def compute_dtype(device: torch.device) -> torch.dtype:
-    """The dtype that layers compute in: bfloat16 where the hardware multiplies it, else float16 on
-    CUDA, float32 on a CPU.
-    """
+    """bfloat16 where the hardware multiplies it, else float16 on CUDA, float32 on a CPU."""
     import torch
 
     if device.type == "cuda":
-        return (
-            torch.bfloat16 if torch.cuda.get_device_capability(device) >= (8, 0) else torch.float16
-        )
-    return torch.bfloat16 if _cpu_multiplies_bfloat16() else torch.float32
-
-
-def _cpu_multiplies_bfloat16() -> bool:
-    import torch
-
+        ampere = torch.cuda.get_device_capability(device) >= (8, 0)
+        return torch.bfloat16 if ampere else torch.float16
     if not hasattr(torch.cpu, "get_capabilities"):  # torch < 2.11
-        return bool(torch.cpu._is_avx512_bf16_supported())
-    capabilities = torch.cpu.get_capabilities()
-    return any(capabilities.get(name) for name in ("avx512_bf16", "amx_bf16", "bf16"))
+        multiplies = bool(torch.cpu._is_avx512_bf16_supported())
+    else:
+        found = torch.cpu.get_capabilities()
+        multiplies = any(found.get(name) for name in ("avx512_bf16", "amx_bf16", "bf16"))
+    return torch.bfloat16 if multiplies else torch.float32
 
 
 def require_folder(candidate: Candidate) -> Path:
-    """The candidate's folder, checked. Raises PlannerError that says how to get the model when it
-    is not here.
-    """
+    """The candidate's folder, checked. Raises PlannerError that says how to get a missing model."""
     if candidate.folder is None:
-        nor = (
-            f", and there is no folder {candidate.name}" if candidate.name == candidate.repo else ""
-        )
+        named = candidate.name == candidate.repo
+        nor = f", and there is no folder {candidate.name}" if named else ""
         raise PlannerError(f"{candidate.name} is not on this machine{nor}: {how_to_get(candidate)}")
     check_folder(candidate.folder)
     return candidate.folder
 
 
 def how_to_get(candidate: Candidate) -> str:
-    """What to do to have the candidate on this machine."""
+    """The steps that bring the candidate onto this machine."""
     copy = f"copy it into a folder {candidate.name} of the folder that {MODELS_VARIABLE} names"
     command = download_command(candidate)
     if command is None:
         return f"this installation lacks its weights; install the package again, or {copy}"
-    licence = (
-        f"accept its licence at https://huggingface.co/{candidate.repo}, run `hf auth login`, then "
-        if candidate.gated
-        else ""
-    )
-    return f"{licence}run `{command}` (without a network: {copy})"
+    run = f"run `{command}` (without a network: {copy})"
+    page = f"https://huggingface.co/{candidate.repo}"
+    licence = f"accept its licence at {page}, run `hf auth login`, then "
+    return f"{licence}{run}" if candidate.gated else run
 
 
 def download_command(candidate: Candidate) -> str | None:
@@ -123,45 +102,28 @@ def download_command(candidate: Candidate) -> str | None:
 
 
 def load_tokenizer(candidate: Candidate) -> PreTrainedTokenizerBase:
-    """The candidate's tokenizer, with a padding token and padding on the left, as batched
-    generation needs it.
-    """
+    """The candidate's tokenizer, with a padding token, padding on the left for generation."""
+    import transformers
+
     folder = require_folder(candidate)
+    named = read_config(folder, "tokenizer_config.json").get("tokenizer_class")
+    # AutoTokenizer would find this class as well, and import for it what a model needs: a second.
+    backend = named == "TokenizersBackend"
+    kind: Any = transformers.TokenizersBackend if backend else transformers.AutoTokenizer
     try:
-        tokenizer = _tokenizer_class(folder).from_pretrained(
-            str(folder), local_files_only=True, trust_remote_code=False
-        )
-    except (
-        Exception
-    ) as error:  # the tokenizers library raises bare Exception for a corrupt tokenizer.json
+        tokenizer = kind.from_pretrained(folder, local_files_only=True, trust_remote_code=False)
+    except Exception as error:  # tokenizers raises bare Exception for a corrupt tokenizer.json
         raise PlannerError(
             f"{folder}: the tokenizer cannot be loaded ({_one_line(error)}); download its files"
             " again"
         ) from error
     if tokenizer.pad_token is None:
-        vocabulary = tokenizer.get_vocab()
-        tokenizer.pad_token = next(
-            (token for token in PAD_TOKENS if token in vocabulary), tokenizer.eos_token
-        )
+        known = (token for token in PAD_TOKENS if token in tokenizer.get_vocab())
+        tokenizer.pad_token = next(known, tokenizer.eos_token)
     tokenizer.padding_side = "left"
-    # It warns of prompts that the model cannot hold. We count them ourselves, and say it in one
-    # sentence.
+    # Prompts that the model cannot hold are refused elsewhere; the library's notice is switched off.
     tokenizer.deprecation_warnings["sequence-length-is-longer-than-the-specified-maximum"] = True
     return tokenizer
-
-
-def _tokenizer_class(folder: Path) -> Any:
-    """The class that a tokenizer names itself, else the one that finds out. Finding out imports
-    what a model needs, for more than a second.
-    """
-    import transformers
-
-    named = read_config(folder, "tokenizer_config.json").get("tokenizer_class")
-    return (
-        transformers.TokenizersBackend
-        if named == "TokenizersBackend"
-        else transformers.AutoTokenizer
-    )
 
 
 def load_model(
@@ -175,20 +137,16 @@ def load_model(
     vocabulary: Vocabulary | None = None,
     adapters: Mapping[Level, Path] | None = None,
 ) -> PreTrainedModel:
-    """The candidate's model in eval mode, ready to generate or, with `trainable`, to get an adapter
-    (or train `adapter` on).
+    """The candidate's model in eval mode, to generate or, with `trainable`, to train an adapter.
 
     "nf4" stores linear layers as 4-bit NormalFloat with double quantisation; embeddings, output
-    head and norms stay in the compute dtype. "none" keeps everything in the compute dtype. With
-    `adapter` the result is a PeftModel, and the adapter is checked first, against `level` and
-    `vocabulary` too where they are given. `adapters` are several on one base, under the names of
-    their levels, to be changed with `set_adapter`. With `trainable` the 4-bit layers never pack
-    (see `packing`), so that evaluation between training steps leaves gradients whole. Raises
-    PlannerError, one sentence, when anything is missing, unsafe, corrupt, of another base or too
-    large.
+    head and norms stay in the compute dtype, as everything does with "none". With `adapter` the
+    result is a PeftModel, and the adapter is checked first, against `level` and `vocabulary` too
+    where they are given. `adapters` are several on one base, named by their levels, to be changed
+    with `set_adapter`. With `trainable` the 4-bit layers never pack (see `packing`). Raises
+    PlannerError when anything is missing, unsafe, corrupt, of another base or too large.
     """
-    target = resolve_device(device)
-    folder = require_folder(candidate)
+    target, folder = resolve_device(device), require_folder(candidate)
     if adapter is not None:
         check_adapter(adapter, candidate, level=level, vocabulary=vocabulary)
     for its_level, path in (adapters or {}).items():
@@ -206,18 +164,15 @@ def load_model(
 
 
 def _attach(model: Any, adapters: Mapping[str, Path], trainable: bool) -> Any:
-    """A PeftModel with these adapters by name, the first of them active; the model itself when
-    there are none.
-    """
+    """A PeftModel with these adapters by name, the first of them active."""
     from peft import PeftModel
 
+    options = {"is_trainable": trainable, "use_safetensors": True}
     for name, adapter in adapters.items():
         if isinstance(model, PeftModel):
-            model.load_adapter(str(adapter), name, is_trainable=trainable, use_safetensors=True)
+            model.load_adapter(str(adapter), name, **options)
         else:
-            model = PeftModel.from_pretrained(
-                model, str(adapter), name, is_trainable=trainable, use_safetensors=True
-            )
+            model = PeftModel.from_pretrained(model, str(adapter), name, **options)
     return model
 
 
@@ -227,10 +182,9 @@ def _load_base(folder: Path, device: torch.device, quantization: Quantization) -
 
     if (kind := read_config(folder).get("model_type")) not in CONFIG_MAPPING:
         known = f"transformers {transformers.__version__} has no model_type {kind!r}"
-        raise PlannerError(
-            f"{folder}/config.json: {known}; update transformers, or take another model (code that"
-            " comes with a model is never run)"
-        )
+        other = "update transformers, or take another model"
+        never = "(code that comes with a model is never run)"
+        raise PlannerError(f"{folder}/config.json: {known}; {other} {never}")
     dtype = compute_dtype(device)
     settings: dict[str, Any] = {}
     if quantization == "nf4":
@@ -253,56 +207,42 @@ def _load_base(folder: Path, device: torch.device, quantization: Quantization) -
             **settings,
         )
     # transformers fills missing tensors with random numbers and only warns.
-    if report["missing_keys"]:
-        raise PlannerError(
-            f"{folder}: the weights lack {len(report['missing_keys'])} tensors"
-            f" ({min(report['missing_keys'])}, ...); download them again"
-        )
+    if missing := report["missing_keys"]:
+        lack = f"the weights lack {len(missing)} tensors ({min(missing)}, ...)"
+        raise PlannerError(f"{folder}: {lack}; download them again")
     # It compares the shapes of 16-bit tensors alone.
     for name, layer in linear_4bit(model) if quantization == "nf4" else ():
-        if (expected := (layer.out_features, layer.in_features)) != tuple(
-            layer.weight.quant_state.shape
-        ):
-            raise PlannerError(
-                f"{folder}: {name} has the shape {list(layer.weight.quant_state.shape)}, but"
-                f" config.json says {list(expected)}; download both again"
-            )
+        found, expected = layer.weight.quant_state.shape, (layer.out_features, layer.in_features)
+        if tuple(found) != expected:
+            other = f"{list(found)}, but config.json says {list(expected)}"
+            raise PlannerError(f"{folder}: {name} has the shape {other}; download both again")
     return model
 
 
 @contextlib.contextmanager
 def _loading_errors(candidate: Candidate, folder: Path, device: torch.device) -> Iterator[None]:
-    """Turn what the libraries raise for a bad model, a missing library or too little memory into
-    one sentence.
-    """
+    """One sentence for a bad model, a missing library or too little memory."""
     import torch
 
     try:
         yield
     except PlannerError:
         raise
-    except (torch.cuda.OutOfMemoryError, MemoryError) as error:
-        raise PlannerError(out_of_memory(candidate, device)) from error
     except ImportError as error:
-        raise PlannerError(
-            f"{candidate.name}: a library is missing ({_one_line(error)}); see `plannerft doctor`"
-        ) from error
+        reason = f"a library is missing ({_one_line(error)})"
+        raise PlannerError(f"{candidate.name}: {reason}; see `plannerft doctor`") from error
     except Exception as error:  # the libraries raise anything, down to bare Exception
-        if "allocate memory" in str(error) or "out of memory" in str(error):
-            raise PlannerError(out_of_memory(candidate, device)) from error
+        full = isinstance(error, torch.cuda.OutOfMemoryError | MemoryError)
+        if full or "allocate memory" in str(error) or "out of memory" in str(error):
+            raise PlannerError(
+                f"{candidate.name} does not fit the memory of {device}; close other programs, take"
+                " a smaller candidate (`plannerft candidates` estimates their memory) or another"
+                " --device"
+            ) from error
         raise PlannerError(
             f"{folder}: the model cannot be loaded ({_one_line(error)}); check its config.json"
             " against its weights, or download it again"
         ) from error
-
-
-def out_of_memory(candidate: Candidate, device: torch.device) -> str:
-    """The sentence for a model that does not fit."""
-    way_out = (
-        "close other programs, take a smaller candidate (`plannerft candidates` estimates their"
-        " memory) or another --device"
-    )
-    return f"{candidate.name} does not fit the memory of {device}; {way_out}"
 
 
 def _one_line(error: BaseException) -> str:
@@ -314,9 +254,8 @@ def quiet_libraries() -> None:
     # It warns that an optional package, with kernels from the hub, is not installed.
     logging.getLogger("bitsandbytes.backends.cpu.ops").setLevel(logging.ERROR)
     # PEFT asks transformers for an attribute by its former name; a user can do nothing about it.
-    warnings.filterwarnings(
-        "ignore", message=".*is_gradient_checkpointing.*", category=FutureWarning
-    )
+    message = ".*is_gradient_checkpointing.*"
+    warnings.filterwarnings("ignore", message=message, category=FutureWarning)
 
 
 @contextlib.contextmanager
@@ -324,11 +263,10 @@ def quiet_bars() -> Iterator[None]:
     """Let transformers draw no progress bars in the block."""
     from transformers.utils import logging as bars
 
-    if not bars.is_progress_bar_enabled():
-        yield
-        return
+    enabled = bars.is_progress_bar_enabled()
     bars.disable_progress_bar()
     try:
         yield
     finally:
-        bars.enable_progress_bar()
+        if enabled:
+            bars.enable_progress_bar()

@@ -69,20 +69,16 @@ def read_config(folder: Path, name: str = "config.json") -> dict[str, Any]:
 def check_folder(folder: Path) -> None:
     """Raise PlannerError when a model folder is incomplete, corrupt or not safe to load."""
     if not (folder / "config.json").is_file():
-        raise PlannerError(
-            f"{folder}: no config.json; a candidate is a folder in the transformers format"
-        )
+        wanted = "a candidate is a folder in the transformers format"
+        raise PlannerError(f"{folder}: no config.json; {wanted}")
     config = read_json(folder / "config.json")
     names = config.get("architectures") if isinstance(config, dict) else None
     if not isinstance(names, list) or not any(str(name).endswith("ForCausalLM") for name in names):
-        raise PlannerError(
-            f"{folder}/config.json: architectures is {names}; a causal language model"
-            " (...ForCausalLM) is needed"
-        )
+        wanted = "a causal language model (...ForCausalLM) is needed"
+        raise PlannerError(f"{folder}/config.json: architectures is {names}; {wanted}")
     if not any((folder / name).is_file() for name in TOKENIZER_FILES):
-        raise PlannerError(
-            f"{folder}: no tokenizer.json; copy the tokenizer files of the model into the folder"
-        )
+        way_out = "copy the tokenizer files of the model into the folder"
+        raise PlannerError(f"{folder}: no tokenizer.json; {way_out}")
     for path in weight_files(folder):
         check_safetensors(path)
 
@@ -126,9 +122,9 @@ def check_safetensors(path: Path) -> dict[str, tuple[int, ...]]:
         with safe_open(str(path), framework="np") as tensors:
             return {name: tuple(tensors.get_slice(name).get_shape()) for name in tensors.keys()}  # noqa: SIM118
     except (SafetensorError, OSError, ValueError) as error:
+        reason = str(error).splitlines()[0]
         raise PlannerError(
-            f"{path}: corrupt or no safetensors file ({str(error).splitlines()[0]}); download it"
-            " again"
+            f"{path}: corrupt or no safetensors file ({reason}); download it again"
         ) from None
 
 
@@ -137,16 +133,19 @@ def weights_sha256(folder: Path) -> str:
 
     Files of the hub cache are links to blobs that are named by their SHA-256; only others are read.
     """
+    lines = []
+    for path in (folder / "config.json", *weight_files(folder)):
+        blob = path.resolve().name
+        lines.append(f"{path.name} {blob if len(blob) == 64 else file_sha256(path)}")
+    return sha256_text("\n".join(lines))
 
-    def digest(path: Path) -> str:
-        blob, status = path.resolve().name, path.stat()
-        return blob if len(blob) == 64 else _digest(path, status.st_size, status.st_mtime_ns)
 
-    files = [folder / "config.json", *weight_files(folder)]
-    return sha256_text("\n".join(f"{path.name} {digest(path)}" for path in files))
+def file_sha256(path: Path) -> str:
+    """SHA-256 of a file, computed once while its size and time stay the same."""
+    status = path.stat()
+    return _digest(path, status.st_size, status.st_mtime_ns)
 
 
 @functools.lru_cache(maxsize=64)
 def _digest(path: Path, size: int, modified: int) -> str:
-    """SHA-256 of a file, computed once while its size and time stay the same."""
     return sha256_file(path)

@@ -28,22 +28,22 @@ RANK = 16
 
 @dataclass(frozen=True)
 class MemoryEstimate:
-    """Bytes by purpose; 0 where a use does not need it."""
+    """Bytes by purpose; 0 where a use does not need it.
+
+    Weights: linear layers (4-bit or 16-bit), embeddings, output head, norms. Adapter: LoRA matrices
+    in float32, as PEFT keeps them. Optimizer: their gradients and Adam's moments. Activations:
+    values kept for the backward pass, or the prefill's widest layer. Cache: keys and values of the
+    context, 16-bit. Logits: values of the output layer, in training with the loss's intermediate
+    ones. Workspace: the largest layer in 16 bits while it is dequantised, and the CUDA runtime.
+    """
 
     weights: int
-    """Linear layers (4-bit or 16-bit), embeddings, output head, norms."""
     adapter: int
-    """LoRA matrices in float32, as PEFT keeps them."""
     optimizer: int
-    """Gradients and Adam's moments of the LoRA matrices, float32."""
     activations: int
-    """Values kept for the backward pass, or the prefill's widest layer."""
     cache: int
-    """Keys and values of the context, 16-bit."""
     logits: int
-    """The output layer's values, in training with the loss's intermediate values."""
     workspace: int
-    """The largest layer in 16 bits, while it is dequantised, and the CUDA runtime."""
 
     @property
     def total(self) -> int:
@@ -94,18 +94,13 @@ def training_memory(
     computed again. The logits take 12 bytes each at the peak: 16-bit values, float32 log-softmax,
     and the gradient of both.
     """
-    trained = adapter_parameters(dimensions, rank)
+    adapter = 4 * adapter_parameters(dimensions, rank)
     block, layers = block_activations(dimensions, rank, dropout=dropout), dimensions.layers
     kept = layers * 2 * dimensions.hidden + block if checkpointing else layers * block
-    return MemoryEstimate(
-        weights=stored_weights(dimensions, quantization),
-        adapter=4 * trained,
-        optimizer=12 * trained,
-        activations=batch * tokens * kept,
-        cache=0,
-        logits=12 * batch * tokens * dimensions.vocabulary,
-        workspace=_workspace(dimensions, quantization),
-    )
+    weights = stored_weights(dimensions, quantization)
+    logits = 12 * batch * tokens * dimensions.vocabulary
+    used = (adapter, 3 * adapter, batch * tokens * kept, 0, logits)
+    return MemoryEstimate(weights, *used, _workspace(dimensions, quantization))
 
 
 def inference_memory(
@@ -119,15 +114,10 @@ def inference_memory(
     """Memory to generate with one adapter; `tokens` count prompt and answer of a sequence."""
     widest = 4 * (dimensions.intermediate + dimensions.hidden)
     keys = dimensions.layers * dimensions.kv_heads * dimensions.head_dim
-    return MemoryEstimate(
-        weights=stored_weights(dimensions, quantization),
-        adapter=4 * adapter_parameters(dimensions, rank),
-        optimizer=0,
-        activations=batch * tokens * widest,
-        cache=4 * batch * tokens * keys,
-        logits=4 * batch * dimensions.vocabulary,
-        workspace=_workspace(dimensions, quantization),
-    )
+    weights = stored_weights(dimensions, quantization)
+    adapter, logits = 4 * adapter_parameters(dimensions, rank), 4 * batch * dimensions.vocabulary
+    used = (adapter, 0, batch * tokens * widest, 4 * batch * tokens * keys, logits)
+    return MemoryEstimate(weights, *used, _workspace(dimensions, quantization))
 
 
 def _workspace(dimensions: Dimensions, quantization: Quantization) -> int:

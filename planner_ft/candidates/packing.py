@@ -13,7 +13,6 @@ token packed and 17.6 ms unpacked (2.1 ms in bfloat16).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.support.errors import PlannerError
@@ -22,9 +21,7 @@ if TYPE_CHECKING:
     import torch
 
 PACKING_ROWS = 32
-"""The packed layout needs output features in multiples of this (bitsandbytes
-`_convert_weight_packed_for_cpu`).
-"""
+"""Output features come in multiples of this in bitsandbytes' `_convert_weight_packed_for_cpu`."""
 
 
 def set_packing(model: torch.nn.Module, *, allowed: bool) -> int:
@@ -34,6 +31,8 @@ def set_packing(model: torch.nn.Module, *, allowed: bool) -> int:
     Raises PlannerError when packing is to be forbidden and a layer is packed already: load the
     model anew with `trainable=True`.
     """
+    from bitsandbytes.functional import has_avx512bf16
+
     allowing = 0
     for name, layer in linear_4bit(model):
         if not allowed and is_packed(layer):
@@ -41,36 +40,22 @@ def set_packing(model: torch.nn.Module, *, allowed: bool) -> int:
                 f"layer {name} is already packed for decoding and would give wrong gradients; load"
                 " the model with trainable=True"
             )
-        may_pack = allowed and _has_kernel() and _fits(layer)
-        layer.support_avx512bf16_for_cpu = may_pack
-        allowing += may_pack
+        whole = allowed and has_avx512bf16() and layer.out_features % PACKING_ROWS == 0
+        fits = whole and layer.in_features % layer.weight.quant_state.blocksize == 0
+        layer.support_avx512bf16_for_cpu = bool(fits)
+        allowing += layer.support_avx512bf16_for_cpu
     return allowing
 
 
-def linear_4bit(model: torch.nn.Module) -> Iterator[tuple[str, Any]]:
+def linear_4bit(model: torch.nn.Module) -> list[tuple[str, Any]]:
     """Name and module of every 4-bit linear layer."""
     from bitsandbytes.nn import Linear4bit
 
-    return (
-        (name, module) for name, module in model.named_modules() if isinstance(module, Linear4bit)
-    )
+    named = model.named_modules()
+    return [(name, module) for name, module in named if isinstance(module, Linear4bit)]
 
 
 def is_packed(layer: Any) -> bool:
     """Whether a 4-bit layer's weights are in the layout without a backward pass."""
-    return bool(
-        getattr(getattr(layer.weight, "quant_state", None), "packing_format_for_cpu", False)
-    )
-
-
-def _has_kernel() -> bool:
-    from bitsandbytes.functional import has_avx512bf16
-
-    return bool(has_avx512bf16())
-
-
-def _fits(layer: Any) -> bool:
-    return bool(
-        layer.out_features % PACKING_ROWS == 0
-        and layer.in_features % layer.weight.quant_state.blocksize == 0
-    )
+    state = getattr(layer.weight, "quant_state", None)
+    return bool(getattr(state, "packing_format_for_cpu", False))

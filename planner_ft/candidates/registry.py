@@ -131,7 +131,7 @@ class Candidate:
 
     @property
     def row_name(self) -> str:
-        """Its name in tables: the published one, marked when the weights are a stand-in's."""
+        """Its name in tables: the published one, with a mark for the weights of a stand-in."""
         return f"{self.published or self.name}{' (stand-in)' if self.is_standin else ''}"
 
     @property
@@ -146,9 +146,8 @@ class Candidate:
             return self.repo
         if self.folder is None:
             return self.name
-        here = Path.cwd()
-        below = self.folder.is_relative_to(here)
-        return str(self.folder.relative_to(here) if below else self.folder)
+        below = self.folder.is_relative_to(Path.cwd())
+        return str(self.folder.relative_to(Path.cwd()) if below else self.folder)
 
     def adapter_defaults(self, level: Level) -> AdapterDefaults:
         """Its deviations from the published adapter settings at `level`."""
@@ -181,10 +180,8 @@ def resolve_candidate(name_or_path: str | Path) -> Candidate:
     if text and path.is_dir():
         return _from_folder(path.resolve())
     if text.startswith((".", "/", "~")):
-        raise PlannerError(
-            f"{text}: no such folder; give one with config.json, tokenizer and weights, or a name"
-            " that `plannerft candidates` lists"
-        )
+        way_out = "give one with config.json, tokenizer and weights, or a name that"
+        raise PlannerError(f"{text}: no such folder; {way_out} `plannerft candidates` lists")
     if match := HUB_ID.fullmatch(text):
         return _from_hub(match["repo"], match["revision"])
     raise PlannerError(_unknown(text))
@@ -192,27 +189,22 @@ def resolve_candidate(name_or_path: str | Path) -> Candidate:
 
 def _unknown(text: str) -> str:
     by_lower = {candidate.name.lower(): candidate.name for candidate in _registered()}
-    close = [
-        by_lower[name]
-        for name in difflib.get_close_matches(text.lower(), by_lower, n=3, cutoff=0.5)
-    ]
-    there_are = f"there are {', '.join(by_lower.values())}"
-    hint = f"did you mean {' or '.join(close)}?" if close else there_are
+    close = difflib.get_close_matches(text.lower(), by_lower, n=3, cutoff=0.5)
+    hint = f"there are {', '.join(by_lower.values())}"
+    if close:
+        hint = f"did you mean {' or '.join(by_lower[name] for name in close)}?"
     return f"unknown candidate {text!r}: {hint} A local folder (./folder) or a hub id works, too"
 
 
 @functools.cache
 def _registered() -> tuple[Candidate, ...]:
-    return tuple(_entry(entry) for entry in tomllib.loads(read_text(REGISTRY))["candidate"])
-
-
-def _entry(entry: dict[str, Any]) -> Candidate:
-    values = dict(entry)
-    if "dimensions" in values:
-        values["dimensions"] = Dimensions(**values["dimensions"])
-    levels = values.get("adapter", {}).items()
-    values["adapter"] = {level: AdapterDefaults(**settings) for level, settings in levels}
-    return Candidate(**values)
+    found = []
+    for entry in tomllib.loads(read_text(REGISTRY))["candidate"]:
+        sizes, levels = entry.pop("dimensions", None), entry.pop("adapter", {}).items()
+        adapter = {level: AdapterDefaults(**settings) for level, settings in levels}
+        dimensions = Dimensions(**sizes) if sizes else None
+        found.append(Candidate(**entry, dimensions=dimensions, adapter=adapter))
+    return tuple(found)
 
 
 def _locate(candidate: Candidate) -> Candidate:
@@ -223,14 +215,9 @@ def _locate(candidate: Candidate) -> Candidate:
 
 def _at(candidate: Candidate, folder: Path, source: Source | None) -> Candidate:
     config = read_config(folder)
-    return replace(
-        candidate,
-        folder=folder,
-        source=source,
-        chat=_chat(folder),
-        dimensions=Dimensions.from_config(config) or candidate.dimensions,
-        is_standin=bool(config.get(STANDIN_KEY)),
-    )
+    dimensions = Dimensions.from_config(config) or candidate.dimensions
+    here = replace(candidate, folder=folder, source=source, chat=_chat(folder))
+    return replace(here, dimensions=dimensions, is_standin=bool(config.get(STANDIN_KEY)))
 
 
 def _from_folder(folder: Path) -> Candidate:
@@ -246,10 +233,8 @@ def _from_hub(repo: str, revision: str | None) -> Candidate:
 def _chat(folder: Path) -> Chat:
     """The kind of chat template in a folder, by its markers."""
     template = folder / "chat_template.jinja"
-    if template.is_file():
-        text = read_text(template)
-    else:
-        text = str(read_config(folder, "tokenizer_config.json").get("chat_template") or "")
+    text = str(read_config(folder, "tokenizer_config.json").get("chat_template") or "")
+    text = read_text(template) if template.is_file() else text
     if not text:
         return "plain"
     if "<|start_header_id|>" in text:

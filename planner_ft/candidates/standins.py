@@ -23,13 +23,8 @@ if TYPE_CHECKING:
     from tokenizers import Tokenizer
 
 FAMILIES = Path(__file__).parent / "standins.toml"
-SIZES = {
-    "hidden_size": 64,
-    "intermediate_size": 128,
-    "num_hidden_layers": 2,
-    "num_attention_heads": 4,
-    "num_key_value_heads": 2,
-}
+SIZES = {"hidden_size": 64, "intermediate_size": 128, "num_hidden_layers": 2}
+SIZES |= {"num_attention_heads": 4, "num_key_value_heads": 2}
 VOCABULARY = 1024
 """Entries of a stand-in's byte-level BPE, special tokens apart."""
 SPLIT = (
@@ -55,9 +50,9 @@ def make_standin(candidate_name: str, folder: Path | str, seed: int = 0) -> Path
     Raises PlannerError for a name that is no published candidate's.
     """
     known = {candidate.name: candidate for candidate in published_candidates()}
-    candidate = known.get(candidate_name)
-    if candidate is None:
+    if candidate_name not in known:
         raise PlannerError(f"no stand-in for {candidate_name!r}: there are {', '.join(known)}")
+    candidate = known[candidate_name]
     family = "Llama" if candidate.name.startswith("Llama") else "Qwen"
     turn = "instruct" if candidate.name.endswith("-Instruct") else "base"
     target = Path(folder) / candidate.name
@@ -139,24 +134,20 @@ def _training_text() -> list[str]:
     vocabulary = load_vocabulary()
     texts = [prompt_text("mission", vocabulary), prompt_text("task", vocabulary)]
     for task in vocabulary.tasks:
-        planned = {
-            "title": task.title,
-            "parameters": {name: [12.5, -40.0] for name in task.by_name},
-            "task_prompt": f"{task.description} at [12.5, -40.0].",
-        }
+        places = {name: [12.5, -40.0] for name in task.by_name}
+        prompt = f"{task.description} at [12.5, -40.0]."
+        planned = {"title": task.title, "parameters": places, "task_prompt": prompt}
         texts.append(compact_json({"tasks": [planned], "assumptions": [], "constraints": []}))
     for skill in vocabulary.skills:
-        step = {
-            "navigation_skill": {
-                "name": skill.name,
-                "parameters": dict.fromkeys(skill.by_name, 25),
-            },
+        call = {"name": skill.name, "parameters": dict.fromkeys(skill.by_name, 25)}
+        step: dict[str, Any] = {
+            "navigation_skill": call,
             "filter_skills": [],
             "perception_skills": [],
-            "stop_conditions": [skill.stop],
-            "failure_modes": [skill.failure],
-            "expected_outputs": [skill.output],
         }
+        words = {"stop_conditions": skill.stop, "failure_modes": skill.failure}
+        words["expected_outputs"] = skill.output
+        step |= {key: [value] for key, value in words.items()}
         texts.append(compact_json({"skill_sequence": [step]}))
     return texts
 
@@ -171,26 +162,18 @@ def _write_model(
     values = _families()[family]
     model_class = getattr(transformers, values["architecture"])
     end = [ids[token] for token in values[turn]["eos"]]
-    eos: int | list[int] = end if len(end) > 1 else end[0]
-    bos = ids[values.get("bos", "<|endoftext|>")]
-    config = model_class.config_class(
-        **SIZES,
-        vocab_size=max(ids.values()) + 1,
-        bos_token_id=bos,
-        eos_token_id=eos,
-        **_architecture(candidate, values),
-        **{STANDIN_KEY: True},
-    )
+    ends: dict[str, Any] = {"bos_token_id": ids[values.get("bos", "<|endoftext|>")]}
+    ends["eos_token_id"] = end if len(end) > 1 else end[0]
+    shape = SIZES | _architecture(candidate, values) | ends
+    config = model_class.config_class(vocab_size=max(ids.values()) + 1, **shape)
+    setattr(config, STANDIN_KEY, True)
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)
         model = model_class(config).to(torch.bfloat16)
+    sampling = {name: values[name] for name in ("temperature", "top_p")}
+    pad = ids[values["pad"]] if "pad" in values else None
     model.generation_config = transformers.GenerationConfig(
-        bos_token_id=bos,
-        eos_token_id=eos,
-        pad_token_id=ids[values["pad"]] if "pad" in values else None,
-        do_sample=True,
-        temperature=values["temperature"],
-        top_p=values["top_p"],
+        **ends, **sampling, pad_token_id=pad, do_sample=True
     )
     with quiet_bars():
         model.save_pretrained(folder)
@@ -203,9 +186,6 @@ def _architecture(candidate: Candidate, family: dict[str, Any]) -> dict[str, Any
     rope = dict(family["rope"])
     if candidate.name.startswith("Llama-3.2"):
         rope["factor"] = 32.0
-    return {
-        "tie_word_embeddings": candidate.dimensions.tied,
-        "max_position_embeddings": candidate.dimensions.context,
-        **family["config"],
-        "rope_parameters": rope,
-    }
+    sizes = candidate.dimensions
+    shape = {"tie_word_embeddings": sizes.tied, "max_position_embeddings": sizes.context}
+    return {**shape, **family["config"], "rope_parameters": rope}

@@ -29,7 +29,7 @@ def candidates(names: list[str] | None = None, json: bool = False) -> None:
     where they are or how to get them.
     """
     from planner_ft.candidates import all_candidates, resolve_candidate
-    from planner_ft.candidates.listing import describe
+    from planner_ft.candidates.diagnosis import describe
     from planner_ft.support.files import indented_json
 
     chosen = [resolve_candidate(name) for name in names] if names else all_candidates()

@@ -10,7 +10,7 @@ import typer
 
 from planner_ft.cli.options import command, set_parameters
 from planner_ft.cli.progress import resume_command
-from planner_ft.training.settings import ABOUT, FIELDS, PANELS, TYPES, default_text
+from planner_ft.training.settings import ABOUT, FIELDS, TYPES, default_text
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -44,7 +44,7 @@ def _option(name: str) -> Any:
             flags,
             help=ABOUT[name]["help"] + (f" Default: {default}." if default else ""),
             metavar="|".join(get_args(annotation)) if is_choice else None,
-            rich_help_panel=PANELS[ABOUT[name]["panel"]],
+            rich_help_panel=ABOUT[name]["panel"],
         ),
     ]
 
@@ -120,8 +120,8 @@ def _result(request: Any, result: dict[str, Any]) -> list[str]:
 
 
 def _preview(request: Any, sample_id: str | None, console: Console) -> None:
-    from planner_ft.training.preview import preview_caption, preview_text
     from planner_ft.training.run import preview_sample
+    from planner_ft.training.samples import preview_caption, preview_text
 
     sample, tokenizer = preview_sample(request, sample_id)
     console.print(preview_text(sample, tokenizer))

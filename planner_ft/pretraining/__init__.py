@@ -1,3 +1,1 @@
-"""Making the embedded candidate: tokenizer, corpus of synthetic (command, plan) text, pretraining
-loop.
-"""
+"""Making the embedded candidate: tokenizer, corpus of synthetic plans, pretraining loop."""

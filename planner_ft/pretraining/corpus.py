@@ -102,15 +102,17 @@ def tokenizer_texts(
 def encoded(
     tokenizer: PreTrainedTokenizerBase,
     vocabulary: Vocabulary,
-    *,
-    seed: int,
-    mission_share: float,
+    level: Level,
+    record: dict[str, Any],
     longest: int,
-    unfamiliar_share: float = 0.0,
-) -> Iterator[Encoded | None]:
-    """Endless rendered samples; None stands for one of more than `longest` tokens."""
-    for level, record in stream(vocabulary, seed, mission_share, unfamiliar_share):
-        yield _encoded(tokenizer, vocabulary, level, record, longest)
+) -> Encoded | None:
+    """A rendered sample; None for one of more than `longest` tokens."""
+    rendered = render_sample(level, record, tokenizer, vocabulary)
+    ids, prompt = np.array(rendered.input_ids, dtype=np.int64), rendered.prompt_length
+    if len(ids) > longest:
+        return None
+    worked = _worked(tokenizer, answer_text(level, record, vocabulary), ids[prompt:])
+    return Encoded(ids, prompt, worked and prompt + worked)
 
 
 def drills(
@@ -119,24 +121,9 @@ def drills(
     """Endless task samples with a working; up to its end they are practice in sums."""
     for record in sample_tasks(vocabulary, seed + DRILL_SEED, None, "train"):
         if working_of(record, vocabulary):
-            sample = _encoded(tokenizer, vocabulary, "task", record, longest)
+            sample = encoded(tokenizer, vocabulary, "task", record, longest)
             if sample is not None and sample.worked is not None:
                 yield sample
-
-
-def _encoded(
-    tokenizer: PreTrainedTokenizerBase,
-    vocabulary: Vocabulary,
-    level: Level,
-    record: dict[str, Any],
-    longest: int,
-) -> Encoded | None:
-    rendered = render_sample(level, record, tokenizer, vocabulary)
-    ids, prompt = np.array(rendered.input_ids, dtype=np.int64), rendered.prompt_length
-    if len(ids) > longest:
-        return None
-    worked = _worked(tokenizer, answer_text(level, record, vocabulary), ids[prompt:])
-    return Encoded(ids, prompt, worked and prompt + worked)
 
 
 def _worked(tokenizer: PreTrainedTokenizerBase, answer: str, ids: NDArray[np.int64]) -> int | None:
@@ -170,15 +157,9 @@ def encode_shard(
     prompts: list[int] = []
     left_out = drilled = 0
     practice = drills(tokenizer, vocabulary, seed=seed, longest=longest)
-    drawn = encoded(
-        tokenizer,
-        vocabulary,
-        seed=seed,
-        mission_share=mission_share,
-        longest=longest,
-        unfamiliar_share=unfamiliar_share,
-    )
-    for sample in itertools.islice(drawn, count):
+    drawn = stream(vocabulary, seed, mission_share, unfamiliar_share)
+    for level, record in itertools.islice(drawn, count):
+        sample = encoded(tokenizer, vocabulary, level, record, longest)
         if sample is None:
             left_out += 1
             continue
@@ -201,12 +182,8 @@ def encode_shard(
 def load_shard(path: Path) -> list[Sample]:
     """The samples of a shard as (ids, prompt length)."""
     with np.load(path) as data:
-        ends = np.cumsum(data["lengths"])
-        ids = data["ids"].astype(np.int64)
-        return [
-            (ids[end - length : end], int(prompt))
-            for end, length, prompt in zip(ends, data["lengths"], data["prompts"], strict=True)
-        ]
+        parts = np.split(data["ids"].astype(np.int64), np.cumsum(data["lengths"])[:-1])
+        return list(zip(parts, map(int, data["prompts"]), strict=True))
 
 
 def batched(samples: list[Sample], batch_tokens: int, pad: int, seed: int) -> list[Rows]:

@@ -1,5 +1,4 @@
-"""Attention and loss of the pretraining loop, written for one processor core: library products and
-reductions on pieces that stay in its cache.
+"""Attention and loss of the pretraining loop, for one processor core, in pieces for its cache.
 
 The compiler's own kernels for softmax over rows of varying length run several times slower there,
 so both are custom operators that it passes by. `CAUSAL` is the name under which a transformers
@@ -26,10 +25,9 @@ _BIAS = torch.full((LONGEST, LONGEST), float("-inf")).triu(1)
 def causal_attention(
     query: Tensor, key: Tensor, value: Tensor, scale: float
 ) -> tuple[Tensor, Tensor]:
-    """Attention of each position to itself and those before it: (batch, heads, length, width) each
-    → the same shape, and the weights.
+    """Attention of each position to itself and those before it, and its weights.
 
-    The weights have shape (batch * heads, length, length).
+    Shapes: (batch, heads, length, width) each; weights (batch * heads, length, length).
     """
     query, key, value = _flat(query * scale), _flat(key), _flat(value)
     length = query.shape[1]
@@ -41,9 +39,8 @@ def causal_attention(
 @causal_attention.register_fake
 def _(query: Tensor, key: Tensor, value: Tensor, scale: float) -> tuple[Tensor, Tensor]:
     batch, heads, length, width = query.shape
-    return query.new_empty((batch * heads, length, width)), query.new_empty(
-        (batch * heads, length, length)
-    )
+    rows = batch * heads
+    return query.new_empty((rows, length, width)), query.new_empty((rows, length, length))
 
 
 @torch.library.custom_op("planner_ft::causal_attention_backward", mutates_args=())
@@ -86,9 +83,7 @@ torch.library.register_autograd("planner_ft::causal_attention", _backward, setup
 
 
 def register_attention() -> None:
-    """Let transformers' models find the attention under the name `CAUSAL`; padding must stand on
-    the right.
-    """
+    """Name the attention CAUSAL for transformers' models; padding must stand on the right."""
     from transformers.modeling_utils import ALL_ATTENTION_FUNCTIONS
 
     def attend(
@@ -100,19 +95,16 @@ def register_attention() -> None:
         scaling: float,
         **_: Any,
     ) -> tuple[Tensor, None]:
-        batch, heads, length, width = query.shape
         # Rotary positions leave queries and keys in float32, also where values are bfloat16.
-        attended, _weights = causal_attention(
-            query.to(value.dtype), key.to(value.dtype), value, scaling
-        )
-        return attended.view(batch, heads, length, width).transpose(1, 2), None
+        same = (query.to(value.dtype), key.to(value.dtype), value)
+        attended, _weights = causal_attention(*same, scaling)
+        return attended.view(query.shape).transpose(1, 2), None
 
     ALL_ATTENTION_FUNCTIONS.register(CAUSAL, attend)
 
 
 def summed_cross_entropy(hidden: Tensor, weight: Tensor, targets: Tensor) -> Tensor:
-    """Sum of the cross-entropies of `hidden` (n, width) through the output matrix `weight`
-    (vocabulary, width) at `targets` (n,).
+    """Cross-entropies of `hidden` (n, width) through `weight` (vocabulary, width) at `targets` (n,).
 
     Products in bfloat16, the rest in float32. The logits never exist as a whole.
     """
@@ -133,12 +125,8 @@ class _SummedCrossEntropy(torch.autograd.Function):
             logits = torch.mm(piece, outer.t()).float()
             norm = torch.logsumexp(logits, -1, keepdim=True)
             total += (norm - logits.gather(1, wanted)).sum()
-            share = (
-                logits.sub_(norm)
-                .exp_()
-                .scatter_add_(1, wanted, torch.full_like(norm, -1.0))
-                .to(torch.bfloat16)
-            )
+            shares = logits.sub_(norm).exp_()
+            share = shares.scatter_add_(1, wanted, torch.full_like(norm, -1.0)).to(torch.bfloat16)
             torch.mm(share, outer, out=of_hidden[start : start + ROWS])
             of_weight += torch.mm(share.t(), piece)
         ctx.save_for_backward(of_hidden.to(hidden.dtype), of_weight)

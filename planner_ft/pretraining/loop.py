@@ -1,5 +1,4 @@
-"""The pretraining loop: batches by length, bf16 autocast, Muon for matrices and AdamW for the rest,
-resumable.
+"""The pretraining loop: bf16 autocast, Muon for matrices and AdamW for the rest, resumable.
 
 Started by torchrun with several processes, each takes its share of every batch: the result does not
 depend on their number, up to rounding, and a run may be resumed with another number.
@@ -22,31 +21,33 @@ from torch import Tensor, nn
 
 from planner_ft.pretraining.corpus import IGNORE, Rows, batched, load_shard
 from planner_ft.pretraining.kernels import CAUSAL, register_attention, summed_cross_entropy
-from planner_ft.pretraining.rounding import rounded
+from planner_ft.pretraining.weights import rounded
 
 
 @dataclass(frozen=True)
 class PretrainSettings:
-    """Everything that the weights depend on besides the corpus."""
+    """Everything that the weights depend on besides the corpus.
+
+    `tokens` is the training budget, padding not counted. Samples of more than `longest` tokens are
+    left out of the corpus. `decay` is the share of the budget over which the learning rate falls
+    linearly to zero, at the end. With `four_bit` the forward pass sees the layers' matrices rounded
+    to NF4, as the candidate runs.
+    """
 
     tokens: int = 30_000_000
-    """Training budget in tokens, padding not counted."""
     hidden: int = 256
     layers: int = 8
     heads: int = 4
     feed_forward: int = 704
     longest: int = 1024
-    """Samples of more tokens are left out of the corpus."""
     batch_tokens: int = 8192
     matrix_lr: float = 3e-3
     other_lr: float = 3e-3
     weight_decay: float = 0.05
     warmup: float = 0.01
     decay: float = 0.4
-    """Share of the budget over which the learning rate falls linearly to zero, at the end."""
     gradient_clip: float = 1.0
     four_bit: bool = False
-    """Whether the forward pass sees the layers' matrices rounded to NF4, as the candidate runs."""
     seed: int = 0
     checkpoint_seconds: float = 240.0
     compile: bool = True
@@ -86,9 +87,8 @@ def batches(shards: list[Path], settings: PretrainSettings, pad: int, skip: int)
     number, epoch = 0, 0
     while True:
         for index, shard in enumerate(shards):
-            for rows in batched(
-                load_shard(shard), settings.batch_tokens, pad, settings.seed + 7919 * epoch + index
-            ):
+            seed = settings.seed + 7919 * epoch + index
+            for rows in batched(load_shard(shard), settings.batch_tokens, pad, seed):
                 number += 1
                 if number > skip:
                     yield rows
@@ -96,8 +96,7 @@ def batches(shards: list[Path], settings: PretrainSettings, pad: int, skip: int)
 
 
 def completion_loss(model: Any, body: Any, rows: Rows, rank: int = 0, world: int = 1) -> Tensor:
-    """Mean cross-entropy over the answer tokens of a batch; of the rows of this rank only, when
-    there are several.
+    """Mean cross-entropy over the answer tokens of a batch, of this rank's rows where several run.
 
     The sum over the ranks is the loss of the batch.
     """
@@ -106,17 +105,14 @@ def completion_loss(model: Any, body: Any, rows: Rows, rank: int = 0, world: int
     labels = torch.from_numpy(own.labels).flatten()
     places = (labels != IGNORE).nonzero().squeeze(1)
     with torch.autocast("cpu", dtype=torch.bfloat16):
-        # Padding stands on the right, where no token sees it: attention needs no mask but the
-        # causal one.
+        # Padding stands on the right, where no token sees it: the causal mask is enough.
         hidden = body(input_ids=torch.from_numpy(own.input_ids), use_cache=False)[0]
-    return summed_cross_entropy(
-        hidden.flatten(0, 1)[places], model.lm_head.weight, labels[places]
-    ) / max(1, answers)
+    chosen = hidden.flatten(0, 1)[places]
+    return summed_cross_entropy(chosen, model.lm_head.weight, labels[places]) / max(1, answers)
 
 
 def share_of(rows: Rows, rank: int, world: int) -> Rows:
-    """The rows of a batch that a rank computes, two at least: a row without labels stands in where
-    there are too few.
+    """The rows of a batch that a rank computes, two at least: rows without labels fill them up.
 
     Every rank must have gradients to sum, and the compiled model is made for more rows than one.
     """
@@ -129,43 +125,34 @@ def share_of(rows: Rows, rank: int, world: int) -> Rows:
 
 
 def layer_matrices(model: nn.Module) -> list[nn.Parameter]:
-    """The matrices of the layers: all weights but embeddings, output and norms. They are what 4-bit
-    storage rounds.
-    """
-    return [
-        value
-        for name, value in model.named_parameters()
-        if value.ndim == 2 and "embed" not in name and "lm_head" not in name
-    ]
+    """The layers' matrices, which 4-bit storage rounds: no embeddings, output or norms."""
+    return [value for name, value in model.named_parameters() if _in_layer(name, value)]
+
+
+def _in_layer(name: str, value: Tensor) -> bool:
+    return value.ndim == 2 and "embed" not in name and "lm_head" not in name
 
 
 def optimizers(model: nn.Module, settings: PretrainSettings) -> list[torch.optim.Optimizer]:
     """Muon for the layers' matrices, AdamW for embeddings and norms."""
-    matrices = layer_matrices(model)
-    others = [
-        value
-        for name, value in model.named_parameters()
-        if value.ndim != 2 or "embed" in name or "lm_head" in name
-    ]
-    return [
-        torch.optim.Muon(
-            matrices,
-            lr=settings.matrix_lr,
-            weight_decay=settings.weight_decay,
-            momentum=0.95,
-            adjust_lr_fn="match_rms_adamw",
-        ),
-        torch.optim.AdamW(others, lr=settings.other_lr, weight_decay=0.0, betas=(0.9, 0.98)),
-    ]
+    others = [value for name, value in model.named_parameters() if not _in_layer(name, value)]
+    muon = torch.optim.Muon(
+        layer_matrices(model),
+        lr=settings.matrix_lr,
+        weight_decay=settings.weight_decay,
+        momentum=0.95,
+        adjust_lr_fn="match_rms_adamw",
+    )
+    adamw = torch.optim.AdamW(others, lr=settings.other_lr, weight_decay=0.0, betas=(0.9, 0.98))
+    return [muon, adamw]
 
 
 def pretrain(
     model: Any, shards: list[Path], settings: PretrainSettings, *, pad: int, folder: Path
 ) -> dict[str, Any]:
-    """Train until the token budget is spent, resuming from `folder`/checkpoint.pt; return tokens,
-    steps, seconds and loss.
+    """Train until the token budget is spent; return tokens, steps, seconds and loss.
 
-    Logs one JSON line per 20 steps to `folder`/log.jsonl and to the terminal.
+    Resumes from `folder`/checkpoint.pt. Logs one JSON line per 20 steps to `folder`/log.jsonl and to the terminal.
     """
     rank, world = _join()
     optims = optimizers(model, settings)
@@ -192,17 +179,13 @@ def pretrain(
         done = state["tokens"] >= settings.tokens
         if rank == 0 and (state["step"] % 20 == 0 or done):
             seconds = time.monotonic() - started
-            _log(folder, state, losses[-20:], settings, (state["tokens"] - begin_tokens) / seconds)
+            rate = (state["tokens"] - begin_tokens) / seconds
+            _log(folder, state, float(np.mean(losses[-20:])), settings, rate)
         if done or time.monotonic() - saved > settings.checkpoint_seconds:
-            if rank == 0:
-                _save(
-                    folder,
-                    model,
-                    optims,
-                    {**state, "seconds": state["seconds"] + time.monotonic() - saved},
-                )
             state["seconds"] += time.monotonic() - saved
             saved = time.monotonic()
+            if rank == 0:
+                _save(folder, model, optims, state)
         if done:
             break
     return {**state, "loss": float(np.mean(losses[-50:])), "settings": asdict(settings)}
@@ -222,35 +205,21 @@ def _summed(model: nn.Module, loss: Tensor, world: int) -> float:
         gradients = [value.grad for value in model.parameters() if value.grad is not None]
         message = torch.cat([gradient.flatten() for gradient in gradients] + [loss.reshape(1)])
         torch.distributed.all_reduce(message)
-        for gradient, part in zip(
-            gradients,
-            torch.split(message[:-1], [gradient.numel() for gradient in gradients]),
-            strict=True,
-        ):
+        parts = torch.split(message[:-1], [gradient.numel() for gradient in gradients])
+        for gradient, part in zip(gradients, parts, strict=True):
             gradient.copy_(part.view_as(gradient))
         loss = message[-1]
     return float(loss)
 
 
 def _log(
-    folder: Path,
-    state: dict[str, Any],
-    losses: list[float],
-    settings: PretrainSettings,
-    rate: float,
+    folder: Path, state: dict[str, Any], loss: float, settings: PretrainSettings, rate: float
 ) -> None:
-    line = {
-        "step": state["step"],
-        "tokens": state["tokens"],
-        "loss": round(float(np.mean(losses)), 4),
-        "tokens_per_s": round(rate),
-    }
+    line = {"step": state["step"], "tokens": state["tokens"], "loss": round(loss, 4)}
+    line["tokens_per_s"] = round(rate)
     eta = (settings.tokens - state["tokens"]) / rate / 60
-    print(
-        f"{line['step']:6d}  {line['tokens'] / 1e6:6.2f} M tokens  loss {line['loss']:.4f} "
-        f" {rate:6.0f} tok/s  {eta:5.1f} min left",
-        flush=True,
-    )
+    done = f"{line['step']:6d}  {line['tokens'] / 1e6:6.2f} M tokens  loss {line['loss']:.4f}"
+    print(f"{done}  {rate:6.0f} tok/s  {eta:5.1f} min left", flush=True)
     with open(folder / "log.jsonl", "a", encoding="utf-8") as stream:
         stream.write(json.dumps(line) + "\n")
 
@@ -258,16 +227,9 @@ def _log(
 def _save(
     folder: Path, model: nn.Module, optims: list[torch.optim.Optimizer], state: dict[str, Any]
 ) -> None:
-    temporary = folder / "checkpoint.tmp"
-    torch.save(
-        {
-            "model": model.state_dict(),
-            "optimizers": [optim.state_dict() for optim in optims],
-            "state": state,
-        },
-        temporary,
-    )
-    temporary.replace(folder / "checkpoint.pt")
+    values = {"model": model.state_dict(), "optimizers": [one.state_dict() for one in optims]}
+    torch.save({**values, "state": state}, folder / "checkpoint.tmp")
+    (folder / "checkpoint.tmp").replace(folder / "checkpoint.pt")
 
 
 def _restore(folder: Path, model: nn.Module, optims: list[torch.optim.Optimizer]) -> dict[str, Any]:

@@ -45,19 +45,14 @@ def pre_token_pattern(vocabulary: Vocabulary) -> str:
 def train_tokenizer(
     texts: Iterable[str], vocabulary: Vocabulary, *, size: int = 4096
 ) -> PreTrainedTokenizerFast:
-    """Train the tokenizer on `texts` (prompts and completions). Deterministic for the same texts in
-    the same order.
-    """
+    """The tokenizer of `texts` (prompts and completions), the same for the same texts in order."""
     from tokenizers import AddedToken, Regex, Tokenizer, decoders, models, pre_tokenizers, trainers
     from transformers import PreTrainedTokenizerFast
 
     tokenizer = Tokenizer(models.BPE())
-    tokenizer.pre_tokenizer = pre_tokenizers.Sequence(
-        [
-            pre_tokenizers.Split(Regex(pre_token_pattern(vocabulary)), "isolated"),
-            pre_tokenizers.ByteLevel(add_prefix_space=False, use_regex=False),
-        ]
-    )
+    split = pre_tokenizers.Split(Regex(pre_token_pattern(vocabulary)), "isolated")
+    byte_level = pre_tokenizers.ByteLevel(add_prefix_space=False, use_regex=False)
+    tokenizer.pre_tokenizer = pre_tokenizers.Sequence([split, byte_level])
     tokenizer.decoder = decoders.ByteLevel()
     trainer = trainers.BpeTrainer(
         vocab_size=size,
@@ -68,9 +63,8 @@ def train_tokenizer(
     )
     tokenizer.train_from_iterator(texts, trainer)
     instructions = [system_text(level, vocabulary, with_vocabulary=False) for level in LEVELS]
-    tokenizer.add_tokens(
-        [AddedToken(text, normalized=False, special=False) for text in instructions]
-    )
+    added = [AddedToken(text, normalized=False, special=False) for text in instructions]
+    tokenizer.add_tokens(added)
     fast = PreTrainedTokenizerFast(
         tokenizer_object=tokenizer,
         bos_token="<|begin|>",
@@ -79,8 +73,6 @@ def train_tokenizer(
         clean_up_tokenization_spaces=False,
         model_max_length=4096,
     )
-    fast.add_special_tokens(
-        {"additional_special_tokens": ["<|system|>", "<|user|>", "<|assistant|>"]}
-    )
+    fast.add_special_tokens({"additional_special_tokens": list(SPECIAL_TOKENS[3:])})
     fast.chat_template = CHAT_TEMPLATE
     return fast

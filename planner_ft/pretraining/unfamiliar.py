@@ -18,21 +18,20 @@ from planner_ft.data.wordlists import any_things, made_up_name, pseudo_word
 from planner_ft.vocabulary import Vocabulary
 
 _WORD = re.compile(r"(?<![\w-])[^\W\d_]{4,}(?![\w-])")
-_TABLES: dict[str, Any] = tomllib.loads(
-    (Path(__file__).parent / "unfamiliar.toml").read_text(encoding="utf-8")
-)
+_FILE = Path(__file__).parent / "unfamiliar.toml"
+_TABLES: dict[str, Any] = tomllib.loads(_FILE.read_text(encoding="utf-8"))
 _PREFIXES: list[str] = _TABLES["prefixes"].split()
 _SUFFIXES: list[str] = _TABLES["suffixes"].split()
 _STAYING: frozenset[str] = frozenset(_TABLES["staying"].split())
+_UNCLEAR = ("u", "eu", "one", "hon")
+"""Beginnings after which the spelling does not tell "a" from "an"."""
 _ACCENTS: dict[str, str] = _TABLES["accents"]
 
 
 def with_unfamiliar_words(
     record: dict[str, Any], vocabulary: Vocabulary, rng: Random
 ) -> dict[str, Any] | None:
-    """`record`, of either level, with one or two words of its targets replaced wherever they stand;
-    None where it has none to replace.
-    """
+    """`record` with one or two words of its targets replaced everywhere; None without such words."""
     words = _shared_words(record, vocabulary)
     if not words:
         return None
@@ -42,26 +41,18 @@ def with_unfamiliar_words(
         # "Trawlers" at the beginning of a sentence is the same word.
         text = unfamiliar_word(word, rng)
         forms = {word + end: text + end for end in ("", "s")}
-        forms |= {
-            form[0].upper() + form[1:]: other[0].upper() + other[1:]
-            for form, other in forms.items()
-        }
+        forms |= {form[0].upper() + form[1:]: o[0].upper() + o[1:] for form, o in forms.items()}
         pattern = re.compile(rf"(?<!\w)({'|'.join(map(re.escape, forms))})(?!\w)")
         changed = _replaced(changed, pattern, forms)
     return changed
 
 
 def unfamiliar_word(word: str, rng: Random) -> str:
-    """Another word, made up or of a foreign spelling, that can stand where `word` does: a name for
-    a name, "an" stays "an".
-    """
+    """A made-up or foreign word in the place of `word`: a name for a name, "an" stays "an"."""
     for _ in range(50):
         found = _name(rng) if word[0].isupper() else _noun(rng)
-        if (
-            (found[0].lower() in "aeio") == (word[0].lower() in "aeio")
-            and found[0].isascii()
-            and not found.lower().startswith(("u", "eu", "one", "hon"))
-        ):
+        same = (found[0].lower() in "aeio") == (word[0].lower() in "aeio")
+        if same and found[0].isascii() and not found.lower().startswith(_UNCLEAR):
             return found
     return word
 
@@ -78,11 +69,8 @@ def _noun(rng: Random) -> str:
     if roll < 0.5:
         return rng.choice(things) + rng.choice(things)
     if roll < 0.65:
-        return (
-            rng.choice(_PREFIXES)
-            + rng.choice(things)
-            + (rng.choice(_SUFFIXES) if rng.random() < 0.4 else "")
-        )
+        begun = rng.choice(_PREFIXES) + rng.choice(things)
+        return begun + (rng.choice(_SUFFIXES) if rng.random() < 0.4 else "")
     word = pseudo_word(rng) if roll < 0.85 else rng.choice(things) + rng.choice(_SUFFIXES)
     return _accented(word, rng) if rng.random() < 0.25 else word
 
@@ -98,32 +86,17 @@ def _accented(word: str, rng: Random) -> str:
 
 @functools.cache
 def _things() -> tuple[str, ...]:
-    return tuple(
-        word
-        for word in any_things()
-        if len(word) > 3 and word not in _STAYING and not word.startswith(("u", "eu", "one", "hon"))
-    )
+    long = (word for word in any_things() if len(word) > 3 and word not in _STAYING)
+    return tuple(word for word in long if not word.startswith(_UNCLEAR))
 
 
 def _shared_words(record: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
-    """The words that stand in a told parameter of the plan and in the prompt, and that mean a thing
-    or are a name; in the order of the plan.
-    """
-    meant, things, prompt = (
-        _vocabulary_words(vocabulary),
-        frozenset(_things()),
-        set(_WORD.findall(record["prompt"])),
-    )
-    found = dict.fromkeys(
-        word for text in _texts(record["expected"]) for word in _WORD.findall(text)
-    )
-    return [
-        word
-        for word in found
-        if word in prompt
-        and word.lower() not in meant
-        and (word in things or (word[0].isupper() and not word.isupper()))
-    ]
+    """Things and names in the plan's parameters that the prompt has too, in the plan's order."""
+    meant, things = _vocabulary_words(vocabulary), frozenset(_things())
+    prompt = set(_WORD.findall(record["prompt"]))
+    found = dict.fromkeys(w for text in _texts(record["expected"]) for w in _WORD.findall(text))
+    shared = [word for word in found if word in prompt and word.lower() not in meant]
+    return [w for w in shared if w in things or (w[0].isupper() and not w.isupper())]
 
 
 @functools.cache
@@ -152,9 +125,7 @@ def _strings(value: Any) -> Iterator[str]:
 
 
 def _replaced(value: Any, pattern: re.Pattern[str], forms: dict[str, str]) -> Any:
-    """`value` with the words replaced in its strings; names of tasks and skills have no such
-    word.
-    """
+    """`value` with its strings' words replaced; names of tasks and skills have no such word."""
     if isinstance(value, str):
         return pattern.sub(lambda match: forms[match[0]], value)
     if isinstance(value, dict):

@@ -1,3 +1,1 @@
-"""What every part needs: errors, files, manifests, progress. Imports nothing else of the
-project.
-"""
+"""Needed by every part: errors, files, manifests. Imports nothing else of the project."""

@@ -2,9 +2,7 @@
 
 
 class PlannerError(Exception):
-    """One sentence that names the file, line, flag or value, and the way out. The command line
-    exits with 2.
-    """
+    """One sentence with the file, line, flag or value, and the way out. Commands exit with 2."""
 
 
 class GateError(PlannerError):

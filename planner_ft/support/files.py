@@ -15,23 +15,18 @@ from planner_ft.support.errors import PlannerError
 
 
 def compact_json(value: Any) -> str:
-    """JSON without spaces, keys in insertion order, no NaN: the form in which plans are trained and
-    compared.
-    """
+    """JSON without spaces, keys in insertion order, no NaN: plans are trained and compared so."""
     return json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
 
 def indented_json(value: Any) -> str:
-    """JSON for people to read, with a newline at the end: the form of schemas, manifests and
-    reports.
-    """
+    """JSON for people, with a newline at the end: the form of schemas, manifests and reports."""
     return json.dumps(value, ensure_ascii=False, indent=2, allow_nan=False) + "\n"
 
 
 @contextlib.contextmanager
 def atomic_writer(path: Path | str, mode: str = "w") -> Iterator[IO[Any]]:
-    """Open a temporary file beside `path` that replaces it when the block ends without an
-    exception.
+    """A temporary file beside `path` that replaces it when the block ends without an exception.
 
     Raises PlannerError when the folder cannot be written or the disk is full; `path` is then as it
     was.
@@ -46,10 +41,8 @@ def atomic_writer(path: Path | str, mode: str = "w") -> Iterator[IO[Any]]:
             os.fsync(stream.fileno())
         temporary.replace(path)
     except OSError as error:
-        raise PlannerError(
-            f"{path}: cannot be written ({error.strerror or error}); choose another folder or free"
-            " some space"
-        ) from error
+        reason, way_out = error.strerror or error, "choose another folder or free some space"
+        raise PlannerError(f"{path}: cannot be written ({reason}); {way_out}") from error
     finally:
         with contextlib.suppress(OSError):
             temporary.unlink(missing_ok=True)
@@ -87,17 +80,14 @@ def read_text(path: Path | str) -> str:
     except FileNotFoundError:
         raise PlannerError(f"{path}: no such file") from None
     except UnicodeDecodeError as error:
-        raise PlannerError(
-            f"{path}: not UTF-8 text (byte {error.start}); convert it to UTF-8"
-        ) from None
+        reason = f"not UTF-8 text (byte {error.start})"
+        raise PlannerError(f"{path}: {reason}; convert it to UTF-8") from None
     except OSError as error:
         raise PlannerError(f"{path}: cannot be read ({error.strerror})") from None
 
 
 def decode_json(text: str) -> tuple[Any, int, str | None]:
-    """(value, 0, None), or (None, line within the text, what is wrong): bad syntax, NaN, nesting
-    too deep, half a surrogate pair.
-    """
+    """(value, 0, None), or (None, line, problem): syntax, NaN, nesting, half a surrogate pair."""
     try:
         value = json.loads(text, parse_constant=_no_number)
         if "\\u" in text:
@@ -118,9 +108,7 @@ def _no_number(name: str) -> None:
 
 
 def read_json(path: Path | str) -> Any:
-    """The value of a JSON file. Raises PlannerError that names file, line and column when it does
-    not parse.
-    """
+    """The value of a JSON file. Raises PlannerError with file, line and column of a mistake."""
     value, line, problem = decode_json(read_text(path))
     if problem is not None:
         raise PlannerError(f"{path}:{line}: {problem}")
@@ -128,13 +116,11 @@ def read_json(path: Path | str) -> Any:
 
 
 def iterate_jsonl(path: Path | str) -> Iterator[tuple[int, Any | None, str | None]]:
-    """Yield (line number, value, None) or (line number, None, what is wrong) for every non-blank
-    line.
+    """(line number, value, None) or (line number, None, problem) of every line that is not blank.
 
     Raises PlannerError when the file is missing, unreadable or not UTF-8.
     """
-    # Split on "\n" alone: str.splitlines would also cut at U+2028, which JSON allows inside a
-    # string.
+    # Split on "\n" alone: str.splitlines would also cut at U+2028, which JSON strings may hold.
     for number, line in enumerate(read_text(path).split("\n"), 1):
         if line.strip():
             value, _line, problem = decode_json(line)
@@ -142,17 +128,13 @@ def iterate_jsonl(path: Path | str) -> Iterator[tuple[int, Any | None, str | Non
 
 
 def read_jsonl(path: Path | str) -> list[dict[str, Any]]:
-    """The objects of a JSON Lines file. Raises PlannerError at the first bad line, or when there is
-    no object.
-    """
+    """The objects of a JSON Lines file. Raises PlannerError at the first bad line, or for none."""
     records = []
     for number, value, problem in iterate_jsonl(path):
-        if problem is not None:
+        if problem is None and not isinstance(value, dict):
+            problem = f"a JSON object is expected, not {type(value).__name__}"
+        if problem is not None or value is None:
             raise PlannerError(f"{path}:{number}: {problem}")
-        if not isinstance(value, dict):
-            raise PlannerError(
-                f"{path}:{number}: a JSON object is expected, not {type(value).__name__}"
-            )
         records.append(value)
     if not records:
         raise PlannerError(f"{path}: holds no records")
@@ -174,12 +156,8 @@ def sha256_text(text: str) -> str:
 
 
 def sha256_tree(folder: Path | str, patterns: tuple[str, ...] = ("*",)) -> str:
-    """One SHA-256 over the names and bytes of the files directly in `folder` that match any of
-    `patterns`.
-    """
-    digest = hashlib.sha256()
-    for path in sorted(
-        {path for pattern in patterns for path in Path(folder).glob(pattern) if path.is_file()}
-    ):
+    """One SHA-256 over names and bytes of the files directly in `folder` that match a pattern."""
+    digest, found = hashlib.sha256(), {path for one in patterns for path in Path(folder).glob(one)}
+    for path in sorted(path for path in found if path.is_file()):
         digest.update(f"{path.name}\0{sha256_file(path)}\n".encode())
     return digest.hexdigest()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import importlib.metadata
 import os
@@ -23,28 +24,21 @@ LIBRARIES = (
 
 def library_versions() -> dict[str, str | None]:
     """Installed versions of the libraries that results depend on, without importing them."""
-    return {name: _version(name) for name in LIBRARIES}
-
-
-def _version(name: str) -> str | None:
-    try:
-        return importlib.metadata.version(name)
-    except importlib.metadata.PackageNotFoundError:
-        return None
+    versions: dict[str, str | None] = dict.fromkeys(LIBRARIES)
+    for name in LIBRARIES:
+        with contextlib.suppress(importlib.metadata.PackageNotFoundError):
+            versions[name] = importlib.metadata.version(name)
+    return versions
 
 
 @functools.cache
 def source_commit() -> dict[str, Any]:
-    """Commit of the source tree that the package runs from and whether it has uncommitted changes;
-    None when installed.
-    """
+    """The source tree's commit and whether it has uncommitted changes; None when installed."""
     root = Path(planner_ft.__file__).resolve().parent.parent
-    try:
+    with contextlib.suppress(OSError, subprocess.CalledProcessError):
         if (root / ".git").exists():
             changes = _git(root, "status", "--porcelain", "--untracked-files=no")
             return {"commit": _git(root, "rev-parse", "HEAD"), "dirty": bool(changes)}
-    except (OSError, subprocess.CalledProcessError):
-        pass
     return {"commit": None, "dirty": None}
 
 
@@ -55,10 +49,9 @@ def _git(root: Path, *arguments: str) -> str:
 
 def hardware() -> dict[str, Any]:
     """Machine description: platform, processor, cores, memory in bytes."""
-    try:
-        memory: int | None = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (ValueError, OSError):
-        memory = None
+    memory: int | None = None
+    with contextlib.suppress(ValueError, OSError):
+        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     machine, allowed = platform.machine(), getattr(os, "sched_getaffinity", None)
     return {
         # Without the kernel's release, which says more about a host than about a result.
@@ -77,22 +70,18 @@ def build_manifest(
     inputs: dict[str, Path | str] | None = None,
     **more: Any,
 ) -> dict[str, Any]:
-    """A manifest of `kind` ("data", "train", "bench", ...) with seed, configuration and the SHA-256
-    of every input file.
+    """A manifest of `kind` ("data", "train", "bench", ...); `inputs` maps a role to a file.
 
-    `inputs` maps a role to a file; `more` adds fields of that kind of run (outputs, time, tokens,
-    device, ...).
+    `more` adds fields of that kind of run (outputs, time, tokens, device, ...).
     """
+    files = (inputs or {}).items()
     return {
         "kind": kind,
         "planner_ft": planner_ft.__version__,
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "seed": seed,
         "configuration": configuration,
-        "inputs": {
-            role: {"path": str(path), "sha256": sha256_file(path)}
-            for role, path in (inputs or {}).items()
-        },
+        "inputs": {role: {"path": str(p), "sha256": sha256_file(p)} for role, p in files},
         "versions": {"python": sys.version.split()[0], **library_versions()},
         **source_commit(),
         "hardware": hardware(),

@@ -19,13 +19,17 @@ def peak_memory(device: torch.device) -> int:
         import torch
 
         return torch.cuda.max_memory_allocated(device)
-    return _process_peak()
+    # ru_maxrss is kept across exec: it would be that of the program that started this one.
+    try:
+        lines = Path("/proc/self/status").read_text().splitlines()
+        return next(int(line.split()[1]) * 1024 for line in lines if line.startswith("VmHWM:"))
+    except (OSError, StopIteration):
+        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        return peak if sys.platform == "darwin" else peak * 1024
 
 
 def reset_peak_memory(device: torch.device) -> None:
-    """Begin to measure anew. Where the system does not let a process do so, its peak stays that of
-    its whole life.
-    """
+    """Begin to measure anew, where the system lets a process do so."""
     if device.type == "cuda":
         import torch
 
@@ -33,16 +37,6 @@ def reset_peak_memory(device: torch.device) -> None:
     with contextlib.suppress(OSError):
         # 5: forget the highest resident size (proc(5), clear_refs).
         Path("/proc/self/clear_refs").write_text("5")
-
-
-def _process_peak() -> int:
-    # ru_maxrss is kept across exec: it would tell what the program that started this one needed.
-    try:
-        lines = Path("/proc/self/status").read_text().splitlines()
-        return next(int(line.split()[1]) * 1024 for line in lines if line.startswith("VmHWM:"))
-    except (OSError, StopIteration):
-        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        return peak if sys.platform == "darwin" else peak * 1024
 
 
 def clock(seconds: float) -> str:

@@ -1,3 +1,1 @@
-"""Fine-tuning: settings, preflight, batches, the training loop with its checkpoints, and the
-adapter folder it leaves.
-"""
+"""Fine-tuning: settings, preflight, batches, training loop, checkpoints, adapter folder."""

@@ -15,22 +15,20 @@ if TYPE_CHECKING:
 
 VALIDATION_TOKENS = 2048
 """Tokens, padding included, that go through the model together in a validation pass."""
-
-
 WIDTH_MULTIPLE = 16
 """Batches are padded to a multiple of this: kernels are prepared per shape (50 ms on a CPU)."""
 
 
 @dataclass(frozen=True)
 class Batch:
-    """Samples without their last token, which predicts nothing, in rows that are padded on the
-    right.
+    """Samples without their last token, which predicts nothing, in rows padded on the right.
 
     `input_ids` has the shape (rows, width). There is no attention mask: attention is causal, so
     that padding on the right reaches no token before it. Where samples share a row, `positions`
     (the shape of `input_ids`) begins at zero with each of them, and models let none look at
     another. `rows` and `columns` say where the model predicts completion tokens and `targets`
     which: three vectors of one length, over all samples. So the output layer runs there alone.
+    `tokens` counts the samples' tokens without padding.
     """
 
     ids: tuple[str, ...]
@@ -39,19 +37,16 @@ class Batch:
     columns: torch.Tensor
     targets: torch.Tensor
     tokens: int
-    """Tokens of the samples, padding not counted."""
     positions: torch.Tensor | None = None
 
     def to(self, device: torch.device) -> Batch:
         """The batch on `device`; copied from pinned memory in the background where that is CUDA."""
         if device.type == "cpu":
             return self
-        names = ("input_ids", "rows", "columns", "targets", "positions")
-        tensors = {name: getattr(self, name) for name in names}
         moved: dict[str, Any] = {
-            name: tensor.pin_memory().to(device, non_blocking=True)
-            for name, tensor in tensors.items()
-            if tensor is not None
+            name: getattr(self, name).pin_memory().to(device, non_blocking=True)
+            for name in ("input_ids", "rows", "columns", "targets", "positions")
+            if getattr(self, name) is not None
         }
         return replace(self, **moved)
 
@@ -70,15 +65,15 @@ def epoch_steps(
     the same gradient, a mean over the step's tokens. The last step may be smaller.
     """
     order = epoch_order(len(lengths), seed, epoch)
-    size = batch_size * accumulation
     steps = [
-        sorted(order[start : start + size], key=lambda index: -lengths[index])
-        for start in range(0, len(order), size)
+        sorted(step, key=lambda index: -lengths[index])
+        for step in _chunks(order, batch_size * accumulation)
     ]
-    return [
-        [step[start : start + batch_size] for start in range(0, len(step), batch_size)]
-        for step in steps
-    ]
+    return [_chunks(step, batch_size) for step in steps]
+
+
+def _chunks(values: list[int], size: int) -> list[list[int]]:
+    return [values[start : start + size] for start in range(0, len(values), size)]
 
 
 def validation_batches(lengths: Sequence[int]) -> Iterator[list[int]]:
@@ -106,28 +101,17 @@ def collate(samples: Sequence[Sample], pad: int, *, packed: bool = False) -> Bat
     places = packed_places(lengths, width) if packed else [(row, 0) for row in range(len(samples))]
     input_ids = torch.full((max(row for row, _start in places) + 1, width), pad, dtype=torch.long)
     positions = torch.arange(width).repeat(len(input_ids), 1)
-    rows: list[int] = []
-    columns: list[int] = []
-    targets: list[int] = []
-    placed = sorted(zip(samples, places, strict=True), key=lambda pair: pair[1])
-    for sample, (row, start) in placed:
-        ids = sample.rendered.input_ids
-        input_ids[row, start : start + len(ids) - 1] = torch.tensor(ids[:-1])
+    trained: list[tuple[int, int, int]] = []
+    for sample, (row, start) in sorted(zip(samples, places, strict=True), key=lambda pair: pair[1]):
+        row_ids = sample.rendered.input_ids
+        input_ids[row, start : start + sample.length - 1] = torch.tensor(row_ids[:-1])
         positions[row, start:] = torch.arange(width - start)
-        mask = enumerate(sample.rendered.completion_mask)
-        trained = [position for position, kept in mask if kept]
-        rows.extend([row] * len(trained))
-        columns.extend(start + position - 1 for position in trained)
-        targets.extend(ids[position] for position in trained)
-    return Batch(
-        ids=tuple(sample.id for sample in samples),
-        input_ids=input_ids,
-        rows=torch.tensor(rows),
-        columns=torch.tensor(columns),
-        targets=torch.tensor(targets),
-        tokens=sum(sample.length for sample in samples),
-        positions=positions if any(start for _row, start in places) else None,
-    )
+        marked = enumerate(zip(row_ids, sample.rendered.completion_mask, strict=True), start - 1)
+        trained += [(row, column, target) for column, (target, kept) in marked if kept]
+    rows, columns, targets = torch.tensor(trained, dtype=torch.long).reshape(-1, 3).T.contiguous()
+    ids, tokens = tuple(sample.id for sample in samples), sum(sample.length for sample in samples)
+    shared = positions if any(start for _row, start in places) else None
+    return Batch(ids, input_ids, rows, columns, targets, tokens, shared)
 
 
 def packed_places(lengths: Sequence[int], width: int) -> list[tuple[int, int]]:

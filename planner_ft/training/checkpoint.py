@@ -25,23 +25,24 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.training.model import adapter_parameters
 from planner_ft.training.output import CHECKPOINTS
 
-PREFIX = "step-"
-TENSOR = "$tensor"
+PREFIX, TENSOR = "step-", "$tensor"
 
 
 @dataclass
 class TrainState:
-    """Position of a run. `step` counts optimiser steps, `history` has an entry per validation."""
+    """Position of a run. `step` counts optimiser steps, `history` has an entry per validation.
+
+    `loss` is the mean a completion token over the epoch in progress, or the one that just ended;
+    `epoch_loss` and `epoch_tokens` are its sum of losses and its completion tokens so far.
+    """
 
     step: int = 0
     tokens: int = 0
     completion_tokens: int = 0
     seconds: float = 0.0
     loss: float | None = None
-    """Mean loss a completion token over the epoch in progress, or the one that just ended."""
     epoch_loss: float = 0.0
     epoch_tokens: int = 0
-    """Sum of losses and number of completion tokens of the epoch in progress."""
     best_loss: float | None = None
     best_epoch: float | None = None
     history: list[dict[str, Any]] = field(default_factory=list)
@@ -55,11 +56,6 @@ class Trainee:
     optimizer: torch.optim.Optimizer
     scaler: torch.amp.GradScaler
     best: dict[str, Tensor] | None = None
-
-    @property
-    def weights(self) -> int:
-        """Number of trained weights."""
-        return sum(value.numel() for value in adapter_parameters(self.model).values())
 
 
 def adapter_tensors(model: Any) -> dict[str, Tensor]:
@@ -75,7 +71,7 @@ def set_adapter(model: Any, tensors: dict[str, Tensor]) -> None:
             value.copy_(tensors[name])
 
 
-def save_checkpoint(output: Path, state: TrainState, trainee: Trainee) -> Path:
+def save_checkpoint(output: Path, state: TrainState, trainee: Trainee) -> None:
     """Write a checkpoint under `output`, then remove older ones. Raises PlannerError: disk full."""
     folder = output / CHECKPOINTS
     target = folder / f"{PREFIX}{state.step:08d}"
@@ -97,7 +93,6 @@ def save_checkpoint(output: Path, state: TrainState, trainee: Trainee) -> Path:
         shutil.rmtree(temporary, ignore_errors=True)
     for older in checkpoints(output)[:-1]:
         shutil.rmtree(older, ignore_errors=True)
-    return target
 
 
 def load_checkpoint(path: Path, trainee: Trainee) -> TrainState:
@@ -105,20 +100,18 @@ def load_checkpoint(path: Path, trainee: Trainee) -> TrainState:
     try:
         values = json.loads((path / "state.json").read_text(encoding="utf-8"))
         tensors = load_tensors((path / "tensors.safetensors").read_bytes())
-        parts: dict[str, dict[str, Tensor]] = {"adapter": {}, "best": {}, "rng": {}}
-        for name, value in tensors.items():
-            part, _, rest = name.partition("/")
-            parts.setdefault(part, {})[rest] = value
-        set_adapter(trainee.model, parts["adapter"])
-        _restore_optimizer(trainee.optimizer, values["optimizer"], tensors)
+        set_adapter(trainee.model, _part(tensors, "adapter"))
+        moments = {int(key): _put(entry, tensors) for key, entry in values["optimizer"].items()}
+        groups = trainee.optimizer.state_dict()["param_groups"]
+        trainee.optimizer.load_state_dict({"state": moments, "param_groups": groups})
     except Exception as error:
         raise PlannerError(
             f"{path}: the checkpoint cannot be read ({error}); start again with --overwrite"
         ) from error
-    trainee.best = parts["best"] or None
+    trainee.best = _part(tensors, "best") or None
     if values["scaler"]:
         trainee.scaler.load_state_dict(values["scaler"])
-    restore_rng({"python": values["python"], "tensors": parts["rng"]})
+    restore_rng(values["python"], _part(tensors, "rng"))
     return TrainState(**values["state"])
 
 
@@ -134,48 +127,43 @@ def remove_leftovers(output: Path) -> None:
 
 
 def _collect(state: TrainState, trainee: Trainee) -> tuple[dict[str, Any], dict[str, Tensor]]:
-    states = rng_state()
-    tensors = {f"adapter/{name}": value for name, value in adapter_tensors(trainee.model).items()}
-    tensors |= {f"best/{name}": value for name, value in (trainee.best or {}).items()}
-    tensors |= {f"rng/{name}": value for name, value in states["tensors"].items()}
+    """The values of state.json and the tensors, named PART/NAME."""
+    python, generators = rng_state()
+    parts = {"adapter": adapter_tensors(trainee.model), "best": trainee.best or {}}
+    tensors = {
+        f"{part}/{name}": value
+        for part, named in {**parts, "rng": generators}.items()
+        for name, value in named.items()
+    }
     # Groups (learning rate, betas) follow from the settings; only the moments are saved.
-    optimizer = _take_tensors(trainee.optimizer.state_dict()["state"], "optimizer", tensors)
-    return {
-        "state": asdict(state),
-        "optimizer": optimizer,
-        "scaler": trainee.scaler.state_dict(),
-        "python": states["python"],
-    }, tensors
+    moments = _take(trainee.optimizer.state_dict()["state"], "optimizer", tensors)
+    values = {"state": asdict(state), "scaler": trainee.scaler.state_dict(), "python": python}
+    return {**values, "optimizer": moments}, tensors
 
 
-def _restore_optimizer(
-    optimizer: torch.optim.Optimizer, values: dict[str, Any], tensors: dict[str, Tensor]
-) -> None:
-    entries = {int(index): _put_tensors(entry, tensors) for index, entry in values.items()}
-    optimizer.load_state_dict(
-        {"state": entries, "param_groups": optimizer.state_dict()["param_groups"]}
-    )
+def _part(tensors: dict[str, Tensor], part: str) -> dict[str, Tensor]:
+    named = tensors.items()
+    return {name.removeprefix(f"{part}/"): v for name, v in named if name.startswith(f"{part}/")}
 
 
-def _take_tensors(value: Any, name: str, tensors: dict[str, Tensor]) -> Any:
+def _take(value: Any, name: str, tensors: dict[str, Tensor]) -> Any:
     """`value` for JSON: every tensor moves into `tensors`, its name there takes its place."""
     if isinstance(value, Tensor):
         # A copy: safetensors refuses tensors that share memory, as the tables of 8-bit moments do.
         tensors[name] = value.detach().to("cpu", copy=True).contiguous()
         return {TENSOR: name}
     if isinstance(value, dict):
-        items = value.items()
-        return {str(key): _take_tensors(item, f"{name}/{key}", tensors) for key, item in items}
+        return {str(key): _take(item, f"{name}/{key}", tensors) for key, item in value.items()}
     return value
 
 
-def _put_tensors(value: Any, tensors: dict[str, Tensor]) -> Any:
-    """The reverse of `_take_tensors`."""
+def _put(value: Any, tensors: dict[str, Tensor]) -> Any:
+    """The reverse of `_take`."""
     if not isinstance(value, dict):
         return value
     if TENSOR in value:
         return tensors[value[TENSOR]]
-    return {key: _put_tensors(item, tensors) for key, item in value.items()}
+    return {key: _put(item, tensors) for key, item in value.items()}
 
 
 def _write(path: Path, content: bytes) -> None:
@@ -195,25 +183,22 @@ def _sync(folder: Path) -> None:
             os.close(descriptor)
 
 
-def rng_state() -> dict[str, Any]:
-    """States of Python's, torch's and CUDA's generators: `python` for JSON, byte `tensors`."""
+def rng_state() -> tuple[list[Any], dict[str, Tensor]]:
+    """States of the generators: Python's for JSON, and byte tensors "torch", "cuda:0", ..."""
     version, values, gauss = random.getstate()
-    tensors: dict[str, Tensor] = {"torch": torch.get_rng_state()}
-    if torch.cuda.is_available():
-        states = enumerate(torch.cuda.get_rng_state_all())
-        tensors |= {f"cuda:{index}": state for index, state in states}
-    return {"python": [version, list(values), gauss], "tensors": tensors}
+    cuda = torch.cuda.get_rng_state_all() if torch.cuda.is_available() else []
+    tensors = {f"cuda:{index}": state for index, state in enumerate(cuda)}
+    return [version, list(values), gauss], {"torch": torch.get_rng_state(), **tensors}
 
 
-def restore_rng(state: dict[str, Any]) -> None:
-    """Set the generators to a state from `rng_state`; devices that are not here are skipped."""
-    version, values, gauss = state["python"]
+def restore_rng(python: list[Any], tensors: dict[str, Tensor]) -> None:
+    """Set the generators to states from `rng_state`; devices that are not here are skipped."""
+    version, values, gauss = python
     random.setstate((version, tuple(values), gauss))
-    for name, tensor in state["tensors"].items():
-        if name == "torch":
-            torch.set_rng_state(tensor)
-        elif torch.cuda.is_available() and int(name.split(":")[1]) < torch.cuda.device_count():
-            torch.cuda.set_rng_state(tensor, int(name.split(":")[1]))
+    torch.set_rng_state(tensors["torch"])
+    for index in range(torch.cuda.device_count()):
+        if f"cuda:{index}" in tensors:
+            torch.cuda.set_rng_state(tensors[f"cuda:{index}"], index)
 
 
 def seed_everything(seed: int) -> None:

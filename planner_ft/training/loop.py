@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import signal
 import threading
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from types import FrameType
+from typing import Any
 
 import torch
 
@@ -37,31 +39,26 @@ class InterruptedRunError(Exception):
         self.step, self.total, self.signal_number = step, total, signal_number
 
 
-class StopSignals:
+@contextlib.contextmanager
+def stop_signals(note: Callable[[str], None]) -> Iterator[list[int]]:
     """Ctrl-C and SIGTERM end the run after the step in progress; a second one ends it at once."""
+    received: list[int] = []
 
-    def __init__(self, note: Callable[[str], None]) -> None:
-        self.note = note
-        self.received: int | None = None
-
-    def __enter__(self) -> StopSignals:
-        # Python lets only the main thread set handlers; elsewhere the caller's apply.
-        main = threading.current_thread() is threading.main_thread()
-        numbers = (signal.SIGINT, signal.SIGTERM) if main else ()
-        self.before = {number: signal.signal(number, self._handle) for number in numbers}
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        for number, handler in self.before.items():
-            signal.signal(number, handler)
-
-    def _handle(self, number: int, frame: FrameType | None) -> None:
-        if self.received is not None:
+    def handle(number: int, frame: FrameType | None) -> None:
+        if received:
             raise KeyboardInterrupt
-        self.received = number
-        self.note(
-            "stopping after this step and saving a checkpoint (Ctrl-C again: at once, without)"
-        )
+        received.append(number)
+        note("stopping after this step and saving a checkpoint (Ctrl-C again: at once, without)")
+
+    # Python lets only the main thread set handlers; elsewhere the caller's apply.
+    main = threading.current_thread() is threading.main_thread()
+    numbers = (signal.SIGINT, signal.SIGTERM) if main else ()
+    before = {number: signal.signal(number, handle) for number in numbers}
+    try:
+        yield received
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 @dataclass
@@ -78,26 +75,27 @@ class Run:
     output: Path
     log: TrainLog
     trackers: Trackers
-    display: Display
+    display: Display = field(init=False)
 
     @property
     def steps_per_epoch(self) -> int:
-        return steps_per_epoch(self.settings, len(self.train))
+        """Optimiser steps of an epoch; the last one may be smaller."""
+        size = self.settings.batch_size * self.settings.gradient_accumulation
+        return math.ceil(len(self.train) / size)
 
     @property
     def total_steps(self) -> int:
-        return total_steps(self.settings, len(self.train))
+        steps = self.settings.epochs * self.steps_per_epoch
+        return min(steps, self.settings.max_steps or steps)
 
+    def record(self, values: dict[str, Any]) -> None:
+        """Write a line of the log and tell the trackers."""
+        self.log.write(values)
+        self.trackers.log(values)
 
-def steps_per_epoch(settings: TrainSettings, samples: int) -> int:
-    """Optimiser steps of an epoch; the last one may be smaller."""
-    return math.ceil(samples / (settings.batch_size * settings.gradient_accumulation))
-
-
-def total_steps(settings: TrainSettings, samples: int) -> int:
-    """Optimiser steps of a whole run."""
-    steps = settings.epochs * steps_per_epoch(settings, samples)
-    return min(steps, settings.max_steps or steps)
+    def epoch(self, step: int) -> float:
+        """The epochs that `step` optimiser steps make."""
+        return round(step / self.steps_per_epoch, 4)
 
 
 def learning_rate(settings: TrainSettings, step: int, total: int) -> float:
@@ -120,7 +118,7 @@ def train_loop(run: Run, state: TrainState) -> None:
     """
     run.trainee.model.train()
     saved = time.monotonic()
-    with StopSignals(run.display.note) as signals:
+    with stop_signals(run.display.note) as signals:
         for batches in _remaining_steps(run, state):
             begun = time.monotonic()
             _step(run, state, batches)
@@ -128,14 +126,12 @@ def train_loop(run: Run, state: TrainState) -> None:
             if epoch_ends:
                 _end_epoch(run, state)
             state.seconds += time.monotonic() - begun
-            stopped = signals.received is not None and state.step < run.total_steps
+            stopped = bool(signals) and state.step < run.total_steps
             if epoch_ends or stopped or _checkpoint_due(run.settings, state.step, saved):
                 save_checkpoint(run.output, state, run.trainee)
                 saved = time.monotonic()
             if stopped:
-                raise InterruptedRunError(
-                    state.step, run.total_steps, signals.received or signal.SIGINT
-                )
+                raise InterruptedRunError(state.step, run.total_steps, signals[0])
     if run.trainee.best is not None:
         set_adapter(run.trainee.model, run.trainee.best)
 
@@ -151,39 +147,42 @@ def _remaining_steps(run: Run, state: TrainState) -> Iterator[list[list[int]]]:
             yield step
 
 
-def _step(run: Run, state: TrainState, batches: list[list[int]]) -> None:
+def _step(run: Run, state: TrainState, indices: list[list[int]]) -> None:
     """One optimiser step; the gradient is the mean over all completion tokens of its batches."""
-    settings, trainee = run.settings, run.trainee
-    begun = time.monotonic()
-    rate = learning_rate(settings, state.step, run.total_steps)
+    trainee, begun, packed = run.trainee, time.monotonic(), packs(run.trainee.model)
+    rate = learning_rate(run.settings, state.step, run.total_steps)
     for group in trainee.optimizer.param_groups:
         group["lr"] = rate
-    collated = [
-        collate([run.train[index] for index in indices], run.pad, packed=packs(trainee.model))
-        for indices in batches
+    batches = [
+        collate([run.train[index] for index in batch], run.pad, packed=packed) for batch in indices
     ]
-    count = sum(len(batch.targets) for batch in collated)
+    count = sum(len(batch.targets) for batch in batches)
     parts = []
-    for batch in collated:
+    for batch in batches:
         part = loss_sum(trainee.model, batch.to(run.device), run.dtype) / count
         torch.autograd.backward(trainee.scaler.scale(part))
         parts.append(part.detach())
     # Read after the backward pass was queued: waiting for a GPU in between would leave it idle.
     losses = torch.stack(parts).tolist()
-    for value, batch in zip(losses, collated, strict=True):
+    for value, batch in zip(losses, batches, strict=True):
         if not math.isfinite(value):
-            raise PlannerError(_not_finite(run, state, f"loss is {value}", batch))
-    loss = sum(losses)
-    norm = _update(run, state, collated)
-    trained = sum(batch.tokens for batch in collated)
+            raise _not_finite(run, state, f"loss is {value}", batch)
+    norm = _update(run, state, batches)
+    loss, trained = sum(losses), sum(batch.tokens for batch in batches)
     state.step += 1
     state.tokens += trained
     state.completion_tokens += count
     state.epoch_loss += loss * count
     state.epoch_tokens += count
     state.loss = state.epoch_loss / state.epoch_tokens
-    values = {"loss": loss, "lr": rate, "grad_norm": norm}
-    _report(run, state, values, trained, time.monotonic() - begun)
+    seconds = time.monotonic() - begun
+    whole = state.seconds + seconds
+    record = {"step": state.step, "epoch": run.epoch(state.step), "loss": loss, "lr": rate}
+    record |= {"grad_norm": norm, "tokens": state.tokens, "step_tokens": trained}
+    record |= {"seconds": round(whole, 3), "tokens_per_s": round(trained / seconds, 1)}
+    run.record(record)
+    remaining = (run.total_steps - state.step) * whole / state.step
+    run.display.step(record, remaining, peak_memory(run.device))
 
 
 def _update(run: Run, state: TrainState, batches: list[Batch]) -> float:
@@ -194,15 +193,15 @@ def _update(run: Run, state: TrainState, batches: list[Batch]) -> float:
     norm = float(torch.nn.utils.clip_grad_norm_(weights, run.settings.gradient_clip))
     # In float16 an overflow is ordinary: the scaler skips the step and scales the next loss less.
     if not math.isfinite(norm) and not trainee.scaler.is_enabled():
-        raise PlannerError(_not_finite(run, state, f"gradient norm is {norm}", batches[0]))
+        raise _not_finite(run, state, f"gradient norm is {norm}", batches[0])
     trainee.scaler.step(trainee.optimizer)
     trainee.scaler.update()
     trainee.optimizer.zero_grad(set_to_none=True)
     return norm if math.isfinite(norm) else -1.0
 
 
-def _not_finite(run: Run, state: TrainState, finding: str, batch: Batch) -> str:
-    return (
+def _not_finite(run: Run, state: TrainState, finding: str, batch: Batch) -> PlannerError:
+    return PlannerError(
         f"step {state.step + 1}, sample {', '.join(batch.ids)}: the {finding}; lower"
         f" --learning-rate (now {run.settings.learning_rate:g}) or --gradient-clip (now"
         f" {run.settings.gradient_clip:g}), or look at that sample with --preview-id; the"
@@ -210,53 +209,25 @@ def _not_finite(run: Run, state: TrainState, finding: str, batch: Batch) -> str:
     )
 
 
-def _report(
-    run: Run, state: TrainState, values: dict[str, float], tokens: int, seconds: float
-) -> None:
-    record = {
-        "step": state.step,
-        "epoch": round(state.step / run.steps_per_epoch, 4),
-        **values,
-        "tokens": state.tokens,
-        "step_tokens": tokens,
-        "seconds": round(state.seconds + seconds, 3),
-        "tokens_per_s": round(tokens / seconds, 1),
-    }
-    run.log.write(record)
-    run.trackers.log(record)
-    remaining = (run.total_steps - state.step) * (state.seconds + seconds) / state.step
-    run.display.step(record, remaining, peak_memory(run.device))
-
-
 def _end_epoch(run: Run, state: TrainState) -> None:
     """Validate, and keep the adapter if it is the best so far."""
-    epoch = round(state.step / run.steps_per_epoch, 4)
+    epoch, begun = run.epoch(state.step), time.monotonic()
     text = f"epoch {epoch:g}: training loss {state.loss:.4f}"
     state.epoch_loss, state.epoch_tokens = 0.0, 0
     if run.validation:
-        begun = time.monotonic()
         loss = validation_loss(run.trainee.model, run.validation, run.pad, run.device, run.dtype)
         if not math.isfinite(loss):
-            raise PlannerError(
-                f"epoch {epoch:g}: the validation loss is {loss}; lower --learning-rate (now"
-                f" {run.settings.learning_rate:g})"
-            )
+            rate = f"lower --learning-rate (now {run.settings.learning_rate:g})"
+            raise PlannerError(f"epoch {epoch:g}: the validation loss is {loss}; {rate}")
         best = state.best_loss is None or loss < state.best_loss
         if best:
             state.best_loss, state.best_epoch = loss, epoch
             run.trainee.best = adapter_tensors(run.trainee.model)
-        seconds = time.monotonic() - begun
-        record = {
-            "step": state.step,
-            "epoch": epoch,
-            "train_loss": state.loss,
-            "validation_loss": loss,
-            "best": best,
-            "seconds": round(seconds, 3),
-        }
+        record = {"step": state.step, "epoch": epoch, "train_loss": state.loss}
+        record |= {"validation_loss": loss, "best": best}
+        record["seconds"] = round(time.monotonic() - begun, 3)
         state.history.append(record)
-        run.log.write(record)
-        run.trackers.log(record)
+        run.record(record)
         text += f", validation loss {loss:.4f}{' (best)' if best else ''}"
     run.display.note(text)
 

@@ -22,9 +22,7 @@ if TYPE_CHECKING:
 LOGIT_VALUES = 2**24
 """Output-layer values that exist at one time: 16 million, 64 MiB in float32."""
 SMALL_MODEL = 50_000_000
-"""Weights below which one CPU thread is used: every small operation waits for the slower thread.
-A step of a 7-million-weight model took 0.1 s on one thread, 3 to 7 s on two of which one was busy.
-"""
+"""Weights below which one CPU thread is used: every small operation waits for the slower thread."""
 PACKING_TYPES = ("llama", "qwen2")
 UNPACKED_SHARE = 4
 """Weights are unpacked where they fit this often into the free memory."""
@@ -44,14 +42,9 @@ def attach_adapter(model: Any, settings: TrainSettings, reference: str) -> Any:
     """
     from peft import LoraConfig, get_peft_model
 
-    config = LoraConfig(
-        r=settings.rank,
-        lora_alpha=settings.lora_alpha,
-        lora_dropout=settings.dropout,
-        target_modules=settings.targets,
-        bias="none",
-        task_type="CAUSAL_LM",
-    )
+    config = LoraConfig(bias="none", task_type="CAUSAL_LM", target_modules=settings.targets)
+    config.r, config.lora_alpha = settings.rank, settings.lora_alpha
+    config.lora_dropout = settings.dropout
     parameters = model.num_parameters()
     model.requires_grad_(False)
     torch.manual_seed(settings.seed)
@@ -61,9 +54,8 @@ def attach_adapter(model: Any, settings: TrainSettings, reference: str) -> Any:
             warnings.simplefilter("ignore", FutureWarning)
             peft_model = get_peft_model(model, config)
     except ValueError as error:
-        raise PlannerError(
-            f"--target-modules {settings.target_modules}: {str(error).splitlines()[0]}"
-        ) from None
+        reason = str(error).splitlines()[0]
+        raise PlannerError(f"--target-modules {settings.target_modules}: {reason}") from None
     for layer in peft_model.modules():
         # PEFT would copy every input to the adapter's float32, and autocast would copy it back.
         if hasattr(layer, "lora_A"):
@@ -109,23 +101,13 @@ def loss_sum(model: Any, batch: Batch, dtype: torch.dtype) -> Tensor:
     head = base.get_output_embeddings()
     places = {} if batch.positions is None else {"position_ids": batch.positions}
     with torch.autocast(batch.input_ids.device.type, dtype=dtype, enabled=dtype != torch.float32):
-        hidden = base.get_decoder()(
-            input_ids=batch.input_ids, use_cache=False, **places
-        ).last_hidden_state
-        selected = hidden[batch.rows, batch.columns]
+        output = base.get_decoder()(input_ids=batch.input_ids, use_cache=False, **places)
+        selected = output.last_hidden_state[batch.rows, batch.columns]
         size = max(1, LOGIT_VALUES // base.config.get_text_config().vocab_size)
         if len(selected) <= size:
             return _cross_entropy(head, selected, batch.targets)
-        parts = [
-            checkpoint(
-                _cross_entropy,
-                head,
-                selected[start : start + size],
-                batch.targets[start : start + size],
-                use_reentrant=False,
-            )
-            for start in range(0, len(selected), size)
-        ]
+        chunks = zip(torch.split(selected, size), torch.split(batch.targets, size), strict=True)
+        parts = [checkpoint(_cross_entropy, head, *chunk, use_reentrant=False) for chunk in chunks]
         return torch.stack(parts).sum()
 
 
@@ -159,46 +141,35 @@ def validation_loss(
 
 def make_optimizer(model: Any, settings: TrainSettings) -> torch.optim.Optimizer:
     """AdamW over the adapter, with 32-bit or 8-bit moments."""
-    parameters = list(adapter_parameters(model).values())
-    arguments: dict[str, Any] = {
-        "lr": settings.learning_rate,
-        "weight_decay": settings.weight_decay,
-    }
+    parameters, rate = list(adapter_parameters(model).values()), settings.learning_rate
     if settings.optimizer == "adamw":
         # One kernel a matrix; unfused, the update took a ninth of a small model's step.
-        return torch.optim.AdamW(parameters, **arguments, fused=True)
+        decay = settings.weight_decay
+        return torch.optim.AdamW(parameters, lr=rate, weight_decay=decay, fused=True)
     import bitsandbytes
 
     name = "AdamW8bit" if settings.optimizer == "adamw-8bit" else "PagedAdamW8bit"
-    kind = getattr(bitsandbytes.optim, name)
-    optimizer: torch.optim.Optimizer = kind(parameters, **arguments)
-    return optimizer
+    kind: type[torch.optim.Optimizer] = getattr(bitsandbytes.optim, name)
+    return kind(parameters, lr=rate, weight_decay=settings.weight_decay)  # type: ignore[call-arg]
 
 
-def memory_levers(settings: TrainSettings, checkpointing: bool, longest: int) -> str:
+def memory_levers(settings: TrainSettings, parameters: int, longest: int) -> str:
     """Changes to try, in order, when training does not fit the memory."""
-    levers = []
-    if settings.quantization == "none":
-        levers.append("store the base in 4 bits (--quantization nf4)")
-    if not checkpointing:
-        levers.append("--gradient-checkpointing on")
-    if settings.batch_size > 1:
-        half = max(1, settings.batch_size // 2)
-        levers.append(
-            f"--batch-size {half} --gradient-accumulation"
-            f" {settings.gradient_accumulation * settings.batch_size // half} (same step, less"
-            " memory)"
-        )
-    levers.append(
-        f"leave out the longest samples (now up to {longest} tokens; --max-length names those above"
-        " a limit)"
-    )
-    if settings.optimizer == "adamw":
-        levers.append("--optimizer adamw-8bit")
-    if settings.rank > 4:
-        levers.append(f"a smaller --rank (now {settings.rank})")
-    levers.append("a smaller --candidate")
-    return "next: " + "; then ".join(levers)
+    half = max(1, settings.batch_size // 2)
+    more = settings.gradient_accumulation * settings.batch_size // half
+    levers = {
+        "store the base in 4 bits (--quantization nf4)": settings.quantization == "none",
+        "--gradient-checkpointing on": not uses_gradient_checkpointing(settings, parameters),
+        f"--batch-size {half} --gradient-accumulation {more} (same step, less memory)": (
+            settings.batch_size > 1
+        ),
+        f"leave out the longest samples (now up to {longest} tokens; --max-length names those"
+        " above a limit)": True,
+        "--optimizer adamw-8bit": settings.optimizer == "adamw",
+        f"a smaller --rank (now {settings.rank})": settings.rank > 4,
+        "a smaller --candidate": True,
+    }
+    return "next: " + "; then ".join(lever for lever, applies in levers.items() if applies)
 
 
 def unpack(model: Any) -> int:
@@ -221,14 +192,12 @@ def unpack(model: Any) -> int:
 
 def _dense(layer: Any) -> Any:
     """A linear layer with the weights that a 4-bit layer computes with."""
-    import torch
     from bitsandbytes.functional import dequantize_4bit
 
     weight = dequantize_4bit(layer.weight.data, layer.weight.quant_state)
-    dense = torch.nn.Linear(
-        layer.in_features, layer.out_features, bias=layer.bias is not None, device="meta"
-    )
-    dense.weight = torch.nn.Parameter(weight, requires_grad=False)
-    if layer.bias is not None:
-        dense.bias = torch.nn.Parameter(layer.bias.data, requires_grad=False)
+    biased, size = layer.bias is not None, (layer.in_features, layer.out_features)
+    dense = nn.Linear(*size, bias=biased, device="meta")
+    dense.weight = nn.Parameter(weight, requires_grad=False)
+    if biased:
+        dense.bias = nn.Parameter(layer.bias.data, requires_grad=False)
     return dense

@@ -2,36 +2,82 @@
 
 from __future__ import annotations
 
+import contextlib
+import json
 import shutil
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from planner_ft.candidates.adapters import adapter_record
+import torch
+from filelock import FileLock, Timeout
+
+from planner_ft.candidates.adapters import CONFIG, MANIFEST, WEIGHTS, adapter_record
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import nearest_folder, read_json, sha256_file, write_json, write_text
+from planner_ft.support.files import (
+    nearest_folder,
+    read_json,
+    read_text,
+    sha256_file,
+    write_json,
+    write_text,
+)
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.resources import peak_memory
-from planner_ft.training.card import model_card
+from planner_ft.training.model import adapter_parameters
 from planner_ft.training.report import LOG, plot_losses, read_log
 
 if TYPE_CHECKING:
     from planner_ft.training.checkpoint import TrainState
     from planner_ft.training.loop import Run
+    from planner_ft.training.preflight import Prepared
     from planner_ft.training.request import TrainRequest
-    from planner_ft.training.samples import Split
 
+Values = dict[str, Any]
 FolderState = Literal["empty", "complete", "unfinished", "foreign"]
 
-MANIFEST, ADAPTER = "manifest.json", "adapter_model.safetensors"
-CHECKPOINTS = "checkpoints"
+CHECKPOINTS, LOCK = "checkpoints", ".train.lock"
 RUN = f"{CHECKPOINTS}/run.json"
 TOKENIZER = (
     "tokenizer.json tokenizer_config.json special_tokens_map.json added_tokens.json"
     " chat_template.jinja vocab.json merges.txt"
 )
-WRITTEN = f"adapter_config.json {ADAPTER} README.md {MANIFEST} {LOG} loss.png loss.svg {TOKENIZER}"
+WRITTEN = f"{CONFIG} {WEIGHTS} README.md {MANIFEST} {LOG} loss.png loss.svg {TOKENIZER}"
 """All files that a run writes; --overwrite removes them and the folders of checkpoints and logs."""
+LICENCES = {"Apache-2.0": "apache-2.0"}
+"""Licences with an identifier of the Hub; model cards name others in full."""
+CARD = Path(__file__).parent / "card.md.jinja"
+PROBLEMS = {
+    "foreign": "exists and is no folder of a training run; give another folder",
+    "complete": "holds a finished adapter; give --overwrite to train it again, or another folder",
+    "unfinished": "holds an unfinished run; give --resume to continue it, --overwrite to start"
+    " again, or another folder",
+}
+
+
+@contextlib.contextmanager
+def only_run(output: Path) -> Iterator[None]:
+    """Refuse a second run in `output` beside the block; a dead process holds no lock."""
+    lock, existing = FileLock(output / LOCK), nearest_folder(output)
+    try:
+        output.mkdir(parents=True, exist_ok=True)
+        lock.acquire(blocking=False)
+    except Timeout:
+        way_out = "wait for its end, or give another folder"
+        raise PlannerError(f"--output {output}: a training runs there; {way_out}") from None
+    except OSError:
+        pass  # the preflight says why nothing can be written
+    try:
+        yield
+    finally:
+        lock.release()
+        with contextlib.suppress(OSError):  # a run that was refused leaves no empty folders
+            (output / LOCK).unlink(missing_ok=True)
+            for folder in (output, *output.parents):
+                if folder.absolute() == existing:
+                    break
+                folder.rmdir()
 
 
 def folder_state(output: Path) -> FolderState:
@@ -44,29 +90,16 @@ def folder_state(output: Path) -> FolderState:
         manifest = read_json(output / MANIFEST)
         trained = isinstance(manifest, dict) and manifest.get("kind") == "train"
         return "complete" if trained else "foreign"
-    return "foreign" if any(output.iterdir()) else "empty"
+    return "foreign" if any(path.name != LOCK for path in output.iterdir()) else "empty"
 
 
 def folder_problems(output: Path, *, overwrite: bool, resume: bool) -> list[str]:
     """Reasons why a run may not use the folder."""
     state = folder_state(output)
-    if state == "foreign":
-        return [
-            f"--output {output}: exists and is no folder of a training run; give another folder"
-        ]
-    if state == "complete" and not (overwrite or resume):
-        return [
-            f"--output {output}: holds a finished adapter; give --overwrite to train it again, or"
-            " another folder"
-        ]
-    if state == "unfinished" and not (overwrite or resume):
-        return [
-            f"--output {output}: holds an unfinished run; give --resume to continue it, --overwrite"
-            " to start again, or another folder"
-        ]
     if state == "empty" and resume:
         return [f"--resume: {output} holds no run to continue; leave --resume out to start one"]
-    return []
+    wanted = state == "empty" or (state != "foreign" and (overwrite or resume))
+    return [] if wanted else [f"--output {output}: {PROBLEMS[state]}"]
 
 
 def writable_problem(output: Path) -> str | None:
@@ -114,21 +147,14 @@ def fingerprint_problems(stored: dict[str, Any], current: dict[str, Any]) -> lis
                 if before.get(setting) != value
             ]
         elif before != now:
-            short = len(str(now)) < 40
-            problems.append(
-                f"{name} was {before} and is {now}" if short else f"the {name} changed since"
-            )
+            short = f"{name} was {before} and is {now}"
+            problems.append(short if len(str(now)) < 40 else f"the {name} changed since")
     return problems
 
 
 def write_result(
-    request: TrainRequest,
-    run: Run,
-    state: TrainState,
-    tokenizer: Any,
-    splits: dict[str, Split],
-    fingerprint: dict[str, Any],
-) -> dict[str, Any]:
+    request: TrainRequest, prepared: Prepared, run: Run, state: TrainState, fingerprint: Values
+) -> Values:
     """Write the adapter folder and return its manifest, which is written last.
 
     Raises PlannerError when a file cannot be written; the checkpoints are then still there.
@@ -137,9 +163,10 @@ def write_result(
     try:
         shutil.rmtree(temporary, ignore_errors=True)
         run.trainee.model.save_pretrained(temporary, save_embedding_layers=False)
-        tokenizer.save_pretrained(temporary)
+        assert prepared.tokenizer
+        prepared.tokenizer.save_pretrained(temporary)
         # safetensors makes files that only their owner may read; adapters are shared.
-        (temporary / ADAPTER).chmod((temporary / "adapter_config.json").stat().st_mode)
+        (temporary / WEIGHTS).chmod((temporary / CONFIG).stat().st_mode)
         for path in sorted(temporary.iterdir()):
             path.replace(output / path.name)
         temporary.rmdir()
@@ -150,7 +177,7 @@ def write_result(
         ) from error
     title = f"{request.candidate.row_name}, {request.level} level"
     plot_losses(read_log(output / LOG), output, title)
-    manifest = run_manifest(request, run, state, splits, fingerprint)
+    manifest = run_manifest(request, prepared, run, state, fingerprint)
     write_text(output / "README.md", model_card(manifest))
     write_json(output / MANIFEST, manifest)
     if request.settings.keep_checkpoints:
@@ -161,18 +188,15 @@ def write_result(
 
 
 def run_manifest(
-    request: TrainRequest,
-    run: Run,
-    state: TrainState,
-    splits: dict[str, Split],
-    fingerprint: dict[str, Any],
-) -> dict[str, Any]:
+    request: TrainRequest, prepared: Prepared, run: Run, state: TrainState, fingerprint: Values
+) -> Values:
     """The manifest of a finished run: its inputs, settings, outputs and result."""
     candidate, settings, output = request.candidate, request.settings, request.output
-    inputs = {role: split.path for role, split in splits.items()}
+    splits = {"training": prepared.train, "validation": prepared.validation}
+    inputs = {role: split.path for role, split in splits.items() if split}
     if request.corrections:
         inputs["corrections"] = request.corrections
-    files = [output / name for name in (ADAPTER, "adapter_config.json", "tokenizer.json", LOG)]
+    files = [output / name for name in (WEIGHTS, CONFIG, "tokenizer.json", LOG)]
     return build_manifest(
         "train",
         seed=settings.seed,
@@ -183,42 +207,53 @@ def run_manifest(
         is_standin=candidate.is_standin,
         base_reference=candidate.reference,
         licence=candidate.licence,
-        samples={role: len(split.samples) for role, split in splits.items()},
+        samples={role: len(split.samples) for role, split in splits.items() if split},
         departures=request.resolved.departures(request.level),
-        result={
-            "steps": state.step,
-            "epochs": round(state.step / run.steps_per_epoch, 4),
-            "tokens": state.tokens,
-            "completion_tokens": state.completion_tokens,
-            "seconds": round(state.seconds, 1),
-            "tokens_per_s": round(state.tokens / state.seconds, 1) if state.seconds else None,
-            "train_loss": state.loss,
-            "validation_loss": state.best_loss,
-            "best_epoch": state.best_epoch,
-            "history": state.history,
-            "peak_memory_bytes": peak_memory(run.device),
-            "device": device_name(run.device),
-            "compute_dtype": str(run.dtype).removeprefix("torch."),
-            "adapter_parameters": run.trainee.weights,
-            "adapter_bytes": (output / ADAPTER).stat().st_size,
-        },
+        result=_result(run, state, output / WEIGHTS),
         fingerprint=fingerprint,
     )
 
 
-def device_name(device: Any) -> str:
-    """cpu, or the GPU's name."""
-    if device.type != "cuda":
-        return str(device)
-    import torch
+def _result(run: Run, state: TrainState, adapter: Path) -> dict[str, Any]:
+    """Length, speed, losses and memory of a finished run."""
+    gpu = run.device.type == "cuda"
+    sizes = [value.numel() for value in adapter_parameters(run.trainee.model).values()]
+    return {
+        "steps": state.step,
+        "epochs": run.epoch(state.step),
+        "tokens": state.tokens,
+        "completion_tokens": state.completion_tokens,
+        "seconds": round(state.seconds, 1),
+        "tokens_per_s": round(state.tokens / state.seconds, 1) if state.seconds else None,
+        "train_loss": state.loss,
+        "validation_loss": state.best_loss,
+        "best_epoch": state.best_epoch,
+        "history": state.history,
+        "peak_memory_bytes": peak_memory(run.device),
+        "device": torch.cuda.get_device_name(run.device) if gpu else str(run.device),
+        "compute_dtype": str(run.dtype).removeprefix("torch."),
+        "adapter_parameters": sum(sizes),
+        "adapter_bytes": adapter.stat().st_size,
+    }
 
-    return str(torch.cuda.get_device_name(device))
+
+def model_card(manifest: dict[str, Any]) -> str:
+    """README.md of the adapter that a training manifest describes, in the Hub's format."""
+    import jinja2
+
+    environment = jinja2.Environment(
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    environment.filters |= {"json": json.dumps, "name": lambda path: Path(path).name}
+    values = {"s": manifest["configuration"], "r": manifest["result"], "licences": LICENCES}
+    return environment.from_string(read_text(CARD)).render(m=manifest, **values)
 
 
 def existing_result(output: Path) -> str:
     """A sentence on a finished run."""
     result = read_json(output / MANIFEST).get("result", {})
-    return (
-        f"{output}: this run is complete ({result.get('steps')} steps, {result.get('epochs')}"
-        " epochs); nothing to resume"
-    )
+    size = f"{result.get('steps')} steps, {result.get('epochs')} epochs"
+    return f"{output}: this run is complete ({size}); nothing to resume"

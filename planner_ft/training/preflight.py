@@ -7,13 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from planner_ft.candidates.loading import (
-    compute_dtype,
-    load_tokenizer,
-    require_folder,
-    resolve_device,
-)
-from planner_ft.candidates.memory import MemoryEstimate, adapter_parameters, training_memory
+from planner_ft.candidates.loading import compute_dtype, load_tokenizer, resolve_device
+from planner_ft.candidates.memory import adapter_parameters, training_memory
 from planner_ft.prompts import end_of_turn_ids
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import nearest_folder
@@ -57,6 +52,12 @@ class Prepared:
     def samples(self) -> list[tuple[Split, Sample]]:
         return [(split, sample) for split in self.splits for sample in split.samples]
 
+    @property
+    def pad(self) -> int:
+        """An id to fill batches with."""
+        pad = self.tokenizer.pad_token_id if self.tokenizer else None
+        return pad if isinstance(pad, int) else 0
+
 
 @dataclass
 class Finding:
@@ -78,31 +79,26 @@ def run_preflight(request: TrainRequest, prepared: Prepared) -> Iterator[Finding
 
 def check_candidate(request: TrainRequest, prepared: Prepared) -> Finding:
     """Is the model here, and can the device and the installed packages do what is asked?"""
-    finding = Finding("candidate")
-    candidate, settings = request.candidate, request.settings
+    finding, candidate, settings = Finding("candidate"), request.candidate, request.settings
     try:
         prepared.device = resolve_device(settings.device)
     except PlannerError as error:
         finding.problems.append(str(error))
     try:
-        require_folder(candidate)
         prepared.tokenizer = load_tokenizer(candidate)
     except PlannerError as error:
         finding.problems.append(str(error))
-    paged = settings.optimizer.startswith("paged")
-    if paged and prepared.device and prepared.device.type != "cuda":
-        finding.problems.append(
-            f"--optimizer {settings.optimizer} needs CUDA; take adamw-8bit or adamw"
-        )
+    device, optimizer = prepared.device, settings.optimizer
+    if optimizer.startswith("paged") and device and device.type != "cuda":
+        other = "needs CUDA; take adamw-8bit or adamw"
+        finding.problems.append(f"--optimizer {optimizer} {other}")
     finding.problems += tracker_problems(settings)
-    if prepared.device:
+    if device:
         size = f"{candidate.parameters / 1e6:,.1f} M parameters, " if candidate.parameters else ""
         base = "4-bit base" if settings.quantization == "nf4" else "16-bit base"
-        dtype = str(compute_dtype(prepared.device)).removeprefix("torch.")
-        finding.text = (
-            f"{candidate.row_name}: {size}{candidate.source or 'not here'}; {base}, computing in"
-            f" {dtype} on {prepared.device}"
-        )
+        dtype = str(compute_dtype(device)).removeprefix("torch.")
+        model = f"{candidate.row_name}: {size}{candidate.source or 'not here'}"
+        finding.text = f"{model}; {base}, computing in {dtype} on {device}"
     return finding
 
 
@@ -127,29 +123,24 @@ def check_data(request: TrainRequest, prepared: Prepared) -> Finding:
     counts = [f"{len(split.records)} samples in {split.path}" for split in prepared.splits]
     finding.text = ", ".join([*counts, *added])
     if train and prepared.validation:
-        trained = {record.value["prompt"] for record in train.records}
-        checked = prepared.validation.records
-        shared = [record.id for record in checked if record.value["prompt"] in trained]
+        trained, checked = {r["prompt"] for r in train.records}, prepared.validation.records
+        shared = [record["id"] for record in checked if record["prompt"] in trained]
         if shared:
-            finding.notes.append(
-                f"{len(shared)} validation prompts are in the training split, too (first:"
-                f" {shared[0]}); the validation loss will flatter"
-            )
+            prompts = f"{len(shared)} validation prompts are in the training split, too"
+            note = f"{prompts} (first: {shared[0]}); the validation loss will flatter"
+            finding.notes.append(note)
     return finding
 
 
 def check_rendering(request: TrainRequest, prepared: Prepared) -> Finding:
     """Does every sample fit the limit whole, and is something of it trained?"""
-    finding = Finding("rendering")
-    if prepared.tokenizer is None or not prepared.splits:
+    finding, train, validation = Finding("rendering"), prepared.train, prepared.validation
+    level, tokenizer, vocabulary = request.level, prepared.tokenizer, request.vocabulary
+    if tokenizer is None or not prepared.splits:
         return replace(finding, text="skipped: no tokenizer or no data", skipped=True)
-
-    def rendered(split: Split | None) -> Split | None:
-        assert prepared.tokenizer
-        return split and render_split(split, request.level, prepared.tokenizer, request.vocabulary)
-
     try:
-        prepared.train, prepared.validation = map(rendered, (prepared.train, prepared.validation))
+        prepared.train = train and render_split(train, level, tokenizer, vocabulary)
+        prepared.validation = validation and render_split(validation, level, tokenizer, vocabulary)
     except PlannerError as error:
         finding.problems.append(str(error))
         return finding
@@ -170,20 +161,18 @@ def check_rendering(request: TrainRequest, prepared: Prepared) -> Finding:
         if not any(sample.rendered.completion_mask)
     )
     if prepared.train and prepared.train.samples:
-        trained = sum(sample.completion_length for sample in prepared.train.samples)
-        finding.text = (
-            f"{prepared.train.tokens:,} tokens, {trained / prepared.train.tokens:.0%} of them"
-            f" trained; longest sample {prepared.train.longest} of {limit}"
-        )
+        tokens, longest = prepared.train.tokens, prepared.train.longest
+        share = sum(sample.completion_length for sample in prepared.train.samples) / tokens
+        trained = f"{tokens:,} tokens, {share:.0%} of them trained"
+        finding.text = f"{trained}; longest sample {longest} of {limit}"
     return finding
 
 
 def check_tokens(request: TrainRequest, prepared: Prepared) -> Finding:
     """Does every answer end with a trained end-of-turn token, and a text begin with one BOS?"""
-    finding = Finding("special tokens")
-    if prepared.tokenizer is None or not prepared.samples:
+    finding, tokenizer = Finding("special tokens"), prepared.tokenizer
+    if tokenizer is None or not prepared.samples:
         return replace(finding, text="skipped: nothing rendered", skipped=True)
-    tokenizer = prepared.tokenizer
     end, bos = end_of_turn_ids(tokenizer)[0], tokenizer.bos_token_id
     dimensions = request.candidate.dimensions
     size = dimensions.vocabulary if dimensions else len(tokenizer)
@@ -213,10 +202,8 @@ def _token_problems(sample: Sample, end: int, bos: int | None, size: int) -> Ite
     if bos is not None and bos != end and ids.count(bos) > 1:
         yield "begin with two beginning-of-text tokens, or hold one inside"
     if max(ids) >= size:
-        yield (
-            f"hold token ids beyond the model's {size} embeddings: tokenizer and model do not"
-            " belong together"
-        )
+        beyond = f"hold token ids beyond the model's {size} embeddings"
+        yield f"{beyond}: tokenizer and model do not belong together"
 
 
 def check_output(request: TrainRequest, prepared: Prepared) -> Finding:
@@ -231,60 +218,45 @@ def check_output(request: TrainRequest, prepared: Prepared) -> Finding:
     # Adapter, best adapter and two moments in float32, twice: the old checkpoint goes last.
     weights = adapter_parameters(dimensions, request.settings.rank) if dimensions else 0
     needed = 2 * 4 * 4 * weights + 2**25
-    finding.text = (
-        f"{output}: {memory_size(needed)} needed for checkpoints, {memory_size(free)} free"
-    )
+    sizes = memory_size(needed), memory_size(free)
+    finding.text = "{}: {} needed for checkpoints, {} free".format(output, *sizes)
     if needed > free:
-        finding.problems.append(
-            f"--output {output}: {memory_size(needed)} are needed for checkpoints and"
-            f" {memory_size(free)} free; choose another disk"
-        )
+        text = "--output {}: {} are needed for checkpoints and {} free; choose another disk"
+        finding.problems.append(text.format(output, *sizes))
     return finding
 
 
 def check_memory(request: TrainRequest, prepared: Prepared) -> Finding:
     """Will training fit the device's memory?"""
-    finding = Finding("memory")
-    estimate = estimated_memory(request, prepared)
-    if estimate is None or prepared.device is None:
+    finding, settings = Finding("memory"), request.settings
+    dimensions, train, device = request.candidate.dimensions, prepared.train, prepared.device
+    if dimensions is None or device is None or train is None or not train.samples:
         unknown = "no estimate: dimensions, device or samples are unknown"
         return replace(finding, text=unknown, skipped=True)
-    free, total = device_memory(prepared.device)
-    finding.text = (
-        f"about {memory_size(estimate.total)} of {memory_size(free)} free on {prepared.device}"
-    )
-    longest = prepared.train.longest if prepared.train else 0
-    checkpointing = uses_gradient_checkpointing(request.settings, request.candidate.parameters or 0)
-    advice = memory_levers(request.settings, checkpointing, longest)
-    if estimate.total > total:
-        finding.problems.append(
-            f"training needs about {memory_size(estimate.total)} and {prepared.device} has"
-            f" {memory_size(total)}; {advice}"
-        )
-    elif estimate.total > free:
-        finding.notes.append(
-            f"{memory_size(free)} are free and about {memory_size(estimate.total)} needed; close"
-            f" other programs, or {advice}"
-        )
-    return finding
-
-
-def estimated_memory(request: TrainRequest, prepared: Prepared) -> MemoryEstimate | None:
-    """Estimated memory of the step with the longest samples, or None where too little is known."""
-    settings, dimensions = request.settings, request.candidate.dimensions
-    if dimensions is None or prepared.train is None or not prepared.train.samples:
-        return None
     estimate = training_memory(
         dimensions,
         quantization=settings.quantization,
         rank=settings.rank,
-        tokens=prepared.train.longest,
+        tokens=train.longest,
         batch=settings.batch_size,
         dropout=settings.dropout > 0,
         checkpointing=uses_gradient_checkpointing(settings, dimensions.parameters),
     )
     # The loss runs in chunks: the logits never exist all at once.
-    return replace(estimate, logits=min(estimate.logits, 12 * LOGIT_VALUES))
+    needed = replace(estimate, logits=min(estimate.logits, 12 * LOGIT_VALUES)).total
+    free, total = device_memory(device)
+    size, advice = (
+        memory_size(needed),
+        memory_levers(settings, dimensions.parameters, train.longest),
+    )
+    finding.text = f"about {size} of {memory_size(free)} free on {device}"
+    if needed > total:
+        has = f"{device} has {memory_size(total)}"
+        finding.problems.append(f"training needs about {size} and {has}; {advice}")
+    elif needed > free:
+        short = f"{memory_size(free)} are free and about {size} needed"
+        finding.notes.append(f"{short}; close other programs, or {advice}")
+    return finding
 
 
 def device_memory(device: torch.device) -> tuple[int, int]:

@@ -1,5 +1,4 @@
-"""The check on the loaded model: does every adapter weight learn, and does our loss equal the
-model's own?
+"""The check on the loaded model: does every adapter weight learn, and is our loss the model's own?
 
 A new LoRA adapter has B = 0, so that the gradient of A is zero whatever is wrong, and A is checked
 in a second step with small random numbers in B. B is checked in the first: then gradients reach it
@@ -19,7 +18,7 @@ import torch
 from torch import Tensor
 
 from planner_ft.training.batches import Batch, collate
-from planner_ft.training.checkpoint import restore_rng, rng_state
+from planner_ft.training.checkpoint import restore_rng, rng_state, set_adapter
 from planner_ft.training.model import adapter_parameters, evaluating, loss_sum
 
 if TYPE_CHECKING:
@@ -31,26 +30,27 @@ B_DEVIATION = 0.02
 
 
 def probe_model(
-    model: Any,
-    samples: Sequence[Sample],
-    pad: int,
-    batch_size: int,
-    device: torch.device,
-    dtype: torch.dtype,
+    model: Any, samples: Sequence[Sample], pad: int, batch_size: int, device: Any, dtype: Any
 ) -> list[str]:
-    """Everything wrong with the model for training; empty when it can learn. Leaves the model as it
-    was.
+    """Everything wrong with the model for training, which is left as it was.
 
     The gradient step runs on the `batch_size` longest samples, so that it also shows whether
     training fits the memory.
     """
     by_length = sorted(samples, key=lambda sample: sample.length)
-    shortest = collate(by_length[:1], pad).to(device)
     longest = collate(by_length[-batch_size:], pad).to(device)
     with _restored(model):
-        problems = _loss_problems(model, by_length[0], shortest, dtype) + _trainable_problems(model)
+        problems = _loss_problems(model, by_length[0], pad, device, dtype)
+        base = [name for name in adapter_parameters(model) if "lora_" not in name]
+        if base:
+            count = f"{len(base)} weights of the base model"
+            problems.append(f"{count} would be trained (first: {base[0]})")
         gradients = _gradients(model, longest, dtype)
-        _randomise_b(model)
+        generator = torch.Generator().manual_seed(0)
+        with torch.no_grad():
+            for name, value in adapter_parameters(model).items():
+                if "lora_B" in name:
+                    value.copy_(torch.randn(value.shape, generator=generator) * B_DEVIATION)
         second = _gradients(model, longest, dtype)
         gradients |= {name: value for name, value in second.items() if "lora_A" in name}
         return problems + _gradient_problems(gradients)
@@ -65,53 +65,31 @@ def _restored(model: Any) -> Iterator[None]:
     try:
         yield
     finally:
-        with torch.no_grad():
-            for name, value in adapter_parameters(model).items():
-                value.copy_(saved[name])
-                value.grad = None
-        restore_rng(state)
+        set_adapter(model, saved)
+        for value in adapter_parameters(model).values():
+            value.grad = None
+        restore_rng(*state)
 
 
-def _randomise_b(model: Any) -> None:
-    generator = torch.Generator().manual_seed(0)
-    with torch.no_grad():
-        for name, value in adapter_parameters(model).items():
-            if "lora_B" in name:
-                value.copy_(torch.randn(value.shape, generator=generator) * B_DEVIATION)
-
-
-def _loss_problems(model: Any, sample: Sample, batch: Batch, dtype: torch.dtype) -> list[str]:
-    """Compare with the loss that the model computes itself: an architecture may change logits after
-    the output layer.
-    """
-    ids = torch.tensor([sample.rendered.input_ids], device=batch.input_ids.device)
-    mask = torch.tensor([sample.rendered.completion_mask], device=ids.device)
+def _loss_problems(
+    model: Any, sample: Sample, pad: int, device: torch.device, dtype: torch.dtype
+) -> list[str]:
+    """Compare with the model's own loss: an architecture may change logits after the output layer."""
+    batch = collate([sample], pad).to(device)
+    ids = torch.tensor([sample.rendered.input_ids], device=device)
+    mask = torch.tensor([sample.rendered.completion_mask], device=device)
     with evaluating(model):
         ours = float(loss_sum(model, batch, dtype)) / len(batch.targets)
-        with torch.autocast(ids.device.type, dtype=dtype, enabled=dtype != torch.float32):
-            theirs = float(
-                model(input_ids=ids, labels=ids.masked_fill(mask == 0, -100), use_cache=False).loss
-            )
+        with torch.autocast(device.type, dtype=dtype, enabled=dtype != torch.float32):
+            labels = ids.masked_fill(mask == 0, -100)
+            theirs = float(model(input_ids=ids, labels=labels, use_cache=False).loss)
     if not math.isfinite(ours):
-        return [
-            f"the loss of sample {sample.id} is {ours} before any training: the base model's"
-            " weights are broken, or its dtype overflows"
-        ]
+        broken = "the base model's weights are broken, or its dtype overflows"
+        return [f"the loss of sample {sample.id} is {ours} before any training: {broken}"]
     if abs(ours - theirs) > LOSS_TOLERANCE * max(1.0, abs(theirs)):
-        return [
-            f"the loss of sample {sample.id} is {ours:.4f} where the model itself computes"
-            f" {theirs:.4f}: this architecture is not supported"
-        ]
+        other = f"{ours:.4f} where the model itself computes {theirs:.4f}"
+        return [f"the loss of sample {sample.id} is {other}: this architecture is not supported"]
     return []
-
-
-def _trainable_problems(model: Any) -> list[str]:
-    foreign = [name for name in adapter_parameters(model) if "lora_" not in name]
-    return (
-        [f"{len(foreign)} weights of the base model would be trained (first: {foreign[0]})"]
-        if foreign
-        else []
-    )
 
 
 def _gradients(model: Any, batch: Batch, dtype: torch.dtype) -> dict[str, Tensor | None]:
@@ -123,21 +101,19 @@ def _gradients(model: Any, batch: Batch, dtype: torch.dtype) -> dict[str, Tensor
 
 
 def _gradient_problems(gradients: dict[str, Tensor | None]) -> list[str]:
-    without = [name for name, value in gradients.items() if value is None or not bool(value.any())]
-    infinite = [
-        name
-        for name, value in gradients.items()
-        if value is not None and not bool(torch.isfinite(value).all())
+    """Sentences on matrices without a gradient, and on those with one that is not finite."""
+    found: dict[str, list[str]] = {"no": [], "infinite": []}
+    for name, value in gradients.items():
+        if value is None or not bool(value.any()):
+            found["no"].append(name)
+        elif not bool(torch.isfinite(value).all()):
+            found["infinite"].append(name)
+    texts = {
+        "no": "get no gradient (first: {}); they would stay as they are",
+        "infinite": "get a gradient that is not finite (first: {})",
+    }
+    return [
+        f"{len(names)} of {len(gradients)} adapter matrices {texts[kind].format(names[0])}"
+        for kind, names in found.items()
+        if names
     ]
-    problems = []
-    if without:
-        problems.append(
-            f"{len(without)} of {len(gradients)} adapter matrices get no gradient (first:"
-            f" {without[0]}); they would stay as they are"
-        )
-    if infinite:
-        problems.append(
-            f"{len(infinite)} of {len(gradients)} adapter matrices get a gradient that is not"
-            f" finite (first: {infinite[0]})"
-        )
-    return problems

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-import io
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import atomic_writer, compact_json, write_jsonl
@@ -21,17 +22,7 @@ Record = dict[str, Any]
 """A line of the log."""
 
 
-class Display(Protocol):
-    """Shows the steps of a run."""
-
-    def step(self, record: Record, eta_seconds: float, peak: int) -> None: ...
-
-    def note(self, text: str) -> None: ...
-
-    def close(self) -> None: ...
-
-
-class PlainDisplay:
+class Display:
     """One line every `every` steps, for files and pipes."""
 
     def __init__(self, console: Console, total: int, every: int) -> None:
@@ -47,11 +38,9 @@ class PlainDisplay:
             return
         loss, rate = sum(self.losses) / len(self.losses), self.tokens / self.seconds
         self.losses, self.tokens, self.seconds = [], 0.0, 0.0
-        self.note(
-            f"step {record['step']}/{self.total}  epoch {record['epoch']:.2f}  loss {loss:.4f}  lr"
-            f" {record['lr']:.2e}  {rate:.0f} tokens/s  {clock(eta_seconds)} left  peak"
-            f" {memory_size(peak)}"
-        )
+        place = f"step {record['step']}/{self.total}  epoch {record['epoch']:.2f}"
+        learning = f"loss {loss:.4f}  lr {record['lr']:.2e}  {rate:.0f} tokens/s"
+        self.note(f"{place}  {learning}  {clock(eta_seconds)} left  peak {memory_size(peak)}")
 
     def note(self, text: str) -> None:
         self.console.print(text, markup=False, highlight=False, soft_wrap=True)
@@ -60,12 +49,13 @@ class PlainDisplay:
         pass
 
 
-class BarDisplay:
+class BarDisplay(Display):
     """A progress bar with loss, tokens/s, time left and peak memory, for terminals."""
 
     def __init__(self, console: Console, total: int, done: int) -> None:
         from rich.progress import BarColumn, Progress, TextColumn
 
+        super().__init__(console, total, 1)
         count, text = "step {task.completed:.0f}/{task.total:.0f}", "{task.description}"
         columns = (TextColumn(count), BarColumn(bar_width=24), TextColumn(text))
         self.progress = Progress(*columns, console=console, transient=True)
@@ -78,14 +68,9 @@ class BarDisplay:
         for name in ("loss", "tokens_per_s"):
             value = float(record[name])
             self.means[name] = 0.9 * self.means.get(name, value) + 0.1 * value
-        text = (
-            f"loss {self.means['loss']:.3f}  {self.means['tokens_per_s']:.0f} tokens/s "
-            f" {clock(eta_seconds)} left  peak {memory_size(peak)}"
-        )
+        speed = f"loss {self.means['loss']:.3f}  {self.means['tokens_per_s']:.0f} tokens/s"
+        text = f"{speed}  {clock(eta_seconds)} left  peak {memory_size(peak)}"
         self.progress.update(self.task, completed=record["step"], description=text)
-
-    def note(self, text: str) -> None:
-        self.progress.console.print(text, markup=False, highlight=False, soft_wrap=True)
 
     def close(self) -> None:
         self.progress.stop()
@@ -93,9 +78,8 @@ class BarDisplay:
 
 def make_display(console: Console, total: int, done: int, every: int) -> Display:
     """A bar on a terminal, lines elsewhere."""
-    if console.is_terminal:
-        return BarDisplay(console, total, done)
-    return PlainDisplay(console, total, every)
+    bar = console.is_terminal
+    return BarDisplay(console, total, done) if bar else Display(console, total, every)
 
 
 class TrainLog:
@@ -112,10 +96,9 @@ class TrainLog:
             self.stream.write(compact_json(record) + "\n")
             self.stream.flush()
         except OSError as error:
-            raise PlannerError(
-                f"{self.path}: cannot be written ({error.strerror}); free some space and run the"
-                " same command with --resume"
-            ) from error
+            way_out = "free some space and run the same command with --resume"
+            text = f"{self.path}: cannot be written ({error.strerror}); {way_out}"
+            raise PlannerError(text) from error
 
     def close(self) -> None:
         with contextlib.suppress(OSError):
@@ -200,17 +183,14 @@ def plot_losses(records: list[Record], folder: Path, title: str) -> None:
     axes.grid(alpha=0.3)
     axes.legend()
     for suffix, options in (("png", {"dpi": 150}), ("svg", {"metadata": {"Date": None}})):
-        buffer = io.BytesIO()
-        figure.savefig(buffer, format=suffix, **options)
         with atomic_writer(folder / f"loss.{suffix}", "wb") as stream:
-            stream.write(buffer.getvalue())
+            figure.savefig(stream, format=suffix, **options)
 
 
 def running_mean(values: list[float]) -> list[float]:
     """Mean over the last values, a thirtieth of all of them."""
-    window = max(1, len(values) // 30)
-    means, total = [], 0.0
-    for index, value in enumerate(values):
-        total += value - (values[index - window] if index >= window else 0.0)
-        means.append(total / min(index + 1, window))
+    window, sums = max(1, len(values) // 30), np.cumsum([0.0, *values])
+    ends = np.arange(1, len(values) + 1)
+    starts = np.maximum(0, ends - window)
+    means: list[float] = ((sums[ends] - sums[starts]) / (ends - starts)).tolist()
     return means

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from planner_ft.candidates import Candidate, resolve_candidate
 from planner_ft.prompts.render import PROMPT_VERSION
@@ -16,6 +17,7 @@ from planner_ft.training.settings import Resolved, Source, TrainSettings, resolv
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level, check_level
 
+T = TypeVar("T")
 DEFAULT_VOCABULARY = "usv"
 BUNDLED = Path(__file__).parent / "recipes"
 RUN_KEYS = "level candidate vocabulary data_dir train_file validation_file corrections output"
@@ -60,32 +62,23 @@ class TrainRequest:
         }
 
 
-@dataclass(frozen=True)
-class Recipe:
-    """A recipe file (TOML): `run` holds its RUN_KEYS, `settings` the rest."""
-
-    path: Path
-    run: dict[str, str]
-    settings: dict[str, Any]
-
-
 def bundled_recipes() -> list[str]:
     """Names of the recipes that ship with the package."""
     return sorted(path.stem for path in BUNDLED.glob("*.toml"))
 
 
-def load_recipe(name_or_path: str, problems: list[str]) -> Recipe:
-    """Read a bundled recipe by name or any by path; values of a wrong type go to `problems`.
+def load_recipe(name_or_path: str, problems: list[str]) -> tuple[dict[str, str], Source]:
+    """The RUN_KEYS and the settings of a recipe (TOML), bundled or any; wrong types are problems.
 
     Raises PlannerError when the file is missing or no TOML.
     """
     bundled = BUNDLED / f"{name_or_path}.toml"
     path = bundled if bundled.is_file() else Path(name_or_path)
     if not path.is_file():
-        raise PlannerError(
-            f"--recipe {name_or_path}: no such file, and no bundled recipe of that name"
-            f" ({', '.join(bundled_recipes())})"
+        neither = (
+            f"no such file, and no bundled recipe of that name ({', '.join(bundled_recipes())})"
         )
+        raise PlannerError(f"--recipe {name_or_path}: {neither}")
     try:
         values = tomllib.loads(read_text(path))
     except tomllib.TOMLDecodeError as error:
@@ -93,7 +86,7 @@ def load_recipe(name_or_path: str, problems: list[str]) -> Recipe:
     run = {key: values.pop(key) for key in RUN_KEYS.split() if key in values}
     wrong = {key: value for key, value in run.items() if not isinstance(value, str)}
     problems += [f"{path}: {key} = {value!r}: must be text" for key, value in wrong.items()]
-    return Recipe(path, {key: run[key] for key in run if key not in wrong}, values)
+    return {key: run[key] for key in run if key not in wrong}, Source(str(path), values)
 
 
 def build_request(
@@ -109,51 +102,42 @@ def build_request(
     `run` holds RUN_KEYS, None where not given. Raises PlannerError that lists every problem.
     """
     problems: list[str] = []
-    loaded: Recipe | None = None
-    if recipe:
-        loaded = _attempt(lambda name: load_recipe(name, problems), recipe, "", problems)
-    given = {key: value for key, value in run.items() if value is not None}
-    given = {**(loaded.run if loaded else {}), **given}
+
+    def attempt(function: Callable[[str], T], value: str | None, missing: str = "") -> T | None:
+        """`function(value)`, or None with its error among the problems."""
+        try:
+            if value is None:
+                raise PlannerError(missing)
+            return function(value)
+        except PlannerError as error:
+            problems.append(str(error))
+            return None
+
+    loaded = attempt(lambda name: load_recipe(name, problems), recipe) if recipe else None
+    given = {**(loaded[0] if loaded else {}), **{k: v for k, v in run.items() if v is not None}}
     if overwrite and resume:
         problems.append("--overwrite and --resume exclude each other")
     if given.get("data_dir") and given.get("train_file"):
         problems.append("--data-dir and --train-file exclude each other")
     if given.get("validation_file") and not given.get("train_file"):
-        problems.append(
-            "--validation-file needs --train-file; with --data-dir both files come from the folder"
-        )
-    missing = "--level is missing: mission or task"
-    level: Level | None = _attempt(check_level, given.get("level"), missing, problems)
-    missing = (
-        "--candidate is missing: a name that `plannerft candidates` lists, a folder or a hub id"
-    )
-    name = given.get("candidate")
-    candidate: Candidate | None = _attempt(resolve_candidate, name, missing, problems)
-    name = given.get("vocabulary") or DEFAULT_VOCABULARY
-    vocabulary: Vocabulary | None = _attempt(load_vocabulary, name, "", problems)
-    sources = [Source("flag", flags, flags=True)]
-    if loaded:
-        sources.append(Source(str(loaded.path), loaded.settings))
+        both = "with --data-dir both files come from the folder"
+        problems.append(f"--validation-file needs --train-file; {both}")
+    level = attempt(check_level, given.get("level"), "--level is missing: mission or task")
+    names = "a name that `plannerft candidates` lists, a folder or a hub id"
+    missing = f"--candidate is missing: {names}"
+    candidate = attempt(resolve_candidate, given.get("candidate"), missing)
+    vocabulary = attempt(load_vocabulary, given.get("vocabulary") or DEFAULT_VOCABULARY)
+    sources = [Source("flag", flags, flags=True), *([loaded[1]] if loaded else [])]
     if candidate and level:
         sources.append(Source(candidate.name, asdict(candidate.adapter_defaults(level))))
     resolved, found = resolve_settings(level or "mission", sources)
     problems += found
     if problems or not (level and candidate and vocabulary and resolved):
-        one = len(problems) == 1
-        raise PlannerError(problems[0] if one else listed("the configuration has", problems))
-    train_file, validation_file = _files(level, given)
-    corrections = Path(given["corrections"]) if given.get("corrections") else None
+        raise refusal("the configuration has", problems)
+    output = Path(given.get("output") or Path("adapters") / candidate.slug / level)
+    files, corrections = _files(level, given), _path(given.get("corrections"))
     return TrainRequest(
-        level,
-        candidate,
-        vocabulary,
-        train_file,
-        validation_file,
-        Path(given.get("output") or Path("adapters") / candidate.slug / level),
-        resolved,
-        overwrite,
-        resume,
-        corrections,
+        level, candidate, vocabulary, *files, output, resolved, overwrite, resume, corrections
     )
 
 
@@ -164,21 +148,17 @@ def listed(title: str, problems: list[str]) -> str:
     return "\n".join([f"{title} {count} problem{'s' if count > 1 else ''}:", *lines])
 
 
-def _attempt(function: Any, value: str | None, missing: str, problems: list[str]) -> Any:
-    """`function(value)`, or None with its error among the problems."""
-    if value is None:
-        problems.append(missing)
-        return None
-    try:
-        return function(value)
-    except PlannerError as error:
-        problems.append(str(error))
-        return None
+def refusal(title: str, problems: list[str]) -> PlannerError:
+    """The error for one problem, or for a list of them."""
+    return PlannerError(problems[0] if len(problems) == 1 else listed(title, problems))
+
+
+def _path(name: str | None) -> Path | None:
+    return Path(name) if name else None
 
 
 def _files(level: Level, given: dict[str, str]) -> tuple[Path, Path | None]:
     if train := given.get("train_file"):
-        validation = given.get("validation_file")
-        return Path(train), Path(validation) if validation else None
+        return Path(train), _path(given.get("validation_file"))
     folder = Path(given.get("data_dir") or Path("data") / level)
     return folder / "train.jsonl", folder / "validation.jsonl"

@@ -3,25 +3,47 @@
 from __future__ import annotations
 
 import contextlib
-from pathlib import Path
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.candidates.loading import load_tokenizer
+import torch
+
+from planner_ft.candidates.loading import compute_dtype, load_model, load_tokenizer
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.support.errors import PlannerError
-from planner_ft.training.loop import InterruptedRunError, train_loop
+from planner_ft.training.checkpoint import (
+    Trainee,
+    TrainState,
+    checkpoints,
+    load_checkpoint,
+    remove_leftovers,
+    seed_everything,
+)
+from planner_ft.training.loop import InterruptedRunError, Run, train_loop
+from planner_ft.training.model import (
+    SMALL_MODEL,
+    adapter_parameters,
+    attach_adapter,
+    cpu_threads,
+    make_optimizer,
+    memory_levers,
+    unpack,
+)
 from planner_ft.training.output import (
+    clear,
     existing_result,
     fingerprint_problems,
     folder_state,
+    only_run,
     stored_fingerprint,
     write_result,
     write_run,
 )
 from planner_ft.training.preflight import CHECKS, Finding, Prepared, run_preflight
-from planner_ft.training.request import TrainRequest, listed
+from planner_ft.training.probe import probe_model
+from planner_ft.training.report import Trackers, TrainLog, make_display
+from planner_ft.training.request import TrainRequest, listed, refusal
 from planner_ft.training.samples import Sample, Split, read_split, render_split
-from planner_ft.training.session import limited_threads, memory_errors, open_run, ready_model
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -32,14 +54,13 @@ def preview_sample(request: TrainRequest, sample_id: str | None) -> tuple[Sample
     problems: list[str] = []
     split = read_split(request.train_file, request.level, request.vocabulary, problems)
     if split is None or problems:
-        raise PlannerError(problems[0] if len(problems) == 1 else listed("the data has", problems))
-    records = [record for record in split.records if sample_id in (None, record.id)][:1]
-    if not records:
-        raise PlannerError(
-            f"--preview-id {sample_id}: {request.train_file} holds no record of that id"
-        )
+        raise refusal("the data has", problems)
+    found = [record for record in split.records if sample_id in (None, record["id"])][:1]
+    if not found:
+        file = request.train_file
+        raise PlannerError(f"--preview-id {sample_id}: {file} holds no record of that id")
     tokenizer = load_tokenizer(request.candidate)
-    one = Split(split.path, split.sha256, records)
+    one = Split(split.path, split.sha256, found)
     return render_split(one, request.level, tokenizer, request.vocabulary).samples[0], tokenizer
 
 
@@ -51,71 +72,153 @@ def train(request: TrainRequest, console: Console) -> dict[str, Any] | None:
     """
     for text in request.resolved.departures(request.level):
         _say(console, f"note: {text}")
-    prepared = Prepared()
-    _preflight(request, prepared, console)
-    assert prepared.train and prepared.tokenizer and prepared.device and request.candidate.folder
-    fingerprint = request.fingerprint(
-        prepared.train, prepared.validation, weights_sha256(request.candidate.folder)
-    )
-    if request.resume and not _resumable(request.output, fingerprint):
-        _say(console, existing_result(request.output))
-        return None
-    splits = {"training": prepared.train}
-    if prepared.validation:
-        splits["validation"] = prepared.validation
-    with limited_threads(request, prepared), memory_errors(request, prepared):
-        with console.status("loading the model ..."):
-            model, finding = ready_model(request, prepared)
-        show_finding(console, CHECKS, finding)
-        _raise_problems([finding])
-        with open_run(request, prepared, model, console, fingerprint) as (run, state):
-            try:
-                train_loop(run, state)
-                return write_result(request, run, state, prepared.tokenizer, splits, fingerprint)
-            except (Exception, KeyboardInterrupt) as error:
-                stopped = isinstance(error, InterruptedRunError)
-                status = "interrupted" if stopped else f"failed: {error!r}"
-                with contextlib.suppress(PlannerError):
-                    write_run(request.output, fingerprint, status)
-                raise
+    with only_run(request.output):
+        prepared = _preflight(request, console)
+        assert prepared.train and request.candidate.folder
+        base = weights_sha256(request.candidate.folder)
+        fingerprint = request.fingerprint(prepared.train, prepared.validation, base)
+        if request.resume and not _resumable(request, fingerprint):
+            _say(console, existing_result(request.output))
+            return None
+        with _limits(request, prepared):
+            return _train(request, prepared, console, fingerprint)
 
 
-def _preflight(request: TrainRequest, prepared: Prepared, console: Console) -> None:
-    findings = []
+def _preflight(request: TrainRequest, console: Console) -> Prepared:
+    prepared, problems = Prepared(), []
     with console.status("checking ..."):
         for number, finding in enumerate(run_preflight(request, prepared), 1):
-            findings.append(finding)
-            show_finding(console, number, finding)
-    _raise_problems(findings)
-
-
-def _raise_problems(findings: list[Finding]) -> None:
-    problems = [problem for finding in findings for problem in finding.problems]
+            problems += finding.problems
+            _show(console, number, finding)
     if problems:
         raise PlannerError(listed("the preflight found", problems))
+    return prepared
 
 
-def show_finding(console: Console, number: int, finding: Finding) -> None:
-    """One line on a check, and a line for each note."""
-    number_of = len(finding.problems)
-    count = f"{number_of} problem{'s' if number_of > 1 else ''}" if number_of else ""
-    text = "; ".join(part for part in (count, finding.text) if part)
-    mark = "✗" if number_of else "-" if finding.skipped else "✓"
-    line = f"[{number}/{CHECKS}] {mark} {finding.title}: {text}"
-    _say(console, line, "red" if number_of else None)
-    for note in finding.notes:
-        _say(console, f"      note: {note}", "yellow")
+def _train(
+    request: TrainRequest, prepared: Prepared, console: Console, fingerprint: dict[str, Any]
+) -> dict[str, Any]:
+    with console.status("loading the model ..."):
+        model, finding = ready_model(request, prepared)
+    _show(console, CHECKS, finding)
+    if finding.problems:
+        raise PlannerError(listed("the preflight found", finding.problems))
+    with _open_run(request, prepared, model, console, fingerprint) as (run, state):
+        try:
+            train_loop(run, state)
+            return write_result(request, prepared, run, state, fingerprint)
+        except (Exception, KeyboardInterrupt) as error:
+            stopped = isinstance(error, InterruptedRunError)
+            with contextlib.suppress(PlannerError):
+                status = "interrupted" if stopped else f"failed: {error!r}"
+                write_run(request.output, fingerprint, status)
+            raise
 
 
-def _resumable(output: Path, fingerprint: dict[str, Any]) -> bool:
+def ready_model(request: TrainRequest, prepared: Prepared) -> tuple[Any, Finding]:
+    """The base model with a new adapter, and whether every adapter weight learns."""
+    settings, device = request.settings, prepared.device
+    assert device and prepared.train
+    base = load_model(
+        request.candidate, device=str(device), quantization=settings.quantization, trainable=True
+    )
+    if device.type == "cpu":
+        unpack(base)
+    model = attach_adapter(base, settings, request.candidate.reference)
+    samples, dtype = prepared.train.samples, compute_dtype(device)
+    problems = probe_model(model, samples, prepared.pad, settings.batch_size, device, dtype)
+    sizes = [value.numel() for value in adapter_parameters(model).values()]
+    learn = f"all {len(sizes)} adapter matrices learn ({sum(sizes):,} weights)"
+    text = "" if problems else f"{learn}, also after a validation pass"
+    return model, Finding("gradients", text, problems)
+
+
+@contextlib.contextmanager
+def _open_run(
+    request: TrainRequest,
+    prepared: Prepared,
+    model: Any,
+    console: Console,
+    fingerprint: dict[str, Any],
+) -> Iterator[tuple[Run, TrainState]]:
+    """Prepare the output folder, load the newest checkpoint to resume, open log and display."""
+    settings, output, device = request.settings, request.output, prepared.device
+    assert device and prepared.train
+    dtype = compute_dtype(device)
+    scaler = torch.amp.GradScaler(device.type, enabled=dtype == torch.float16)
+    trainee = Trainee(model, make_optimizer(model, settings), scaler)
+    if not request.resume:
+        clear(output)
+    write_run(output, fingerprint, "running")
+    seed_everything(settings.seed)
+    state = _resumed(request, trainee, console) if request.resume else TrainState()
+    samples = (prepared.train.samples, prepared.validation.samples if prepared.validation else [])
+    log = TrainLog(output, state.step)
+    trackers = Trackers(settings, output, f"{request.candidate.slug}-{request.level}")
+    run = Run(settings, trainee, *samples, prepared.pad, device, dtype, output, log, trackers)
+    run.display = make_display(console, run.total_steps, state.step, settings.log_every)
+    try:
+        yield run, state
+    finally:
+        run.display.close()
+        trackers.close()
+        log.close()
+
+
+def _resumed(request: TrainRequest, trainee: Trainee, console: Console) -> TrainState:
+    remove_leftovers(request.output)
+    found = checkpoints(request.output)
+    if not found:
+        _say(console, "no checkpoint was written yet: starting from the beginning")
+        return TrainState()
+    state = load_checkpoint(found[-1], trainee)
+    _say(console, f"resuming at step {state.step}")
+    return state
+
+
+def _resumable(request: TrainRequest, fingerprint: dict[str, Any]) -> bool:
     """Whether a run is unfinished. Raises PlannerError when it was another one."""
-    differences = fingerprint_problems(stored_fingerprint(output), fingerprint)
+    differences = fingerprint_problems(stored_fingerprint(request.output), fingerprint)
     if differences:
         raise PlannerError(
-            f"--resume: the run in {output} was another one ({'; '.join(differences)}); undo that,"
-            " or start again with --overwrite"
+            f"--resume: the run in {request.output} was another one ({'; '.join(differences)});"
+            " undo that, or start again with --overwrite"
         )
-    return folder_state(output) == "unfinished"
+    return folder_state(request.output) == "unfinished"
+
+
+@contextlib.contextmanager
+def _limits(request: TrainRequest, prepared: Prepared) -> Iterator[None]:
+    """The CPU threads of the settings; out of memory becomes a sentence with the next lever."""
+    settings, parameters = request.settings, request.candidate.parameters
+    before = torch.get_num_threads()
+    if prepared.device and prepared.device.type == "cpu":
+        torch.set_num_threads(cpu_threads(settings, parameters or SMALL_MODEL))
+    try:
+        yield
+    except (torch.OutOfMemoryError, MemoryError, RuntimeError) as error:
+        if type(error) is RuntimeError and "allocate memory" not in str(error):
+            raise
+        longest = prepared.train.longest if prepared.train else 0
+        advice = memory_levers(settings, parameters or 0, longest)
+        raise PlannerError(
+            f"out of memory on {prepared.device}; {advice}. The checkpoints so far are kept: see"
+            f" {request.output}"
+        ) from error
+    finally:
+        torch.set_num_threads(before)
+
+
+def _show(console: Console, number: int, finding: Finding) -> None:
+    """One line on a check, and a line for each note."""
+    found = len(finding.problems)
+    count = f"{found} problem{'s' if found > 1 else ''}" if found else ""
+    text = "; ".join(part for part in (count, finding.text) if part)
+    mark = "✗" if found else "-" if finding.skipped else "✓"
+    line = f"[{number}/{CHECKS}] {mark} {finding.title}: {text}"
+    _say(console, line, "red" if found else None)
+    for note in finding.notes:
+        _say(console, f"      note: {note}", "yellow")
 
 
 def _say(console: Console, text: str, style: str | None = None) -> None:

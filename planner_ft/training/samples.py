@@ -1,9 +1,11 @@
-"""Training and validation samples: read, checked, enlarged, rendered into ids and mask."""
+"""Training and validation samples: read, checked, enlarged, rendered, shown in colour."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+import functools
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,24 +16,13 @@ from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, plan_problems
 
 if TYPE_CHECKING:
+    from rich.text import Text
     from transformers import PreTrainedTokenizerBase
 
 SHOWN = 5
 """Problems of one kind that are listed; the others are counted."""
 AUGMENT_SEED = 7_000_000
 """Far from the seeds of `gen-data`: no synthetic data set of a small seed has the same samples."""
-
-
-@dataclass(frozen=True)
-class Record:
-    """A dataset record and its line."""
-
-    line: int
-    value: dict[str, Any]
-
-    @property
-    def id(self) -> str:
-        return str(self.value["id"])
 
 
 @dataclass(frozen=True)
@@ -56,7 +47,7 @@ class Split:
 
     path: Path
     sha256: str
-    records: list[Record]
+    records: list[dict[str, Any]]
     samples: list[Sample] = field(default_factory=list)
 
     @property
@@ -67,38 +58,36 @@ class Split:
     def longest(self) -> int:
         return max((sample.length for sample in self.samples), default=0)
 
-    def with_records(self, values: Iterable[dict[str, Any]], sha256: str) -> Split:
-        """The split with more records behind its own."""
-        last = max((record.line for record in self.records), default=0)
-        added = [Record(last + number, value) for number, value in enumerate(values, start=1)]
-        return replace(self, sha256=sha256, records=[*self.records, *added])
-
 
 def read_split(
-    path: Path, level: Level, vocabulary: Vocabulary, problems: list[str], limit: int | None = None
+    path: Path,
+    level: Level,
+    vocabulary: Vocabulary,
+    problems: list[str],
+    limit: int | None = None,
+    known: Split | None = None,
 ) -> Split | None:
     """Read a JSONL file, at most `limit` records; None when it cannot be read at all.
 
-    Everything wrong with it is added to `problems`.
+    Everything wrong with it is added to `problems`, also ids that `known` holds already.
     """
     if not path.is_file():
-        problems.append(
-            f"{path}: no such file; make the data with `plannerft gen-data --level {level}`, or"
-            " give --data-dir or --train-file"
-        )
+        command = f"`plannerft gen-data --level {level}`"
+        way_out = f"make the data with {command}, or give --data-dir or --train-file"
+        problems.append(f"{path}: no such file; {way_out}")
         return None
     found: list[str] = []
-    records: list[Record] = []
-    seen: dict[str, int] = {}
+    records: list[dict[str, Any]] = []
+    seen = {record["id"]: str(known.path) for record in known.records} if known else {}
     try:
         for line, value, problem in iterate_jsonl(path):
             problem = problem or record_problem(value, level, vocabulary)
             if problem is None and value is not None:
-                first = seen.setdefault(value["id"], line)
-                if first == line:
-                    records.append(Record(line, value))
+                place = seen.setdefault(value["id"], f"line {line}")
+                if place == f"line {line}":
+                    records.append(value)
                 else:
-                    problem = f"id {value['id']!r} stands in line {first} already"
+                    problem = f"id {value['id']!r} stands in {place} already"
             if problem:
                 found.append(f"{path}:{line}: {problem}")
             if limit is not None and len(records) >= limit:
@@ -134,65 +123,73 @@ def with_corrections(
 
     Its digest covers them. Everything wrong with the file is added to `problems`.
     """
-    corrections = read_split(path, level, vocabulary, problems)
-    if corrections is None:
+    added = read_split(path, level, vocabulary, problems, known=split)
+    if added is None:
         return split
-    known = {record.id for record in split.records}
-    problems += [
-        f"{path}:{record.line}: id {record.id!r} stands in {split.path} already"
-        for record in corrections.records
-        if record.id in known
-    ]
-    values = (record.value for record in corrections.records)
-    return split.with_records(values, sha256_text(split.sha256 + corrections.sha256))
+    digest = sha256_text(split.sha256 + added.sha256)
+    return replace(split, sha256=digest, records=[*split.records, *added.records])
 
 
 def augmented(split: Split, level: Level, vocabulary: Vocabulary, seed: int, count: int) -> Split:
-    """The split with `count` synthetic records behind its own; its digest covers them."""
-    made = list(synthetic_records(level, vocabulary, seed, count))
-    digest = sha256_text(split.sha256 + "".join(compact_json(record) for record in made))
-    return split.with_records(({**one, "id": f"augment-{one['id']}"} for one in made), digest)
+    """The split with `count` synthetic records behind its own; its digest covers them.
 
-
-def synthetic_records(
-    level: Level, vocabulary: Vocabulary, seed: int, count: int
-) -> Iterator[dict[str, Any]]:
-    """`count` records of the level's generator, which holds no curated and no test sample.
-
-    Raises PlannerError for a vocabulary without templates.
+    The level's generator makes them, which holds no curated and no test sample. Raises
+    PlannerError for a vocabulary without templates.
     """
-    if level == "task":
-        from planner_ft.data.task.sampler import sample_tasks
-
-        yield from sample_tasks(vocabulary, AUGMENT_SEED + seed, count, "train")
-        return
     from planner_ft.data.missions import sample_missions
+    from planner_ft.data.task.sampler import sample_tasks
 
-    yield from sample_missions(AUGMENT_SEED + seed, count, vocabulary)
+    seed += AUGMENT_SEED
+    if level == "task":
+        made = list(sample_tasks(vocabulary, seed, count, "train"))
+    else:
+        made = list(sample_missions(seed, count, vocabulary))
+    digest = sha256_text(split.sha256 + "".join(compact_json(record) for record in made))
+    added = [{**record, "id": f"augment-{record['id']}"} for record in made]
+    return replace(split, sha256=digest, records=[*split.records, *added])
 
 
 def render_split(
-    split: Split,
-    level: Level,
-    tokenizer: PreTrainedTokenizerBase,
-    vocabulary: Vocabulary,
-    *,
-    with_vocabulary: bool = False,
-    tick: Callable[[], None] = lambda: None,
+    split: Split, level: Level, tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary
 ) -> Split:
-    """The split with its samples rendered; `tick` is called after each."""
-    samples = []
-    for record in split.records:
-        rendered = render_sample(
-            level, record.value, tokenizer, vocabulary, with_vocabulary=with_vocabulary
-        )
-        samples.append(Sample(record.id, rendered))
-        tick()
-    return replace(split, samples=samples)
+    """The split with its samples rendered."""
+    render = functools.partial(render_sample, tokenizer=tokenizer, vocabulary=vocabulary)
+    return replace(split, samples=[Sample(one["id"], render(level, one)) for one in split.records])
 
 
-def shortened(problems: Iterable[str], shown: int = SHOWN) -> list[str]:
+def shortened(problems: Iterable[str]) -> list[str]:
     """The first problems, and how many more there are."""
     listed = list(problems)
-    rest = len(listed) - shown
-    return listed if rest <= 0 else [*listed[:shown], f"... and {rest} more of this kind"]
+    rest = len(listed) - SHOWN
+    return listed if rest <= 0 else [*listed[:SHOWN], f"... and {rest} more of this kind"]
+
+
+def preview_text(sample: Sample, tokenizer: PreTrainedTokenizerBase) -> Text:
+    """The sample as the model sees it: prompt dim, completion green, special tokens reversed.
+
+    The trained part stands in ⟦ ⟧, so that it shows without colour.
+    """
+    from rich.text import Text
+
+    text, trained = Text(), False
+    special = set(tokenizer.all_special_ids) | set(tokenizer.added_tokens_decoder)
+    ids, masks = sample.rendered.input_ids, sample.rendered.completion_mask
+    # A character may consist of several tokens: runs are decoded together, special tokens alone.
+    kinds = [
+        (bool(mask), position if token in special else None)
+        for position, (token, mask) in enumerate(zip(ids, masks, strict=True))
+    ]
+    for (mask, alone), run in groupby(range(len(ids)), key=kinds.__getitem__):
+        if mask != trained:
+            text.append("⟦" if mask else "⟧", "bold")
+            trained = mask
+        style = ("green" if mask else "dim") + ("" if alone is None else " reverse")
+        tokens = [ids[position] for position in run]
+        text.append(str(tokenizer.decode(tokens, clean_up_tokenization_spaces=False)), style)
+    return text.append("⟧", "bold") if trained else text
+
+
+def preview_caption(sample: Sample) -> str:
+    """Counts of the sample's tokens."""
+    trained = f"{sample.completion_length} of them trained (between ⟦ and ⟧)"
+    return f"{sample.id}: {sample.length} tokens, {trained}"

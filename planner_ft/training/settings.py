@@ -8,8 +8,8 @@ from __future__ import annotations
 import difflib
 import math
 import tomllib
-from collections.abc import Iterable, Mapping
-from dataclasses import MISSING, Field, asdict, dataclass, fields
+from collections.abc import Iterable
+from dataclasses import Field, asdict, dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin, get_type_hints
 
@@ -27,12 +27,7 @@ PUBLISHED: dict[Level, dict[str, Any]] = {
     "task": {"rank": 8, "epochs": 2, **_SHARED},
 }
 """The settings of the published study. The rest has our defaults, in the fields below."""
-PANELS = {
-    "published": "Published settings",
-    "adapter": "Adapter",
-    "optimisation": "Optimisation",
-    "run": "Run",
-}
+UNBOUNDED = {"low": -math.inf, "above": -math.inf, "high": math.inf}
 ABOUT = tomllib.loads((Path(__file__).parent / "settings.toml").read_text(encoding="utf-8"))
 
 
@@ -84,13 +79,12 @@ class TrainSettings:
     @property
     def targets(self) -> str | list[str]:
         """`target_modules` as PEFT takes it."""
-        text = self.target_modules
-        return text if text == "all-linear" else [name.strip() for name in text.split(",")]
+        return "all-linear" if self.target_modules == "all-linear" else _names(self.target_modules)
 
     def learned(self) -> dict[str, Any]:
         """The settings that the learned weights depend on; a resumed run may change the others."""
         values = self.as_dict().items()
-        return {name: value for name, value in values if ABOUT[name]["panel"] != "run"}
+        return {name: value for name, value in values if ABOUT[name]["panel"] != "Run"}
 
     def as_dict(self) -> dict[str, Any]:
         return {**asdict(self), "alpha": self.lora_alpha}
@@ -171,24 +165,21 @@ def check_value(name: str, value: Any) -> tuple[Any, str | None]:
         return value, "must be a number"
     if kind is int and value != int(value):
         return value, "must be a whole number"
-    return kind(value), _bounds_problem(value, ABOUT[name])
+    limits = (ABOUT[name].get(key, default) for key, default in UNBOUNDED.items())
+    return kind(value), _bounds_problem(value, *limits)
 
 
-def _bounds_problem(value: float, bounds: Mapping[str, Any]) -> str | None:
-    if "low" in bounds and value < bounds["low"]:
-        return f"must be at least {bounds['low']:g}"
-    if "above" in bounds and value <= bounds["above"]:
-        return f"must be greater than {bounds['above']:g}"
-    if "high" in bounds and value > bounds["high"]:
-        return f"must be at most {bounds['high']:g}"
-    return None
+def _bounds_problem(value: float, low: float, above: float, high: float) -> str | None:
+    if value < low:
+        return f"must be at least {low:g}"
+    if value <= above:
+        return f"must be greater than {above:g}"
+    return f"must be at most {high:g}" if value > high else None
 
 
 def default_text(name: str) -> str | None:
     """The default of a setting as help texts show it; None where the text has it already."""
     default = FIELDS[name].default
-    if ABOUT[name]["panel"] == "published" or default in (None, MISSING):
-        return None
-    if isinstance(default, bool):
+    if ABOUT[name]["panel"] == "Published settings" or default is None or isinstance(default, bool):
         return None
     return f"{default:g}" if isinstance(default, float) else str(default)

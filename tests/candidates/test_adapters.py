@@ -10,12 +10,13 @@ from pathlib import Path
 
 import pytest
 import torch
+from safetensors.torch import load_file, save_file
 
 from planner_ft.candidates import resolve_candidate
 from planner_ft.candidates.adapters import adapter_record, check_adapter
 from planner_ft.candidates.loading import load_model
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import write_json
+from planner_ft.support.files import read_json, sha256_file, write_json
 from planner_ft.vocabulary import load_vocabulary
 
 
@@ -162,6 +163,31 @@ def test_shapes_tell_an_adapter_of_another_base(models: Path, adapter: Path) -> 
             )
 
 
+def record_outputs(folder: Path) -> None:
+    """Name the files' digests in the manifest, as training does."""
+    names = ("adapter_model.safetensors", "adapter_config.json")
+    digests = {name: sha256_file(folder / name) for name in names}
+    write_json(
+        folder / "manifest.json", {**read_json(folder / "manifest.json"), "outputs": digests}
+    )
+
+
+def edit_weights(folder: Path, value: float, dtype: torch.dtype = torch.float32) -> None:
+    tensors = load_file(folder / "adapter_model.safetensors")
+    tensors = {name: tensor.to(dtype) for name, tensor in tensors.items()}
+    next(iter(tensors.values()))[0, 0] = value
+    save_file(tensors, folder / "adapter_model.safetensors")
+
+
+def append(path: Path, text: str) -> None:
+    path.write_text(path.read_text() + text)
+
+
+def test_an_adapter_with_the_files_that_training_wrote_passes(models: Path, adapter: Path) -> None:
+    record_outputs(adapter)
+    assert check_adapter(adapter, resolve_candidate("Llama-3.2-1B")).rank == 4
+
+
 DAMAGE: dict[str, tuple[Callable[[Path], object], str]] = {
     "gone": (shutil.rmtree, "no such adapter folder; train one with `plannerft train"),
     "no configuration": (
@@ -187,6 +213,22 @@ DAMAGE: dict[str, tuple[Callable[[Path], object], str]] = {
     "truncated": (
         lambda folder: (folder / "adapter_model.safetensors").write_bytes(b"\x10\0\0\0\0\0\0\0{}"),
         "corrupt or no safetensors",
+    ),
+    "NaN in the weights": (
+        lambda folder: edit_weights(folder, float("nan")),
+        "adapter_model.safetensors: base_model.*lora_[AB].* holds NaN or infinity",
+    ),
+    "infinity in the weights": (
+        lambda folder: edit_weights(folder, float("inf"), torch.bfloat16),
+        "holds NaN or infinity",
+    ),
+    "other weights": (
+        lambda folder: (record_outputs(folder), edit_weights(folder, 0.5)),
+        "adapter_model.safetensors: not the file that training wrote",
+    ),
+    "another configuration": (
+        lambda folder: (record_outputs(folder), append(folder / "adapter_config.json", " ")),
+        "adapter_config.json: not the file that training wrote",
     ),
     "manifest is no JSON": (
         lambda folder: (folder / "manifest.json").write_text("{"),

@@ -9,8 +9,8 @@ from types import ModuleType
 import pytest
 import torch
 
-from planner_ft.pretraining.growth import deepened
 from planner_ft.pretraining.loop import PretrainSettings, new_model
+from planner_ft.pretraining.weights import deepened
 
 SETTINGS = PretrainSettings(hidden=32, layers=4, heads=2, feed_forward=48)
 SPECIAL = {"bos": 1, "eos": 2, "pad": 0}

@@ -8,7 +8,7 @@ import torch
 from torch import nn
 
 from planner_ft.pretraining.loop import PretrainSettings, layer_matrices, new_model, pretrain
-from planner_ft.pretraining.rounding import nf4, rounded
+from planner_ft.pretraining.weights import nf4, rounded
 
 TINY = PretrainSettings(
     hidden=64,

@@ -11,7 +11,7 @@ from huggingface_hub import ModelCard
 from planner_ft.report.card import write_card
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import sha256_tree
-from planner_ft.training.card import model_card
+from planner_ft.training.output import model_card
 
 FRONT = (
     "---\nlibrary_name: peft\nlicense: apache-2.0\ntags: [lora]\n---\n\n# An adapter\n\n##"

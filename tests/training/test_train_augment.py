@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from planner_ft.training.preflight import Prepared, run_preflight
-from planner_ft.training.samples import Record, Split, augmented
+from planner_ft.training.samples import Split, augmented
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems
 
@@ -13,7 +13,7 @@ VOCABULARY = load_vocabulary()
 def split() -> Split:
     from pathlib import Path
 
-    return Split(Path("train.jsonl"), "0" * 64, [Record(1, {"id": "a", "prompt": "Go home."})])
+    return Split(Path("train.jsonl"), "0" * 64, [{"id": "a", "prompt": "Go home."}])
 
 
 def test_synthetic_samples_join_the_training_split_and_change_its_digest(ask) -> None:
@@ -31,7 +31,7 @@ def test_synthetic_samples_join_the_training_split_and_change_its_digest(ask) ->
 def test_the_same_seed_gives_the_same_samples_and_another_seed_others() -> None:
     first, again, other = (augmented(split(), "mission", VOCABULARY, seed, 6) for seed in (1, 1, 2))
     assert first.sha256 == again.sha256 != other.sha256
-    assert len({record.id for record in first.records}) == 7 and first.records[0].id == "a"
+    assert len({record["id"] for record in first.records}) == 7 and first.records[0]["id"] == "a"
 
 
 def test_both_levels_give_strictly_valid_plans() -> None:
@@ -39,6 +39,6 @@ def test_both_levels_give_strictly_valid_plans() -> None:
         records = augmented(split(), level, VOCABULARY, 0, 8).records[1:]
         assert len(records) == 8
         assert all(
-            plan_problems(level, record.value["expected"], VOCABULARY, strict=True) == []
+            plan_problems(level, record["expected"], VOCABULARY, strict=True) == []
             for record in records
         )

@@ -45,7 +45,7 @@ def test_corrections_come_after_the_training_samples_and_change_the_digest(tmp_p
     both = with_corrections(
         train, written(tmp_path / "corrections.jsonl", "c"), "mission", VOCABULARY, problems
     )
-    assert not problems and [item.id for item in both.records] == ["a", "b", "c"]
+    assert not problems and [item["id"] for item in both.records] == ["a", "b", "c"]
     other = with_corrections(
         train, written(tmp_path / "corrections.jsonl", "d"), "mission", VOCABULARY, problems
     )

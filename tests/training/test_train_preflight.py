@@ -197,7 +197,7 @@ def test_a_model_that_is_not_here_says_how_to_get_it(ask, monkeypatch, tmp_path)
 
 
 def test_the_preview_marks_what_is_trained(ask):
-    from planner_ft.training.preview import preview_caption, preview_text
+    from planner_ft.training.samples import preview_caption, preview_text
 
     sample, tokenizer = preview_sample(ask(), None)
     text = preview_text(sample, tokenizer)

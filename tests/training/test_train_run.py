@@ -19,6 +19,7 @@ from safetensors.torch import load_file
 from planner_ft.support.errors import PlannerError
 from planner_ft.training import checkpoint, loop
 from planner_ft.training.loop import InterruptedRunError
+from planner_ft.training.output import only_run
 from planner_ft.training.run import train
 
 
@@ -199,6 +200,7 @@ def test_kill_9_loses_only_what_came_after_the_last_checkpoint(
     process = subprocess.Popen(
         [sys.executable, "-c", slow, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
     )
+    resumed = ask(**short, output=str(output), resume=True)
     deadline = time.monotonic() + 100
     while (
         process.poll() is None
@@ -206,6 +208,8 @@ def test_kill_9_loses_only_what_came_after_the_last_checkpoint(
         and not ((output / "train_log.jsonl").exists() and len(step_losses(output)) >= 10)
     ):
         time.sleep(0.02)
+    with pytest.raises(PlannerError, match="a training runs there; wait for its end"):
+        train(resumed, quiet)
     process.kill()
     _, errors = process.communicate()
     assert process.returncode == -signal.SIGKILL, errors.decode()
@@ -213,7 +217,7 @@ def test_kill_9_loses_only_what_came_after_the_last_checkpoint(
     (output / "checkpoints" / ".step-00000099.1.tmp").mkdir()
     with open(output / "train_log.jsonl", "a") as log:
         log.write('{"step": 99, "lo')
-    train(ask(**short, output=str(output), resume=True), quiet)
+    train(resumed, quiet)
     assert step_losses(output) == reference[0]
     assert (output / "adapter_model.safetensors").read_bytes() == reference[1]
 
@@ -322,6 +326,16 @@ def test_a_finished_run_is_complete_protected_and_can_be_replaced(ask, quiet, tm
         == first["outputs"]["adapter_model.safetensors"]
     )
     assert (tmp_path / "adapter" / "notes.txt").read_text() == "mine"
+
+
+@pytest.mark.parametrize("options", [{}, {"overwrite": True}, {"resume": True}])
+def test_a_second_run_in_one_folder_is_refused(ask, quiet, tmp_path, short, options):
+    with (
+        only_run(tmp_path / "new" / "adapter"),
+        pytest.raises(PlannerError, match=r"--output .*adapter: a training runs there"),
+    ):
+        train(ask(**short, **options, output=str(tmp_path / "new" / "adapter")), quiet)
+    assert not (tmp_path / "new").exists()
 
 
 def test_resume_without_a_run_says_so(ask, quiet, short):

@@ -138,7 +138,7 @@ def test_a_bundled_recipe_runs_by_its_first_line_and_says_every_setting(name):
     assert first == f"# plannerft train --recipe {name}"
     request = build_request({}, {}, recipe=name)
     for setting in FIELDS:
-        if ABOUT[setting]["panel"] != "run" and setting not in (
+        if ABOUT[setting]["panel"] != "Run" and setting not in (
             "max_samples",
             "max_steps",
             "augment",
