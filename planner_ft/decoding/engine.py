@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import contextlib
 import functools
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from planner_ft.candidates import Candidate
-from planner_ft.candidates.loading import load_model, load_tokenizer, resolve_device
+from planner_ft.candidates.loading import load_model, load_tokenizer, require_folder, resolve_device
+from planner_ft.candidates.location import read_config
 from planner_ft.candidates.registry import Quantization
+from planner_ft.candidates.tokenizer import FileTokenizer
 from planner_ft.decoding.configurations import MAX_NEW_TOKENS, Configuration, Limits, Strength
 from planner_ft.decoding.constraints.factory import Factory, constraint_factory
 from planner_ft.decoding.constraints.grammar import TASK_OPENS
 from planner_ft.decoding.constraints.steps import STEP_OPENS
-from planner_ft.decoding.direct import read_directly
+from planner_ft.decoding.forward import SmallModel, read_forms
 from planner_ft.decoding.generate import (
     Generation,
     Latency,
@@ -25,7 +27,6 @@ from planner_ft.decoding.generate import (
     generate_unordered,
     measure_latency,
 )
-from planner_ft.decoding.lean import LeanDecoder
 from planner_ft.decoding.lookup import Likeness, Lookup, usual_plans
 from planner_ft.decoding.passes import Decoder, ModelDecoder
 from planner_ft.decoding.sampling import Sampling
@@ -52,14 +53,14 @@ class Engine:
     """Model and tokenizer of a candidate. One base serves both levels and every configuration:
     adapters are switched, none is on for base.
 
-    `lean` holds the lean forms of a small model (see `lean`) by adapter, None for the base; where
+    `lean` holds the lean forms of a small model (see `forward`) by adapter, None for the base; where
     it is empty, `model` decodes, a model of transformers. `width` is the size of the logits.
     `adapters` are the levels that have one, `threads` the CPU threads that it decodes with; None
     leaves torch's number.
     """
 
     model: Any
-    lean: dict[Level | None, LeanDecoder]
+    lean: dict[Level | None, SmallModel]
     tokenizer: Any
     width: int
     vocabulary: Vocabulary
@@ -91,23 +92,22 @@ class Engine:
         transformers where that can be. A model that has no lean form decodes as it is. Raises
         PlannerError when the candidate cannot be loaded.
         """
-        tokenizer, target, given = (
-            load_tokenizer(candidate),
-            resolve_device(device).type,
-            adapters or {},
-        )
+        target, given = resolve_device(device).type, adapters or {}
         # A stand-in stands for a large candidate and takes its way.
-        wants_lean = (
-            is_small(candidate, target) and not candidate.is_standin if lean is None else lean
-        )
-        direct = (
-            read_directly(candidate, given, quantization=quantization, vocabulary=vocabulary)
-            if wants_lean and target == "cpu"
-            else None
-        )
-        if direct is not None:
-            model, forms, more_ends, width = None, direct.forms, direct.end_ids, direct.tokens
+        if lean is None:
+            lean = is_small(candidate, target) and not candidate.is_standin
+        folder, forms, model = require_folder(candidate), None, None
+        tokenizer: Any
+        if lean and target == "cpu":
+            with limited_threads(threads):
+                forms = read_forms(
+                    candidate, given, quantization=quantization, vocabulary=vocabulary
+                )
+        if forms:
+            tokenizer = FileTokenizer.read(folder) or load_tokenizer(candidate)
+            width = forms[None].head.shape[0]
         else:
+            tokenizer = load_tokenizer(candidate)
             model = load_model(
                 candidate,
                 device=device,
@@ -115,16 +115,15 @@ class Engine:
                 adapters=given,
                 vocabulary=vocabulary,
             )
-            forms = _lean_forms(model, given) if wants_lean else {}
-            more_ends, width = named_ends(model), model.config.get_text_config().vocab_size
-        ends, pad = end_ids(tokenizer, more_ends), int(tokenizer.pad_token_id)
+            width = model.config.get_text_config().vocab_size
+        ends, pad = end_ids(tokenizer, _named_ends(folder)), int(tokenizer.pad_token_id)
         limits = {
             level: Limits(ends, pad, max_new_tokens or default)
             for level, default in MAX_NEW_TOKENS.items()
         }
         return cls(
             model,
-            forms,
+            forms or {},
             tokenizer,
             width,
             vocabulary,
@@ -306,12 +305,6 @@ class Engine:
         return likeness
 
 
-def _lean_forms(model: Any, adapters: Iterable[Level]) -> dict[Level | None, LeanDecoder]:
-    forms = {adapter: LeanDecoder.of(model, adapter) for adapter in (None, *adapters)}
-    found = {adapter: form for adapter, form in forms.items() if form is not None}
-    return found if len(found) == len(forms) else {}
-
-
 def _only_level(queries: Sequence[Query]) -> Level:
     levels = {query.level for query in queries}
     if len(levels) > 1:
@@ -348,14 +341,16 @@ def limited_threads(threads: int | None) -> Iterator[None]:
         torch.set_num_threads(before)
 
 
-def end_ids(tokenizer: Any, more: Iterable[int] = ()) -> tuple[int, ...]:
-    """Tokens that end an answer: those of the prompt's form, then `more`, which the model's
-    generation settings name.
+def end_ids(tokenizer: Any, named: int | Sequence[int] | None = None) -> tuple[int, ...]:
+    """Tokens that end an answer: those of the prompt's form, then those that the generation
+    settings of the model name.
     """
+    more = (named,) if isinstance(named, int) else tuple(named or ())
     return tuple(dict.fromkeys([*end_of_turn_ids(tokenizer), *more]))
 
 
-def named_ends(model: Any) -> tuple[int, ...]:
-    """End tokens that a model's generation settings name."""
-    named = getattr(model.generation_config, "eos_token_id", None)
-    return (named,) if isinstance(named, int) else tuple(named or ())
+def _named_ends(folder: Path) -> int | Sequence[int] | None:
+    """End tokens that the generation settings in a model's folder name."""
+    config, settings = read_config(folder), read_config(folder, "generation_config.json")
+    named: int | Sequence[int] | None = settings.get("eos_token_id", config.get("eos_token_id"))
+    return named

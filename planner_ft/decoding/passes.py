@@ -75,11 +75,11 @@ class _ModelPasses:
     """
 
     def __init__(self, decoder: ModelDecoder, rows: int) -> None:
-        from planner_ft.decoding.cache import new_cache
+        from transformers import DynamicCache
 
         self.decoder = decoder
         self.device = decoder.model.device
-        self.cache = new_cache(decoder.model.config)
+        self.cache = DynamicCache(config=decoder.model.config)
         # Layers that keep a window or a state cannot be taken back.
         self.wide = rows == 1 and all(
             getattr(layer, "is_croppable", True) and not layer.is_sliding
@@ -112,10 +112,10 @@ class _ModelPasses:
         """Compute the common beginning of all prompts for one row, copy it to the others, and
         return what is left of each, a token at least.
         """
-        from planner_ft.decoding.cache import BlockLayer
+        from transformers.cache_utils import DynamicLayer
 
         count = min(min(_common(feeds[0], feed), len(feed) - 1) for feed in feeds)
-        if count < SHARED or not all(type(layer) is BlockLayer for layer in self.cache.layers):
+        if count < SHARED or not all(type(layer) is DynamicLayer for layer in self.cache.layers):
             return feeds
         ids = torch.tensor([feeds[0][:count]], device=self.device)
         self._forward(ids, torch.ones_like(ids), torch.arange(count, device=self.device)[None], 1)

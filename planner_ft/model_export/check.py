@@ -90,11 +90,12 @@ class Answers:
     def of(self, model: Any) -> list[tuple[int, ...]]:
         """The ids of the model's answers."""
         from planner_ft.decoding.configurations import MAX_NEW_TOKENS, Limits
-        from planner_ft.decoding.engine import end_ids, named_ends
+        from planner_ft.decoding.engine import end_ids
         from planner_ft.decoding.generate import generate
         from planner_ft.decoding.passes import ModelDecoder
 
-        ends, pad = end_ids(self.tokenizer, named_ends(model)), int(self.tokenizer.pad_token_id)
+        ends = end_ids(self.tokenizer, model.generation_config.eos_token_id)
+        pad = int(self.tokenizer.pad_token_id)
         limits = Limits(ends, pad, MAX_NEW_TOKENS[self.level])
         answers = generate(ModelDecoder(model, limits.pad_id), self.queries, limits, batch_size=1)
         return [answer.ids for answer in answers]

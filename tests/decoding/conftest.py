@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 import torch
 
-from planner_ft.decoding.lean import LeanDecoder
+from planner_ft.decoding.forward import SmallModel, small_model
 from planner_ft.decoding.passes import Decoder, ModelDecoder
 
 
@@ -35,6 +35,13 @@ def llama(**changes: Any) -> Any:
     return LlamaForCausalLM(LlamaConfig(**{**sizes, **changes})).eval()
 
 
+def small(model: Any) -> SmallModel:
+    """A model of transformers as `forward` computes it."""
+    found = small_model(model.config.to_dict(), model.state_dict())
+    assert found is not None
+    return found
+
+
 @pytest.fixture(scope="session")
 def make_llama() -> Callable[..., Any]:
     """Builds the model with other settings."""
@@ -46,9 +53,7 @@ def toy_model() -> Any:
     return llama()
 
 
-@pytest.fixture(params=["transformers", "lean"])
+@pytest.fixture(params=["transformers", "small"])
 def decoder(request: pytest.FixtureRequest, toy_model: Any) -> Decoder:
-    """The same model, as transformers computes it and lean."""
-    lean = LeanDecoder.of(toy_model)
-    assert lean is not None
-    return lean if request.param == "lean" else ModelDecoder(toy_model, 0)
+    """The same model, as transformers computes it and as `forward` does."""
+    return small(toy_model) if request.param == "small" else ModelDecoder(toy_model, 0)

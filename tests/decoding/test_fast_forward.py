@@ -134,7 +134,7 @@ def test_only_choices_take_a_forward_pass(decoder: Decoder) -> None:
         assert answer.forward_passes == len(answer.ids)
 
 
-def test_lean_rows_of_a_batch_skip_ahead_on_their_own(decoder: Decoder) -> None:
+def test_small_rows_of_a_batch_skip_ahead_on_their_own(decoder: Decoder) -> None:
     passes = [
         answer.forward_passes
         for answer in generate(decoder, QUERIES, LIMITS, ENFORCED, batch_size=8)
@@ -142,7 +142,7 @@ def test_lean_rows_of_a_batch_skip_ahead_on_their_own(decoder: Decoder) -> None:
     # In a batch of transformers, rows move on together: a token at a time once the prompts (and the
     # forced 10) are fed.
     assert passes == (
-        ROUNDS if type(decoder).__name__ == "LeanDecoder" else [5 * rounds - 4 for rounds in ROUNDS]
+        ROUNDS if type(decoder).__name__ == "SmallModel" else [5 * rounds - 4 for rounds in ROUNDS]
     )
 
 

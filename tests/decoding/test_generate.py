@@ -10,9 +10,8 @@ import pytest
 import torch
 
 from planner_ft.decoding import generate as generate_module
-from planner_ft.decoding.cache import BLOCK, BlockLayer, new_cache
 from planner_ft.decoding.configurations import Limits
-from planner_ft.decoding.engine import end_ids, named_ends
+from planner_ft.decoding.engine import end_ids
 from planner_ft.decoding.generate import Generation, Query, measure_latency
 from planner_ft.decoding.generate import generate as generate_answers
 from planner_ft.decoding.generate import generate_unordered as generate_answers_unordered
@@ -116,13 +115,6 @@ def test_models_with_absolute_positions_are_batched_rightly() -> None:
         assert list(answer.ids) == reference(gpt, query, limits(5))
 
 
-def test_answers_grow_past_a_block_of_the_cache(model: Any) -> None:
-    query = prompts(1)[0]
-    assert len(query) + 200 > BLOCK
-    answer = generate(model, [query], limits(most=200))[0]
-    assert list(answer.ids) == reference(model, query, limits(most=200))
-
-
 def test_settings_for_sampling_are_ignored(model: Any) -> None:
     queries = prompts(3)
     greedy = generate(model, queries, limits())
@@ -220,32 +212,6 @@ def test_latency_is_of_single_queries_after_one_that_is_not_counted(
     assert not list(measure_latency(decoder, [], limits()))
 
 
-def test_the_block_cache_holds_what_the_dynamic_one_holds() -> None:
-    from transformers.cache_utils import DynamicLayer
-
-    torch.manual_seed(1)
-    ours, theirs = BlockLayer(), DynamicLayer()
-    for length in (5, 1, BLOCK, 1, 1):
-        keys, values = torch.randn(3, 2, length, 4), torch.randn(3, 2, length, 4)
-        for one, other in zip(ours.update(keys, values), theirs.update(keys, values), strict=True):
-            assert torch.equal(one, other)
-        assert ours.get_seq_length() == theirs.get_seq_length()
-    for layer in (ours, theirs):
-        layer.batch_select_indices(torch.tensor([0, 2]))
-    new = torch.randn(2, 2, 1, 4)
-    assert torch.equal(ours.update(new, new)[0], theirs.update(new, new)[0])
-
-
-def test_other_layers_keep_their_kind_of_cache() -> None:
-    from transformers import MistralConfig
-
-    kinds = {
-        type(layer).__name__
-        for layer in new_cache(MistralConfig(num_hidden_layers=2, sliding_window=8)).layers
-    }
-    assert kinds == {"DynamicSlidingWindowLayer"}
-
-
 def test_every_end_token_of_the_published_candidates_ends_an_answer(models: Any) -> None:
     from planner_ft.candidates import resolve_candidate
     from planner_ft.candidates.loading import load_model, load_tokenizer
@@ -261,7 +227,9 @@ def test_every_end_token_of_the_published_candidates_ends_an_answer(models: Any)
         tokenizer = load_tokenizer(candidate)
         assert {
             tokenizer.decode([token])
-            for token in end_ids(tokenizer, named_ends(load_model(candidate, device="cpu")))
+            for token in end_ids(
+                tokenizer, load_model(candidate, device="cpu").generation_config.eos_token_id
+            )
         } == tokens
 
 

@@ -23,7 +23,7 @@ SLOW = (
     "accelerate",
     "datasets",
     "matplotlib",
-    "transformers.modeling_utils",
+    "transformers",
 )
 
 

@@ -4,6 +4,7 @@ tokens as bits.
 
 from __future__ import annotations
 
+import copy
 import functools
 import itertools
 from bisect import bisect_right
@@ -219,21 +220,29 @@ def tokens_of(tokenizer: Any, end_ids: tuple[int, ...], n_vocab: int | None = No
     kept. Raises PlannerError for a slow one.
     """
     from llguidance import LLTokenizer
-    from llguidance.hf import from_tokenizer
 
     width = max(n_vocab or 0, len(tokenizer))
     slices = [*TEXT_SLICES, *LLTokenizer.general_slices()]
     try:
-        return Tokens(
-            from_tokenizer(tokenizer, n_vocab=width, eos_token=list(end_ids), slices=slices),
-            width,
-            end_ids,
-        )
+        engine = LLTokenizer(_definition(tokenizer), width, eos_token=list(end_ids), slices=slices)
+        return Tokens(engine, width, end_ids)
     except ValueError as error:
         raise PlannerError(
             f"the tokenizer cannot be constrained ({error}); decode at strength free, or give a"
             " candidate with tokenizer.json"
         ) from error
+
+
+def _definition(tokenizer: Any) -> str:
+    """The tokenizer.json of a tokenizer, without padding and truncation. Raises ValueError for a
+    slow one.
+    """
+    if not hasattr(tokenizer, "backend_tokenizer"):
+        raise ValueError("only fast tokenizers are supported")
+    backend = copy.copy(tokenizer.backend_tokenizer)
+    backend.no_padding()
+    backend.no_truncation()
+    return str(backend.to_str())
 
 
 def _compile(engine: LLTokenizer, grammar: str) -> LLMatcher:
