@@ -48,6 +48,12 @@ class Toy:
     def forced(self) -> list[int]:
         return [] if self.ended else list(self.waiting)
 
+    def expected(self) -> list[int]:
+        return self.forced()
+
+    def release(self, token: int) -> bool:
+        return False
+
     def accept(self, token: int) -> None:
         if token not in self.allowed():
             raise ValueError(f"{token} is not allowed")
@@ -162,8 +168,9 @@ def test_a_token_is_allowed_whatever_the_logits_are() -> None:
         torch.full((1, VOCABULARY), torch.inf),
     ):
         row = SequenceState((3,), LIMITS, 9, Toy(1))
-        row.feed(wide=True)
-        row.choose(logits.argmax(-1).tolist(), logits.half())
+        _fed, wanted = row.feed(wide=True)
+        rows = logits.expand(wanted, -1)
+        row.choose(rows.argmax(-1).tolist(), rows.half())
         assert row.ids[:2] in ([10, 11], [10, 12])
 
 
