@@ -192,9 +192,7 @@ class _Tree:
         _leaf(parent, FIXED[name], {port: self._value(path, text)})
 
     def _skill(self, parent: Element, at: Path, skill: Entry, outputs: dict[int, str]) -> None:
-        """Add a skill; an expected output that is its own becomes its output port, and is taken
-        from `outputs`.
-        """
+        """Add a skill; an output of its own becomes its port, and is taken from `outputs`."""
         node = self.nodes.skills[skill["name"]]
         values = self._values((*at, "parameters"), skill["parameters"])
         self.ledger.carry(*at, "name")

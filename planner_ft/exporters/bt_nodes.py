@@ -64,9 +64,7 @@ FIXED = {
 
 @dataclass(frozen=True)
 class Nodes:
-    """A node per skill, by its name, and per task, by its title, which plans the task's skills on
-    board and runs them.
-    """
+    """A node per skill by name, and per task by title, which plans and runs the task's skills."""
 
     skills: Mapping[str, Node]
     tasks: Mapping[str, Node]
@@ -126,9 +124,7 @@ def _ports(owner: Skill | Task) -> dict[str, Port]:
 
 
 def plain_name(text: str, taken: Iterable[str] = ()) -> str:
-    """A name for a node, a tree, a port or a blackboard entry: ASCII letters, digits and "_", a
-    letter first, none of `taken`.
-    """
+    """ASCII letters, digits and "_", a letter first, for what a tree names; none of `taken`."""
     ascii_only = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode()
     name = re.sub(r"[^A-Za-z0-9_]+", "_", ascii_only).strip("_") or "unnamed"
     name = name if name[0].isalpha() else f"n_{name}"

@@ -72,7 +72,7 @@ class Ledger:
             self._lost.pop(item, None)
 
     def lose(self, *path: str | int, why: str) -> None:
-        """The file does not hold this, unless it is carried already. Raises KeyError for no item."""
+        """The file does not hold this unless it is carried already. Raises KeyError for no item."""
         for item in self._below[path]:
             if item not in self._carried:
                 self._lost[item] = why

@@ -60,9 +60,7 @@ class MissionItem:
 
 
 def build_mission(plan: PlanExport, *, fences: bool) -> Mission:
-    """The mission of a plan, up to the first task that waits. Raises PlannerError where no item is
-    left.
-    """
+    """The mission of a plan up to the first task that waits. Raises PlannerError without items."""
     mission = Mission(plan)
     for index in range(plan.ready):
         mission.write_task(index)

@@ -15,15 +15,7 @@ from typing import Any
 
 from planner_ft.exporters.formats import Format, PlanExport, Written
 from planner_ft.exporters.ledger import LISTS, Path
-from planner_ft.exporters.moos_behaviours import (
-    STEP,
-    TABLE,
-    Move,
-    guard_form,
-    guards,
-    is_region,
-    move_of,
-)
+from planner_ft.exporters.moos_behaviours import STEP, TABLE, Move, guard_form, guards, move_of
 from planner_ft.exporters.moos_text import block, comment, quoted, variable
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.plans import step_skills
@@ -182,7 +174,7 @@ class _File:
         stands for; the rest are flags alone.
         """
         if self.area:
-            region = is_region(self.area)
+            region, _form = guard_form("boundary", self.area)
             self.ledger.carry("vehicle", "area", form="" if region else TABLE["area"])
             if region:
                 yield from ((number, "boundary", self.area) for number, _place in self.places)
@@ -195,9 +187,7 @@ class _File:
                         yield (number, *guard)
 
     def _guarded(self, skill: Mapping[str, Any]) -> tuple[str, tuple[str, Any] | None]:
-        """How the file holds a skill beside a movement, and (kind, polygon or distance) where a
-        behaviour stands for it.
-        """
+        """How the file holds a skill beside a movement; (kind, value) of its behaviour, if any."""
         motion, given = self.motions.of(skill["name"]), skill["parameters"]
         if motion and motion.kind in ("boundary", "clearance"):
             value = motion.value("polygon" if motion.kind == "boundary" else "distance", given)

@@ -112,9 +112,7 @@ def _hold(given: Mapping[str, Any], speed: float) -> Move:
 
 
 def _timed(kind: str, given: Mapping[str, Any], **settings: Any) -> Move:
-    """The behaviour for a time; without one until MISSION_STEP changes, however often the behaviour
-    finds itself complete.
-    """
+    """The behaviour for a time; without one until MISSION_STEP changes, complete or not."""
     time, radius = given.get("time"), given.get("radius")
     forms = {"time": "", "radius": ""} if radius else {"time": ""}
     losses = {"radius": LOSSES["radius"]} if radius == 0 else {}
@@ -144,13 +142,11 @@ def guard_form(kind: str, value: Any) -> tuple[bool, str]:
         return True, TABLE["clearance"]
     if not value:
         return False, TABLE["no_polygon"]
-    return (True, "") if is_region(value) else (False, TABLE["not_convex"])
+    return (True, "") if _is_region(value) else (False, TABLE["not_convex"])
 
 
 def guards(filters: Iterable[tuple[int, str, Any]]) -> Iterator[list[str]]:
-    """One behaviour per run of movements that keep the same boundary or clearance, of (movement's
-    number, kind, polygon or distance).
-    """
+    """A behaviour per run of movements with the same (number of the movement, kind, value)."""
     by_value: dict[tuple[str, str], tuple[Any, set[int]]] = {}
     for movement, kind, value in filters:
         by_value.setdefault((kind, repr(value)), (value, set()))[1].add(movement)
@@ -179,7 +175,7 @@ def _spans(numbers: Iterable[int]) -> Iterator[tuple[int, int]]:
         yield run[0], run[-1]
 
 
-def is_region(polygon: Sequence[Sequence[float]]) -> bool:
+def _is_region(polygon: Sequence[Sequence[float]]) -> bool:
     """Whether the helm takes a polygon as a region and does not refuse the file: it has an area,
     and turns one way alone, once around (a star goes along x and back more often).
     """
@@ -191,9 +187,7 @@ def is_region(polygon: Sequence[Sequence[float]]) -> bool:
 
 
 def _corners(polygon: Sequence[Sequence[float]]) -> list[Point]:
-    """The corners as they are written, without repeated ones and those on a side, which the helm
-    may refuse.
-    """
+    """The corners as written, without repeated ones and those on a side: the helm refuses some."""
     rounded = [(round(float(x), 3), round(float(y), 3)) for x, y in polygon]
     distinct = [point for index, point in enumerate(rounded) if point != rounded[index - 1]]
     distinct = distinct or rounded

@@ -151,7 +151,7 @@ def _rope(config: dict[str, Any]) -> dict[str, Any]:
 
 
 def _rope_factors(config: dict[str, Any], sizes: Dimensions) -> list[float]:
-    """Divisors of the rotary frequencies for Llama 3's scaling (transformers' modeling_rope_utils)."""
+    """Divisors of rotary frequencies for Llama 3 (transformers' modeling_rope_utils)."""
     rope = _rope(config)
     if rope.get("rope_type") != "llama3":
         return []

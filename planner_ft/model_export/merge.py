@@ -20,9 +20,7 @@ LOCAL = {"local_files_only": True, "trust_remote_code": False, "use_safetensors"
 def load_full(
     candidate: Candidate, adapter: Path | None, level: Level, vocabulary: Vocabulary
 ) -> Any:
-    """The candidate's model in float32 on the CPU, with an adapter beside its weights. Raises
-    PlannerError.
-    """
+    """The model in float32 on the CPU, an adapter beside its weights. Raises PlannerError."""
     import torch
     from transformers import AutoModelForCausalLM
 

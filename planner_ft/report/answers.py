@@ -1,6 +1,4 @@
-"""Every sample with its answers, packed for the page: an index to filter by, and details in
-compressed parts that are opened when needed.
-"""
+"""Every sample with its answers, packed for the page: an index, and details in compressed parts."""
 
 from __future__ import annotations
 
@@ -16,17 +14,13 @@ from planner_ft.report.runs import Record, System, TestSet
 from planner_ft.vocabulary.outputs import parse_output
 from planner_ft.vocabulary.plans import Level
 
-PART = 200
-"""Samples in a part; a part is unpacked as a whole when one of its samples is opened."""
+PART = 200  # samples in a part, which is unpacked as a whole
 RIGHT = "right"
-LONGEST_OUTPUT = 20_000
-"""Characters of a raw output that are shown."""
+LONGEST_OUTPUT = 20_000  # characters of a raw output that are shown
 
 
 def script_json(value: Any) -> str:
-    """JSON that can stand inside a script element: no character of it can end the element, begin a
-    comment or break a line.
-    """
+    """JSON for a script element, which it cannot end; no comment, no line end."""
     text = json.dumps(value, ensure_ascii=True, separators=(",", ":"))
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
@@ -55,9 +49,8 @@ def index(tests: TestSet) -> dict[str, Any]:
         if score is None:
             return None
         outcome = outcomes.setdefault(str(score.get("failure") or RIGHT), len(outcomes))
-        found = {
-            names.setdefault(entry.name, len(names)) for entry in entries_of(tests, sample, system)
-        }
+        entries = entries_of(tests, sample, system)
+        found = {names.setdefault(entry.name, len(names)) for entry in entries}
         f1 = score.get("f1")
         return [outcome, round(f1, 3) if isinstance(f1, int | float) else None, sorted(found)]
 
@@ -68,21 +61,14 @@ def index(tests: TestSet) -> dict[str, Any]:
         group = record.get("group") or next((score.get("group") for score in scores), None)
         words = [_command(tests.level, record), str(group or ""), str(record.get("family") or "")]
         rows.append([name, *words, [brief(system, name) for system in tests.candidates]])
-    return {
-        "title": tests.title,
-        "level": tests.level,
-        "systems": [system.name for system in tests.candidates],
-        "outcomes": list(outcomes),
-        "names": list(names),
-        "samples": rows,
-        "part": PART,
-    }
+    found: dict[str, Any] = {"title": tests.title, "level": tests.level}
+    found["systems"] = [system.name for system in tests.candidates]
+    found |= {"outcomes": list(outcomes), "names": list(names)}
+    return {**found, "samples": rows, "part": PART}
 
 
 def parts(tests: TestSet) -> Iterator[str]:
-    """Details of `PART` samples after the other: [expected entries, [entries or None, differences,
-    problem, raw output] per system].
-    """
+    """Parts of PART samples: [expected, [entries, differences, problem, output] per system]."""
     ids = sample_ids(tests)
     for start in range(0, len(ids), PART):
         yield packed([_details(tests, name) for name in ids[start : start + PART]])

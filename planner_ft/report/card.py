@@ -2,76 +2,60 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark.results import heading
 from planner_ft.candidates.adapters import CONFIG, MANIFEST, WEIGHTS
 from planner_ft.report.contents import failure_words
-from planner_ft.report.metrics import MAIN, column, estimate, figure_cell
-from planner_ft.report.runs import Record, System, TestSet, load_test_sets
+from planner_ft.report.metrics import column, estimate, main_columns, system_cells
+from planner_ft.report.runs import System, TestSet, key_of, load_test_sets, within
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, read_text, sha256_tree, write_text
 from planner_ft.support.tables import Table, TableRow, markdown_table
 
 CARD = "README.md"
-START, END = (
-    "<!-- measured figures, written by plannerft report --card -->",
-    "<!-- end of measured figures -->",
-)
-TASK_TYPE = "text-generation"
+START = "<!-- measured figures, written by plannerft report --card -->"
+END = "<!-- end of measured figures -->"
+TRAINING = "\n## Training\n"
 
 Measured = tuple[TestSet, System]
 
 
 def write_card(adapter: Path, runs: Sequence[Path]) -> int:
     """Write what these runs measured with exactly this adapter into its card; figures of an earlier
-    call are replaced.
+    call are replaced. Returns how many figures were written.
 
-    Returns how many figures were written. Raises PlannerError when the folder has no card, or no
-    run measured these very weights.
+    Raises PlannerError when the folder has no card, or no run measured these very weights.
     """
     if not (adapter / CARD).is_file() or not (adapter / WEIGHTS).is_file():
-        raise PlannerError(
-            f"--card {adapter}: no adapter with a model card there ({CARD} and {WEIGHTS} are"
-            " expected)"
-        )
+        expected = f"{CARD} and {WEIGHTS} are expected"
+        raise PlannerError(f"--card {adapter}: no adapter with a model card there ({expected})")
     digest = sha256_tree(adapter, (WEIGHTS, CONFIG))
-    measured = [
-        (tests, system)
-        for tests in load_test_sets(runs)
-        for system in tests.systems
-        if adapter_of(system) == digest
-    ]
+    every = [(tests, system) for tests in load_test_sets(runs) for system in tests.systems]
+    measured = [(tests, system) for tests, system in every if adapter_of(system) == digest]
     if not measured:
-        raise PlannerError(
-            f"--card {adapter}: no row of these runs was measured with this adapter (its weights"
-            " have another digest)"
-        )
+        why = "no row of these runs was measured with this adapter"
+        raise PlannerError(f"--card {adapter}: {why} (its weights have another digest)")
     manifest = read_json(adapter / MANIFEST) if (adapter / MANIFEST).is_file() else {}
-    text, count = card_with(read_text(adapter / CARD), measured, _model_name(adapter, manifest))
+    base, level = within(manifest, "base", "name"), manifest.get("level")
+    model = f"{base} {level} adapter" if base and level else adapter.resolve().name
+    text, count = card_with(read_text(adapter / CARD), measured, model)
     write_text(adapter / CARD, text)
     return count
 
 
 def adapter_of(system: System) -> str | None:
-    """The digest of the adapter that a row was measured with, as the run recorded it; None without
-    one and for baselines.
-    """
-    if system.is_baseline:
-        return None
-    wanted = (system.row.get("candidate"), system.row.get("configuration"))
-    for job in system.jobs.values():
-        if isinstance(job, dict) and (job.get("candidate"), job.get("configuration")) == wanted:
+    """The digest of a row's adapter as the run recorded it; None for baselines and without one."""
+    for job in () if system.is_baseline else system.jobs.values():
+        if isinstance(job, dict) and key_of(job) == key_of(system.row):
             return str(job["adapter"]) if job.get("adapter") else None
     return None
 
 
 def card_with(text: str, measured: Sequence[Measured], model: str) -> tuple[str, int]:
-    """A card with its model-index and its section of figures replaced, and the number of
-    figures.
-    """
+    """A card with its model-index and section of figures replaced, and the number of figures."""
     from huggingface_hub import ModelCard
 
     card = ModelCard(_with_section(text, _section(measured)), ignore_metadata_errors=True)
@@ -80,110 +64,67 @@ def card_with(text: str, measured: Sequence[Measured], model: str) -> tuple[str,
     return str(card).rstrip("\n") + "\n", len(results)
 
 
-def eval_results(tests: TestSet, system: System) -> list[Any]:
-    """A row's figures as huggingface_hub.EvalResult: rates as shares, the interval and the number
-    of samples among the arguments.
-    """
+def eval_results(tests: TestSet, system: System) -> Iterator[Any]:
+    """A row's figures as huggingface_hub.EvalResult: rates as shares, intervals as arguments."""
     from huggingface_hub import EvalResult
 
     vehicle = tests.vocabulary.name if tests.vocabulary else "unknown"
-    data = {
-        "dataset_type": f"planner_ft-{vehicle}-{tests.level}",
-        "dataset_name": Path(tests.path).name,
-        "dataset_revision": tests.sha256,
-        "dataset_args": {"samples": tests.n},
-    }
-    found = []
     for name in system.row.get("metrics", {}):
         figure = estimate(system, name)
-        if figure.value is None:
-            continue
-        interval = (
-            None
-            if figure.low is None
-            else {"low": figure.low, "high": figure.high, "confidence": 0.95}
-        )
-        label = column(name).heading.removesuffix(" (%)")
-        found.append(
-            EvalResult(
-                task_type=TASK_TYPE,
+        interval = {"low": figure.low, "high": figure.high, "confidence": 0.95}
+        if figure.value is not None:
+            yield EvalResult(
+                task_type="text-generation",
                 task_name=f"{tests.level} planning",
+                dataset_type=f"planner_ft-{vehicle}-{tests.level}",
+                dataset_name=Path(tests.path).name,
+                dataset_revision=tests.sha256,
+                dataset_args={"samples": tests.n},
                 metric_type=name,
-                metric_name=label,
+                metric_name=column(name).heading.removesuffix(" (%)"),
                 metric_value=figure.value,
-                metric_config=str(system.row.get("configuration")),
-                metric_args=interval,
+                metric_config=system.configuration,
+                metric_args=None if figure.low is None else interval,
                 verified=False,
-                **data,
             )
-        )
-    return found
 
 
 def _section(measured: Sequence[Measured]) -> str:
-    tables = []
+    tables = ["## Measured", ""]
+    sets = {tests.key: tests for tests, _system in reversed(measured)}
     for key in dict.fromkeys(tests.key for tests, _system in measured):
-        rows = [(tests, system) for tests, system in measured if tests.key == key]
-        names = [
-            name
-            for name in MAIN
-            if any(estimate(system, name).value is not None for _tests, system in rows)
+        systems = [system for tests, system in measured if tests.key == key]
+        shown = main_columns(systems)
+        rows = [
+            TableRow(heading(one.configuration), system_cells(one, shown, {})) for one in systems
         ]
-        shown = [column(name) for name in names]
-        body = tuple(
-            TableRow(
-                heading(str(system.row.get("configuration"))),
-                tuple(figure_cell(one, estimate(system, one.name)) for one in shown),
-            )
-            for _t, system in rows
-        )
-        heads = tuple(f"{one.heading} {one.better}".strip() for one in shown)
-        tables.append(
-            markdown_table(
-                Table(
-                    key,
-                    f"{rows[0][0].title}.",
-                    "In brackets 95 % intervals.",
-                    "Configuration",
-                    heads,
-                    body,
-                )
-            )
-        )
-        tables += [f"- {text}" for text in _limits(rows)]
-        tables.append("")
-    return "\n".join(["## Measured", "", *tables]).rstrip("\n")
+        title, how = f"{sets[key].title}.", "In brackets 95 % intervals."
+        heads = tuple(one.title for one in shown)
+        table = Table(key, title, how, "Configuration", heads, tuple(rows))
+        tables += [
+            markdown_table(table),
+            *(f"- {text}" for text in _limits(sets[key], systems)),
+            "",
+        ]
+    return "\n".join(tables).rstrip("\n")
 
 
-def _limits(rows: Sequence[Measured]) -> list[str]:
+def _limits(tests: TestSet, systems: Sequence[System]) -> Iterator[str]:
     """The limits of the figures, and how the wrong answers were wrong."""
-    tests = rows[0][0]
-    found = [
-        f"{tests.n} samples of {Path(tests.path).name} (SHA-256 {tests.sha256[:12]}…): a difference"
-        " smaller than the intervals is not known."
-    ]
-    for _tests, system in rows:
+    data = f"{tests.n} samples of {Path(tests.path).name} (SHA-256 {tests.sha256[:12]}…)"
+    yield f"{data}: a difference smaller than the intervals is not known."
+    for system in systems:
         kinds = failure_words(system)
         words = f"wrong answers by kind: {kinds}." if kinds else "no wrong answer."
-        found.append(f"{heading(system.configuration)}: {words}")
-    return found
+        yield f"{heading(system.configuration)}: {words}"
 
 
 def _with_section(text: str, section: str) -> str:
-    """The text with the section between the marks replaced, or put before the section on
-    training.
-    """
+    """The text with the section between the marks replaced, or put before that on training."""
     block = f"{START}\n{section}\n{END}"
     if START in text and END in text:
         return text[: text.index(START)] + block + text[text.index(END) + len(END) :]
-    place = text.find("\n## Training\n")
-    return (
-        f"{text.rstrip()}\n\n{block}\n"
-        if place < 0
-        else f"{text[: place + 1]}{block}\n\n{text[place + 1 :]}"
-    )
-
-
-def _model_name(adapter: Path, manifest: Record) -> str:
-    base, level = manifest.get("base", {}).get("name"), manifest.get("level")
-    return f"{base} {level} adapter" if base and level else adapter.resolve().name
+    before, training, after = text.partition(TRAINING)
+    if not training:
+        return f"{text.rstrip()}\n\n{block}\n"
+    return f"{before}\n{block}\n{training}{after}"

@@ -1,7 +1,4 @@
-"""The content of figures, apart from how `pictures` draws it, and the same as tables.
-
-Every chart has a `name` (file name), a `title` and a `caption` that says what to see in it.
-"""
+"""The content of figures, apart from how `pictures` draws it, and the same as tables."""
 
 from __future__ import annotations
 
@@ -9,17 +6,13 @@ from dataclasses import dataclass
 
 from planner_ft.support.tables import NOTHING, Cell, Table, TableRow, row
 
-HEATS = 6
-"""Shades of a count, beside none."""
+HEATS = 6  # shades of a count, beside none
 
 
 @dataclass(frozen=True)
 class Bar:
     """A figure with its interval; `second` is shown on an axis of its own. `muted` bars are there
-    for comparison: published, baselines.
-
-    Bars of a `group` (a configuration) have a colour, and their second figures are joined by a
-    line.
+    for comparison. Bars of a `group` (a configuration) have a colour and are joined by a line.
     """
 
     label: str
@@ -32,12 +25,18 @@ class Bar:
 
 
 @dataclass(frozen=True)
-class Bars:
-    """Bars from 0 to 1, and lines beside them on an axis of their own."""
+class _Named:
+    """A chart's file name, title, and caption."""
 
     name: str
     title: str
     caption: str
+
+
+@dataclass(frozen=True)
+class Bars(_Named):
+    """Bars from 0 to 1, and lines beside them on an axis of their own."""
+
     axis: str
     second_axis: str
     bars: tuple[Bar, ...]
@@ -48,9 +47,7 @@ class Bars:
         return list(dict.fromkeys(bar.group for bar in self.bars))
 
     def lines(self, group: str) -> list[list[int]]:
-        """Indices of a group's bars with a second figure, measured and compared ones apart: a line
-        joins what was measured alike.
-        """
+        """Indices of a group's bars with a second figure, measured and compared ones apart."""
         members = [index for index, bar in enumerate(self.bars) if bar.group == group]
         found = [index for index in members if self.bars[index].second is not None]
         runs = [[at for at in found if self.bars[at].muted == muted] for muted in (False, True)]
@@ -77,12 +74,9 @@ class Series:
 
 
 @dataclass(frozen=True)
-class Lines:
+class Lines(_Named):
     """Lines over whole numbers, y from 0."""
 
-    name: str
-    title: str
-    caption: str
     x_axis: str
     y_axis: str
     series: tuple[Series, ...]
@@ -98,14 +92,9 @@ class DotRow:
 
 
 @dataclass(frozen=True)
-class Dots:
-    """Rows with several marks on one axis that starts at 0; `high` is its end, the largest value
-    where it is None.
-    """
+class Dots(_Named):
+    """Rows with several marks on one axis from 0 to `high` (None: the largest value)."""
 
-    name: str
-    title: str
-    caption: str
     axis: str
     marks: tuple[str, ...]
     rows: tuple[DotRow, ...]
@@ -114,14 +103,9 @@ class Dots:
 
 
 @dataclass(frozen=True)
-class Matrix:
-    """Counts; `counts[row][column]`. `corner` says what rows and columns are. Cells that are None
-    do not apply.
-    """
+class Matrix(_Named):
+    """`counts[row][column]`, None where a cell does not apply; `corner` says what rows are."""
 
-    name: str
-    title: str
-    caption: str
     corner: str
     rows: tuple[str, ...]
     columns: tuple[str, ...]
@@ -150,22 +134,16 @@ def number(value: float | None) -> str:
 def chart_table(chart: Chart) -> Table:
     """The figures of a chart as a table; counts are shaded."""
     if isinstance(chart, Matrix):
-        rows = tuple(
-            TableRow(
-                name,
-                tuple(_count(count, chart.largest or 1) for count in counts),
-                "published" if "(published" in name else "measured",
-            )
-            for name, counts in zip(chart.rows, chart.counts, strict=True)
-        )
-        return Table(chart.name, chart.title, chart.caption, chart.corner, chart.columns, rows)
+        made = []
+        for name, counts in zip(chart.rows, chart.counts, strict=True):
+            cells = [_count(count, chart.largest or 1) for count in counts]
+            made.append(row(name, *cells, kind="published" if "(published" in name else "measured"))
+        words = chart.name, chart.title, chart.caption
+        return Table(*words, chart.corner, chart.columns, tuple(made))
     heads: tuple[str, ...]
     if isinstance(chart, Bars):
         heads = ("System", chart.axis, "95 % interval", chart.second_axis)
-        rows = tuple(
-            row(bar.label, number(bar.value), _interval(bar), number(bar.second))
-            for bar in chart.bars
-        )
+        rows = tuple(_bar_row(bar) for bar in chart.bars)
     elif isinstance(chart, Dots):
         heads = ("", *chart.marks, chart.note_heading or "samples")
         rows = tuple(row(one.label, *map(number, one.values), one.note) for one in chart.rows)
@@ -179,8 +157,9 @@ def chart_table(chart: Chart) -> Table:
     return Table(f"{chart.name}-data", chart.title, "", heads[0], heads[1:], rows)
 
 
-def _interval(bar: Bar) -> str:
-    return NOTHING if bar.low is None else f"[{number(bar.low)}, {number(bar.high)}]"
+def _bar_row(bar: Bar) -> TableRow:
+    interval = NOTHING if bar.low is None else f"[{number(bar.low)}, {number(bar.high)}]"
+    return row(bar.label, number(bar.value), interval, number(bar.second))
 
 
 def _count(count: int | None, largest: int) -> Cell:

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
-from typing import Any
 
 from planner_ft.benchmark.layout import notes as table_notes
 from planner_ft.benchmark.results import Results, Row, heading
 from planner_ft.benchmark.results import System as RowSystem
-from planner_ft.benchmark.statistics import Estimate
 from planner_ft.report.charts import Chart
 from planner_ft.report.figures import charts, system_charts
 from planner_ft.report.metrics import cost_table, estimate, group_table, main_table, metric_tables
@@ -90,10 +88,8 @@ def _in_words(tests: TestSet, system: System) -> str:
     if whole.low is not None and whole.high is not None:
         span = f", 95 % interval {100 * whole.low:.0f} to {100 * whole.high:.0f} %"
     n *= max((len(lines) for lines in system.repeats.values()), default=1)
-    text = (
-        f"{round(whole.value * n)} of {n} plans are right in every name, order and value"
-        f" ({100 * whole.value:.0f} %{span})."
-    )
+    right = f"{round(whole.value * n)} of {n} plans are right in every name, order and value"
+    text = f"{right} ({100 * whole.value:.0f} %{span})."
     kinds = failure_words(system)
     return f"{text} Wrong: {kinds}." if kinds else text
 
@@ -106,32 +102,18 @@ def failure_words(system: System) -> str:
 
 
 def as_results(record: Record) -> Results:
-    """results.json as an object, as far as the notes of tables need it; records of other versions
-    beside it are left out.
-    """
-    rows = tuple(Row(system=_row_system(row), **_row_values(row)) for row in record["rows"])
+    """results.json as an object, as far as the notes of tables need it."""
+    rows = tuple(_row(row) for row in record["rows"])
     return Results(record["level"], record["data"], rows, record.get("manifest", {}))
 
 
-def _row_system(row: Record) -> RowSystem:
+def _row(record: Record) -> Row:
     known = {field.name for field in fields(RowSystem)}
-    values = {name: value for name, value in row.items() if name in known}
-    return RowSystem(**{"label": str(row.get("candidate")), **values})
-
-
-def _row_values(row: Record) -> dict[str, Any]:
-    metrics = {
-        name: Estimate(found.get("value"), found.get("low"), found.get("high"))
-        for name, found in row.get("metrics", {}).items()
-    }
-    return {
-        "n": row.get("n", 0),
-        "metrics": metrics,
-        "failures": row.get("failures", {}),
-        "finish_reasons": row.get("finish_reasons", {}),
-        "missing": tuple(row.get("missing", ())),
-        "latency_n": row.get("latency_n", 0),
-    }
+    named = {name: value for name, value in record.items() if name in known}
+    system = RowSystem(**{"label": str(record.get("candidate")), **named})
+    failures, reasons = record.get("failures", {}), record.get("finish_reasons", {})
+    missing, timed = tuple(record.get("missing", ())), record.get("latency_n", 0)
+    return Row(system, record.get("n", 0), {}, failures, reasons, missing, timed)
 
 
 def provenance(sets: Sequence[TestSet]) -> list[tuple[str, str]]:
@@ -148,20 +130,13 @@ def _of_run(manifest: Record) -> list[tuple[str, str]]:
     def listed(key: str) -> str:
         return ", ".join(f"{name} {value}" for name, value in manifest.get(key, {}).items())
 
-    jobs = [
-        (f"Adapter of {name}", f"SHA-256 {job['adapter']}")
-        for name, job in manifest.get("jobs", {}).items()
-        if isinstance(job, dict) and job.get("adapter")
-    ]
     commit = str(manifest.get("commit") or "unknown")
     commit += " with local changes" if manifest.get("dirty") else ""
-    entries = [
-        ("Command", str(manifest.get("command", ""))),
-        ("Made", str(manifest.get("created", ""))),
-        ("Seed", str(manifest.get("seed", ""))),
-        ("planner_ft", f"{manifest.get('planner_ft', '')}, commit {commit}"),
-        ("Versions", listed("versions")),
-        ("Hardware", listed("hardware")),
-        *jobs,
-    ]
+    keys = (("Command", "command"), ("Made", "created"), ("Seed", "seed"))
+    entries = [(name, str(manifest.get(key, ""))) for name, key in keys]
+    entries.append(("planner_ft", f"{manifest.get('planner_ft', '')}, commit {commit}"))
+    entries += [("Versions", listed("versions")), ("Hardware", listed("hardware"))]
+    for name, job in manifest.get("jobs", {}).items():
+        if isinstance(job, dict) and job.get("adapter"):
+            entries.append((f"Adapter of {name}", f"SHA-256 {job['adapter']}"))
     return [(name, value) for name, value in entries if value]

@@ -1,6 +1,4 @@
-"""An expected and a predicted plan side by side: the same, changed, missing, added, in another
-place; and how often each name is right over a whole test set.
-"""
+"""An expected and a predicted plan side by side, and how often each name is right in a test set."""
 
 from __future__ import annotations
 
@@ -26,9 +24,7 @@ Mark = Literal["same", "changed", "moved", "missing", "extra", "substituted"]
 
 @dataclass(frozen=True)
 class Difference:
-    """A line of the comparison: indices into the expected and the predicted entries, and the
-    parameters that differ.
-    """
+    """Indices into the expected and the predicted entries, and the parameters that differ."""
 
     mark: Mark
     expected: int | None
@@ -38,18 +34,14 @@ class Difference:
 
 @dataclass(frozen=True)
 class Confusion:
-    """Occurrences by name, and how often one name (expected) has another (predicted) in its place;
-    None stands for nothing.
-    """
+    """Occurrences by name, and counts of (expected, predicted) in one place; None: nothing."""
 
     names: dict[str, Counts]
     substitutions: Counter[tuple[str | None, str | None]]
 
 
 def entries_of(tests: TestSet, sample: str, system: System | None = None) -> tuple[Entry, ...]:
-    """The entries of a sample's expected plan, or of a system's answer to it: none where it does
-    not parse.
-    """
+    """The entries of a sample's expected plan, or of a system's answer, if it parses."""
     if system is None:
         return plan_entries(tests.level, tests.samples.get(sample, {}).get("expected"))
     output = system.answers.get(sample, {}).get("output")
@@ -57,16 +49,13 @@ def entries_of(tests: TestSet, sample: str, system: System | None = None) -> tup
 
 
 def confusion(tests: TestSet, system: System) -> Confusion | None:
-    """Counts of one system: those that the run recorded, else counted here; None where its answers,
-    the data or the vocabulary are not there.
-    """
+    """Counts that a run recorded, else counted here; None where answers or data are not there."""
     names, replaced = system.row.get("per_name"), system.row.get("substitutions")
     if isinstance(names, list) and isinstance(replaced, list):
         keys = ("right", "predicted", "expected")
-        return Confusion(
-            {str(line["name"]): Counts(*(line[key] for key in keys)) for line in names},
-            Counter({(line["expected"], line["predicted"]): line["n"] for line in replaced}),
-        )
+        counts = {str(line["name"]): Counts(*(line[key] for key in keys)) for line in names}
+        pairs = {(line["expected"], line["predicted"]): line["n"] for line in replaced}
+        return Confusion(counts, Counter(pairs))
     if not tests.samples or not system.answers or tests.vocabulary is None:
         return None
     found = Confusion({}, Counter())
@@ -74,27 +63,25 @@ def confusion(tests: TestSet, system: System) -> Confusion | None:
         expected, predicted = entries_of(tests, sample), entries_of(tests, sample, system)
         ours, theirs = [one.name for one in expected], [one.name for one in predicted]
         for name, more in counts_by_name(theirs, ours).items():
-            old = found.names.get(name, Counts(0, 0, 0))
-            found.names[name] = Counts(
-                old.right + more.right, old.predicted + more.predicted, old.expected + more.expected
-            )
+            found.names[name] = _sum(found.names.get(name, Counts(0, 0, 0)), more)
         alignment = align(tests.level, expected, predicted, tests.vocabulary)
         found.substitutions.update(substitutions(alignment))
     return found
 
 
+def _sum(one: Counts, other: Counts) -> Counts:
+    return Counts(*(sum(pair) for pair in zip(one, other, strict=True)))
+
+
 def differences(
     level: Level, expected: tuple[Entry, ...], predicted: tuple[Entry, ...], vocabulary: Vocabulary
 ) -> list[Difference]:
-    """The lines of a side-by-side view, in the expected order; additions stand where the answer has
-    them.
-    """
+    """The lines of a side-by-side view; additions stand where the answer has them."""
     alignment = align(level, expected, predicted, vocabulary)
     steady = _in_order(alignment.pairs)
-    lines = {
-        pair[0]: _matched(level, alignment, pair, pair in steady, vocabulary)
-        for pair in alignment.pairs
-    }
+    lines = {}
+    for pair in alignment.pairs:
+        lines[pair[0]] = _matched(level, alignment, pair, pair in steady, vocabulary)
     replaced = list(_replaced(alignment))
     lines |= {ours: Difference("substituted", ours, theirs) for ours, theirs in replaced}
     taken = {theirs: ours for ours, theirs in [*alignment.pairs, *replaced]}
@@ -137,11 +124,7 @@ def _matched(
 def changed_parameters(
     level: Level, expected: Entry, predicted: Entry, vocabulary: Vocabulary
 ) -> tuple[str, ...]:
-    """The parameters that one has and the other has not, or has with another value, as the
-    benchmark compares values.
-
-    An expected entry that states no parameters is not compared.
-    """
+    """The parameters that differ; none where the expected entry states no parameters."""
     if not expected.stated:
         return ()
     known = known_parameters(level, expected.name, vocabulary)
@@ -155,9 +138,7 @@ def changed_parameters(
 
 
 def _in_order(pairs: Sequence[Pair]) -> set[Pair]:
-    """The largest set of pairs that stand in the same order on both sides (a longest increasing
-    subsequence): the others have moved.
-    """
+    """The pairs of a longest increasing subsequence: the others have moved."""
     ends: list[int] = []
     last: list[int] = []
     before: list[int | None] = []

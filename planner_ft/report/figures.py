@@ -1,9 +1,11 @@
-"""The figures of a test set: from scores and answers to charts."""
+"""The figures of a test set, from scores and answers to charts; words in figures.toml."""
 
 from __future__ import annotations
 
+import tomllib
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import numpy as np
 
@@ -18,10 +20,7 @@ from planner_ft.vocabulary.plans import list_key
 
 UNIT = {"mission": "tasks", "task": "steps"}
 AGENT = {"mission": "Mission Agent", "task": "Task Agent"}
-COMPARED = (
-    " Pale bars are for comparison: baselines, and the published figures, which were measured"
-    " elsewhere, on other samples and hardware."
-)
+WORDS: Record = tomllib.loads(Path(__file__).with_name("figures.toml").read_text("utf-8"))
 
 
 def charts(tests: TestSet) -> list[Chart]:
@@ -40,12 +39,18 @@ def system_charts(tests: TestSet, system: System) -> list[Chart]:
     return [name_dots(tests, system, counts), *([replaced] if replaced else [])]
 
 
+def _words(tests: TestSet, kind: str, **values: object) -> tuple[str, str, str]:
+    """Name, title and caption of a figure; that of one system ends with the system's slug."""
+    ending = f"-{slug(str(values['system']))}" if "system" in values else ""
+    title, caption = (WORDS[kind][key].format(**values) for key in ("title", "caption"))
+    return f"{tests.key}-{kind}{ending}", title, caption
+
+
 def f1_bars(tests: TestSet) -> Bars | None:
     """F1 as bars, latency as a line, published models beside."""
     if not tests.systems:
         return None
-    bars = []
-    theirs = published_rows(tests)
+    bars, theirs = [], published_rows(tests)
     for system in tests.systems:
         f1, seconds = estimate(system, "f1"), estimate(system, "latency_s").value
         group = "baseline" if system.is_baseline else heading(system.configuration)
@@ -55,10 +60,9 @@ def f1_bars(tests: TestSet) -> Bars | None:
         if key in theirs:
             bars.append(_published_bar(key, theirs.pop(key)))
     bars += [_published_bar(key, figures) for key, figures in theirs.items()]
-    caption = "Bars: mean F1 over samples with its 95 % interval. Lines: mean seconds of one query."
-    caption += COMPARED if any(bar.muted for bar in bars) else ""
-    name, axes = f"{tests.key}-f1", ("F1", "seconds per query")
-    return Bars(name, "F1 and latency", caption, *axes, tuple(bars))
+    name, title, caption = _words(tests, "f1")
+    caption += WORDS["f1"]["compared"] if any(bar.muted for bar in bars) else ""
+    return Bars(name, title, caption, "F1", "seconds per query", tuple(bars))
 
 
 def _published_bar(key: tuple[str, str], figures: dict[str, float]) -> Bar:
@@ -67,14 +71,9 @@ def _published_bar(key: tuple[str, str], figures: dict[str, float]) -> Bar:
 
 
 def failure_matrix(tests: TestSet) -> Matrix | None:
-    """Wrong answers by kind and system; in the end the published analysis, where it is about this
-    test set.
-    """
-    found: dict[str, Mapping[str, int]] = {
-        system.name: system.row["failures"]
-        for system in tests.candidates
-        if system.row.get("failures")
-    }
+    """Wrong answers by kind and system, and the published analysis of the published test set."""
+    rows = {system.name: system.row.get("failures") for system in tests.candidates}
+    found: dict[str, Mapping[str, int]] = {name: counts for name, counts in rows.items() if counts}
     if not found:
         return None
     every = dict.fromkeys([*FAILURES, *(kind for counts in found.values() for kind in counts)])
@@ -84,9 +83,8 @@ def failure_matrix(tests: TestSet) -> Matrix | None:
     kinds = [kind for kind in every if any(counts.get(kind) for counts in found.values())]
     kinds = kinds or list(every)
     cells = tuple(tuple(counts.get(kind, 0) for kind in kinds) for counts in found.values())
-    caption = f"Every wrong answer, classified automatically; of {tests.n} answers per system."
-    name, title = f"{tests.key}-failures", "Kinds of failure"
-    return Matrix(name, title, caption, "System", tuple(found), tuple(kinds), cells)
+    words = _words(tests, "failures", n=tests.n)
+    return Matrix(*words, "System", tuple(found), tuple(kinds), cells)
 
 
 def latency_dots(tests: TestSet) -> Dots | None:
@@ -98,14 +96,8 @@ def latency_dots(tests: TestSet) -> Dots | None:
         if seconds:
             values = tuple(quantile(seconds, share).value for _name, share in QUANTILES)
             rows.append(DotRow(system.name, values, f"n = {len(seconds)}"))
-    if not rows:
-        return None
-    caption = (
-        "Seconds of one query, one at a time after a warm-up. With few queries the 99th percentile"
-        " is the slowest one."
-    )
-    name, marks = f"{tests.key}-latency", tuple(name for name, _share in QUANTILES)
-    return Dots(name, "Latency of one query", caption, "seconds", marks, tuple(rows))
+    marks = tuple(name for name, _share in QUANTILES)
+    return Dots(*_words(tests, "latency"), "seconds", marks, tuple(rows)) if rows else None
 
 
 def _seconds(score: Record) -> float | None:
@@ -127,12 +119,7 @@ def stop_matrix(tests: TestSet) -> Matrix | None:
         return None
     rows = tuple(name for name, _count in total.most_common())
     cells = tuple(tuple(counts.get(row, 0) for counts in found.values()) for row in rows)
-    caption = (
-        "Plans replayed against what each task needs and gives: where they stop first, and for want"
-        " of what."
-    )
-    name, title = f"{tests.key}-stops", "Plans that do not run to the end"
-    return Matrix(name, title, caption, "Missing", rows, tuple(found), cells)
+    return Matrix(*_words(tests, "stops"), "Missing", rows, tuple(found), cells)
 
 
 def _stop(stop: Record) -> str:
@@ -149,14 +136,8 @@ def planning_lines(tests: TestSet) -> Lines | None:
             ends = found["low"], found["high"]
             points.append(Point(entry["tasks"], found["value"], *ends, n=entry["n"]))
         series += [Series(system.name, tuple(points))] if points else []
-    if not series:
-        return None
-    caption = (
-        "Mean seconds from a command to tasks and skills, both agents; upright strokes are 95 %"
-        " intervals."
-    )
-    name, title = f"{tests.key}-planning", "Planning time by number of tasks"
-    return Lines(name, title, caption, "tasks in the plan", "seconds", tuple(series))
+    axes = "tasks in the plan", "seconds"
+    return Lines(*_words(tests, "planning"), *axes, tuple(series)) if series else None
 
 
 def latency_lines(tests: TestSet) -> Lines | None:
@@ -171,15 +152,10 @@ def latency_lines(tests: TestSet) -> Lines | None:
                 timed.setdefault(len(entries), []).append(seconds)
         points = tuple(_point(size, timed[size]) for size in sorted(timed))
         series += [Series(system.name, points)] if points else []
-    if not series:
-        return None
     unit, agent = UNIT[tests.level], AGENT[tests.level]
-    caption = (
-        f"Mean seconds of a query of the {agent} by the number of {unit} in the expected plan;"
-        " upright strokes reach from the fastest to the slowest."
-    )
-    name, title = f"{tests.key}-latency-by-size", f"Latency by number of {unit}"
-    return Lines(name, title, caption, f"{unit} in the expected plan", "seconds", tuple(series))
+    words = _words(tests, "latency-by-size", unit=unit, agent=agent)
+    axes = f"{unit} in the expected plan", "seconds"
+    return Lines(*words, *axes, tuple(series)) if series else None
 
 
 def _point(size: int, seconds: Sequence[float]) -> Point:
@@ -196,26 +172,13 @@ def name_dots(tests: TestSet, system: System, counts: Confusion) -> Dots:
         note = f"{found.right} / {found.predicted} / {found.expected}"
         rows.append(DotRow(label, (precision, recall), note))
     what = "task" if tests.level == "mission" else "skill"
-    caption = (
-        f"Precision: share of the planned {what}s of a name that were expected. Recall: share of"
-        " the expected ones that were planned."
-    )
-    return Dots(
-        f"{tests.key}-names-{slug(system.name)}",
-        f"Precision and recall per {what}: {system.name}",
-        caption,
-        "share",
-        ("precision", "recall"),
-        tuple(rows),
-        "right / planned / expected",
-        1.0,
-    )
+    words = _words(tests, "names", what=what, system=system.name)
+    marks, note = ("precision", "recall"), "right / planned / expected"
+    return Dots(*words, "share", marks, tuple(rows), note, 1.0)
 
 
 def substitution_matrix(tests: TestSet, system: System, counts: Confusion) -> Matrix | None:
-    """Names in the place of expected ones; the last column is for omissions, the last row for
-    additions.
-    """
+    """Names in the place of expected ones; omissions in the last column, additions last row."""
     found = counts.substitutions
     if not found:
         return None
@@ -224,16 +187,10 @@ def substitution_matrix(tests: TestSet, system: System, counts: Confusion) -> Ma
         tuple(None if row is column is None else found.get((row, column), 0) for column in columns)
         for row in rows
     )
-    return Matrix(
-        f"{tests.key}-substitutions-{slug(system.name)}",
-        f"Substitutions: {system.name}",
-        "Rows: what was expected. Columns: what the answer has in its place. Where both agree"
-        " nothing is counted.",
-        "Expected",
-        tuple(row or "(added)" for row in rows),
-        tuple(column or "(left out)" for column in columns),
-        cells,
-    )
+    ours = tuple(row or "(added)" for row in rows)
+    theirs = tuple(column or "(left out)" for column in columns)
+    words = _words(tests, "substitutions", system=system.name)
+    return Matrix(*words, "Expected", ours, theirs, cells)
 
 
 def _by_frequency(found: Counter[tuple[str | None, str | None]], side: int) -> list[str | None]:

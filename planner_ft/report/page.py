@@ -27,28 +27,13 @@ CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z][a-z])")
 
 
 def page(sections: Sequence[Section], title: str, provenance: Sequence[tuple[str, str]]) -> str:
-    """The whole document. The policy lets only this style sheet and this script run, and nothing be
-    loaded from anywhere.
-    """
-    style, script = (
-        (ASSETS / name).read_text(encoding="utf-8") for name in ("report.css", "report.js")
-    )
-    policy = (
-        f"default-src 'none'; style-src {_hash(style)}; script-src {_hash(script)}; base-uri"
-        " 'none'; form-action 'none'"
-    )
-    return (
-        _templates()
-        .get_template("page.html.j2")
-        .render(
-            sections=sections,
-            title=title,
-            provenance=provenance,
-            policy=policy,
-            style=Markup(style),
-            script=Markup(script),
-        )
-    )
+    """The whole document; its policy allows this style sheet and this script, and no loading."""
+    style, script = ((ASSETS / f"report.{kind}").read_text("utf-8") for kind in ("css", "js"))
+    policy = f"default-src 'none'; style-src {_hash(style)}; script-src {_hash(script)};"
+    policy += " base-uri 'none'; form-action 'none'"
+    trusted = {"style": Markup(style), "script": Markup(script)}
+    words = {"title": title, "provenance": provenance, "policy": policy}
+    return _templates().get_template("page.html.j2").render(sections=sections, **words, **trusted)
 
 
 def html_table(table: Table) -> str:
@@ -61,13 +46,9 @@ def html_table(table: Table) -> str:
 def _templates() -> Environment:
     from jinja2 import Environment, PackageLoader
 
-    environment = Environment(
-        loader=PackageLoader("planner_ft.report"),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
+    blocks: Any = {"trim_blocks": True, "lstrip_blocks": True, "keep_trailing_newline": True}
+    loader = PackageLoader("planner_ft.report")
+    environment = Environment(loader=loader, autoescape=True, **blocks)
     environment.filters |= {"breakable": _breakable, "chart_table": chart_table}
     environment.filters |= {"drawing": _drawing, "data": _data}
     environment.tests["matrix"] = lambda chart: isinstance(chart, Matrix)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -17,41 +17,28 @@ from xml.etree import ElementTree
 from planner_ft.report.charts import Bars, Chart, Dots, Lines, Matrix
 
 WIDE, NARROW = 860, 340
-"""Widths in pixels, which are points here: letters keep their size on a phone because the page
-shows one drawing or the other.
-"""
-LETTER = 7.2
-"""Mean width of a letter at 12 pixels."""
+"""Widths in pixels, which are points here: letters keep their size on a phone."""
+LETTER = 7.2  # mean width of a letter at 12 pixels
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#b8a000")
 """Okabe and Ito's colours (2008), the brightest yellow darkened for white paper."""
 INK, SOFT, LINE = "#1b2128", "#55606c", "#d5dbe1"
-ROLES = {INK: "ink", SOFT: "soft", LINE: "line"} | {
-    colour: f"s{index}" for index, colour in enumerate(PALETTE)
-}
+ROLES = {colour: f"s{index}" for index, colour in enumerate(PALETTE)}
+ROLES |= {INK: "ink", SOFT: "soft", LINE: "line"}
 """Names of the style sheet's colours."""
 NOT_KEPT = ("", "font", "font-family", "font-size", "clip-path")
 """Styles of a drawing that are the page's affair, or that name nothing there."""
 MARKERS = ("o", "s", "^", "D", "v")
 STYLES = ("-", "--", ":", "-.")
-SETTINGS = {
+SETTINGS: dict[str, Any] = {
     "svg.fonttype": "none",
     "svg.hashsalt": "planner_ft",
     "text.parse_math": False,
-    "text.color": INK,
-    "font.size": 12,
-    "axes.titlesize": 12,
-    "axes.facecolor": "none",
-    "axes.edgecolor": SOFT,
-    "axes.labelcolor": SOFT,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.axisbelow": True,
-    "grid.color": LINE,
-    "xtick.color": SOFT,
-    "ytick.color": SOFT,
-    "ytick.labelcolor": INK,
-    "legend.frameon": False,
 }
+SETTINGS |= {"font.size": 12, "axes.titlesize": 12, "axes.facecolor": "none"}
+SETTINGS |= {"axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True}
+SETTINGS |= {"text.color": INK, "ytick.labelcolor": INK, "grid.color": LINE}
+SETTINGS |= dict.fromkeys(("axes.edgecolor", "axes.labelcolor", "xtick.color", "ytick.color"), SOFT)
+SETTINGS["legend.frameon"] = False
 
 
 def picture(chart: Chart) -> dict[str, bytes]:
@@ -109,14 +96,7 @@ def _drawn(chart: Chart, width: int, title: str = "") -> Iterator[Any]:
     with matplotlib.rc_context(SETTINGS), warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Glyph")  # names may hold any letters
         sheet = _Sheet(Figure(), width, top=40 if title else 24)
-        if isinstance(chart, Bars):
-            _bars(sheet, chart)
-        elif isinstance(chart, Lines):
-            _lines(sheet, chart)
-        elif isinstance(chart, Dots):
-            _dots(sheet, chart)
-        else:
-            _matrix(sheet, chart)
+        DRAW[type(chart)](sheet, chart)
         if title:
             sheet.figure.suptitle(fitted(title, 100), x=0.01, ha="left", fontweight="bold")
         yield sheet.figure
@@ -139,6 +119,10 @@ def _length(labels: Sequence[str]) -> float:
     return max((LETTER * len(fitted(label)) for label in labels), default=0.0)
 
 
+Labels = Sequence[str]
+Ratios = Sequence[float]
+
+
 @dataclass
 class _Sheet:
     """A figure with margins in pixels, which cost no layout."""
@@ -152,13 +136,7 @@ class _Sheet:
         return self.width <= NARROW
 
     def panels(
-        self,
-        height: float,
-        left: float,
-        *,
-        right: float = 12,
-        below: float = 0,
-        ratios: Sequence[float] = (1,),
+        self, height: float, left: float, below: float, right: float = 12, ratios: Ratios = (1,)
     ) -> list[Any]:
         """Axes beside each other, `height` high, with room for the x axis and `below`."""
         bottom = 44 + below
@@ -167,27 +145,17 @@ class _Sheet:
         edges = {"left": left / self.width, "right": 1 - right / self.width}
         edges |= {"bottom": bottom / whole, "top": 1 - self.top / whole}
         grid = {**edges, "width_ratios": ratios, "wspace": 0.06}
-        return list(
-            self.figure.subplots(1, len(ratios), sharey=True, squeeze=False, gridspec_kw=grid)[0]
-        )
+        options = {"sharey": True, "squeeze": False, "gridspec_kw": grid}
+        return list(self.figure.subplots(1, len(ratios), **options)[0])
 
     def rows(
-        self,
-        labels: Sequence[str],
-        axis: str,
-        *,
-        right: float = 12,
-        keys: Sequence[str],
-        ratios: Sequence[float] = (1,),
+        self, labels: Labels, axis: str, keys: Labels, right: float = 12, ratios: Ratios = (1,)
     ) -> list[Any]:
-        """Axes with a row per label, the first on top; labels stand above their rows where there is
-        no room beside them.
-        """
+        """Axes with a row per label, the first on top; labels stand beside or above their rows."""
         shown = [fitted(label) for label in labels]
         height = (42 if self.narrow else 28) * len(labels) + 10
         left = 12 if self.narrow else _length(labels) + 12
-        below = self.legend_height(keys)
-        first, *others = self.panels(height, left, right=right, below=below, ratios=ratios)
+        first, *others = self.panels(height, left, self.legend_height(keys), right, ratios)
         first.set_yticks(range(len(labels)), [""] * len(labels) if self.narrow else shown)
         for index, label in enumerate(shown if self.narrow else ()):
             place = (0, index - 0.28)
@@ -221,7 +189,7 @@ def _bars(sheet: _Sheet, chart: Bars) -> None:
     second_panel = any(bar.second is not None for bar in chart.bars)
     ratios = [2, 1] if second_panel else [1]
     labels = [bar.label for bar in chart.bars]
-    axes, *others = sheet.rows(labels, chart.axis, keys=keys, ratios=ratios)
+    axes, *others = sheet.rows(labels, chart.axis, keys, ratios=ratios)
     axes.set_xlim(0, 1.15)
     colours = {name: PALETTE[at % len(PALETTE)] for at, name in enumerate(chart.groups)}
     for index, bar in enumerate(chart.bars):
@@ -252,7 +220,7 @@ def _bars(sheet: _Sheet, chart: Bars) -> None:
 
 def _lines(sheet: _Sheet, chart: Lines) -> None:
     keys = [series.label for series in chart.series]
-    (axes,) = sheet.panels(230 if sheet.narrow else 300, 62, below=sheet.legend_height(keys))
+    (axes,) = sheet.panels(230 if sheet.narrow else 300, 62, sheet.legend_height(keys))
     handles = []
     for index, series in enumerate(chart.series):
         colour, style = PALETTE[index % len(PALETTE)], STYLES[index % len(STYLES)]
@@ -272,8 +240,7 @@ def _lines(sheet: _Sheet, chart: Lines) -> None:
 
 def _dots(sheet: _Sheet, chart: Dots) -> None:
     labels, notes = [row.label for row in chart.rows], [row.note for row in chart.rows]
-    right = _length(notes) + 16
-    (axes,) = sheet.rows(labels, chart.axis, right=right, keys=chart.marks)
+    (axes,) = sheet.rows(labels, chart.axis, chart.marks, right=_length(notes) + 16)
     beside: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "color": SOFT, "va": "center"}
     for index, row in enumerate(chart.rows):
         known = [value for value in row.values if value is not None]
@@ -296,7 +263,7 @@ def _dots(sheet: _Sheet, chart: Dots) -> None:
 def _matrix(sheet: _Sheet, chart: Matrix) -> None:
     left, below = _length(chart.rows) + 16, 0.65 * _length(chart.columns)
     sheet.width = max(left + 48 * len(chart.columns) + 30, 0.8 * left + _length(chart.columns))
-    (axes,) = sheet.panels(28 * len(chart.rows), left, below=below)
+    (axes,) = sheet.panels(28 * len(chart.rows), left, below)
     values = [[float("nan") if count is None else count for count in row] for row in chart.counts]
     axes.imshow(values, cmap="Blues", vmin=0, vmax=max(chart.largest, 1) * 1.15, aspect="auto")
     columns = [fitted(name) for name in chart.columns]
@@ -308,3 +275,7 @@ def _matrix(sheet: _Sheet, chart: Matrix) -> None:
             if count:
                 colour = "white" if count > 0.6 * chart.largest else INK
                 axes.text(column, row, str(count), ha="center", va="center", color=colour)
+
+
+DRAW: dict[type, Callable[[_Sheet, Any], None]]
+DRAW = {Bars: _bars, Lines: _lines, Dots: _dots, Matrix: _matrix}

@@ -1,6 +1,4 @@
-"""Reading the folders of runs, whatever of them is there: old runs, scored predictions and runs
-without timed queries give a report, too.
-"""
+"""Reading the folders of runs, whatever of them is there: old runs and scored predictions, too."""
 
 from __future__ import annotations
 
@@ -13,6 +11,7 @@ from typing import Any
 from planner_ft.benchmark.folder import BASELINES, PREDICTIONS, RESULTS, RUN, SCORES
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import iterate_jsonl, read_json, sha256_file
+from planner_ft.support.tables import RowKind
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level, check_level
 
@@ -21,24 +20,19 @@ Key = tuple[str, str]
 """Candidate and configuration."""
 Lines = dict[Key, dict[str, list[Record]]]
 """Lines by system, then by sample: several where a sample was repeated."""
-DEEPEST = 3
-"""How far below a folder its runs are looked for (a suite has one folder per level, data set and
-candidate).
-"""
+DEEPEST = 3  # levels of folders below one: a suite has level, data set and candidate
 
 
 @dataclass(frozen=True)
 class System:
     """One row of a run: a candidate in a configuration, with its scores and answers by sample id.
-    `name` tells it from all others.
 
-    Where a system answered several times, `repeats` has all scores and `answers` the first answers.
-    `jobs` are the digests (of model, adapter, data ...) that the run's answers depend on, by job
-    name. `alias` is the candidate, told from that of other runs where several have the same row.
+    `name` is its own alone; `alias` is the candidate, marked where several runs have the same row.
+    `repeats` has all scores, `answers` the first ones. `jobs` are the digests (of model, adapter,
+    data ...) that the answers depend on, by job name.
     """
 
     name: str
-    run: Path
     row: Record
     repeats: dict[str, list[Record]] = field(default_factory=dict)
     answers: dict[str, Record] = field(default_factory=dict)
@@ -56,6 +50,11 @@ class System:
         return bool(self.row.get("is_baseline"))
 
     @property
+    def kind(self) -> RowKind:
+        """The kind of its rows in tables."""
+        return "baseline" if self.is_baseline else "measured"
+
+    @property
     def configuration(self) -> str:
         """Its configuration, such as lora+grounded."""
         return str(self.row.get("configuration"))
@@ -68,9 +67,7 @@ class System:
 
 @dataclass(frozen=True)
 class TestSet:
-    """Measurements on the same data: systems of one or more runs. `samples` is empty where the data
-    is not there any more.
-    """
+    """Systems measured on the same data; `samples` is empty where the data is gone."""
 
     __test__ = False
 
@@ -110,31 +107,31 @@ class _Run:
     notes: list[str]
 
     @property
-    def manifest(self) -> Record:
-        found: Record = self.results.get("manifest", {})
-        return found
-
-    @property
     def predictions(self) -> Record:
         """Path and digest of the file that `plannerft score` read."""
-        found: Record = self.manifest.get("inputs", {}).get("predictions", {})
-        return found
+        return dict(within(self.results, "manifest", "inputs", "predictions"))
 
     @property
     def vocabulary(self) -> str:
         """The vocabulary's file where the run names one, else its name."""
-        known = self.manifest.get("configuration", {}).get("vocabulary", {})
-        record = _optional(self.folder / RUN)
-        return str(record.get("settings", {}).get("vocabulary") or known.get("name", ""))
+        file = within(_optional(self.folder / RUN), "settings", "vocabulary")
+        return str(
+            file or within(self.results, "manifest", "configuration", "vocabulary", "name") or ""
+        )
+
+
+def within(record: Any, *keys: str) -> Any:
+    """The value below these keys, {} where one is missing."""
+    for key in keys:
+        record = record.get(key, {})
+    return record
 
 
 def load_test_sets(folders: Sequence[Path], data: Sequence[Path] = ()) -> list[TestSet]:
-    """The runs in these folders (or in folders below them), grouped by the data that they were
-    measured on.
+    """The runs in these folders (or below them), grouped by the data that they were measured on.
 
-    `data` are files to look for test data in beside the path that a run names; only a file with the
-    recorded SHA-256 is used. Raises PlannerError for a folder without results and for damaged
-    files.
+    `data` are files to look for test data in beside the path that a run names; only one with the
+    recorded SHA-256 is used. Raises PlannerError for a folder without results and damaged files.
     """
     groups: dict[tuple[str, str, int, str], list[_Run]] = {}
     for run in map(_load, _run_folders(folders)):
@@ -150,10 +147,8 @@ def _run_folders(folders: Sequence[Path]) -> list[Path]:
     for folder in folders:
         below = list(_below(folder, DEEPEST))
         if not below:
-            raise PlannerError(
-                f"{folder}: no {RESULTS} in it or below it; give the folder of a finished"
-                " `plannerft bench` or of `plannerft score --out`"
-            )
+            way = "give the folder of a finished `plannerft bench` or of `plannerft score --out`"
+            raise PlannerError(f"{folder}: no {RESULTS} in it or below it; {way}")
         found += below
     return list(dict.fromkeys(found))
 
@@ -172,9 +167,7 @@ def _below(folder: Path, depth: int) -> Iterator[Path]:
 
 
 def _parts(path: Path) -> list[str] | None:
-    """The data sets of a suite that a results.json sums up, none where there is no such file; None
-    for the results of a run.
-    """
+    """The data sets of a suite in its results.json, if any; None for the results of a run."""
     results = read_json(path) if path.is_file() else {"parts": []}
     if not isinstance(results, dict) or "rows" in results:
         return None
@@ -188,26 +181,21 @@ def _load(folder: Path) -> _Run:
     results = read_json(folder / RESULTS)
     fits = isinstance(results, dict) and isinstance(results.get("rows"), list)
     if not fits or not isinstance(results.get("data"), dict):
-        raise PlannerError(
-            f"{folder / RESULTS}: no results of a run (an object with level, data and rows is"
-            " expected)"
-        )
+        expected = "an object with level, data and rows is expected"
+        raise PlannerError(f"{folder / RESULTS}: no results of a run ({expected})")
     check_level(results.get("level", ""))
     run = _Run(folder, results, {}, {}, [])
     paths = [folder / name for name in (SCORES, BASELINES)]
     run.scores.update(_lines([path for path in paths if path.is_file()]))
     if not paths[0].is_file():
-        run.notes.append(
-            f"{paths[0]} is not there: failures, confusions and single samples cannot be shown."
-        )
+        what = "failures, confusions and single samples cannot be shown"
+        run.notes.append(f"{paths[0]} is not there: {what}.")
     run.answers.update(_lines(_answer_files(run)))
     return run
 
 
 def _answer_files(run: _Run) -> list[Path]:
-    """The predictions of a run: its own, those of a suite's candidates, or the file that `plannerft
-    score` read, if it is still the same.
-    """
+    """The predictions of a run, of a suite's candidates, or the scored file if it is unchanged."""
     own, named = run.folder / PREDICTIONS, run.predictions
     paths = [own] if own.is_file() else sorted(run.folder.glob(f"*/{PREDICTIONS}"))
     if not paths and named.get("path"):
@@ -232,12 +220,13 @@ def _lines(paths: Iterable[Path]) -> Lines:
     found: Lines = {}
     for path in paths:
         for line in _records(path):
-            of_system = found.setdefault(_key(line), {})
+            of_system = found.setdefault(key_of(line), {})
             of_system.setdefault(str(line.get("id")), []).append(line)
     return found
 
 
-def _key(line: Record) -> Key:
+def key_of(line: Record) -> Key:
+    """The system of a row, a score or an answer."""
     return str(line.get("candidate")), str(line.get("configuration"))
 
 
@@ -266,10 +255,8 @@ def _samples(paths: Sequence[Path], sha256: str, notes: list[str]) -> dict[str, 
         if path.is_file() and sha256_file(path) == sha256:
             return {str(line.get("id")): line for line in _records(path)}
     state = "has changed since the run" if paths[0].is_file() else "is not there"
-    notes.append(
-        f"{paths[0]} {state}: commands and expected plans are not shown (give the file with"
-        " --data)."
-    )
+    what = "commands and expected plans are not shown"
+    notes.append(f"{paths[0]} {state}: {what} (give the file with --data).")
     return {}
 
 
@@ -277,10 +264,8 @@ def _vocabulary(name: str, notes: list[str]) -> Vocabulary | None:
     try:
         return load_vocabulary(name)
     except PlannerError:
-        notes.append(
-            f"The vocabulary {name or '(not named)'} is not there: plans are compared without its"
-            " parameter types."
-        )
+        what = "plans are compared without its parameter types"
+        notes.append(f"The vocabulary {name or '(not named)'} is not there: {what}.")
         return None
 
 
@@ -289,31 +274,20 @@ def _systems(runs: list[_Run]) -> Iterator[System]:
     folders = [run.folder for run in runs]
     rows = [(run, row) for run in runs for row in run.results["rows"]]
     labels = [_label(row) for _run, row in rows]
-    baselines = {
-        _label(row): (run, row)
-        for run in reversed(runs)
-        for row in run.results.get("baselines", [])
-    }
+    beside = [(run, row) for run in reversed(runs) for row in run.results.get("baselines", [])]
+    baselines = {_label(row): (run, row) for run, row in beside}
     for run, row in [*rows, *reversed(baselines.values())]:
-        key, label = _key(row), _label(row)
+        key, label = key_of(row), _label(row)
         place = f" ({_tail(run.folder, folders)})" if labels.count(label) > 1 else ""
         answers = run.answers.get(key) or _nameless(run)
-        yield System(
-            f"{label}{place}",
-            run.folder,
-            row,
-            run.scores.get(key, {}),
-            {name: lines[0] for name, lines in answers.items()},
-            _jobs(run),
-            f"{key[0]}{place}",
-        )
+        first = {name: lines[0] for name, lines in answers.items()}
+        known = row, run.scores.get(key, {}), first, _jobs(run)
+        yield System(f"{label}{place}", *known, f"{key[0]}{place}")
 
 
 def _jobs(run: _Run) -> dict[str, Any]:
-    """The jobs of the manifest; for predictions that were scored again, those of the run that made
-    them.
-    """
-    found: dict[str, Any] = dict(run.manifest.get("jobs") or {})
+    """The jobs of the manifest, or of the run that made predictions which were scored again."""
+    found: dict[str, Any] = dict(within(run.results, "manifest", "jobs") or {})
     paths = [] if found else [run.folder / RUN]
     paths += sorted(run.folder.glob(f"*/{RUN}"))
     if run.predictions.get("path"):
@@ -326,15 +300,13 @@ def _jobs(run: _Run) -> dict[str, Any]:
 def _label(row: Record) -> str:
     from planner_ft.benchmark.results import heading
 
-    label, configuration = str(row.get("label") or row.get("candidate")), _key(row)[1]
+    label, configuration = str(row.get("label") or row.get("candidate")), key_of(row)[1]
     plain = row.get("is_baseline") or configuration == "submitted"
     return label if plain else f"{label}, {heading(configuration)}"
 
 
 def _nameless(run: _Run) -> dict[str, list[Record]]:
-    """Answers that name no candidate or configuration belong to the only row that can have made
-    them.
-    """
+    """Answers without candidate or configuration are those of a run's only row."""
     rest = [lines for key, lines in run.answers.items() if "None" in key]
     return rest[0] if len(run.results["rows"]) == len(rest) == 1 else {}
 

@@ -39,9 +39,8 @@ def write_report(
     check_out(out, overwrite)
     sets = load_test_sets(runs, data)
     sections = [section(tests) for tests in sets]
-    shown = title or "Benchmark report: " + ", ".join(
-        dict.fromkeys(run.resolve().name for run in runs)
-    )
+    names = dict.fromkeys(run.resolve().name for run in runs)
+    shown = title or f"Benchmark report: {', '.join(names)}"
     _remove_former(out)
     written = [*_tables(sections, out), *_figures(sections, out, pictures), out / PAGE]
     # Last: where the page is, all of the report is.
@@ -50,31 +49,22 @@ def write_report(
 
 
 def report_beside(folder: Path) -> str:
-    """Write the report of a run into its folder and say so in one line. Never raises: a run is not
-    lost because its report fails.
-    """
+    """Write the report of a run into its folder and say so in one line. Never raises."""
     try:
         write_report([folder], folder, overwrite=True, pictures="overall")
     except Exception as error:
-        return (
-            f"{folder / PAGE}: not written ({error or type(error).__name__}); the results are"
-            f" complete, try `plannerft report {folder}`"
-        )
-    return (
-        f"{folder / PAGE}: tables, figures and every sample; figures of each system: plannerft"
-        f" report {folder} --overwrite"
-    )
+        why = f"{folder / PAGE}: not written ({error or type(error).__name__})"
+        return f"{why}; the results are complete, try `plannerft report {folder}`"
+    more = f"figures of each system: plannerft report {folder} --overwrite"
+    return f"{folder / PAGE}: tables, figures and every sample; {more}"
 
 
 def check_pictures(name: str) -> Pictures:
     """`name` itself. Raises PlannerError when it is none of the choices."""
-    for known in get_args(Pictures):
-        if name == known:
-            return cast(Pictures, known)
-    raise PlannerError(
-        f"--pictures {name}: must be {', '.join(get_args(Pictures)[:-1])} or"
-        f" {get_args(Pictures)[-1]}"
-    )
+    if name not in get_args(Pictures):
+        *names, last = get_args(Pictures)
+        raise PlannerError(f"--pictures {name}: must be {', '.join(names)} or {last}")
+    return cast(Pictures, name)
 
 
 def check_out(out: Path, overwrite: bool) -> None:
@@ -82,15 +72,12 @@ def check_out(out: Path, overwrite: bool) -> None:
     if out.exists() and not out.is_dir():
         raise PlannerError(f"--out {out}: is a file; give a folder")
     if (out / PAGE).exists() and not overwrite:
-        raise PlannerError(
-            f"{out / PAGE}: a report is there already; give --overwrite or another --out"
-        )
+        way = "give --overwrite or another --out"
+        raise PlannerError(f"{out / PAGE}: a report is there already; {way}")
 
 
 def _remove_former(out: Path) -> None:
-    """Remove what an earlier report wrote, and nothing else: the folders may hold files of the
-    user's.
-    """
+    """Remove what an earlier report wrote: the folders may hold files of the user's."""
     for name in (FIGURES, TABLES):
         for path in (out / name).glob("*"):
             if WRITTEN.fullmatch(path.name):

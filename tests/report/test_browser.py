@@ -18,20 +18,27 @@ from tests.report.conftest import ANSWERS, HOSTILE, write_data, write_run
 pytestmark = pytest.mark.browser
 
 CONTRAST = """
-const luminance = ([r, g, b]) => [r, g, b].map((c) => (c /= 255) <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
+const linear = (c) => c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
+const luminance = ([r, g, b]) => [r, g, b].map((c) => linear(c / 255))
   .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
 const colour = (text) => text.match(/[\\d.]+/g).map(Number);
 const behind = (node) => {
-  for (; node; node = node.parentElement) { const c = colour(getComputedStyle(node).backgroundColor); if (c.length < 4 || c[3] > 0.99) return c; }
+  for (; node; node = node.parentElement) {
+    const c = colour(getComputedStyle(node).backgroundColor);
+    if (c.length < 4 || c[3] > 0.99) return c;
+  }
   return [255, 255, 255];
 };
 const found = [];
 for (const node of document.querySelectorAll('main *, header *')) {
-  if (!node.checkVisibility() || ![...node.childNodes].some((child) => child.nodeType === 3 && child.data.trim())) continue;
-  const style = getComputedStyle(node), fill = node instanceof SVGElement ? style.fill : style.color;
-  const [a, b] = [luminance(colour(fill)), luminance(behind(node instanceof SVGElement ? node.ownerSVGElement.parentElement : node))];
+  const isText = (child) => child.nodeType === 3 && child.data.trim();
+  if (!node.checkVisibility() || ![...node.childNodes].some(isText)) continue;
+  const style = getComputedStyle(node), drawn = node instanceof SVGElement;
+  const paper = behind(drawn ? node.ownerSVGElement.parentElement : node);
+  const a = luminance(colour(drawn ? style.fill : style.color)), b = luminance(paper);
   const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
-  if (ratio < 4.5) found.push([node.tagName, node.getAttribute('class'), node.textContent.slice(0, 40), ratio.toFixed(2)]);
+  const words = [node.tagName, node.getAttribute('class'), node.textContent.slice(0, 40)];
+  if (ratio < 4.5) found.push([...words, ratio.toFixed(2)]);
 }
 return found;
 """
