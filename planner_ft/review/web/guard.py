@@ -32,8 +32,12 @@ HEADERS = {
     "Cache-Control": "no-store",
 }
 """Headers of every answer."""
-ASK_THE_TERMINAL = "This page needs the address that the terminal shows, with its key: open it."
-OTHER_NAME = "This server does not answer under that name; open the address in the terminal."
+ASK_THE_TERMINAL = (
+    "This page needs the address that the terminal shows, with its key: open that one."
+)
+OTHER_NAME = (
+    "This server does not answer under that name; open the address that the terminal shows."
+)
 
 
 @dataclass
