@@ -25,6 +25,8 @@ RUN = (
 """Options that say what is run; a suite or gate file says it itself."""
 SERVER = ("endpoint", "model", "api_key_env", "concurrency", "timeout", "retries")
 OUTPUT = "give --overwrite or another --out"
+SHARED = "With --suite: processes that share each run, started by accelerate."
+PROCESSES = typer.Option(help=SHARED, min=1)
 
 
 @command
@@ -56,21 +58,11 @@ def bench(
     timeout: float | None = None,
     retries: int | None = None,
     suite: Path | None = None,
-    processes: Annotated[
-        int,
-        typer.Option(
-            help="With --suite: processes that share each run, started by accelerate.", min=1
-        ),
-    ] = 1,
+    processes: Annotated[int, PROCESSES] = 1,
     gate: Path | None = None,
     no_report: bool = False,
 ) -> None:
-    """Benchmark candidates: F1, hallucination, validity, latency and tokens with 95 % intervals,
-    beside the published figures.
-
-    Greedy decoding. --out holds predictions.jsonl (written as answers are made), results.json,
-    scores.jsonl, latency.jsonl and the table as Markdown, CSV and LaTeX.
-    """
+    """Benchmark candidates, or run a suite or gate file."""
     named, served = given(locals(), *RUN), given(locals(), *SERVER)
     generation = {"device": device, "batch_size": _batch_size(batch_size), "seed": seed}
     rerun = {"resume": resume, "overwrite": overwrite}
@@ -98,9 +90,7 @@ def score(
     seed: int = 0,
     overwrite: bool = False,
 ) -> None:
-    """Score any system's outputs, or a bench run again. No model is needed; a sample without a
-    prediction counts as an empty output.
-    """
+    """Score any system's outputs, or a bench run again."""
     from planner_ft.benchmark import folder
     from planner_ft.benchmark.samples import default_data, load_bench_data
     from planner_ft.benchmark.submission import score_predictions, score_run
@@ -116,17 +106,14 @@ def score(
         samples = load_bench_data(data or default_data(checked), checked, definition, limit)
         results = score_predictions(predictions, samples, definition, seed=seed, name=name)
     else:
-        raise PlannerError(
-            "score needs either --level and --predictions, or --run alone; try: plannerft score"
-            " --run eval/runs/mission"
-        )
+        needed = "either --level and --predictions, or --run alone"
+        raise PlannerError(f"score needs {needed}; try: plannerft score --run eval/runs/mission")
     if out is not None:
         folder.write_results(out, results)
     _show(results, out)
 
 
 def _batch_size(text: str) -> int | None:
-
     try:
         return None if text == "auto" else int(text)
     except ValueError:
@@ -140,10 +127,8 @@ def _settings(named: dict[str, Any], served: dict[str, Any], **common: Any) -> B
 
     values, server = _with_endpoint(named, served)
     if "level" not in values or "candidates" not in values:
-        raise PlannerError(
-            "bench needs --level and --candidates (or --gate FILE); try: plannerft bench --level"
-            " mission --candidates embedded"
-        )
+        example = "plannerft bench --level mission --candidates embedded"
+        raise PlannerError(f"bench needs --level and --candidates (or --gate FILE); try: {example}")
     level, adapters = check_level(values.pop("level")), tuple(values.pop("adapter", ()))
     for name in {"candidates", "configurations"} & set(values):
         values[name] = tuple(part.strip() for part in values[name].split(",") if part.strip())
@@ -161,10 +146,8 @@ def _with_endpoint(
     if "endpoint" not in served or "model" not in served:
         raise PlannerError(f"{typed(served)}: a server needs both --endpoint URL and --model NAME")
     if "candidates" in named:
-        raise PlannerError(
-            "--candidates are loaded here and --endpoint is asked over the network: give one of"
-            " them"
-        )
+        places = "--candidates are loaded here and --endpoint is asked over the network"
+        raise PlannerError(f"{places}: give one of them")
     # Only the user knows whether a server's model was fine-tuned, and so needs no vocabulary.
     model = {"candidates": served["model"].replace(",", " ")}
     url = served.pop("endpoint")
@@ -193,15 +176,11 @@ def _check_file_alone(
     from planner_ft.benchmark.ranks import started_with_others
 
     if started_with_others():
-        raise PlannerError(
-            f"--{kind} is started once, not by accelerate; a suite shares its runs itself with"
-            " --processes N"
-        )
-    extra = [name for name in named if name not in allowed]
-    if extra:
-        raise PlannerError(
-            f"--{kind} {path} says itself what is run; leave out {typed(extra)} or change the file"
-        )
+        way_out = "a suite shares its runs itself with --processes N"
+        raise PlannerError(f"--{kind} is started once, not by accelerate; {way_out}")
+    if extra := [name for name in named if name not in allowed]:
+        way_out = f"leave out {typed(extra)} or change the file"
+        raise PlannerError(f"--{kind} {path} says itself what is run; {way_out}")
 
 
 def _run_suite(
@@ -213,9 +192,8 @@ def _run_suite(
     from planner_ft.benchmark.suite.units import Flags
 
     if all(rerun.values()):
-        raise PlannerError(
-            "--resume keeps former results and --overwrite removes them: give one of them"
-        )
+        problem = "--resume keeps former results and --overwrite removes them"
+        raise PlannerError(f"{problem}: give one of them")
     suite = load_suite(path)
     folder = out or Path("eval/runs") / path.stem
     with status(lambda: f"go on with: {resume_command()}") as show:
@@ -226,21 +204,15 @@ def _run_suite(
         parts = run_suite(suite, folder, Flags(**flags), shown, **rerun)
     typer.echo((folder / "table.md").read_text(encoding="utf-8"))
     names = ", ".join(part.part.name for part in parts)
-    typer.echo(
-        f"{folder}/: table.md, table.csv, table.tex, results.json; a folder for each of {names}"
-    )
+    files = "table.md, table.csv, table.tex, results.json"
+    typer.echo(f"{folder}/: {files}; a folder for each of {names}")
     if report:
         _report(folder)
-    failed = [
-        f"{entry.candidate} {entry.configuration} ({part.part.name})"
-        for part in parts
-        for entry in part.failed
-    ]
+    failures = [(part.part.name, entry) for part in parts for entry in part.failed]
+    failed = [f"{row.candidate} {row.configuration} ({name})" for name, row in failures]
     if failed:
-        raise IncompleteError(
-            f"{len(failed)} of the suite could not be measured: {', '.join(failed)}; the reasons"
-            f" are in {folder / 'table.md'}"
-        )
+        problem = f"{len(failed)} of the suite could not be measured: {', '.join(failed)}"
+        raise IncompleteError(f"{problem}; the reasons are in {folder / 'table.md'}")
 
 
 def _state_line(state: State) -> str:

@@ -19,15 +19,16 @@ GATED = (
     " (gated ones: first accept the licence at https://huggingface.co/REPOSITORY and run `hf auth"
     " login`)"
 )
-OFFLINE = "Without a network, copy it to a sub-folder of its name in a folder that PLANNERFT_MODELS names."
+OFFLINE = (
+    "Without a network, copy it to a sub-folder of its name in a folder that PLANNERFT_MODELS"
+    " names."
+)
 SHORTENED = (" Community", " License", " (non-commercial)")
 
 
 @command
 def candidates(names: list[str] | None = None, json: bool = False) -> None:
-    """List the models that can be trained and benchmarked: size, licence, estimated memory, and
-    where they are or how to get them.
-    """
+    """List the models."""
     from planner_ft.candidates import all_candidates, resolve_candidate
     from planner_ft.candidates.diagnosis import describe
     from planner_ft.support.files import indented_json
@@ -56,11 +57,7 @@ def candidates(names: list[str] | None = None, json: bool = False) -> None:
 
 @command
 def doctor(json: bool = False) -> None:
-    """Check this installation: versions, devices, 4-bit support (tried, not assumed), disk, caches,
-    vocabulary, candidates.
-
-    The report is plain text to paste into an issue. It exits with 0; warnings stand at the end.
-    """
+    """Check this installation."""
     from planner_ft.candidates.diagnosis import diagnose
     from planner_ft.support.files import indented_json
 
@@ -79,10 +76,8 @@ def doctor(json: bool = False) -> None:
 
 def _text(value: Any) -> str:
     if isinstance(value, dict):
-        shown = {
-            name: item for name, item in value.items() if item is not None and item is not False
-        }
-        return ", ".join(f"{name} {_text(item)}" for name, item in shown.items())
+        shown = [item for item in value.items() if item[1] is not None and item[1] is not False]
+        return ", ".join(f"{name} {_text(item)}" for name, item in shown)
     return "not set" if value is None else "yes" if value is True else str(value)
 
 

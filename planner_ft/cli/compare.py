@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import typer
 
@@ -22,12 +23,7 @@ def compare(
     json: bool = False,
     seed: int = 0,
 ) -> None:
-    """Compare rows of finished runs, paired by sample: difference, 95 % interval, p adjusted after
-    Holm, and a verdict in words.
-
-    Without --against, every row is compared with the first row of the first run. No model is
-    needed.
-    """
+    """Compare rows of finished runs."""
     from rich.console import Console
 
     from planner_ft.benchmark.compare import (
@@ -41,10 +37,8 @@ def compare(
     from planner_ft.support.files import indented_json, write_json, write_text
 
     if same and against is not None:
-        raise PlannerError(
-            f"--same compares rows of the same name and --against {against} one row with all: give"
-            " one of them"
-        )
+        kinds = f"--same compares rows of the same name and --against {against} one row with all"
+        raise PlannerError(f"{kinds}: give one of them")
     if out is not None:
         former = () if overwrite else ("comparison.json",)
         check_folder(out, former, "give --overwrite or another --out")
@@ -70,10 +64,7 @@ def report(
     card: Path | None = None,
     overwrite: bool = False,
 ) -> None:
-    """Write report.html (one file, opens offline), the figures as PNG and SVG, and the tables as
-    Markdown, CSV and LaTeX.
-    """
-
+    """Write the report of runs."""
     if card is not None:
         from planner_ft.report.card import write_card
 
@@ -84,9 +75,8 @@ def report(
         raise PlannerError("--out is missing: with several runs, name a folder for the report")
     from planner_ft.report.write import check_pictures, write_report
 
-    target, shown = out or runs[0], check_pictures(pictures)
-    written = write_report(
-        runs, target, data=data or (), overwrite=overwrite, title=title, pictures=shown
-    )
+    target, shown, samples = out or runs[0], check_pictures(pictures), data or ()
+    how: dict[str, Any] = {"overwrite": overwrite, "title": title}
+    written = write_report(runs, target, data=samples, pictures=shown, **how)
     counts = [sum(path.parent.name == name for path in written) for name in ("figures", "tables")]
     typer.echo(f"{target}/: report.html, figures/ ({counts[0]} files), tables/ ({counts[1]} files)")

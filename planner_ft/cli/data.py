@@ -26,12 +26,7 @@ def gen_data(
     overwrite: bool = False,
     chat: bool = False,
 ) -> None:
-    """Make the training data: the curated mission set, checked and converted, and the sampled task
-    set.
-
-    Each level gets train, validation and test (task also test_unseen, whose phrasings occur nowhere
-    else) as JSONL, a dataset card (README.md), a leakage report (leakage.json) and a manifest.
-    """
+    """Make the training data."""
     from planner_ft.data.generate import GenerationSettings, generate
     from planner_ft.prompts.text import chat_messages
 
@@ -58,11 +53,7 @@ def _stage(stage: str, seconds: float, count: int) -> str:
 def validate(
     files: list[Path], vocabulary: str = "usv", level: str | None = None, complete: bool = False
 ) -> None:
-    """Check files against form, vocabulary and the labelling rules that a program can check.
-
-    Every problem is printed as FILE:LINE: what is wrong. Exits with 0 when there is none, 1 when
-    there are some, 2 when a file cannot be read.
-    """
+    """Check files of samples."""
     from planner_ft.data.validation import validate_file
     from planner_ft.vocabulary import load_vocabulary
     from planner_ft.vocabulary.plans import check_level
@@ -78,9 +69,8 @@ def validate(
             continue
         for problem in report.problems:
             typer.echo(str(problem))
-        held = [
-            f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in report.counts.items()
-        ]
+        counts = report.counts.items()
+        held = [f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in counts]
         found = f"{len(report.problems) or 'no'} problems"
         typer.echo(f"{path}: {', '.join(held) or 'nothing'}: {found}", err=True)
         status = max(status, 1 if report.problems else 0)

@@ -34,14 +34,7 @@ def export(
     checks: int = 8,
     check_data: Path | None = None,
 ) -> None:
-    """Hand an approved plan over in a format that vehicles read, or write a candidate as a model
-    that other servers load.
-
-    A plan: a report beside each file says what the format cannot hold. A model: a float32 folder
-    with the adapter merged, and a GGUF file; answers are compared before and after, and when one
-    differs, nothing is written.
-    """
-
+    """Hand a plan over, or write a candidate as a model for other servers."""
     given = {name for name in (*PLAN_FLAGS, *MODEL_FLAGS, "vocabulary") if _is_given(context, name)}
     _check_kind(plan, given)
     if plan is not None:
@@ -56,9 +49,8 @@ def export(
     matrices: Any = outtype  # checked by the settings
     answers = (matrices, checks, check_data, vocabulary, overwrite)
     assert candidate is not None
-    _export_model(
-        ExportSettings(candidate, out, check_level(level), merge, adapter, gguf, *answers)
-    )
+    model = (candidate, out, check_level(level), merge, adapter, gguf)
+    _export_model(ExportSettings(*model, *answers))
 
 
 def _is_given(context: typer.Context, name: str) -> bool:
@@ -68,22 +60,17 @@ def _is_given(context: typer.Context, name: str) -> bool:
 
 def _check_kind(plan: Path | None, given: set[str]) -> None:
     """Raise PlannerError for flags of a model beside a plan, and the reverse, and for neither."""
-
     wrong = [name for name in (PLAN_FLAGS if plan is None else MODEL_FLAGS) if name in given][:1]
+    flag = typed(wrong)
     if wrong and plan is not None:
-        raise PlannerError(
-            f"{typed(wrong)}: exports a model, and {plan} is a plan; leave one of the two out"
-        )
+        problem = f"exports a model, and {plan} is a plan"
+        raise PlannerError(f"{flag}: {problem}; leave one of the two out")
     if wrong:
-        raise PlannerError(
-            f"{typed(wrong)}: hands a plan over; name the plan's file, as in `plannerft export"
-            f" plan.json {typed(wrong)} ...`"
-        )
+        way_out = f"name the plan's file, as in `plannerft export plan.json {flag} ...`"
+        raise PlannerError(f"{flag}: hands a plan over; {way_out}")
     if plan is None and "candidate" not in given:
-        raise PlannerError(
-            "nothing to export: name a plan's file with --format, or a model with --candidate and"
-            " --out"
-        )
+        ways = "name a plan's file with --format, or a model with --candidate and --out"
+        raise PlannerError(f"nothing to export: {ways}")
 
 
 def _export_plan(plan: Path, formats: tuple[str, ...], origin: str | None, *settings: Any) -> None:
@@ -102,13 +89,10 @@ def _export_model(settings: Any) -> None:
 
     done = run_export(settings, lambda line: typer.echo(line, err=True))
     check = done.check
-    typer.echo(
-        f"{done.folder}: {check.same} of {check.count} answers as before, logits differ by at most"
-        f" {check.largest_logit_difference:.2g}"
-    )
+    same = f"{check.same} of {check.count} answers as before"
+    most = f"logits differ by at most {check.largest_logit_difference:.2g}"
+    typer.echo(f"{done.folder}: {same}, {most}")
     if done.gguf is not None:
         typer.echo(f"{done.gguf}: {done.gguf.stat().st_size / 1e6:.1f} MB")
-    typer.echo(
-        f"next: plannerft bench --level {settings.named_adapter[0]} --candidates {done.folder}"
-        " --configurations base --quantization none"
-    )
+    model = f"--level {settings.named_adapter[0]} --candidates {done.folder}"
+    typer.echo(f"next: plannerft bench {model} --configurations base --quantization none")

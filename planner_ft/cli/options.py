@@ -12,7 +12,7 @@ from typing import Annotated, Any, NamedTuple, TypeVar
 import typer
 
 Command = TypeVar("Command", bound=Callable[..., None])
-ARGUMENTS = "arguments"
+ABOUT, ARGUMENTS = "about", "arguments"
 
 
 class Help(NamedTuple):
@@ -24,30 +24,21 @@ class Help(NamedTuple):
 
 
 def command(function: Command) -> Command:
-    """Give parameters of a command their help from help.toml, and join lines of paragraphs."""
+    """Give a command and its parameters their help from help.toml."""
     parameters = list(inspect.signature(function, eval_str=True).parameters.values())
     help_of = helps(function.__name__)
-    set_parameters(
-        function,
-        [
-            item.replace(annotation=_described(item, help_of[item.name]))
-            if item.name in help_of and not hasattr(item.annotation, "__metadata__")
-            else item
-            for item in parameters
-        ],
-    )
-    paragraphs = (inspect.getdoc(function) or "").split("\n\n")
-    function.__doc__ = "\n\n".join(" ".join(text.split()) for text in paragraphs)
+    for index, item in enumerate(parameters):
+        if item.name in help_of and not hasattr(item.annotation, "__metadata__"):
+            parameters[index] = item.replace(annotation=_described(item, help_of[item.name]))
+    set_parameters(function, parameters)
+    function.__doc__ = _texts()[ABOUT].get(function.__name__, function.__doc__)
     return function
 
 
 def set_parameters(function: Callable[..., None], parameters: list[inspect.Parameter]) -> None:
     """Have typer see these parameters, all given by name."""
-    named = [
-        item.replace(kind=inspect.Parameter.KEYWORD_ONLY)
-        for item in parameters
-        if item.kind is not item.VAR_KEYWORD
-    ]
+    known = [item for item in parameters if item.kind is not item.VAR_KEYWORD]
+    named = [item.replace(kind=inspect.Parameter.KEYWORD_ONLY) for item in known]
     function.__signature__ = inspect.Signature(named)  # type: ignore[attr-defined]
     function.__annotations__ = {item.name: item.annotation for item in named}
 

@@ -46,20 +46,17 @@ def plan(
     mission_configuration: str | None = None,
     task_configuration: str | None = None,
 ) -> None:
-    """Plan a command with both agents: tasks, the skills of each, what is taken for granted and
-    what it cost.
-
-    Places that the command gives no coordinates for stay open and are named; --locate fills them
-    in. Exits with 1 when an answer is not valid: it is shown with what is wrong. A person approves
-    a plan before anything moves.
-    """
+    """Plan a command with both agents."""
     options = locals()
     from planner_ft.document import write_document
     from planner_ft.document.tree import plan_tree
+    from planner_ft.planning.planner import new_file
     from planner_ft.support.files import indented_json
 
+    if out is not None:
+        new_file(out, overwrite=overwrite)
     named = {name: options[name] for name in PLANNING}
-    document = _plan(command, locate or [], out, overwrite, vehicle, named)
+    document = _plan(command, locate or [], vehicle, named)
     typer.echo(indented_json(document) if json else plan_tree(document), nl=not json)
     if out is not None:
         write_document(out, document)
@@ -69,23 +66,16 @@ def plan(
 
 
 def _plan(
-    command: str,
-    locate: list[str],
-    out: Path | None,
-    overwrite: bool,
-    vehicle: Path | None,
-    named: dict[str, Any],
+    command: str, locate: list[str], vehicle: Path | None, named: dict[str, Any]
 ) -> PlanDocument:
     """Check the options, then plan."""
     from planner_ft.document import build
     from planner_ft.document.ontology import check
     from planner_ft.document.vehicle import load_vehicle
     from planner_ft.planning.locations import parse_locations
-    from planner_ft.planning.planner import Planner, check_command, new_file, read_command
+    from planner_ft.planning.planner import Planner, check_command, read_command
     from planner_ft.planning.settings import PlanSettings
 
-    if out is not None:
-        new_file(out, overwrite=overwrite)
     locations = parse_locations(locate)
     text = check_command(read_command(sys.stdin.buffer) if command == "-" else command)
     with (

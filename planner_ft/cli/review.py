@@ -38,11 +38,7 @@ def review(
     candidate: str | None = None,
     device: str = "auto",
 ) -> None:
-    """Read a plan, edit it, approve or reject it. A decision is kept in the approval log, with the
-    plan.
-
-    In a terminal it asks; with --edit, --approve or --reject, or without a terminal, it does not.
-    """
+    """Read, edit, approve or reject a plan."""
     options = locals()
     if harvest:
         _refuse("--harvest", options, "web", *DECISIONS, *SERVING)
@@ -57,7 +53,6 @@ def review(
 
 def _refuse(mode: str, options: dict[str, Any], *names: str) -> None:
     """Raise PlannerError for options that this kind of review has no use for."""
-
     for name in names:
         if options[name] not in (None, False, []):
             raise PlannerError(f"{typed([name])} does not go with {mode}; leave one of them out")
@@ -69,10 +64,8 @@ def _review(options: dict[str, Any]) -> None:
 
     plans = options["plans"] or []
     if len(plans) != 1:
-        raise PlannerError(
-            f"{len(plans)} plans are given; one is reviewed at a time, such as plannerft review"
-            " plan.json"
-        )
+        way_out = "one is reviewed at a time, such as plannerft review plan.json"
+        raise PlannerError(f"{len(plans)} plans are given; {way_out}")
     named = [options[key] for key in ("log", "vocabulary", "name", "candidate", "device")]
     adopt, approve, reason = options["adopt"], options["approve"], options["reject"]
     edits, acknowledged = options["edit"] or [], options["acknowledge"] or []
@@ -80,9 +73,7 @@ def _review(options: dict[str, Any]) -> None:
     if approve and reason is not None:
         raise PlannerError("--approve and --reject exclude each other; leave one of them out")
     if adopt or edits or approve or reason is not None:
-        reviewer.decide(
-            adopt=adopt, edits=edits, approve=approve, acknowledged=acknowledged, reason=reason
-        )
+        reviewer.decide(adopt, edits, approve, acknowledged, reason)
     elif acknowledged:
         raise PlannerError("--acknowledge goes with --approve; give both")
     elif options["show"] or not (sys.stdin.isatty() and sys.stdout.isatty()):
@@ -101,10 +92,8 @@ def _serve(options: dict[str, Any]) -> None:
 
     plans = options["plans"] or []
     if len(plans) > 1:
-        raise PlannerError(
-            f"{len(plans)} plans are given; one is opened, and the page offers the others of its"
-            " folder"
-        )
+        way_out = "one is opened, and the page offers the others of its folder"
+        raise PlannerError(f"{len(plans)} plans are given; {way_out}")
     plan = plans[0] if plans else None
     planning = planning_of(plan, *(options[key] for key in ("vocabulary", "candidate", "device")))
     given = {key: options[key] for key in ("host", "port", "log") if options[key] is not None}
@@ -127,22 +116,14 @@ def verify(
     json: bool = False,
     vocabulary: str | None = None,
 ) -> None:
-    """Check that a plan is exactly what a person approved, and that nothing was removed from the
-    log or changed in it.
-
-    Exits with 0 for a plan that is approved and unchanged, with 1 otherwise (what was altered is
-    named), with 2 for a file that cannot be read or a log that is broken.
-    """
-
+    """Check that a plan is exactly what a person approved."""
     if plan is not None:
         _verify_plan(plan, log, json, vocabulary)
     elif log is not None:
         _verify_log(log, json)
     else:
-        raise PlannerError(
-            "nothing to verify: give a plan, such as plannerft verify plan.json, or a log with"
-            " --log"
-        )
+        ways = "give a plan, such as plannerft verify plan.json, or a log with --log"
+        raise PlannerError(f"nothing to verify: {ways}")
 
 
 def _verify_plan(plan: Path, log: Path | None, json: bool, vocabulary: str | None) -> None:
@@ -177,9 +158,8 @@ def _verify_log(log: Path, json: bool) -> None:
             typer.echo(f"{log}:{problem.line}: {problem.text}")
         broken = f"broken; {way_out(log)}"
         state = broken if chain.problems else "nothing removed, changed or reordered"
-        unfinished = (
-            f"; the last line was never finished ({torn} bytes), and the next decision moves it"
-            " aside"
-        )
-        typer.echo(f"{log}: {chain.lines} records: {state}{unfinished if torn else ''}")
+        if torn:
+            state += f"; the last line was never finished ({torn} bytes)"
+            state += ", and the next decision moves it aside"
+        typer.echo(f"{log}: {chain.lines} records: {state}")
     raise typer.Exit(2 if chain.problems else 0)

@@ -67,9 +67,7 @@ def train(
     preview_id: str | None = None,
     **settings: Any,
 ) -> None:
-    """Fine-tune a LoRA adapter on a 4-bit base. Only level and candidate are needed: the published
-    settings are the defaults.
-    """
+    """Fine-tune a LoRA adapter on a 4-bit base."""
     from rich.console import Console
 
     from planner_ft.training.request import build_request
@@ -103,11 +101,9 @@ def _result(request: Any, result: dict[str, Any]) -> list[str]:
     from planner_ft.support.resources import clock, memory_size
 
     loss, tokens, seconds = result["validation_loss"], result["tokens"], result["seconds"]
-    best = (
-        f", best validation loss {loss:.4f} after epoch {result['best_epoch']:g}"
-        if loss is not None
-        else ""
-    )
+    best = ""
+    if loss is not None:
+        best = f", best validation loss {loss:.4f} after epoch {result['best_epoch']:g}"
     return [
         f"{result['steps']} steps, {tokens:,} tokens in {clock(seconds)}"
         f" ({result['tokens_per_s']:.0f} tokens/s), peak memory"

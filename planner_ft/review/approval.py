@@ -10,6 +10,7 @@ from planner_ft.document import PlanDocument, altered, differences, document_dig
 from planner_ft.review.log import Appended, append
 from planner_ft.support.errors import PlannerError
 
+Warnings = list[dict[str, str]]
 LONGEST_NAME, LONGEST_REASON = 200, 2000
 """Characters."""
 ALL = "all"
@@ -35,15 +36,11 @@ def approve(
     """Record an approval of the plan and its warnings (ids, or "all"). Raises PlannerError."""
     _check_texts(reviewer, reason)
     if altered(document):
-        raise PlannerError(
-            "the plan was altered by hand since it was written, so it cannot be approved; look at"
-            " it and take the changes over with --adopt"
-        )
+        problem = "the plan was altered by hand since it was written, so it cannot be approved"
+        raise PlannerError(f"{problem}; look at it and take the changes over with --adopt")
     if not document["valid"]:
-        raise PlannerError(
-            "an answer in the plan is not valid, so it cannot be approved; edit the plan, or plan"
-            " the command again"
-        )
+        problem = "an answer in the plan is not valid, so it cannot be approved"
+        raise PlannerError(f"{problem}; edit the plan, or plan the command again")
     _check_acknowledged(document, acknowledged)
     warnings = [{"id": warning["id"], "text": warning["text"]} for warning in document["warnings"]]
     return append(log, _decision("approved", document, reviewer, reason, warnings))
@@ -58,11 +55,7 @@ def reject(document: PlanDocument, log: Path, reviewer: str, reason: str) -> App
 
 
 def _decision(
-    event: str,
-    document: PlanDocument,
-    reviewer: str,
-    reason: str,
-    acknowledged: list[dict[str, str]],
+    event: str, document: PlanDocument, reviewer: str, reason: str, acknowledged: Warnings
 ) -> dict[str, Any]:
     digest = document_digest(document)
     agents = document.get("manifest", {}).get("agents", {})
@@ -87,33 +80,25 @@ def _check_texts(reviewer: str, reason: str) -> None:
     if not reviewer.strip():
         raise PlannerError("a decision needs the name of who takes it; give --name NAME")
     if not reviewer.isprintable() or len(reviewer) > LONGEST_NAME:
-        raise PlannerError(
-            f"--name {reviewer[:LONGEST_NAME]!r}: must be at most {LONGEST_NAME} printable"
-            " characters"
-        )
+        limit = f"must be at most {LONGEST_NAME} printable characters"
+        raise PlannerError(f"--name {reviewer[:LONGEST_NAME]!r}: {limit}")
     try:
         reason.encode()
     except UnicodeEncodeError:
         raise PlannerError("the reason is not UTF-8 text; write it anew") from None
     if len(reason) > LONGEST_REASON:
-        raise PlannerError(
-            f"the reason has {len(reason)} characters; at most {LONGEST_REASON} are recorded, so"
-            " shorten it"
-        )
+        limit = f"at most {LONGEST_REASON} are recorded, so shorten it"
+        raise PlannerError(f"the reason has {len(reason)} characters; {limit}")
 
 
 def _check_acknowledged(document: PlanDocument, acknowledged: Collection[str]) -> None:
     ids = [warning["id"] for warning in document["warnings"]]
     unknown = [name for name in acknowledged if name not in (*ids, ALL)]
     if unknown:
-        raise PlannerError(
-            f"--acknowledge {unknown[0]}: the plan has no such warning; it has"
-            f" {', '.join(ids) or 'none'}"
-        )
+        problem = f"the plan has no such warning; it has {', '.join(ids) or 'none'}"
+        raise PlannerError(f"--acknowledge {unknown[0]}: {problem}")
     missing = tuple(name for name in ids if name not in acknowledged and ALL not in acknowledged)
     if missing:
-        raise UnacknowledgedError(
-            f"{len(missing)} of {len(ids)} warnings are not acknowledged: {', '.join(missing)};"
-            " read them, then give --acknowledge ID (or all)",
-            missing,
-        )
+        problem = f"{len(missing)} of {len(ids)} warnings are not acknowledged"
+        way_out = f"{', '.join(missing)}; read them, then give --acknowledge ID (or all)"
+        raise UnacknowledgedError(f"{problem}: {way_out}", missing)

@@ -73,17 +73,14 @@ def _read_line(line: bytes) -> Record | str:
         return "is no UTF-8 text"
     if problem is not None:
         return f"is {problem}"
-    if (
-        not isinstance(value, dict)
-        or not isinstance(value.get("hash"), str)
-        or type(value.get("sequence")) is not int
-    ):
+    made = value if isinstance(value, dict) else {}
+    if not isinstance(made.get("hash"), str) or type(made.get("sequence")) is not int:
         return "is no record"
     # The line is canonical: without the member's bytes it is the canonical form without it.
-    content = line.replace(f'"hash":"{value["hash"]}",'.encode(), b"", 1)
-    if hashlib.sha256(content).hexdigest() != value["hash"]:
-        return f"(record {value['sequence']}) is not what was recorded: its hash does not fit"
-    return value
+    content = line.replace(f'"hash":"{made["hash"]}",'.encode(), b"", 1)
+    if hashlib.sha256(content).hexdigest() != made["hash"]:
+        return f"(record {made['sequence']}) is not what was recorded: its hash does not fit"
+    return made
 
 
 def _line_problems(found: list[Record | str]) -> Iterator[Problem]:
@@ -101,11 +98,9 @@ def _line_problems(found: list[Record | str]) -> Iterator[Problem]:
             if item["sequence"] != expected:
                 yield Problem(number, _misplaced(number, item["sequence"], expected, places))
             elif item.get("previous") != before["hash"]:
-                yield Problem(
-                    number,
-                    f"line {number} (record {item['sequence']}) was recorded after another line"
-                    f" than line {number - 1}; line {number - 1} was replaced",
-                )
+                here, last = f"line {number} (record {item['sequence']})", f"line {number - 1}"
+                text = f"{here} was recorded after another line than {last}; {last} was replaced"
+                yield Problem(number, text)
         before = item
 
 
@@ -128,23 +123,17 @@ def _head_problems(records: tuple[Record, ...], head: Head | None) -> Iterator[P
     if head is None:
         # One record without a head: its writer was killed before it could write the head.
         if count > 1:
-            yield Problem(
-                0, "the head file is missing, so that lines removed at the end would not be seen"
-            )
-    elif head.sequence > count:
-        cut = f"{_records(count + 1, head.sequence)} known to the head file"
-        yield Problem(
-            count + 1, f"line {count + 1} is missing: {cut}; lines were removed at the end"
-        )
-    elif head.sequence < count - 1:
-        yield Problem(
-            0,
-            f"the head file ends at record {head.sequence}, the log at record {count}; the head"
-            " file was replaced by an older one, or lines were added",
-        )
-    elif head.hash != (records[head.sequence - 1]["hash"] if head.sequence else START.hash):
-        yield Problem(
-            head.sequence,
-            f"line {head.sequence} (record {head.sequence}) is not the record that the head file"
-            " knows; it was replaced",
-        )
+            text = "the head file is missing, so that lines removed at the end would not be seen"
+            yield Problem(0, text)
+        return
+    last = head.sequence
+    if last > count:
+        cut = f"line {count + 1} is missing: {_records(count + 1, last)} known to the head file"
+        yield Problem(count + 1, f"{cut}; lines were removed at the end")
+    elif last < count - 1:
+        ends = f"the head file ends at record {last}, the log at record {count}"
+        how = "the head file was replaced by an older one, or lines were added"
+        yield Problem(0, f"{ends}; {how}")
+    elif head.hash != (records[last - 1]["hash"] if last else START.hash):
+        text = f"line {last} (record {last}) is not the record that the head file knows"
+        yield Problem(last, f"{text}; it was replaced")

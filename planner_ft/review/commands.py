@@ -4,36 +4,21 @@ from __future__ import annotations
 
 import json
 import re
+import tomllib
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from planner_ft.document import PlanDocument
 from planner_ft.planning.locations import parse_location
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import read_text
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
 Edit = dict[str, Any]
 
-HELP = (
-    ("2.radius=15", "set a parameter of task 2; nothing after = takes it out"),
-    ("2.1.x=30", "set a parameter of the skill that moves the vehicle in step 1 of task 2"),
-    (
-        "2.1.LogLidarSlice.scan_angle=30",
-        "... or of a skill by its name (LogLidarSlice#2: the second of that name)",
-    ),
-    ("prompt 2 = TEXT", "say anew what the Task Agent is to do"),
-    ("locate green buoy=120,-35", "say where a place is (metres east, north)"),
-    ("remove 3", "take task 3 out"),
-    ("move 3 1", "move task 3 to place 1"),
-    ("insert 2 Transit target_position=[0,0] prompt=TEXT", "put a new task at place 2"),
-    (
-        "skills 2",
-        "ask the Task Agent again; without a number for every task whose skills are missing or"
-        " were planned before an edit",
-    ),
-    ("undo", "take the last edit back"),
-)
+HELP: dict[str, str] = tomllib.loads(read_text(Path(__file__).with_name("commands.toml")))
 """Examples of edits, with their effect."""
 VALUE = re.compile(r"(\d+(?:\.[\w#]+)+)\s*=\s*(.*)", re.DOTALL)
 
@@ -65,8 +50,7 @@ def parse_edit(text: str, document: PlanDocument, vocabulary: Vocabulary) -> Edi
             return {"kind": "undo"}
         case "undo":
             raise PlannerError(f"{text}: takes the last edit back and needs nothing after it")
-    examples = ", ".join(example for example, _effect in HELP)
-    raise PlannerError(f"{text!r}: is no edit; there is {examples}")
+    raise PlannerError(f"{text!r}: is no edit; there is {', '.join(HELP)}")
 
 
 # ---------------------------------------------------------------- NUMBER.NAME=VALUE
@@ -83,10 +67,8 @@ def _assignment(
     else:
         step = _number(path[1])
         if step is None or len(path) > 4:
-            raise PlannerError(
-                f"{'.'.join(path)}: expected TASK.PARAMETER, TASK.STEP.PARAMETER or"
-                " TASK.STEP.SKILL.PARAMETER, such as 2.1.GoToXY.x"
-            )
+            forms = "TASK.PARAMETER, TASK.STEP.PARAMETER or TASK.STEP.SKILL.PARAMETER"
+            raise PlannerError(f"{'.'.join(path)}: expected {forms}, such as 2.1.GoToXY.x")
         role, index, skill = _skill(task, step, path[2] if len(path) == 4 else None)
         parameter = _parameter(name, skill, vocabulary.skill[skill].by_name)
         edit = {"kind": "skill", "task": task["id"], "step": step - 1, "role": role, "index": index}
@@ -105,16 +87,14 @@ def _skill(task: dict[str, Any], step: int, name: str | None) -> tuple[str, int,
         if name is None or name in (f"{skill['name']}#{number}", skill["name"]):
             return role, index, skill["name"]
         counts[role], named[skill["name"]] = index + 1, number
-    raise PlannerError(
-        f"{task['title']}: step {step} has no skill {name}; it has {', '.join(named)}"
-    )
+    problem = f"step {step} has no skill {name}; it has {', '.join(named)}"
+    raise PlannerError(f"{task['title']}: {problem}")
 
 
 def _parameter(name: str, owner: str, known: Mapping[str, Parameter]) -> Parameter:
     if name not in known:
-        raise PlannerError(
-            f"{name}: is no parameter of {owner}; there is {', '.join(known) or 'none'}"
-        )
+        there = ", ".join(known) or "none"
+        raise PlannerError(f"{name}: is no parameter of {owner}; there is {there}")
     return known[name]
 
 
@@ -140,10 +120,8 @@ def _move(rest: str, document: PlanDocument) -> Edit:
     number, _blank, place = rest.partition(" ")
     to = _number(place.strip())
     if to is None:
-        raise PlannerError(
-            f"move {rest}: expected the number of a task and the place that it is to have, such as"
-            " move 3 1"
-        )
+        expected = "expected the number of a task and the place that it is to have"
+        raise PlannerError(f"move {rest}: {expected}, such as move 3 1")
     return {"kind": "move", "task": _task(number, document)["id"], "to": to - 1}
 
 
@@ -157,10 +135,9 @@ def _locate(rest: str, document: PlanDocument) -> Edit:
 def _prompt(rest: str, document: PlanDocument) -> Edit:
     number, equals, text = rest.partition("=")
     if not equals:
-        raise PlannerError(
-            f"prompt {rest}: expected the number of a task and its new prompt, such as prompt 2 ="
-            " Circle the buoy at 12 m."
-        )
+        expected = "expected the number of a task and its new prompt"
+        example = "prompt 2 = Circle the buoy at 12 m."
+        raise PlannerError(f"prompt {rest}: {expected}, such as {example}")
     return {"kind": "prompt", "task": _task(number.strip(), document)["id"], "text": text.strip()}
 
 
@@ -168,22 +145,18 @@ def _insert(rest: str, vocabulary: Vocabulary) -> Edit:
     place, title, given = [*rest.split(maxsplit=2), "", "", ""][:3]
     at = _number(place)
     if at is None or not title:
-        raise PlannerError(
-            f"insert {rest}: expected a place, a task and its parameters, such as insert 2 Transit"
-            " target_position=[0,0]"
-        )
+        example = "insert 2 Transit target_position=[0,0]"
+        expected = "expected a place, a task and its parameters"
+        raise PlannerError(f"insert {rest}: {expected}, such as {example}")
     if title not in vocabulary.task:
-        raise PlannerError(
-            f"{title}: is no task of this vehicle; there is {', '.join(vocabulary.task)}"
-        )
+        there = ", ".join(vocabulary.task)
+        raise PlannerError(f"{title}: is no task of this vehicle; there is {there}")
     known = vocabulary.task[title].by_name
     names = (*known, "prompt")
     before, *found = re.split(rf"(?:^|\s)({'|'.join(map(re.escape, names))})\s*=", given)
-    if before.strip():
-        raise PlannerError(
-            f"insert {rest}: {before.strip()!r} is no parameter of {title}; there is"
-            f" {', '.join(names)}"
-        )
+    if unknown := before.strip():
+        problem = f"{unknown!r} is no parameter of {title}; there is {', '.join(names)}"
+        raise PlannerError(f"insert {rest}: {problem}")
     values = dict(zip(found[::2], map(str.strip, found[1::2]), strict=True))
     prompt = values.pop("prompt", "")
     parameters = {name: _value(value, known[name]) for name, value in values.items()}

@@ -6,16 +6,8 @@ from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import Any
 
-from planner_ft.document import (
-    PlanDocument,
-    adopt,
-    altered,
-    apply,
-    document_digest,
-    read_document,
-    revise,
-    undo,
-)
+from planner_ft import document as plans
+from planner_ft.document import PlanDocument, altered, document_digest, read_document
 from planner_ft.document.differences import Difference, compare
 from planner_ft.document.files import vocabulary_of
 from planner_ft.planning.planner import Planner
@@ -68,28 +60,26 @@ class Desk:
 
     def apply(self, edit: dict[str, Any]) -> None:
         """Make an edit of planner_ft.document and save it. Raises PlannerError."""
-        self._save(apply(self.document, edit, self.vocabulary, self.by))
+        self._save(plans.apply(self.document, edit, self.vocabulary, self.by))
 
     def undo(self) -> None:
         """Take the last edit back and save. Raises PlannerError."""
-        self._save(undo(self.document, self.vocabulary))
+        self._save(plans.undo(self.document, self.vocabulary))
 
     def adopt(self) -> None:
         """Take over what was changed by hand, as an edit. Raises PlannerError."""
         if not altered(self.document):
             raise PlannerError(f"{self.path}: was not altered by hand; leave --adopt out")
-        self._save(adopt(self.document, self.vocabulary, self.by))
+        self._save(plans.adopt(self.document, self.vocabulary, self.by))
 
     def approve(self, name: str, acknowledged: Collection[str]) -> Appended:
         """Approve the plan in the file. Raises PlannerError, also for new warnings."""
         is_altered = altered(self.document)
-        fresh = self.document if is_altered else revise(self.document, self.vocabulary)
+        fresh = self.document if is_altered else plans.revise(self.document, self.vocabulary)
         if document_digest(fresh) != self.revision:
             self._save(fresh)
-            raise PlannerError(
-                f"{self.path}: warnings and estimates were worked out anew and are others than in"
-                " the file; look at them, then approve"
-            )
+            problem = "warnings and estimates were worked out anew and are others than in the file"
+            raise PlannerError(f"{self.path}: {problem}; look at them, then approve")
         with unchanged(self.path, self.revision):
             return approve(self.document, self.log, name, acknowledged)
 
@@ -100,18 +90,15 @@ class Desk:
 
     def _ask_again(self, tasks: list[str]) -> None:
         if not tasks:
-            raise PlannerError(
-                "skills: every task whose place is known has skills that fit it; give the number of"
-                " a task to ask for it anyway"
-            )
+            problem = "every task whose place is known has skills that fit it"
+            raise PlannerError(f"skills: {problem}; give the number of a task to ask for it anyway")
         for name in tasks:
             task = next(task for task in self.document["tasks"] if task["id"] == name)
             answer = self._ask(task)
             if answer.plan is None:
-                raise PlannerError(
-                    f"skills of {task['title']}: the Task Agent's answer is not valid"
-                    f" ({'; '.join(answer.problems[:2])}); edit the task and ask again"
-                )
+                what, why = f"skills of {task['title']}", "; ".join(answer.problems[:2])
+                problem = f"the Task Agent's answer is not valid ({why})"
+                raise PlannerError(f"{what}: {problem}; edit the task and ask again")
             self.apply(skills_edit(name, answer.plan, answer))
 
     def _save(self, document: PlanDocument) -> None:
@@ -121,13 +108,8 @@ class Desk:
 
 def skills_edit(task: str, plan: Mapping[str, Any], answer: Answer) -> dict[str, Any]:
     """The edit that gives a task (by id) the skills of a valid answer."""
-    skills = plan["skill_sequence"]
-    return {
-        "kind": "skills",
-        "task": task,
-        "skill_sequence": skills,
-        "assumptions": list(answer.notes),
-    }
+    given = {"skill_sequence": plan["skill_sequence"], "assumptions": list(answer.notes)}
+    return {"kind": "skills", "task": task, **given}
 
 
 def open_desk(

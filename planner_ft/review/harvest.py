@@ -54,11 +54,9 @@ class Harvest:
         for path, sample in self.samples.items():
             yield f"{path}: {sample['id']}: {'; '.join(sample['provenance']['corrected'])}"
         yield from (f"{path}: left out: {reason}" for path, reason in self.left_out.items())
-        count = len(self.samples)
-        yield (
-            f"{self.out}: {count} sample{'s' if count > 1 else ''}; train with plannerft train"
-            f" --level mission --corrections {self.out}"
-        )
+        count = f"{len(self.samples)} sample{'s' if len(self.samples) > 1 else ''}"
+        train = f"plannerft train --level mission --corrections {self.out}"
+        yield f"{self.out}: {count}; train with {train}"
 
 
 def harvest_files(
@@ -74,10 +72,8 @@ def harvest_files(
     Raises PlannerError without plans or `out`, for an existing file, a broken log, and no sample.
     """
     if not plans or out is None:
-        raise PlannerError(
-            "--harvest needs plans and --out, such as plannerft review --harvest plan.json --out"
-            " corrections.jsonl"
-        )
+        example = "plannerft review --harvest plan.json --out corrections.jsonl"
+        raise PlannerError(f"--harvest needs plans and --out, such as {example}")
     new_file(out, overwrite=overwrite)
     held_out, left_out = held_out_records(), dict[Path, str]()
     samples, lines = dict[Path, dict[str, Any]](), dict[Path, str]()
@@ -119,9 +115,8 @@ def sample(
     found = compare({"tasks": proposed, "located": {}}, {"tasks": reviewed, "located": {}})
     corrected = [difference.text for difference in found if difference.kind != "skills"]
     if not corrected:
-        raise LeftOutError(
-            "the tasks are as the model proposed them, so there is nothing to learn from"
-        )
+        problem = "the tasks are as the model proposed them"
+        raise LeftOutError(f"{problem}, so there is nothing to learn from")
     provenance = {key: getattr(approval, key) for key in PROVENANCE}
     record = {
         "id": f"harvest-{approval.digest[:16]}",
@@ -140,10 +135,8 @@ def sample(
         raise LeftOutError(f"it breaks a labelling rule: {problems[0]}{more}")
     for name, records in held_out.items():
         if (near := near_duplicate(command, records)) is not None:
-            raise LeftOutError(
-                f"the command is a near duplicate of {near} in the {name} set, which nothing is"
-                " trained on"
-            )
+            problem = f"the command is a near duplicate of {near} in the {name} set"
+            raise LeftOutError(f"{problem}, which nothing is trained on")
     return record
 
 
@@ -156,37 +149,27 @@ def text_problems(record: dict[str, Any], proposed: Sequence[str]) -> Iterator[s
     values = sorted(_texts_of(expected["tasks"]), key=len, reverse=True)
     known = " ".join([prompt, *values])
     # The command's own names may be spoken of, unless one is a part of another name.
-    gone = [
-        name
-        for name in dict.fromkeys(proposed)
-        if name not in values and (name not in prompt or any(name in value for value in values))
-    ]
+    removed = [name for name in dict.fromkeys(proposed) if name not in values]
+    gone = [name for name in removed if name not in prompt or any(name in one for one in values)]
     prompts = [task["task_prompt"] for task in expected["tasks"]]
     for text in [*prompts, *expected["assumptions"], *expected["constraints"]]:
-        unknown = [
-            word
-            for word in missing_words(known, text, misspelt=False)
-            if len(word) > 1 and not all(map(is_known, re.findall(r"[^\W\d_]+", word)))
-        ]
-        if unknown:
-            yield f"{text!r} has a word that neither the command nor the lexicon has: {unknown[0]}"
+        words = [word for word in missing_words(known, text, misspelt=False) if len(word) > 1]
+        for word in words:
+            if not all(map(is_known, re.findall(r"[^\W\d_]+", word))):
+                yield f"{text!r} has a word that neither the command nor the lexicon has: {word}"
+                break
         rest = text
         for value in values:  # a value that stays may have the other one's words in it
             rest = rest.replace(value, "")
-        yield from (
-            f"{text!r} speaks of {name!r}, which was taken out" for name in gone if name in rest
-        )
+        found = [name for name in gone if name in rest]
+        yield from (f"{text!r} speaks of {name!r}, which was taken out" for name in found)
 
 
 def _texts_of(tasks: Sequence[dict[str, Any]]) -> list[str]:
     """The text values of tasks."""
     values = [value for task in tasks for value in task["parameters"].values()]
-    return [
-        text
-        for value in values
-        for text in (value if isinstance(value, list) else [value])
-        if isinstance(text, str)
-    ]
+    lists = [value if isinstance(value, list) else [value] for value in values]
+    return [text for items in lists for text in items if isinstance(text, str)]
 
 
 def _as_commanded(task: dict[str, Any], command: str, vocabulary: Vocabulary) -> dict[str, Any]:

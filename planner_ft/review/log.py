@@ -41,9 +41,8 @@ def head_file(log: Path) -> Path:
 def existing_log(log: Path) -> Path:
     """The log itself. Raises PlannerError where there is none."""
     if not log.exists() and not head_file(log).exists():
-        raise PlannerError(
-            f"--log {log}: no such file; plannerft review writes approvals.jsonl beside the plan"
-        )
+        way_out = "plannerft review writes approvals.jsonl beside the plan"
+        raise PlannerError(f"--log {log}: no such file; {way_out}")
     return log
 
 
@@ -81,10 +80,8 @@ def check_log(log: Path) -> Chain:
 
 def way_out(log: Path) -> str:
     """How to go on with a broken log."""
-    return (
-        f"put the log and {head_file(log).name} back from a copy, or move both aside to begin a new"
-        " log, in which plans are approved anew"
-    )
+    copied = f"put the log and {head_file(log).name} back from a copy"
+    return f"{copied}, or move both aside to begin a new log, in which plans are approved anew"
 
 
 def _sound(log: Path) -> Chain:
@@ -102,9 +99,8 @@ def _read_bytes(log: Path) -> bytes:
     except FileNotFoundError:
         return b""
     except OSError as error:
-        raise PlannerError(
-            f"{log}: cannot be read ({error.strerror}); give another --log"
-        ) from None
+        problem = f"{log}: cannot be read ({error.strerror})"
+        raise PlannerError(f"{problem}; give another --log") from None
 
 
 def _read_head(log: Path) -> Head | None:
@@ -122,10 +118,8 @@ def _write_head(log: Path, head: Head) -> None:
         with atomic_writer(head_file(log)) as stream:
             stream.write(compact_json(head._asdict()) + "\n")
     except PlannerError as error:
-        raise PlannerError(
-            f"record {head.sequence} stands in {log}, but its head file does not know it yet:"
-            f" {error}"
-        ) from None
+        problem = f"record {head.sequence} stands in {log}, but its head file does not know it yet"
+        raise PlannerError(f"{problem}: {error}") from None
     _sync_folder(log)
 
 
@@ -136,9 +130,8 @@ def _write_line(log: Path, line: bytes) -> None:
                 line = line[stream.write(line) :]
             os.fsync(stream.fileno())
     except OSError as error:
-        raise PlannerError(
-            f"{log}: nothing was recorded ({error.strerror}); free some space or give another --log"
-        ) from None
+        problem = f"{log}: nothing was recorded ({error.strerror})"
+        raise PlannerError(f"{problem}; free some space or give another --log") from None
     _sync_folder(log)
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator
+from datetime import UTC, datetime
+from itertools import count
 from pathlib import Path
 
 from filelock import FileLock
@@ -11,6 +13,10 @@ from filelock import FileLock
 from planner_ft.document import PlanDocument, document_digest, write_document
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
+from planner_ft.vocabulary.document_schema import FORMAT
+
+MOST_PLANS = 200
+"""Plans of the folder that are offered, newest first."""
 
 
 class ChangedError(PlannerError):
@@ -18,10 +24,8 @@ class ChangedError(PlannerError):
 
     @classmethod
     def of(cls, path: Path) -> ChangedError:
-        return cls(
-            f"{path}: was changed by somebody else since it was read, so nothing was done; read it"
-            " again"
-        )
+        problem = "was changed by somebody else since it was read, so nothing was done"
+        return cls(f"{path}: {problem}; read it again")
 
 
 @contextlib.contextmanager
@@ -32,10 +36,8 @@ def exclusive(path: Path) -> Iterator[None]:
         path.parent.mkdir(parents=True, exist_ok=True)
         lock.acquire(poll_interval=0.01)
     except OSError as error:
-        raise PlannerError(
-            f"{lock.lock_file}: cannot be made ({error.strerror}), so nothing is written to"
-            f" {path.name}; make the folder writable"
-        ) from None
+        problem = f"cannot be made ({error.strerror}), so nothing is written to {path.name}"
+        raise PlannerError(f"{lock.lock_file}: {problem}; make the folder writable") from None
     try:
         yield
     finally:
@@ -56,3 +58,46 @@ def save(path: Path, document: PlanDocument, digest: str) -> PlanDocument:
     """Write `document` over a plan whose content had `digest`. Raises ChangedError."""
     with unchanged(path, digest):
         return write_document(path, document)
+
+
+# ---------------------------------------------------------------- the plans of a folder
+
+
+def plan_names(folder: Path) -> list[str]:
+    """The names of the plans in the folder, newest first."""
+    found = [
+        (file.stat().st_mtime, file.name)
+        for file in folder.glob("*.json")
+        if file.is_file() and _looks_like_a_plan(file)
+    ]
+    return [name for _time, name in sorted(found, reverse=True)[:MOST_PLANS]]
+
+
+def add_plan(folder: Path, document: PlanDocument) -> Path:
+    """Write a new plan into a file named by the time (UTC). Raises PlannerError."""
+    stem = f"plan-{datetime.now(UTC):%Y%m%d-%H%M%S}"
+    for number in count(1):
+        path = folder / f"{stem}{f'-{number}' if number > 1 else ''}.json"
+        with exclusive(path):
+            if not path.exists():
+                write_document(path, document)
+                return path
+    raise AssertionError
+
+
+def signature(path: Path | None) -> tuple[int, int, int] | None:
+    """A value that changes when a file is written anew; None where there is no file."""
+    try:
+        stat = path.stat() if path else None
+    except OSError:
+        return None
+    return (stat.st_mtime_ns, stat.st_size, stat.st_ino) if stat else None
+
+
+def _looks_like_a_plan(path: Path) -> bool:
+    """Whether a file begins as plans do: the folder may hold any other JSON."""
+    try:
+        with open(path, "rb") as stream:
+            return f'"{FORMAT}"'.encode() in stream.read(200)
+    except OSError:
+        return False

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
 from rich.console import Console
@@ -30,6 +30,7 @@ SHOWN_CHANGES = 40
 STYLES = {"approved": "bold green", "unknown": ""}
 
 Read = Callable[[str], str]
+Texts = Sequence[str]
 Line = tuple[str, str]
 """A text, and its style for rich."""
 
@@ -43,23 +44,15 @@ def terminal() -> Console:
 
 
 def review_lines(
-    document: PlanDocument,
-    approval: Approval,
-    vocabulary: Vocabulary,
-    *,
-    columns: int = 78,
-    braille: bool = True,
+    document: PlanDocument, approval: Approval, vocabulary: Vocabulary, **drawing: Any
 ) -> Iterator[Line]:
-    """Everything about a plan, in the order in which a reviewer needs it."""
+    """Everything about a plan, in the order of a review; `drawing` are keywords of `chart`."""
     status, *changed = approval_text(approval)
     yield status, STYLES.get(approval.status, "bold red")
     yield from ((text, "") for text in changed)
     if altered(document):
-        yield (
-            "the file was altered by hand: its content is not what its digest says; --adopt takes"
-            " the changes over as an edit",
-            "bold red",
-        )
+        text = "the file was altered by hand: its content is not what its digest says"
+        yield f"{text}; --adopt takes the changes over as an edit", "bold red"
     yield from _warnings(document)
     tasks = [task["id"] for task in document["tasks"]]
     course = track(document, vocabulary)
@@ -69,7 +62,7 @@ def review_lines(
         "Where values come from": _sources(document),
         "Assumptions": (f" - {text}" for text in document["assumptions"]),
         "Constraints": (f" - {text}" for text in document["constraints"]),
-        "Track": chart(course, tasks, vocabulary.home, columns=columns, braille=braille),
+        "Track": chart(course, tasks, vocabulary.home, **drawing),
         "Estimate": [_estimate(document)],
         "Changed since the model proposed it": _items(differences(document)),
     }
@@ -105,17 +98,14 @@ def _counted(document: PlanDocument, none: str) -> str:
 
 
 def _sources(document: PlanDocument) -> Iterator[str]:
+    command = document["command"]
     for number, task in enumerate(document["tasks"], start=1):
-        for name, source in task["sources"].items():
-            if name in task["parameters"]:
-                value = compact_json(task["parameters"][name])
-                yield f"{number:2d} {name} = {value}: {_source(source, document['command'])}"
-
-
-def _source(source: dict[str, Any], command: str) -> str:
-    words = ", ".join(f'"{command[start:end]}"' for start, end in source.get("spans", ()))
-    parts = [part for part in (words, source.get("note", "")) if part]
-    return f"{source['kind']} ({'; '.join(parts)})" if parts else str(source["kind"])
+        given, known = task["parameters"], task["sources"]
+        for name, source in ((name, known[name]) for name in known if name in given):
+            words = ", ".join(f'"{command[start:end]}"' for start, end in source.get("spans", ()))
+            why = "; ".join(filter(None, (words, source.get("note"))))
+            origin = f"{source['kind']} ({why})" if why else source["kind"]
+            yield f"{number:2d} {name} = {compact_json(given[name])}: {origin}"
 
 
 def _estimate(document: PlanDocument) -> str:
@@ -141,19 +131,12 @@ class Conversation:
         """The whole plan."""
         desk, width = self.desk, min(self.console.width, WIDEST)
         braille = (self.console.encoding or "").lower().startswith("utf")
-        for text, style in review_lines(
-            desk.document, desk.approval(), desk.vocabulary, columns=width, braille=braille
-        ):
+        plan = desk.document, desk.approval(), desk.vocabulary
+        for text, style in review_lines(*plan, columns=width, braille=braille):
             self.say(text, style)
 
     def decide(
-        self,
-        *,
-        adopt: bool,
-        edits: Sequence[str],
-        approve: bool,
-        acknowledged: Collection[str],
-        reason: str | None,
+        self, adopt: bool, edits: Texts, approve: bool, acknowledged: Texts, reason: str | None
     ) -> None:
         """The actions of a command line, in this order: adopt, edits, approval or rejection."""
         if adopt:
@@ -175,19 +158,19 @@ class Conversation:
     def edit(self, text: str) -> None:
         """One edit, and the differences that it made."""
         changed = self.desk.edit(text)
-        for line in _items(changed):
-            self.say(line, "cyan")
-        if not changed:
-            self.say("nothing is different")
-        self.say(f"saved; {_counted(self.desk.document, 'no')}")
+        self._saved(changed, "" if changed else "nothing is different\n")
 
     def adopt(self) -> None:
         """Changes by hand become an edit."""
         self.desk.adopt()
-        for line in _items(differences(self.desk.document)):
+        what = "what was changed by hand is an edit of the plan now; "
+        self._saved(differences(self.desk.document), what)
+
+    def _saved(self, changed: Iterable[Difference], what: str) -> None:
+        for line in _items(changed):
             self.say(line, "cyan")
-        count = _counted(self.desk.document, "no")
-        self.say(f"what was changed by hand is an edit of the plan now; saved; {count}")
+        for line in f"{what}saved; {_counted(self.desk.document, 'no')}".splitlines():
+            self.say(line)
 
     def say(self, text: str, style: str = "") -> None:
         """Print one line with its control characters spelt out."""
@@ -243,16 +226,12 @@ class Conversation:
         """The record, and its place."""
         record, log = done.record, self.desk.log
         if done.set_aside is not None:
-            self.say(
-                f"{log}: its last line was never finished and so never confirmed; it was moved to"
-                f" {done.set_aside}",
-                "yellow",
-            )
+            text = f"{log}: its last line was never finished and so never confirmed"
+            self.say(f"{text}; it was moved to {done.set_aside}", "yellow")
         style = "bold green" if record["event"] == "approved" else "bold red"
         number = record["sequence"]
         self.say(f"{record['event']} by {record['reviewer']}: record {number} of {log}", style)
 
     def _help(self) -> None:
-        width = max(len(example) for example, _effect in HELP)
-        for example, effect in (*HELP, ("adopt", "take over what was changed in the file by hand")):
-            self.say(f"  {example:{width}}  {effect}")
+        for example, effect in (HELP | {"adopt": "take over what was changed by hand"}).items():
+            self.say(f"  {example:{max(map(len, HELP))}}  {effect}")

@@ -48,11 +48,8 @@ def approval_of(document: PlanDocument, log: Path) -> Approval:
         return _altered(document, digest, other)
     if intact:
         return Approval("unknown", f"not approved: {log} holds no decision about this plan", digest)
-    return Approval(
-        "altered",
-        f"altered by hand: the plan is not what its digest says, and {log} holds no approval of it",
-        digest,
-    )
+    text = "altered by hand: the plan is not what its digest says"
+    return Approval("altered", f"{text}, and {log} holds no approval of it", digest)
 
 
 def _decided(record: Record, digest: str) -> Approval:
@@ -64,10 +61,9 @@ def _decided(record: Record, digest: str) -> Approval:
 
 def _altered(document: PlanDocument, digest: str, other: Record) -> Approval:
     found = tuple(changes(other["plan"], document))
-    text = (
-        f"altered since {other['reviewer']} approved it at {other['time']} (record"
-        f" {other['sequence']}): {len(found)} change{'s' if len(found) != 1 else ''}"
-    )
+    count = f"{len(found)} change{'s' if len(found) != 1 else ''}"
+    decision = f"{other['reviewer']} approved it at {other['time']} (record {other['sequence']})"
+    text = f"altered since {decision}: {count}"
     return Approval("altered", text, digest, **_decision(other), changes=found)
 
 

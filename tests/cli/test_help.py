@@ -42,4 +42,5 @@ def test_every_help_text_belongs_to_an_option() -> None:
         keys = [key for key, value in texts.items() if not isinstance(value, dict)]
         keys += [key for value in texts.values() if isinstance(value, dict) for key in value]
         assert set(keys) <= set(given), name
-    assert set(TEXTS) <= {"shared", *options()}
+    assert set(TEXTS["about"]) <= set(options())
+    assert set(TEXTS) <= {"about", "shared", *options()}

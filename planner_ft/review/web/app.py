@@ -9,18 +9,12 @@ from collections.abc import AsyncIterator, Callable
 from pathlib import Path
 from typing import Any
 
+from starlette import responses
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect, Request
-from starlette.responses import (
-    FileResponse,
-    JSONResponse,
-    PlainTextResponse,
-    RedirectResponse,
-    Response,
-    StreamingResponse,
-)
+from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 from starlette.types import ASGIApp, ExceptionHandler
 
@@ -33,13 +27,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, decode_json
 
 PAGE = Path(__file__).parent / "page"
-TYPES = {
-    ".js": "text/javascript",
-    ".css": "text/css",
-    ".svg": "image/svg+xml",
-    ".png": "image/png",
-    ".txt": "text/plain",
-}
+TYPES = {".js": "text/javascript", ".css": "text/css", ".txt": "text/plain"}
 """Files of the page that are served, by their suffix."""
 LOOK_EVERY = 1.0
 """Seconds between looks at the disk for changes by others."""
@@ -66,12 +54,8 @@ def web_app(session: Session, door: Door) -> ASGIApp:
             session.planning.stop()
             session.events.close()
 
-    handlers: dict[Any, ExceptionHandler] = {
-        HTTPException: _http_problem,
-        PlannerError: _problem,
-        ClientDisconnect: _gone,
-        Exception: _bug,
-    }
+    handlers: dict[Any, ExceptionHandler] = {HTTPException: _http_problem, PlannerError: _problem}
+    handlers |= {ClientDisconnect: _gone, Exception: _bug}
     routes = [*_page_routes(door), *_api_routes(session)]
     app = Starlette(routes=routes, exception_handlers=handlers, lifespan=running)
     # Outside of everything, so that also internal errors are answered with its headers.
@@ -87,12 +71,12 @@ async def _look(session: Session) -> None:
 def _page_routes(door: Door) -> list[Route]:
     async def index(request: Request) -> Response:
         if door.keys.opens(request.query_params.get("token", "")):
-            answer = RedirectResponse("/", 303)
+            answer = responses.RedirectResponse("/", 303)
             key = door.keys.session
             answer.set_cookie(door.cookie, key, httponly=True, samesite="strict", path="/")
             return answer
         if not door.admits(request):
-            return PlainTextResponse(ASK_THE_TERMINAL + "\n", 403)
+            return responses.PlainTextResponse(ASK_THE_TERMINAL + "\n", 403)
         return FileResponse(PAGE / "index.html", media_type="text/html")
 
     return [Route("/", index), Route("/static/{name:path}", _static)]
@@ -115,7 +99,8 @@ def _api_routes(session: Session) -> list[Route]:
         return Json(await run_in_threadpool(session.state))
 
     async def events(_request: Request) -> Response:
-        return StreamingResponse(session.events.listen(), media_type="text/event-stream")
+        news = session.events.listen()
+        return responses.StreamingResponse(news, media_type="text/event-stream")
 
     def change(method: Callable[..., Any], *keys: str) -> Route:
         """POST to a method of the session: 200 with the new state, 202 while agents work."""

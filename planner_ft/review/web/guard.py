@@ -35,6 +35,9 @@ HEADERS = {
 ASK_THE_TERMINAL = (
     "This page needs the address that the terminal shows, with its key: open that one."
 )
+OTHER_NAME = (
+    "This server does not answer under that name; open the address that the terminal shows."
+)
 
 
 @dataclass
@@ -134,10 +137,7 @@ def refusal(request: Request, door: Door) -> tuple[int, str] | None:
         return 405, f"{request.method} is not used here; only GET and POST are."
     hosts = headers.getlist("host")
     if len(hosts) != 1 or not door.knows(hosts[0]):
-        return (
-            403,
-            "This server does not answer under that name; open the address that the terminal shows.",
-        )
+        return 403, OTHER_NAME
     # A person may follow a link from anywhere to the page itself, not to the interface.
     site = headers.get("sec-fetch-site", "same-origin")
     if _is_api(request) and site != "same-origin" and (is_change or site != "none"):

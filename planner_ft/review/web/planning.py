@@ -79,10 +79,8 @@ class Planning:
             if self.why is not None:
                 raise PlannerError(self.why)
             if self.busy is not None:
-                label = self.busy["label"]
-                raise BusyError(
-                    f"the agents are at work already ({label}); wait until they are done"
-                )
+                work_now = f"the agents are at work already ({self.busy['label']})"
+                raise BusyError(f"{work_now}; wait until they are done")
             self.busy = {"done": 0, "total": 0, **busy}
         self.events.tell("progress", self.busy)
         self._work.put(work)

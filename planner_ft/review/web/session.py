@@ -17,12 +17,12 @@ from planner_ft.planning.result import Answer
 from planner_ft.planning.settings import PlanSettings
 from planner_ft.review.desk import Desk, skills_edit
 from planner_ft.review.log import log_beside
-from planner_ft.review.store import ChangedError
+from planner_ft.review.store import ChangedError, add_plan, plan_names, signature
 from planner_ft.review.web.events import Events
 from planner_ft.review.web.planning import Planning
-from planner_ft.review.web.plans import add_plan, plan_names, signature
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import task_entry
 
 if TYPE_CHECKING:
     from planner_ft.planning.planner import Planner
@@ -33,7 +33,8 @@ LONGEST_COMMAND = 20_000
 """Characters."""
 EDITS = ("locate", "parameter", "prompt", "remove", "move", "insert", "skill")
 """The kinds of edits that a page makes: not those that record an agent's answer or an adoption."""
-NO_PLAN = ("document", "path", "revision", "track")
+PLAN = ("document", "path", "revision", "track")
+"""Keys of the state that are None without a plan."""
 State = dict[str, Any]
 
 
@@ -51,9 +52,8 @@ class WebSettings:
     def __post_init__(self) -> None:
         """Raise PlannerError for a port that does not exist."""
         if not 0 <= self.port <= LAST_PORT:
-            raise PlannerError(
-                f"--port {self.port}: must lie between 0 (any free port) and {LAST_PORT}"
-            )
+            limits = f"must lie between 0 (any free port) and {LAST_PORT}"
+            raise PlannerError(f"--port {self.port}: {limits}")
 
     @property
     def is_loopback(self) -> bool:
@@ -115,10 +115,8 @@ class Session:
     def edit(self, revision: str, edit: dict[str, Any]) -> State:
         """Make one edit."""
         if edit.get("kind") not in EDITS:
-            raise PlannerError(
-                f"edit {str(edit.get('kind'))[:40]!r}: is none that a page makes; there is"
-                f" {', '.join(EDITS)}"
-            )
+            problem = f"is none that a page makes; there is {', '.join(EDITS)}"
+            raise PlannerError(f"edit {str(edit.get('kind'))[:40]!r}: {problem}")
         self._editable(revision).apply(edit)
         return self._changed()
 
@@ -148,10 +146,8 @@ class Session:
     def plan(self, command: str, locations: Mapping[str, Position]) -> None:
         """Have a command planned into a file of its own, shown when done. Raises BusyError."""
         if len(command) > LONGEST_COMMAND:
-            raise PlannerError(
-                f"the command has {len(command)} characters, and at most {LONGEST_COMMAND} are"
-                " planned; shorten it"
-            )
+            limit = f"at most {LONGEST_COMMAND} are planned; shorten it"
+            raise PlannerError(f"the command has {len(command)} characters, and {limit}")
         check_command(command)
         places = {name: (x, y) for name, (x, y) in locations.items()}
 
@@ -172,10 +168,8 @@ class Session:
         def work(planner: Planner) -> None:
             answer = planner.skills(asked)
             if answer.plan is None:
-                raise PlannerError(
-                    f"task {task}: the Task Agent's answer is not valid ({answer.problems[0]}); the"
-                    " task keeps the skills that it has"
-                )
+                problem = f"the Task Agent's answer is not valid ({answer.problems[0]})"
+                raise PlannerError(f"task {task}: {problem}; the task keeps the skills that it has")
             self._take_skills(desk.path, asked, skills_edit(task, answer.plan, answer))
 
         self.planning.ask({"what": "skills", "label": f"skills of task {task}"}, work)
@@ -195,45 +189,32 @@ class Session:
         desk = self._desk(revision)
         if altered(desk.document):
             name = desk.path.name
-            raise PlannerError(
-                f"{name} was changed by hand; take the changes over with `plannerft review {name}"
-                " --adopt` before you edit it"
-            )
+            way_out = f"take the changes over with `plannerft review {name} --adopt`"
+            raise PlannerError(f"{name} was changed by hand; {way_out} before you edit it")
         return desk
 
     def _take_skills(self, path: Path, asked: dict[str, Any], edit: dict[str, Any]) -> None:
         """Put a task's skills into the plan, which may have been edited meanwhile."""
-        desk = self._desk()
+        desk, name = self._desk(), asked["id"]
         if desk.path != path:
-            raise PlannerError(
-                f"task {asked['id']}: another plan is shown since its skills were asked for; open"
-                f" {path.name} and ask again"
-            )
-        task = _task(desk.document, asked["id"])
-        if any(task[key] != asked[key] for key in ("title", "parameters", "task_prompt")):
-            raise PlannerError(
-                f"task {asked['id']} was edited while its skills were planned; ask again"
-            )
+            problem = "another plan is shown since its skills were asked for"
+            raise PlannerError(f"task {name}: {problem}; open {path.name} and ask again")
+        if task_entry(_task(desk.document, name)) != task_entry(asked):
+            raise PlannerError(f"task {name} was edited while its skills were planned; ask again")
         desk.apply(edit)
 
     def _watch(self, event: TasksKnown | SkillsKnown) -> None:
         """Show a plan to the pages while it comes into being."""
         self.planning.go_on()
         if isinstance(event, SkillsKnown):
-            skills = event.answer.plan["skill_sequence"] if event.answer.plan is not None else None
+            skills = event.answer.plan and event.answer.plan["skill_sequence"]
             self.events.tell("skills", {"task": f"t{event.number}", "skill_sequence": skills})
             return
-        tasks = [
-            {
-                "id": f"t{number}",
-                "title": task.title,
-                "parameters": task.parameters,
-                "task_prompt": task.task_prompt,
-                "skill_sequence": None,
-                **({"waits_for": task.waits_for} if task.waits_for else {}),
-            }
-            for number, task in enumerate(event.tasks, start=1)
-        ]
+        tasks = []
+        for number, task in enumerate(event.tasks, start=1):
+            waits = {"waits_for": task.waits_for} if task.waits_for else {}
+            own = {"id": f"t{number}", "skill_sequence": None, **waits}
+            tasks.append(task_entry(vars(task)) | own)
         self.events.tell("tasks", {"tasks": tasks})
 
     def _changed(self) -> State:
@@ -246,21 +227,19 @@ class Session:
     def _plan_state(self) -> State:
         if self.path is None:
             approval = _undecided("there is no plan yet")
-            return {**dict.fromkeys(NO_PLAN), "differences": [], "approval": approval}
+            return {**dict.fromkeys(PLAN), "differences": [], "approval": approval}
         desk = self._desk()
+        document = desk.document
         try:
             approval = desk.approval().as_json()
         except PlannerError as error:
             # A log that is broken keeps nobody from looking at the plan.
             approval = _undecided(str(error))
-        return {
-            "document": desk.document,
-            "path": desk.path.name,
-            "revision": desk.revision,
-            "differences": [difference.as_json() for difference in differences(desk.document)],
-            "track": track(desk.document, self.vocabulary).as_json(),
-            "approval": approval,
-        }
+        course = track(document, self.vocabulary).as_json()
+        values = (document, desk.path.name, desk.revision, course)
+        changed = [difference.as_json() for difference in differences(document)]
+        shown = dict(zip(PLAN, values, strict=True))
+        return {**shown, "differences": changed, "approval": approval}
 
 
 def vocabulary_json(vocabulary: Vocabulary) -> dict[str, Any]:
@@ -270,16 +249,11 @@ def vocabulary_json(vocabulary: Vocabulary) -> dict[str, Any]:
         parameters = [asdict(parameter) for parameter in entry.parameters]
         return {**{key: getattr(entry, key) for key in keys}, "parameters": parameters}
 
-    return {
-        "name": vocabulary.name,
-        "home": list(vocabulary.home),
-        "unresolved": list(vocabulary.unresolved),
-        "tasks": [described(task, "title", "category", "description") for task in vocabulary.tasks],
-        "skills": {
-            skill.name: described(skill, "category", "role", "description")
-            for skill in vocabulary.skills
-        },
-    }
+    places = {"home": list(vocabulary.home), "unresolved": list(vocabulary.unresolved)}
+    tasks = [described(task, "title", "category", "description") for task in vocabulary.tasks]
+    keys, skills = ("category", "role", "description"), vocabulary.skills
+    by_name = {skill.name: described(skill, *keys) for skill in skills}
+    return {"name": vocabulary.name, **places, "tasks": tasks, "skills": by_name}
 
 
 def _undecided(text: str) -> dict[str, Any]:
@@ -291,8 +265,7 @@ def _no_agent(_task: Mapping[str, Any]) -> Answer:
 
 
 def _task(document: PlanDocument, ident: str) -> dict[str, Any]:
-    for task in document["tasks"]:
-        if task["id"] == ident:
-            found: dict[str, Any] = task
-            return found
-    raise PlannerError(f"task {ident}: is not in the plan any more")
+    tasks: dict[str, dict[str, Any]] = {task["id"]: task for task in document["tasks"]}
+    if ident not in tasks:
+        raise PlannerError(f"task {ident}: is not in the plan any more")
+    return tasks[ident]
