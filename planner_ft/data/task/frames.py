@@ -196,9 +196,7 @@ class Scopes:
 
 
 def opened(text: str, c: Context) -> str:
-    """The prompt with a full stop, now and then with polite or official words before it, or with the task's own
-    opener.
-    """
+    """The prompt with a full stop, now and then with polite words or the task's opener before it."""
     command = text.partition(" ")[0] in c.book.verbs
     text = text if text[-1] in ".!?" else f"{text}."
     if c.book.unseen or not command or c.rng.random() < 0.85:
@@ -208,9 +206,7 @@ def opened(text: str, c: Context) -> str:
 
 
 def with_aside(text: str, skills: set[str], c: Context) -> str:
-    """The prompt, now and then with words that change nothing: background, a reason, what
-    is not wanted.
-    """
+    """The prompt, now and then with words that change nothing: background, a reason, a refusal."""
     book, rng, known, roll = c.book, c.rng, c.book.sentences, c.rng.random()
     if roll < 0.03 and "background" in known:
         remark = book.say(pick(known["background"], rng), rng)
