@@ -196,10 +196,9 @@ class Scopes:
 
 
 def opened(text: str, c: Context) -> str:
-    """The prompt, now and then with polite or official words before it, or with the task's own
-    opener.
-    """
+    """The prompt with a full stop, now and then with polite words or the task's opener before it."""
     command = text.partition(" ")[0] in c.book.verbs
+    text = text if text[-1] in ".!?" else f"{text}."
     if c.book.unseen or not command or c.rng.random() < 0.85:
         return text
     own = c.entry.openers if c.rng.random() < 0.7 else []
@@ -207,9 +206,7 @@ def opened(text: str, c: Context) -> str:
 
 
 def with_aside(text: str, skills: set[str], c: Context) -> str:
-    """The finished prompt, now and then with words that change nothing: background, a reason, what
-    is not wanted.
-    """
+    """The prompt, now and then with words that change nothing: background, a reason, a refusal."""
     book, rng, known, roll = c.book, c.rng, c.book.sentences, c.rng.random()
     if roll < 0.03 and "background" in known:
         remark = book.say(pick(known["background"], rng), rng)
@@ -224,9 +221,11 @@ def with_aside(text: str, skills: set[str], c: Context) -> str:
             phrase = pick(phrases, rng)
             return pick((f"{text} {phrase}.", f"{text[:-1]}, {phrase}."), rng)
     elif roll < 0.14 and "negation" in known:
-        names = [name for name in c.task.skills.get("perception", ()) if name not in skills]
-        if names:
-            bare = book.skills[pick(names, rng)].fitting(frozenset())
-            refusal = pick(bare, rng).render(c.slots(), rng)
+        idle = [name for name in c.task.skills.get("perception", ()) if name not in skills]
+        entries = [book.skills[name] for name in idle]
+        bare = [entry.fitting(frozenset()) for entry in entries]
+        bare = [found for found, entry in zip(bare, entries, strict=True) if found != entry.generic]
+        if bare:
+            refusal = pick(pick(bare, rng), rng).render(c.slots(), rng)
             return f"{text} {pick(known['negation'], rng).format(refusal)}"
     return text

@@ -123,13 +123,10 @@ def mark(text: str) -> str:
 
 
 def finished(text: str, *, small: bool = False) -> str:
-    """The text with articles that fit, gaps closed and a full stop; with capitals where sentences
-    begin unless `small`.
-    """
+    """Articles that fit, gaps closed, and capitals where sentences begin unless `small`."""
     pieces = [
         (part, value)
         for piece, value in segments(text)
         for part in ([piece] if value else _ARTICLE.split(piece))
     ]
-    text = joined(pieces, small=small)
-    return text if text[-1:] in ("", *".!?:") else f"{text}."
+    return joined(pieces, small=small)

@@ -92,7 +92,8 @@ class SkillEntry:
             for item in skill.parameters
         }
         self._layers = {kind: [parse_phrases(config.get(kind, ()))] for kind in KINDS}
-        self._layers["phrases"].append([parse_phrase(_generic_phrase(skill))])
+        self.generic = [parse_phrase(_generic_phrase(skill))]
+        self._layers["phrases"].append(self.generic)
         if unseen:
             self._layers["phrases"].insert(0, parse_phrases(config.get("unseen", ())))
             self._layers["passive"] = []

@@ -122,8 +122,7 @@ class _Draws:
             return None
         for _ in range(WORDINGS):
             frame, text = Speaker(self.rng, self.book).script(script)
-            text = finished(opened(text, context))
-            said = finished(with_aside(text, script.skills, context))
+            said = finished(with_aside(opened(text, context), script.skills, context))
             if self.unseen or split_of(_key(context, said)) == self.split:
                 break
         else:

@@ -79,7 +79,7 @@ def test_articles_fit_what_stands_behind_them():
         finished("take a image every \x02a minute\x03 in a \x028-second\x03 hold .")
         == "Take an image every \x02minute\x03 in an \x028-second\x03 hold."
     )
-    assert finished("a USV, a unit, a one-off, a hold") == "A USV, a unit, a one-off, a hold."
+    assert finished("a USV, a unit, a one-off, a hold") == "A USV, a unit, a one-off, a hold"
 
 
 def test_most_answers_are_short(records):

@@ -180,9 +180,7 @@ def test_a_prompt_without_a_movement_holds_position():
 
 
 def test_refused_skills_are_not_planned():
-    record = label(
-        r"(?i)\b(?:do not|don't|need not|no need to) verify (?:the )?geotag quality\b[^.]*\.$"
-    )
+    record = label(r"\b(?:Do not|Don't|need not|no need to) [^.]*\bgeotag[^.]*\.$")
     steps = record["expected"]["skill_sequence"]
     assert "VerifyGeotagQuality" not in {
         skill["name"] for step in steps for skill in step["perception_skills"]
