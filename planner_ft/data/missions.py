@@ -42,7 +42,7 @@ from planner_ft.data.templates.grammar import (
     parse_text,
 )
 from planner_ft.data.templates.records import Template, templates
-from planner_ft.data.templates.render import PIECE, article_for, is_small, joined, plain
+from planner_ft.data.templates.render import PIECE, article_for, joined, plain
 from planner_ft.data.wordlists import WordLists
 from planner_ft.facts.geometry import Point
 from planner_ft.support.errors import PlannerError
@@ -361,7 +361,7 @@ class _Drawing:
         for slot in slots:
             if slot.sign == "~":
                 self.drawn.wrong[slot.key] = self._wrong(slot)
-        return joined(self._pieces(parts), small=is_small(template.nodes))
+        return joined(self._pieces(parts), small=_is_small(template.nodes))
 
     # ------------------------------------------------------------ what is spoken of
 
@@ -566,15 +566,8 @@ class _Drawing:
         return digits(value.value) if both else text
 
     def _said(self, value: Value, slot: Slot) -> str:
-        if slot.options & {"adj", "num"} and value.short:
-            return value.short
-        if "noun" in slot.options and value.noun:
-            return value.noun
-        if "way" in slot.options and value.way:
-            return value.way
-        if slot.base in self.words:
-            return str(value.value)
-        return value.text
+        text = value.worded(slot.options)
+        return str(value.value) if text == value.text and slot.base in self.words else text
 
     def _place(self, point: Point) -> str:
         return position(point, self.rng, self.form).text
@@ -667,6 +660,11 @@ class _Drawing:
             else:
                 raise TemplateError(f"a remark needs {{{part.key}}}, which one alternative lacks")
         return f"{text[0].upper()}{text[1:].rstrip('.')}." if sentence else text
+
+
+def _is_small(nodes: Nodes) -> bool:
+    """Whether a template begins with a small letter of its own."""
+    return bool(nodes) and isinstance(nodes[0], str) and nodes[0][:1].islower()
 
 
 _JOINED = [[joint] for joint in JOINTS]
