@@ -12,44 +12,24 @@ from __future__ import annotations
 import functools
 import itertools
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from random import Random
 from typing import Any
 
-from planner_ft.data.mission_plan import (
-    DOCKING,
-    Intent,
-    Planned,
-    PlanTexts,
-    Target,
-    label,
-    point_text,
-)
+from planner_ft.data.mission_binding import OBJECTS, Bound, Line, bind
+from planner_ft.data.mission_plan import DOCKING, Intent, PlanTexts, Target, label, point_text
 from planner_ft.data.noise import noisy
 from planner_ft.data.numbers import WRITTEN, Value, digits, feet, knots, pick, position
 from planner_ft.data.task.values import Draw, draw_point, value_space
-from planner_ft.data.templates.grammar import (
-    Argument,
-    Nodes,
-    Part,
-    Slot,
-    Step,
-    TemplateError,
-    all_slots,
-    always,
-    base_of,
-    choose,
-    parse_text,
-)
+from planner_ft.data.templates.grammar import Nodes, Slot, TemplateError, base_of, choose
 from planner_ft.data.templates.records import Template, templates
-from planner_ft.data.templates.render import PIECE, article_for, is_small, joined, plain
+from planner_ft.data.templates.render import PIECE, article_for, joined, plain
 from planner_ft.data.wordlists import WordLists
 from planner_ft.facts.geometry import Point
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Parameter, Task, Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import MISSIONS
 
-OBJECTS = ("T", "P", "ID")
 LOCATED, SOUGHT = 0.5, 0.12
 """Shares of targets said with a position, and of those that the command looks for."""
 DOUBTFUL, FOREIGN, BARE, FITTING = 0.04, 0.03, 0.5, 0.6
@@ -58,57 +38,17 @@ before another size, and line spacings that divide the width.
 """
 LANES = 12
 PLACED = (
-    *(("{}", " at {}"),) * 26,
-    *(("{}", " ({})"), ("{}", ", at {},"), ("{}", " at position {}"), ("{}", " over at {}")),
-    *(("{}", " out at {}"), ("{}", ", {},"), ("{}", " located at {}")),
+    *(" at {}",) * 26,
+    *(" ({})", ", at {},", " at position {}", " over at {}", " out at {}", ", {},"),
+    " located at {}",
 )
 DOUBTS = (
-    *(("{}", " somewhere near {}"), ("{}", " at about {}"), ("{}", " at roughly {}")),
-    *(("{}", ", which should be at {},"), ("{}", ", probably at {},"), ("{}", " at around {}")),
+    *(" somewhere near {}", " at about {}", " at roughly {}", ", which should be at {},"),
+    *(", probably at {},", " at around {}"),
 )
 JOINTS = (" by ", " x ", "x", " times ")
-
-
-@dataclass(frozen=True)
-class Fill:
-    """A parameter of a task and what fills it: a slot of the text or a literal value."""
-
-    parameter: Parameter
-    slot: str = ""
-    value: Any = None
-
-
-@dataclass(frozen=True)
-class Line:
-    """A task of a template; `task` is None for the return home."""
-
-    task: Task | None
-    label: str
-    objects: tuple[str, ...]
-    fills: tuple[Fill, ...]
-    here: bool = False
-    near: str = ""
-    part: Nodes = ()
-
-
-@dataclass(frozen=True)
-class Bound:
-    """A template for one vehicle: its tasks, what each slot fills, and the kinds of its targets."""
-
-    lines: tuple[Line, ...]
-    owners: dict[str, tuple[Task, Parameter]]
-    kinds: dict[str, str]
-    places: dict[str, str]
-
-
-@dataclass
-class Drawn:
-    """What one command speaks of, by slot; `wrong` holds what is taken back."""
-
-    targets: dict[str, Target] = field(default_factory=dict)
-    values: dict[str, Value] = field(default_factory=dict)
-    wrong: dict[str, list[PIECE]] = field(default_factory=dict)
-    alike: list[Target] = field(default_factory=list)
+UNPLACED = frozenset(("a", "one", "look", "nouns"))
+"""Options of mentions that carry no position."""
 
 
 def sample_missions(
@@ -139,8 +79,8 @@ class MissionSampler:
         self.config = vocabulary.beside(MISSIONS)
         self.words = WordLists(vocabulary.phrases.get("words", {}), self.config.get("words", {}))
         self.texts = PlanTexts(vocabulary, self.config)
-        self.default = self.config.get("target", "thing")
-        self.draws: dict[tuple[str, str], Draw] = {}
+        self.default: str = self.config.get("target", "thing")
+        self.draws: dict[tuple[str, str], tuple[Draw, tuple[float, float]]] = {}
         self.groups = templates(vocabulary, "commands", split)
         if not self.groups:
             raise PlannerError(
@@ -150,8 +90,7 @@ class MissionSampler:
 
     def sample(self, rng: Random, name: str) -> dict[str, Any]:
         """One record."""
-        group = self.groups[int(rng.random() * len(self.groups))]
-        template = group[int(rng.random() * len(group))]
+        template = pick(pick(self.groups, rng), rng)
         text, expected = self.draw(template, rng)
         literal = frozenset(
             word
@@ -160,13 +99,8 @@ class MissionSampler:
             if argument.kind == "literal"
             for word in str(argument.value).split()
         )
-        texts = [
-            str(item)
-            for task in expected["tasks"]
-            for value in task["parameters"].values()
-            for item in (value if isinstance(value, list) else [value])
-        ]
-        shout = not any(text != text.lower() for text in texts)
+        values = [value for task in expected["tasks"] for value in task["parameters"].values()]
+        shout = not any(str(value) != str(value).lower() for value in values)
         return {
             "id": name,
             "family": f"synthetic-{template.group.rpartition('-')[0]}",
@@ -180,310 +114,168 @@ class MissionSampler:
         does not fit the vehicle.
         """
         try:
-            bound = self.bound(template)
-            drawing = _Drawing(self, bound, rng)
-            text = drawing.text(template)
-            return text, drawing.plan(template)
+            drawing = _Drawing(self, self.bound(template), template, rng)
+            return drawing.text(), drawing.plan()
         except TemplateError as error:
             raise template.error(error) from None
 
-    # ------------------------------------------------------------ binding
-
     def bound(self, template: Template) -> Bound:
         """The template for this vehicle. Raises TemplateError."""
-        found = template.bound.get(self.vocabulary)
+        found: Bound | None = template.bound.get(self.vocabulary)
         if found is None:
-            found = template.bound[self.vocabulary] = self._bind(template)
+            found = template.bound[self.vocabulary] = bind(template, self.vocabulary, self.words)
         return found
-
-    def _bind(self, template: Template) -> Bound:
-        slots = [slot for slot in all_slots(template.nodes) if slot.sign in ("", "~")]
-        keys = {slot.key for slot in slots}
-        owners: dict[str, tuple[Task, Parameter]] = {}
-        lines = tuple(self._line(step, keys, owners) for step in template.steps)
-        used = {key for line in lines for key in line.objects} | {
-            fill.slot for line in lines for fill in line.fills
-        }
-        used |= {slot.key for line in lines for slot in all_slots(line.part)}
-        used |= {line.near for line in lines}
-        remarks = [
-            slot for nodes in itertools.chain(*template.remarks) for slot in all_slots(nodes)
-        ]
-        noted = {slot.key for slot in remarks}
-        unused = {
-            str(argument.value)
-            for step in template.steps
-            for argument in step.call.arguments
-            if argument.kind == "unused"
-        }
-        said = {slot.key for slot in slots if not slot.sign}
-        for key in sorted((used | noted | unused) - said - {""}):
-            raise TemplateError(f"{key} stands in the plan, but the text has no {{{key}}}")
-        for key in sorted(keys - used - noted - unused):
-            raise TemplateError(f"{{{key}}} belongs to no task; a wrong value is {{~{key}}}")
-        labels = {slot.key for slot in all_slots(template.nodes) if slot.sign == "?"}
-        for name in labels ^ {line.label for line in lines if line.label}:
-            raise TemplateError(f"the label ?{name} stands only in the text or only in the plan")
-        for slot in slots:
-            self._own(slot, owners)
-        for title in template.excluded:
-            if title != "Home" and title not in self.vocabulary.task:
-                raise TemplateError(f"there is no task {title} to rule out")
-        surely = always(template.nodes)
-        for line in lines:
-            needed = [key for key in line.objects if base_of(key) == "T"]
-            for key in needed if not line.label else ():
-                if key not in surely:
-                    raise TemplateError(f"{{{key}}} is needed, and not every alternative says it")
-        kinds = {slot.key: slot.kind for slot in slots if slot.kind and slot.base == "T"}
-        for kind in kinds.values():
-            if kind not in self.words:
-                raise TemplateError(f"there is no word list {kind} for targets")
-        return Bound(lines, owners, kinds, self._places(lines))
-
-    def _line(self, step: Step, keys: set[str], owners: dict[str, tuple[Task, Parameter]]) -> Line:
-        call = step.call
-        if step.filters or step.perceptions or step.each:
-            raise TemplateError(f"{call.name}: a task has no filters and perception skills")
-        if call.name == "Home":
-            return Line(None, call.label, (), ())
-        task = self.vocabulary.task.get(call.name)
-        if task is None:
-            raise TemplateError(f"there is no task {call.name}")
-        objects: list[str] = []
-        fills: list[Fill] = []
-        here, near = False, ""
-        part: Nodes = ()
-        for argument in call.arguments:
-            value = str(argument.value)
-            if argument.kind == "unused":
-                continue
-            if argument.name == "near":
-                near = value
-            elif argument.name == "part":
-                part = parse_text(value if argument.kind == "literal" else f"{{{value}}}")
-            elif value == "here" and not argument.name:
-                here = True
-            elif not argument.name and base_of(value) in OBJECTS:
-                objects.append(value)
-            else:
-                fill = _fill(task, argument, keys)
-                fills.append(fill)
-                owners.setdefault(fill.slot, (task, fill.parameter))
-        if task.arrival != "none" and not objects and not here:
-            raise TemplateError(f"{call.name} has no place: T1, P1, or here")
-        if task.title == self.vocabulary.locate and not any(key[0] == "T" for key in objects):
-            raise TemplateError(f"{call.name} needs a target, T1")
-        return Line(task, call.label, tuple(objects), tuple(fills), here, near, part)
-
-    def _own(self, slot: Slot, owners: dict[str, tuple[Task, Parameter]]) -> None:
-        """What a value outside the plan is drawn for: the first parameter of that name."""
-        if slot.base in OBJECTS or slot.key in owners or slot.base in self.words:
-            return
-        for task in self.vocabulary.tasks:
-            for parameter in task.parameters:
-                if parameter.name == slot.base:
-                    owners[slot.key] = task, parameter
-                    return
-        raise TemplateError(f"{{{slot.key}}} is no target, parameter or word list")
-
-    @staticmethod
-    def _places(lines: Sequence[Line]) -> dict[str, str]:
-        """The position slot of a target or id that has one: `PerformOrbit T1 P1`."""
-        return {
-            key: place
-            for line in lines
-            for place in line.objects
-            if base_of(place) == "P"
-            for key in line.objects
-            if base_of(key) != "P"
-        }
 
     def value(self, task: Task, parameter: Parameter, rng: Random) -> Value:
         """A value of a parameter, with its words."""
         key = task.title, parameter.name
-        spaces = [
-            source.get("task", {}).get(task.title, {}).get("values", {}).get(parameter.name, {})
-            for source in (self.vocabulary.phrases, self.config)
-        ]
-        config = {**spaces[0], **spaces[1]}
         if key not in self.draws:
-            self.draws[key] = value_space(parameter, config, self.words)
+            config: dict[str, Any] = {}
+            for source in (self.vocabulary.phrases, self.config):
+                own = source.get("task", {}).get(task.title, {})
+                config |= own.get("values", {}).get(parameter.name, {})
+            typical = config.get("typical", (1, 60))
+            self.draws[key] = value_space(parameter, config, self.words), typical
+        draw, (low, high) = self.draws[key]
+        foreign = None
         if parameter.unit in ("m", "m/s") and rng.random() < FOREIGN:
-            low, high = config.get("typical", (1, 60))
             foreign = knots(rng) if parameter.unit == "m/s" else feet(rng, low, high)
-            return foreign or self.draws[key](rng)
-        return self.draws[key](rng)
-
-
-def _fill(task: Task, argument: Argument, keys: set[str]) -> Fill:
-    """What an argument of a task fills. Raises TemplateError."""
-    name = argument.name or base_of(str(argument.value))
-    if name not in task.by_name:
-        names = ", ".join(task.by_name) or "none"
-        raise TemplateError(f"{task.title} has no parameter {name} (it has {names})")
-    parameter = task.by_name[name]
-    if argument.kind == "literal":
-        number = isinstance(argument.value, float)
-        value = float(argument.value) if number else argument.value
-        if isinstance(value, float) and value == int(value):
-            value = int(value)
-        return Fill(parameter, value=value)
-    if str(argument.value) not in keys:
-        raise TemplateError(f"{argument.value} stands in the plan and not in the text")
-    return Fill(parameter, slot=str(argument.value))
+        return foreign or draw(rng)
 
 
 class _Drawing:
-    """One command in the making."""
+    """One command in the making: what it speaks of, by slot."""
 
-    def __init__(self, sampler: MissionSampler, bound: Bound, rng: Random) -> None:
-        self.sampler, self.bound, self.rng = sampler, bound, rng
-        self.words, self.drawn = sampler.words, Drawn()
+    def __init__(
+        self, sampler: MissionSampler, bound: Bound, template: Template, rng: Random
+    ) -> None:
+        self.sampler, self.bound, self.template, self.rng = sampler, bound, template, rng
+        self.words, self.vocabulary = sampler.words, sampler.vocabulary
+        self.targets: dict[str, Target] = {}
+        self.values: dict[str, Value] = {}
+        self.alike: list[Target] = []
         roll = rng.random()
         self.form = None if roll > 0.85 else WRITTEN[0] if roll < 0.3 else pick(WRITTEN, rng)
-        self.lines: tuple[Line, ...] = ()
-        self.said: set[str] = set()
-
-    def text(self, template: Template) -> str:
-        """The command with its values marked."""
-        parts = choose(template.nodes, self.rng, [])
-        slots = [part for part in parts if isinstance(part, Slot)]
+        self.parts = choose(template.nodes, rng, [])
+        slots = [part for part in self.parts if isinstance(part, Slot)]
         labels = {slot.key for slot in slots if slot.sign == "?"}
-        self.lines = tuple(
-            line for line in self.bound.lines if not line.label or line.label in labels
-        )
+        self.lines = [line for line in bound.lines if not line.label or line.label in labels]
         self.said = {slot.key for slot in slots if not slot.sign}
-        for slot in sorted(slots, key=lambda slot: slot.base != "P"):
-            if slot.sign != "?" and slot.key not in self.drawn.targets | self.drawn.values:
-                self._draw(slot, slots, parts)
+        self.slots = sorted(
+            (slot for slot in slots if slot.sign != "?"), key=lambda slot: slot.base != "P"
+        )
+        for slot in self.slots:
+            if slot.key not in self.targets and slot.key not in self.values:
+                self._draw(slot)
         self._agree()
-        for slot in slots:
-            if slot.sign == "~":
-                self.drawn.wrong[slot.key] = self._wrong(slot)
-        return joined(self._pieces(parts), small=is_small(template.nodes))
 
     # ------------------------------------------------------------ what is spoken of
 
-    def _draw(self, slot: Slot, slots: list[Slot], parts: list[Part]) -> None:
-        key, targets = slot.key, self.drawn.targets
+    def _draw(self, slot: Slot) -> None:
+        key = slot.key
         if slot.base == "P":
             near = {line.near for line in self.lines}
-            targets[key] = Target(key, position=self._point(), doubtful=key in near)
+            self.targets[key] = Target(key, position=self._point(), doubtful=key in near)
         elif slot.base == "T":
-            targets[key] = self._target(slot, parts)
+            self.targets[key] = self._target(slot)
         elif slot.base == "ID":
-            name = self.words.noun("identity", self.rng)
-            targets[key] = Target(
-                key, identity=name.value, text=name.text, position=self._bound_place(key)
-            )
+            name, place = self.words.noun("identity", self.rng), self._bound_place(key)
+            self.targets[key] = Target(key, identity=name.value, text=name.text, position=place)
         else:
-            self.drawn.values[key] = self._value(slot, slots)
+            self.values[key] = self._value(slot)
 
     def _point(self) -> Point:
         while True:
             point = draw_point(self.rng)
-            if point not in (self.sampler.vocabulary.home, self.sampler.vocabulary.unresolved):
+            if point not in (self.vocabulary.home, self.vocabulary.unresolved):
                 return point
 
     def _bound_place(self, key: str) -> Point | None:
-        place = self.bound.places.get(key)
-        return self.drawn.targets[place].position if place in self.drawn.targets else None
+        place = self.targets.get(self.bound.places.get(key, ""))
+        return place.position if place else None
 
-    def _target(self, slot: Slot, parts: list[Part]) -> Target:
-        key, rng, bound = slot.key, self.rng, self.bound
-        own = [
-            (part, _owns(parts, number))
-            for number, part in enumerate(parts)
+    def _target(self, slot: Slot) -> Target:
+        key, rng = slot.key, self.rng
+        mentions = [
+            (part.options, self._owns(number))
+            for number, part in enumerate(self.parts)
             if isinstance(part, Slot) and part.key == key and not part.sign
         ]
         lines = [line for line in self.lines if key in line.objects]
+        common = any("a" in options for options, _owns in mentions)
+        fixed = common or any("bare" in options or owns for options, owns in mentions)
+        kind = self.bound.kinds.get(key, self.sampler.default)
         near = next((line.near for line in lines if line.near), "")
-        kind = bound.kinds.get(key, self.sampler.default)
-        common = any("a" in part.options for part, _ in own)
-        fixed = common or any("bare" in part.options or owns for part, owns in own)
-        if kind == "pair":
-            target = self._alike(key)
-        else:
-            target = self._described(key, kind, plain_=fixed, common=common)
-        if key in bound.places:
+        target = self._alike(key) if kind == "pair" else self._described(key, kind, fixed, common)
+        if key in self.bound.places:
             target = replace(target, position=self._bound_place(key))
-        elif not near and kind != "pair" and self._is_located(own, lines):
+        elif not near and kind != "pair" and self._is_located(mentions, lines):
             doubt = rng.random() < DOUBTFUL
             target = replace(target, position=self._point(), doubtful=doubt)
-        if near in self.drawn.targets:
-            point = self.drawn.targets[near].position or (0, 0)
-            target = replace(target, whereabouts=f"near {point_text(point)}")
+        if near in self.targets:
+            whereabouts = f"near {point_text(self.targets[near].position or (0, 0))}"
+            target = replace(target, whereabouts=whereabouts)
         spot = any(line.task is not None and line.task.pattern == DOCKING for line in lines)
         return replace(target, spot=spot, on_site=any(line.here for line in lines))
 
-    def _is_located(self, own: list[tuple[Slot, bool]], lines: list[Line]) -> bool:
+    def _is_located(
+        self, mentions: Sequence[tuple[frozenset[str], bool]], lines: Sequence[Line]
+    ) -> bool:
         """Whether the command gives a position with the target: where a mention can carry it."""
-        if any("lost" in part.options for part, _ in own):
+        first = next((mention for mention in mentions if "bare" not in mention[0]), None)
+        every: frozenset[str] = frozenset().union(*(options for options, _owns in mentions))
+        if "lost" in every or first is None or first[0] & UNPLACED or first[1]:
             return False
-        first = next(((part, owns) for part, owns in own if not part.options & {"bare"}), None)
-        if first is None or first[0].options & {"a", "one", "look", "nouns"} or first[1]:
-            return False
-        if any("located" in part.options for part, _ in own):
-            return True
-        locate = self.sampler.vocabulary.locate
+        locate = self.vocabulary.locate
         sought = any(line.task is not None and line.task.title == locate for line in lines)
-        return self.rng.random() < (SOUGHT if sought else LOCATED)
+        return "located" in every or self.rng.random() < (SOUGHT if sought else LOCATED)
 
-    def _described(self, key: str, kind: str, *, plain_: bool, common: bool) -> Target:
-        """A target of a kind; `plain_` takes an article and has no "with ..." phrase, `common` no
+    def _described(self, key: str, kind: str, fixed: bool, common: bool) -> Target:
+        """A target of a kind; `fixed` takes an article and has no "with ..." phrase, `common` no
         name.
         """
         for _ in range(20):
             value = self.words.noun(kind, self.rng)
             article = value.text != value.value
-            named = not value.value.islower() or any(mark.isdigit() for mark in value.value)
-            if not (plain_ and (not article or " with " in value.value)) and not (common and named):
+            unfit = fixed and (not article or " with " in value.value)
+            if not unfit and not (common and _is_name(value.value)):
                 break
         return Target(key, value.value, article=article, text=value.value)
 
     def _alike(self, key: str) -> Target:
         """One of several targets with one noun that differ in their look."""
-        if not self.drawn.alike:
+        if not self.alike:
             while (noun := self.words.entry("pair", self.rng)).endswith("y"):
                 continue
             looks = self.words.entry("looks", self.rng).split("/")
             if self.rng.random() < 0.5:
-                looks = [looks[1], looks[0], looks[2]]
-            self.drawn.alike = [
-                Target(key, f"{look} {noun}", text=look, noun=noun) for look in looks
-            ]
-        return replace(self.drawn.alike[int(key[1:]) - 1], key=key)
+                looks[:2] = looks[1::-1]
+            self.alike = [Target(key, f"{look} {noun}", text=look, noun=noun) for look in looks]
+        return replace(self.alike[int(key[1:]) - 1], key=key)
 
-    def _value(self, slot: Slot, slots: Sequence[Slot]) -> Value:
-        """A value of a slot, which differs from those of other slots of its kind."""
-        options = {option for other in slots if other.key == slot.key for option in other.options}
-        taken = [
-            value.value for key, value in self.drawn.values.items() if base_of(key) == slot.base
-        ]
+    def _value(self, slot: Slot) -> Value:
+        """A value with the wordings that its slots ask for; texts of one kind differ."""
+        mentions = [other.options for other in self.slots if other.key == slot.key]
+        options: frozenset[str] = frozenset().union(*mentions)
+        taken = [value.value for key, value in self.values.items() if base_of(key) == slot.base]
         for _ in range(60):
-            value = self._new(slot)
-            wordings = {
-                "adj": value.short,
-                "num": value.short,
-                "noun": value.noun,
-                "way": value.way,
-            }
-            if all(wordings.get(option, "") is not None for option in options) and (
+            value = self._new(slot.key)
+            forms = {"adj": value.short, "num": value.short, "noun": value.noun, "way": value.way}
+            if all(forms.get(option, "") is not None for option in options) and (
                 value.value not in taken or slot.base not in self.words
             ):
                 break
         return value
 
-    def _new(self, slot: Slot) -> Value:
-        owner = self.bound.owners.get(slot.key)
+    def _new(self, key: str) -> Value:
+        owner = self.bound.owners.get(key)
         if owner is None or owner[1].type in ("text", "texts", "id"):
-            return self.words.noun(slot.base, self.rng)
+            return self.words.noun(base_of(key), self.rng)
         return self.sampler.value(*owner, self.rng)
 
     def _agree(self) -> None:
         """A series of readings has room for two; mostly, lines fit the width of their grid."""
-        values = self.drawn.values
+        values = self.values
         for line in self.lines:
             slot = {fill.parameter.name: fill.slot for fill in line.fills if fill.slot in values}
             if {"interval", "duration"} <= slot.keys():
@@ -491,90 +283,86 @@ class _Drawing:
                 for _ in range(50):
                     if 2 * values[every].value <= values[whole].value:
                         break
-                    values[every] = self._new(Slot(every, "interval"))
-                    values[whole] = self._new(Slot(whole, "duration"))
+                    values[every], values[whole] = self._new(every), self._new(whole)
             if {"width", "spacing"} <= slot.keys() and self.rng.random() < FITTING:
-                width, lanes = values[slot["width"]].value, range(2, LANES)
+                width, lane = values[slot["width"]].value, slot["spacing"]
                 for _ in range(20):
-                    if any(values[slot["spacing"]].value * count == width for count in lanes):
+                    if any(values[lane].value * count == width for count in range(2, LANES)):
                         break
-                    values[slot["spacing"]] = self._new(Slot(slot["spacing"], "spacing"))
+                    values[lane] = self._new(lane)
 
     def _wrong(self, slot: Slot) -> list[PIECE]:
         """What is taken back: of the same kind, and another one."""
         key, rng = slot.key, self.rng
         if slot.base == "P":
-            right = self.drawn.targets[key].position or (0, 0)
-            point = self._point()
+            right, point = self.targets[key].position or (0, 0), self._point()
             near = (right[0], point[1]) if rng.random() < 0.5 else point
             return [(self._place(near if near != right else point), True)]
         if slot.base == "T":
             kind = self.bound.kinds.get(key, self.sampler.default)
             kind = self.sampler.default if kind == "pair" else kind
-            target = self._described(key, kind, plain_=bool(slot.options), common=True)
-            return self._mention(target, slot)
+            return self._mention(self._described(key, kind, bool(slot.options), True), slot)
         if slot.base == "ID":
             return [(self.words.noun("identity", rng).text, True)]
-        right_value = self.drawn.values[key]
         for _ in range(60):
-            value = self._new(slot)
-            if value.value != right_value.value and not ("adj" in slot.options and not value.short):
+            value = self._new(key)
+            unsaid = "adj" in slot.options and not value.short
+            if value.value != self.values[key].value and not unsaid:
                 break
-        return [(self._said(value, slot), True)]
+        return [(self._worded(value, slot), True)]
 
     # ------------------------------------------------------------ text
 
-    def _pieces(self, parts: list[Part]) -> Iterator[PIECE]:
-        seen: dict[tuple[str, frozenset[str]], list[PIECE]] = {}
-        placed: set[str] = set()
-        for number, part in enumerate(parts):
+    def text(self) -> str:
+        """The command with its values marked."""
+        first = self.template.nodes[0] if self.template.nodes else ""
+        return joined(self._pieces(), small=isinstance(first, str) and first[:1].islower())
+
+    def _pieces(self) -> Iterator[PIECE]:
+        wrong = {slot.key: self._wrong(slot) for slot in self.slots if slot.sign == "~"}
+        seen: dict[tuple[str, frozenset[str]], str] = {}
+        placed = set(self.bound.places)
+        for number, part in enumerate(self.parts):
             if isinstance(part, str):
                 yield part, False
             elif part.sign == "~":
-                yield from self.drawn.wrong[part.key]
-            elif part.sign == "?":
+                yield from wrong[part.key]
+            elif part.sign:
                 continue
             elif part.base == "T":
-                target = self.drawn.targets[part.key]
-                with_place = not (
-                    part.options & {"a", "bare", "one", "look", "nouns"}
-                    or part.key in placed
-                    or part.key in self.bound.places
-                    or _owns(parts, number)
-                )
+                unplaced = part.options & (UNPLACED | {"bare"}) or self._owns(number)
+                with_place = not unplaced and part.key not in placed
                 if with_place or "a" in part.options:
                     placed.add(part.key)
-                yield from self._mention(target, part, with_place=with_place)
+                yield from self._mention(self.targets[part.key], part, with_place=with_place)
             else:
                 key = part.key, part.options
                 if key not in seen:
-                    seen[key] = [(self._word(part, parts, number, seen), True)]
-                yield from seen[key]
+                    seen[key] = self._word(part, number)
+                yield seen[key], True
 
-    def _word(self, slot: Slot, parts: list[Part], number: int, seen: dict[Any, Any]) -> str:
+    def _owns(self, number: int) -> bool:
+        """Whether an apostrophe follows the part: "the barge's"."""
+        after = self.parts[number + 1] if number + 1 < len(self.parts) else ""
+        return isinstance(after, str) and after.startswith(("'s", "’s"))
+
+    def _word(self, slot: Slot, number: int) -> str:
         if slot.base == "P":
-            return self._place(self.drawn.targets[slot.key].position or (0, 0))
+            return self._place(self.targets[slot.key].position or (0, 0))
         if slot.base == "ID":
-            return self.drawn.targets[slot.key].text
-        value = self.drawn.values[slot.key]
-        text = self._said(value, slot)
-        after = _size(parts, number + 2) if parts[number + 1 : number + 2] in _JOINED else None
-        if not after or not _size(parts, number) or self.rng.random() > BARE:
-            return text
-        # "20 by 80 ft" says that the 20 are feet.
-        both = _metric(self.drawn.values[after.key].text) and _metric(text)
-        return digits(value.value) if both else text
+            return self.targets[slot.key].text
+        value, (joint, after) = self.values[slot.key], (*self.parts[number + 1 :], "", "")[:2]
+        if joint in JOINTS and isinstance(after, Slot) and self.rng.random() < BARE:
+            # "20 by 80 ft" says that the 20 are feet.
+            sizes = [one for one in (slot, after) if one.base in ("width", "length")]
+            plain_ = [one for one in sizes if not one.options and not one.sign]
+            if len(plain_) == 2 and all(_metric(self.values[one.key].text) for one in plain_):
+                return digits(value.value)
+        return self._worded(value, slot)
 
-    def _said(self, value: Value, slot: Slot) -> str:
-        if slot.options & {"adj", "num"} and value.short:
-            return value.short
-        if "noun" in slot.options and value.noun:
-            return value.noun
-        if "way" in slot.options and value.way:
-            return value.way
-        if slot.base in self.words:
-            return str(value.value)
-        return value.text
+    def _worded(self, value: Value, slot: Slot) -> str:
+        text = value.worded(slot.options)
+        return str(value.value) if text == value.text and slot.base in self.words else text
 
     def _place(self, point: Point) -> str:
         return position(point, self.rng, self.form).text
@@ -588,101 +376,94 @@ class _Drawing:
             return [(plural(target.noun), False)]
         if "look" in options or "one" in options:
             return [(target.text if "look" in options else f"the {target.text} one", False)]
-        kept = not text.islower() or any(mark.isdigit() for mark in text) or self.rng.random() < 0.6
+        kept = _is_name(text) or self.rng.random() < 0.6
         if "a" in options:
             return [(f"{article_for(text)} ", False), (text, kept)]
-        if "bare" in options:
-            return [(text, kept)]
-        named = [(f"the {text}" if target.article else text, kept)]
+        named = f"the {text}" if target.article and "bare" not in options else text
         if not with_place or target.position is None:
-            return named
-        forms = DOUBTS if target.doubtful else PLACED
-        before, _brace, after = forms[int(self.rng.random() * len(forms))][1].partition("{}")
-        place = self._place(target.position)
+            return [(named, kept)]
+        form, place = (
+            pick(DOUBTS if target.doubtful else PLACED, self.rng),
+            self._place(target.position),
+        )
+        before, _brace, after = form.partition("{}")
         if before.endswith("(") and place[0] in "[(":
             before, after = " at ", ""
-        return [*named, (before, False), (place, True), (after, False)]
+        return [(named, kept), (before, False), (place, True), (after, False)]
 
     # ------------------------------------------------------------ plan
 
-    def plan(self, template: Template) -> dict[str, Any]:
+    def plan(self) -> dict[str, Any]:
         """The plan of what is said."""
-        vocabulary, texts = self.sampler.vocabulary, self.sampler.texts
-        plan: list[Planned] = label([self._intent(line) for line in self.lines], vocabulary)
-        constraints, assumptions = template.remarks
-        notes = [texts.excluded(title) for title in template.excluded]
-        notes += [self._remark(nodes) for nodes in constraints]
-        if not plan and template.excluded:
-            notes.append(self.sampler.config.get("cancelled", "No task is left."))
-        elif not plan and not notes:
-            notes.append(self.sampler.config.get("nothing", "The command asks for no task."))
-        return texts.plan(plan, notes, [self._remark(nodes) for nodes in assumptions])
+        texts, template, config = self.sampler.texts, self.template, self.sampler.config
+        planned = label([self._intent(line) for line in self.lines], self.vocabulary)
+        constraints, assumptions = (
+            [self._remark(nodes) for nodes in remarks] for remarks in template.remarks
+        )
+        notes = [*(texts.excluded(title) for title in template.excluded), *constraints]
+        if not planned and template.excluded:
+            notes.append(config.get("cancelled", "No task is left."))
+        elif not planned and not notes:
+            notes.append(config.get("nothing", "The command asks for no task."))
+        return texts.plan(planned, notes, assumptions)
 
     def _intent(self, line: Line) -> Intent:
         if line.task is None:
-            return Intent(self.sampler.vocabulary.task[self.sampler.vocabulary.transit], home=True)
+            return Intent(self.vocabulary.task[self.vocabulary.transit], home=True)
         keys = [
             key
-            for base in ("ID", "T", "P")
+            for base in OBJECTS
             for key in line.objects
             if base_of(key) == base and (base != "P" or key in self.said)
         ]
-        if keys and keys[0] not in self.drawn.targets:
+        if keys and keys[0] not in self.targets:
             raise TemplateError(
                 f"{line.task.title} needs {{{keys[0]}}}, which one alternative lacks"
             )
-        target = self.drawn.targets[keys[0]] if keys else None
-        part = self._remark(line.part, sentence=False) if line.part else ""
-        return Intent(line.task, target, self._parameters(line), part=part)
+        target = self.targets[keys[0]] if keys else None
+        part = self._filled(line.part) if line.part else ""
+        return Intent(line.task, target, self._parameters(line, line.task), part=part)
 
-    def _parameters(self, line: Line) -> dict[str, Any]:
-        parameters: dict[str, Any] = {}
+    def _parameters(self, line: Line, task: Task) -> dict[str, Any]:
+        """The parameters that are said, in the order of the definition."""
+        found: dict[str, Any] = {}
         for fill in line.fills:
             name, value = fill.parameter.name, fill.value
-            if fill.slot in self.drawn.targets:
-                value = self.drawn.targets[fill.slot].description
-            elif fill.slot in self.drawn.values and fill.slot in self.said:
-                value = self.drawn.values[fill.slot].value
+            if fill.slot in self.targets:
+                value = self.targets[fill.slot].description
+            elif fill.slot in self.values and fill.slot in self.said:
+                value = self.values[fill.slot].value
             if value is None:
                 continue
             if fill.parameter.type == "texts":
-                parameters.setdefault(name, []).append(value)
+                found.setdefault(name, []).append(value)
             else:
-                parameters.setdefault(name, value)
-        order = {name: number for number, name in enumerate(line.task.by_name if line.task else ())}
-        return dict(sorted(parameters.items(), key=lambda item: order[item[0]]))
+                found.setdefault(name, value)
+        return {name: found[name] for name in task.by_name if name in found}
 
-    def _remark(self, nodes: Nodes, *, sentence: bool = True) -> str:
-        """A remark as the plan holds it."""
-        text = ""
-        for part in choose(nodes, self.rng, []):
-            if isinstance(part, str):
-                text += part
-            elif part.key in self.drawn.targets:
-                target = self.drawn.targets[part.key]
-                text += point_text(target.position or (0, 0)) if part.base == "P" else target.name
-            elif part.key in self.drawn.values:
-                value = self.drawn.values[part.key]
-                text += str(value.value) if part.base in self.words else value.text
-            else:
-                raise TemplateError(f"a remark needs {{{part.key}}}, which one alternative lacks")
-        return f"{text[0].upper()}{text[1:].rstrip('.')}." if sentence else text
+    def _remark(self, nodes: Nodes) -> str:
+        """A remark as the plan holds it: a sentence."""
+        text = self._filled(nodes)
+        return f"{text[0].upper()}{text[1:].rstrip('.')}."
 
+    def _filled(self, nodes: Nodes) -> str:
+        """A text of the plan with what its slots stand for."""
+        return "".join(
+            part if isinstance(part, str) else self._named(part)
+            for part in choose(nodes, self.rng, [])
+        )
 
-_JOINED = [[joint] for joint in JOINTS]
-
-
-def _owns(parts: Sequence[Part], number: int) -> bool:
-    """Whether an apostrophe follows: "the barge's"."""
-    after = parts[number + 1] if number + 1 < len(parts) else ""
-    return isinstance(after, str) and after.startswith(("'s", "’s"))
+    def _named(self, slot: Slot) -> str:
+        if target := self.targets.get(slot.key):
+            return point_text(target.position or (0, 0)) if slot.base == "P" else target.name
+        if value := self.values.get(slot.key):
+            return str(value.value) if slot.base in self.words else value.text
+        raise TemplateError(f"a remark needs {{{slot.key}}}, which one alternative lacks")
 
 
-def _size(parts: Sequence[Part], number: int) -> Slot | None:
-    """The part where it is a width or length."""
-    part = parts[number] if 0 <= number < len(parts) else ""
-    plain_size = isinstance(part, Slot) and part.base in ("width", "length") and not part.options
-    return part if isinstance(part, Slot) and plain_size and not part.sign else None
+def _is_name(text: str) -> bool:
+    """Whether a text has capitals or figures, so that a slip would make it another."""
+    return not text.islower() or any(mark.isdigit() for mark in text)
 
 
 def _metric(text: str) -> bool:

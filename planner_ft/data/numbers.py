@@ -102,6 +102,14 @@ class Value:
     noun: str | None = None
     way: str | None = None
 
+    def worded(self, options: frozenset[str]) -> str:
+        """The wording that a slot's options ask for, where the value has it."""
+        if self.short and ("adj" in options or "num" in options):
+            return self.short
+        if self.noun and "noun" in options:
+            return self.noun
+        return self.way if self.way and "way" in options else self.text
+
 
 def digits(value: float) -> str:
     """The number in figures."""

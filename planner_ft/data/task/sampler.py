@@ -22,8 +22,8 @@ from planner_ft.data.task.context import Context
 from planner_ft.data.task.frames import Speaker, opened, with_aside
 from planner_ft.data.task.phrase import finished
 from planner_ft.data.task.phrasebook import phrasebook
+from planner_ft.data.task.prompts.binding import bindings
 from planner_ft.data.task.prompts.draw import draw_template
-from planner_ft.data.task.prompts.library import bindings
 from planner_ft.data.task.script import draw_script, expected_plan
 from planner_ft.data.templates.records import templates
 from planner_ft.data.templates.render import plain, skeleton

@@ -15,8 +15,8 @@ from typing import Any
 from planner_ft.data.missions import MissionSampler
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.phrasebook import Phrasebook
+from planner_ft.data.task.prompts.binding import bindings
 from planner_ft.data.task.prompts.draw import draw_template
-from planner_ft.data.task.prompts.library import bindings
 from planner_ft.data.templates.records import Template, template_files, templates
 from planner_ft.data.templates.render import plain
 from planner_ft.support.errors import PlannerError

@@ -15,13 +15,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from random import Random
 
 DIGITS = "0123456789"
-SIGNS = "~_?"
-_MARK = re.compile(r"[\\(\[{|)\]}]")
+_MARK = re.compile(r"\\(.?)|\{([^}]*)\}|([(\[{|)\]}])")
+_SLOT = re.compile(r"(param\.|[~_?]?)([A-Za-z]\w*)(?::(\w*))?((?: +\w+)*) *", re.ASCII)
 _WORD = re.compile(r"""(?:[^\s"';]|"[^"]*"|(?<==)'[^']*'|')+|;""")
+_HEAD = re.compile(r"[+&]?([A-Za-z]+)(?:\?([^@]*))?(?:@(first|last))?")
+_ARGUMENT = re.compile(
+    r"""(?:(?P<name>\w+)=)?(?:(?P<quote>["'])(?P<text>.*)(?P=quote)|~(?P<unused>.+)"""
+    r"""|(?P<minus>-?)(?:param\.(?P<param>\w+)|(?P<slot>[A-Za-z][\w-]*))|(?P<number>-?[\d.]+))""",
+    re.DOTALL,
+)
 
 
 class TemplateError(ValueError):
@@ -69,94 +75,80 @@ def base_of(key: str) -> str:
 # ---------------------------------------------------------------- texts
 
 
-class _Scanner:
-    """Reads a text into nodes; `place` is the next character."""
+@dataclass
+class _Level:
+    """A bracket that is open: its branches up to the last bar, and the nodes behind that."""
 
-    def __init__(self, source: str) -> None:
-        self.source, self.place = source, 0
+    opener: str
+    place: int
+    branches: list[Nodes] = field(default_factory=list)
+    nodes: list[Node] = field(default_factory=list)
 
-    def sequence(self, closer: str) -> list[Nodes]:
-        """The branches up to `closer`, which is passed; the end of the text for ""."""
-        branches: list[Nodes] = []
-        nodes: list[Node] = []
-        plain: list[str] = []
+    def add(self, node: Node) -> None:
+        if isinstance(node, str) and self.nodes and isinstance(self.nodes[-1], str):
+            self.nodes[-1] += node
+        elif node:
+            self.nodes.append(node)
 
-        def close() -> None:
-            if any(plain):
-                nodes.append("".join(plain))
-            plain.clear()
-
-        start = self.place
-        while found := _MARK.search(self.source, self.place):
-            mark = found[0]
-            plain.append(self.source[self.place : found.start()])
-            self.place = found.end()
-            if mark == "\\":
-                plain.append(self.source[self.place : self.place + 1])
-                self.place += 1
-            elif mark == "(":
-                inner = self.sequence(")")
-                if len(inner) == 1:
-                    close()
-                    nodes += ["(", *inner[0], ")"]
-                else:
-                    close()
-                    nodes.append(Choice(tuple(inner)))
-            elif mark == "[":
-                close()
-                nodes.append(_optional(self.sequence("]"), self.source))
-            elif mark == "{":
-                close()
-                end = self.source.find("}", self.place)
-                if end < 0:
-                    raise TemplateError(f"a brace is not closed: {self.rest(self.place - 1)}")
-                nodes.append(parse_slot(self.source[self.place : end]))
-                self.place = end + 1
-            elif mark == "|" and closer:
-                close()
-                branches.append(tuple(nodes))
-                nodes.clear()
-            elif mark == closer:
-                close()
-                return [*branches, tuple(nodes)]
-            else:
-                raise TemplateError(f"{mark!r} closes nothing: {self.rest(self.place - 1)}")
-        plain.append(self.source[self.place :])
-        self.place = len(self.source)
-        if closer:
-            raise TemplateError(f"a bracket is not closed: {self.rest(start - 1)}")
-        close()
-        return [tuple(nodes)]
-
-    def rest(self, place: int) -> str:
-        """The text from there, shortened."""
-        return repr(self.source[max(place, 0) : place + 30])
-
-
-def _optional(branches: list[Nodes], source: str) -> Optional:
-    slots = frozenset(slot.key for slot in all_slots(branches[0]) if not slot.sign)
-    if len(branches) > 1 or not slots:
-        raise TemplateError(
-            f"square brackets hold a slot and no bar; write \\[ for the character: {source[:30]!r}"
-        )
-    return Optional(slots, branches[0])
+    def branch(self) -> None:
+        self.branches.append(tuple(self.nodes))
+        self.nodes = []
 
 
 def parse_text(source: str) -> Nodes:
     """The nodes of a text. Raises TemplateError."""
-    return _Scanner(source).sequence("")[0]
+    levels, place = [_Level("", 0)], 0
+    for found in _MARK.finditer(source):
+        level, rest = levels[-1], repr(source[found.start() : found.start() + 30])
+        level.add(source[place : found.start()])
+        place = found.end()
+        escaped, slot, mark = found.groups()
+        if escaped is not None:
+            level.add(escaped)
+        elif slot is not None:
+            level.add(parse_slot(slot))
+        elif mark in "([":
+            levels.append(_Level(mark, found.start()))
+        elif mark == "{":
+            raise TemplateError(f"a brace is not closed: {rest}")
+        elif mark == "|" and level.opener:
+            level.branch()
+        elif level.opener and mark == {"(": ")", "[": "]"}[level.opener]:
+            level.branch()
+            levels.pop()
+            _close(level, levels[-1], source)
+        else:
+            raise TemplateError(f"{mark!r} closes nothing: {rest}")
+    if len(levels) > 1:
+        begun = source[levels[-1].place : levels[-1].place + 30]
+        raise TemplateError(f"a bracket is not closed: {begun!r}")
+    levels[0].add(source[place:])
+    return tuple(levels[0].nodes)
+
+
+def _close(level: _Level, outer: _Level, source: str) -> None:
+    """Add what stood between brackets to the level around them."""
+    first = level.branches[0]
+    if level.opener == "[":
+        slots = frozenset(slot.key for slot in all_slots(first) if not slot.sign)
+        if len(level.branches) > 1 or not slots:
+            problem = "square brackets hold a slot and no bar; write \\[ for the character"
+            raise TemplateError(f"{problem}: {source[:30]!r}")
+        outer.add(Optional(slots, first))
+    elif len(level.branches) > 1:
+        outer.add(Choice(tuple(level.branches)))
+    else:
+        for node in ("(", *first, ")"):
+            outer.add(node)
 
 
 def parse_slot(source: str) -> Slot:
-    """The slot between braces."""
-    head, *options = source.split()
-    sign = head[0] if head[0] in SIGNS else ""
-    key, _colon, kind = head[len(sign) :].partition(":")
-    if key.startswith("param."):
-        sign, key = "param", key[6:]
-    if not key.replace("_", "").isalnum() or not key[0].isalpha():
+    """The slot between braces. Raises TemplateError."""
+    found = _SLOT.fullmatch(source)
+    if found is None:
         raise TemplateError(f"{{{source}}} is no slot")
-    return Slot(key, base_of(key), sign, kind, frozenset(options))
+    sign, key, kind, options = found.groups()
+    return Slot(key, base_of(key), sign.rstrip("."), kind or "", frozenset(options.split()))
 
 
 def all_slots(nodes: Sequence[Node]) -> Iterator[Slot]:
@@ -253,49 +245,41 @@ def parse_plan(source: str) -> tuple[Step, ...]:
 
 
 def _step(words: list[str]) -> Step:
+    each = None
     if "/" in words:
         place = words.index("/")
-        head = _step(words[:place])
-        return Step(head.call, head.filters, head.perceptions, _step(words[place + 1 :]))
+        words, each = words[:place], _step(words[place + 1 :])
     groups: list[list[str]] = [[]]
     for word in words:
         if word[0] in "+&" and word[1:2].isupper():
             groups.append([])
         groups[-1].append(word)
-    calls = [_call(group) for group in groups]
-    beside = list(zip(groups[1:], calls[1:], strict=True))
-    return Step(
-        calls[0],
-        tuple(call for group, call in beside if group[0][0] == "+"),
-        tuple(call for group, call in beside if group[0][0] == "&"),
-    )
+    beside: dict[str, list[Call]] = {"+": [], "&": []}
+    for group in groups[1:]:
+        beside[group[0][0]].append(_call(group))
+    return Step(_call(groups[0]), tuple(beside["+"]), tuple(beside["&"]), each)
 
 
 def _call(words: list[str]) -> Call:
     if not words:
         raise TemplateError("a step has no name")
-    head, _at, at = words[0].lstrip("+&").partition("@")
-    name, _mark, label = head.partition("?")
-    if not name.isalpha() or at not in ("", "first", "last"):
+    head = _HEAD.fullmatch(words[0])
+    if head is None:
         raise TemplateError(f"{words[0]!r} is no name of a task, skill or shape")
-    return Call(name, tuple(_argument(word) for word in words[1:]), label, at)
+    name, label, at = head.groups()
+    return Call(name, tuple(_argument(word) for word in words[1:]), label or "", at or "")
 
 
 def _argument(word: str) -> Argument:
-    name, equals, value = word.partition("=")
-    if not equals or not name.replace("_", "").isalnum():
-        name, value = "", word
-    if value[:1] in "\"'" and len(value) > 1:
-        return Argument("literal", value[1:-1], name)
-    if value[:1] == "~":
-        return Argument("unused", value[1:], name)
-    negative = value[:1] == "-" and value[1:2].isalpha()
-    value = value[negative:]
-    if value.startswith("param."):
-        return Argument("param", value[6:], name, negative)
-    if value.replace("_", "").replace("-", "").isalnum() and value[0].isalpha():
-        return Argument("slot", value, name, negative)
+    found = _ARGUMENT.fullmatch(word)
+    name = found["name"] or "" if found else ""
+    negative = bool(found and found["minus"])
+    for group, kind in (("unused", "unused"), ("text", "literal"), ("param", "param")):
+        if found and found[group] is not None:
+            return Argument(kind, found[group], name, negative)
+    if found and found["slot"]:
+        return Argument("slot", found["slot"], name, negative)
     try:
-        return Argument("literal", float(value), name)
+        return Argument("literal", float(found["number"] if found else ""), name)
     except ValueError:
         raise TemplateError(f"{word!r} is no slot, number, text or param.NAME") from None

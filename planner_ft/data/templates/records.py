@@ -22,11 +22,11 @@ from planner_ft.vocabulary import Vocabulary
 T = TypeVar("T")
 Kind = Literal["commands", "prompts"]
 SPLITS = ("train", "validation", "test")
-FIELDS: dict[str, dict[str, type]] = {
-    "commands": {"id": str, "split": str, "command": str, "plan": str},
-    "prompts": {"id": str, "split": str, "tasks": list, "prompt": str, "plan": str},
+TEXTS = {
+    "commands": ("id", "split", "command", "plan"),
+    "prompts": ("id", "split", "prompt", "plan"),
 }
-LISTS = ("excluded", "constraints", "assumptions")
+LISTS = {"commands": ("excluded", "constraints", "assumptions"), "prompts": ("tasks",)}
 
 
 @dataclass(eq=False)
@@ -56,13 +56,12 @@ class Template:
         return self._parsed(parse_plan, self.plan)
 
     @functools.cached_property
-    def remarks(self) -> tuple[tuple[Nodes, ...], tuple[Nodes, ...]]:
+    def remarks(self) -> tuple[tuple[Nodes, ...], ...]:
         """The constraints and the assumptions."""
-        constraints, assumptions = (
+        return tuple(
             tuple(self._parsed(parse_text, line) for line in lines)
             for lines in (self.constraints, self.assumptions)
         )
-        return constraints, assumptions
 
     def _parsed(self, parse: Callable[[str], T], source: str) -> T:
         try:
@@ -84,11 +83,8 @@ def template_files(vocabulary: Vocabulary, kind: Kind) -> list[Path]:
     """The template files of a vehicle, by name."""
     if vocabulary.path is None:
         return []
-    stem = vocabulary.path.with_suffix("")
-    single, folder = (
-        stem.with_name(f"{stem.name}.{kind}.jsonl"),
-        stem.with_name(f"{stem.name}.{kind}"),
-    )
+    single = vocabulary.path.with_suffix(f".{kind}.jsonl")
+    folder = vocabulary.path.with_suffix(f".{kind}")
     return [path for path in (single, *sorted(folder.glob("*.jsonl"))) if path.is_file()]
 
 
@@ -98,17 +94,17 @@ def templates(vocabulary: Vocabulary, kind: Kind, split: str | None = None) -> l
     """
     groups: dict[tuple[str, str], list[Template]] = {}
     for path in template_files(vocabulary, kind):
+        stem = path.stem
         for template in read_templates(path, kind):
             if split in (None, template.split):
-                groups.setdefault((path.stem, template.group), []).append(template)
+                groups.setdefault((stem, template.group), []).append(template)
     return list(groups.values())
 
 
 @functools.lru_cache(maxsize=256)
 def read_templates(path: Path, kind: Kind) -> tuple[Template, ...]:
     """The records of one file. Raises PlannerError with file and line."""
-    found: list[Template] = []
-    ids: set[str] = set()
+    found: dict[str, Template] = {}
     for number, line in enumerate(read_text(path).splitlines(), 1):
         where = f"{path}:{number}"
         try:
@@ -116,39 +112,27 @@ def read_templates(path: Path, kind: Kind) -> tuple[Template, ...]:
         except ValueError as error:
             raise PlannerError(f"{where}: not JSON ({error})") from None
         problem = _problem(record, kind)
-        if problem or record["id"] in ids:
+        if problem or record["id"] in found:
             raise PlannerError(f"{where}: {problem or 'the id stands twice'}")
-        ids.add(record["id"])
-        found.append(
-            Template(
-                record["id"],
-                record["split"],
-                record["command" if kind == "commands" else "prompt"],
-                record["plan"],
-                where,
-                tuple(record.get("tasks", ())),
-                tuple(record.get("excluded", ())),
-                tuple(record.get("constraints", ())),
-                tuple(record.get("assumptions", ())),
-            )
-        )
-    return tuple(found)
+        name, split, text, plan = (record.pop(key) for key in TEXTS[kind])
+        lists: dict[str, Any] = {key: tuple(items) for key, items in record.items()}
+        found[name] = Template(name, split, text, plan, where, **lists)
+    return tuple(found.values())
 
 
 def _problem(record: Any, kind: Kind) -> str | None:
     """What is wrong with the form of a record."""
     if not isinstance(record, dict):
         return "not an object"
-    fields = FIELDS[kind]
-    for name, type_ in fields.items():
-        if not isinstance(record.get(name), type_):
-            return f"{name} is missing or no {'list' if type_ is list else 'text'}"
-    unknown = set(record) - set(fields) - (set(LISTS) if kind == "commands" else set())
-    if unknown:
+    for name in TEXTS[kind]:
+        if not isinstance(record.get(name), str):
+            return f"{name} is missing or no text"
+    for name in LISTS[kind]:
+        items = record.get(name, None if name == "tasks" else [])
+        if not isinstance(items, list) or not all(isinstance(item, str) for item in items):
+            return f"{name} is missing or no list of texts"
+    if unknown := record.keys() - {*TEXTS[kind], *LISTS[kind]}:
         return f"unknown field {min(unknown)}"
     if record["split"] not in SPLITS:
         return f"split {record['split']!r}: must be {', '.join(SPLITS)}"
-    lists = [record[name] for name in (*LISTS, "tasks") if name in record]
-    if not all(isinstance(item, str) for values in lists for item in values):
-        return "a list holds something that is no text"
     return None

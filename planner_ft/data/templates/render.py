@@ -6,10 +6,10 @@ it alone and a text without its values (its skeleton) can be compared with other
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
 from planner_ft.data.numbers import COMPASS, ONES, TENS, words
-from planner_ft.data.templates.grammar import Nodes
 
 VALUE_OPEN, VALUE_CLOSE = "\x02", "\x03"
 PIECE = tuple[str, bool]
@@ -19,18 +19,16 @@ _DETERMINERS = frozenset(words("the a an this that each every its any"))
 _EVERY = frozenset(words("every each last past recent latest preceding per"))
 _CONSONANT = ("uni", "use", "usu", "uti", "one ", "one-", "once", "eu", "u-")
 _SPELT = frozenset(words("LED ROV RIB SAR NATO USV UAV RTK"))
-_SPOKEN = frozenset([*ONES, *TENS, *COMPASS.values(), "the", "a", "an", "due", "half", "minus"])
+_SPOKEN = frozenset([*ONES, *TENS, *COMPASS.values(), *words("the a an due half minus")])
 _ABBREVIATED = frozenset(
     words(
         "approx. no. nr. e.g. i.e. ca. vs. ref. dr. mr. mrs. ms. st. capt. pos. brg. hdg. min."
-        " max. sec. deg. att. re. lt. sgt. prof."
+        " max. sec. deg. att. re. lt. sgt. prof. ..."
     )
 )
-_SPACES = (
-    *(("  ", " "), (" ,", ","), (" ;", ";"), (" ?", "?"), (" !", "!"), (",,", ","), (",.", ".")),
-    *((",;", ";"), (",:", ":"), (",)", ")"), (",?", "?"), (",!", "!"), ("?.", "?"), ("!.", "!")),
-    *((" )", ")"), (" . ", ". "), ("( ", "("), (" :", ":")),
-)
+_GAP = re.compile(r" +(?=[ ,;?!):]|\. )|(?<=\() +")
+_DOUBLED = re.compile(r",+(?=[,.;:)?!])|(?<=[?!])\.")
+_START = re.compile(r'(^[^\w\x02]*|\n|[^ ]*[.?!]["”)\x03]* )(\x02?)([^\W\d_][^\W\d_]*)')
 
 
 def article_for(text: str) -> str:
@@ -42,21 +40,26 @@ def article_for(text: str) -> str:
         number = word.split("-")[0].split(".")[0]
         return "an" if number[0] == "8" or number in ("11", "18") else "a"
     if word[0].isupper() and (len(word) == 1 or not word[1].islower()):
-        if word.strip("0123456789-") in _SPELT:
-            return "a"
-        return "an" if word[0] in "AEFHILMNORSX" else "a"
+        spelt = word.strip("0123456789-") in _SPELT
+        return "an" if word[0] in "AEFHILMNORSX" and not spelt else "a"
     low = word.lower()
-    if low.startswith(("hour", "honest")):
-        return "an"
-    return "an" if low[0] in "aeiouåøöäé" and not f"{low} ".startswith(_CONSONANT) else "a"
+    vowel = low[0] in "aeiouåøöäé" and not f"{low} ".startswith(_CONSONANT)
+    return "an" if vowel or low.startswith(("hour", "honest")) else "a"
 
 
 def bare(text: str) -> str:
     """The text without its article."""
-    for article in _ARTICLES:
-        if text.startswith(article):
-            return text[len(article) :]
-    return text
+    return text.partition(" ")[2] if text.startswith(_ARTICLES) else text
+
+
+def _last_word(text: str) -> str:
+    """The word before the space that ends the text; empty where no space does."""
+    return text[-12:-1].rpartition(" ")[2] if text.endswith(" ") else ""
+
+
+def after_article(text: str) -> bool:
+    """Whether a determiner ends the text: "the ", "every "."""
+    return _last_word(text).lower() in _DETERMINERS
 
 
 def joined(pieces: Iterable[PIECE], *, small: bool = False) -> str:
@@ -67,66 +70,32 @@ def joined(pieces: Iterable[PIECE], *, small: bool = False) -> str:
     for piece, value in pieces:
         if not piece:
             continue
-        last = text[-12:].rpartition(" ")[0].rpartition(" ")[2] if text.endswith(" ") else ""
+        last = _last_word(text)
         low = last.lower().strip("(\"'")
-        if (value and low in _DETERMINERS) or (
-            value and low in _EVERY and piece.startswith(("a ", "an "))
-        ):
+        indefinite = low in _EVERY and piece.startswith(("a ", "an "))
+        if value and (low in _DETERMINERS or indefinite):
             piece = bare(piece)
         if low in ("a", "an") and piece[0] != " ":
             text = f"{text[: -len(last) - 1]}{last[:-1] if low == 'an' else last}"
             text += f"{article_for(piece)[1:]} "
         text += f"{VALUE_OPEN}{piece}{VALUE_CLOSE}" if value else piece
-    return tidied(text) if small else capitalised(tidied(text))
-
-
-def is_small(nodes: Nodes) -> bool:
-    """Whether a template begins with a small letter of its own."""
-    return bool(nodes) and isinstance(nodes[0], str) and nodes[0][:1].islower()
+    text = tidied(text)
+    return text if small else _START.sub(_raised, text)
 
 
 def tidied(text: str) -> str:
     """No doubled spaces or commas, no space before a mark, no comma before a stop."""
-    for wrong, right in _SPACES:
-        while wrong in text:
-            text = text.replace(wrong, right)
-    text = text.strip(" ,")
+    text = _DOUBLED.sub("", _GAP.sub("", text)).strip(" ,")
     return f"{text[:-2]}." if text.endswith(" .") else text
 
 
-def capitalised(text: str) -> str:
-    """A capital at the start of every sentence; names and other text values stay as they are."""
-    start = 0
-    while start < len(text) and not text[start].isalnum() and text[start] != VALUE_OPEN:
-        start += 1
-    letters = list(text)
-    places = [start]
-    for place, mark in enumerate(text):
-        if mark == "\n" or (mark == " " and place and _ends_sentence(text, place)):
-            places.append(place + 1)
-    for place in places:
-        _raise(text, letters, place)
-    return "".join(letters)
-
-
-def _ends_sentence(text: str, place: int) -> bool:
-    before = text[max(0, place - 12) : place].rstrip('"”)' + VALUE_CLOSE)
-    if not before or before[-1] not in ".?!" or before.endswith("..."):
-        return False
-    return before.rpartition(" ")[2].lower().lstrip("(") not in _ABBREVIATED
-
-
-def _raise(text: str, letters: list[str], place: int) -> None:
-    value = text[place : place + 1] == VALUE_OPEN
-    place += value
-    end = place
-    while end < len(text) and (text[end].isalpha() or text[end] == "'"):
-        end += 1
-    word = text[place:end]
-    if not word or not word[0].islower() or (len(word) == 1 and word != "a"):
-        return
-    if not value or word in _SPOKEN:
-        letters[place] = word[0].upper()
+def _raised(match: re.Match[str]) -> str:
+    """The start of a sentence with a capital; names and other text values stay as they are."""
+    before, mark, word = match.groups()
+    ended = before.rstrip(f' "”){VALUE_CLOSE}').lower().lstrip("(")
+    if ended in _ABBREVIATED or (len(word) == 1 and word != "a") or (mark and word not in _SPOKEN):
+        return match[0]
+    return f"{before}{mark}{word[0].upper()}{word[1:]}"
 
 
 def plain(text: str) -> str:
@@ -136,14 +105,11 @@ def plain(text: str) -> str:
 
 def segments(text: str) -> list[PIECE]:
     """The text by what is and what is not a value; values with their marks left out."""
-    found: list[PIECE] = []
-    for piece in text.split(VALUE_OPEN):
-        value, closed, rest = piece.partition(VALUE_CLOSE)
-        if closed:
-            found.append((value, True))
-            found.append((rest, False))
-        else:
-            found.append((piece, False))
+    first, *rest = text.split(VALUE_OPEN)
+    found = [(first, False)]
+    for piece in rest:
+        value, _close, after = piece.partition(VALUE_CLOSE)
+        found += [(value, True), (after, False)]
     return [(piece, value) for piece, value in found if piece or value]
 
 

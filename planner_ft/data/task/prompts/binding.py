@@ -1,82 +1,48 @@
-"""A parsed line for one task of a vehicle: names checked, each argument assigned to a parameter or
-to a part of a shape.
-"""
+"""A prompt template for one task of a vehicle: names checked, and how each slot is drawn."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
 
+from planner_ft.data.numbers import Value
 from planner_ft.data.task.phrasebook import Phrasebook
-from planner_ft.data.task.prompts.shapes import (
-    COMPASS_WORDS,
-    JOINT,
-    SHAPES,
-    TURNS,
-    role_of,
-    value_draw,
-    word_role,
-)
+from planner_ft.data.task.prompts.shapes import SHAPES, value_draw
 from planner_ft.data.task.values import Draw
-from planner_ft.data.templates.grammar import Argument, TemplateError, all_slots, base_of
-from planner_ft.data.templates.grammar import Call as CallText
-from planner_ft.data.templates.grammar import Step as StepText
+from planner_ft.data.templates.grammar import (
+    Argument,
+    Call,
+    Step,
+    TemplateError,
+    all_slots,
+    base_of,
+)
 from planner_ft.data.templates.records import Template
-from planner_ft.vocabulary.definition import Parameter, Role, Skill, Task
+from planner_ft.vocabulary.definition import Role, Task
 
 XY = "xy"
+WORDS = ("start", "turn", "axis")
+"""Roles that a word of the plan fills: `turn=clockwise`."""
 
 
-@dataclass(frozen=True)
-class Fill:
-    """One parameter of a skill, or part of a shape, and where its value comes from: a slot, a task
-    parameter, or the line itself.
+class Source(NamedTuple):
+    """How a slot's value is drawn, the place that a task parameter fills, and whether it is a list
+    of texts.
     """
-
-    target: str
-    kind: str
-    value: Any
-    negative: bool = False
-
-
-@dataclass(frozen=True)
-class Call:
-    """A skill or shape with what fills it."""
-
-    name: str
-    fills: tuple[Fill, ...]
-    flag: str = ""
-    at: str = ""
-    shape: bool = False
-
-
-@dataclass(frozen=True)
-class Step:
-    """A step or shape with what runs in it."""
-
-    movement: Call
-    filters: tuple[Call, ...]
-    perceptions: tuple[Call, ...]
-    each: Step | None = None
-
-
-@dataclass(frozen=True)
-class Source:
-    """How a slot's value is drawn, and the places that a task parameter fills."""
 
     draw: Draw
     place: str
-    type: str
-    position: bool = False
+    several: bool = False
 
 
 @dataclass
 class Bound:
-    """A line that can be drawn for one task."""
+    """A template that can be drawn for one task. Every argument of its steps has a name."""
 
-    line: Template
+    template: Template
     task: Task
-    steps: tuple[Step, ...] = ()
+    steps: list[Step] = field(default_factory=list)
     everywhere: Step | None = None
     front: bool = False
     """What runs everywhere is mentioned before what the steps have of their own."""
@@ -87,260 +53,161 @@ class Bound:
     """Task parameters whose position is calculated with, so that it must be known."""
 
 
-def bind(line: Template, task: Task, book: Phrasebook) -> Bound:
-    """The line for this task. Raises TemplateError that says what does not fit."""
-    bound = Bound(line, task)
-    _Binder(bound, book).run()
+def bindings(template: Template, book: Phrasebook) -> tuple[Bound, ...]:
+    """The template for each task that it suits. Raises PlannerError where a task that it names does
+    not fit; of "*" the tasks are left that have what it needs.
+    """
+    key = book.vocabulary
+    if key not in template.bound:
+        template.bound[key] = tuple(_bindings(template, book))
+    found: tuple[Bound, ...] = template.bound[key]
+    return found
+
+
+def _bindings(template: Template, book: Phrasebook) -> Iterator[Bound]:
+    vocabulary, every = book.vocabulary, "*" in template.tasks
+    for title in vocabulary.task if every else template.tasks:
+        if title not in vocabulary.task:
+            raise template.error(f"there is no task {title}")
+        try:
+            yield bind(template, vocabulary.task[title], book)
+        except TemplateError as error:
+            if not every:
+                raise template.error(error) from None
+
+
+def bind(template: Template, task: Task, book: Phrasebook) -> Bound:
+    """The template for this task. Raises TemplateError that says what does not fit."""
+    binder = _Binder(Bound(template, task), book)
+    bound, slots = binder.bound, list(all_slots(template.nodes))
+    for slot in slots:
+        if slot.sign == "param":
+            binder.parameter(slot.key)
+        elif slot.options & {"left", "right"}:
+            bound.signs[slot.key] = -1 if "left" in slot.options else 1
+    for step in template.steps:
+        if step.call.name != "ALL":
+            bound.steps.append(binder.step(step))
+        elif bound.everywhere is None:
+            bound.everywhere = binder.beside(step)
+            bound.front = not bound.steps
+    unused = binder.keys - bound.sources.keys()
+    if unused:
+        raise TemplateError(
+            f"{{{min(unused)}}} stands in the text and in no step; for words that are no value of"
+            " the plan write {_list}"
+        )
+    asked = {call.label for step in template.steps for call in step.calls() if call.label}
+    for name in asked ^ {slot.key for slot in slots if slot.sign == "?"}:
+        raise TemplateError(f"the label ?{name} stands only in the text or only in the steps")
+    if not bound.steps:
+        raise TemplateError("there is no step")
     return bound
 
 
 class _Binder:
     def __init__(self, bound: Bound, book: Phrasebook) -> None:
         self.bound, self.book, self.task = bound, book, bound.task
-        self.slots = [slot for slot in all_slots(bound.line.nodes) if slot.sign in ("", "param")]
-        self.keys = {slot.key for slot in self.slots if not slot.sign}
-        self.links = book.tasks[self.task.title].links
+        self.keys = {slot.key for slot in all_slots(bound.template.nodes) if not slot.sign}
 
-    def run(self) -> None:
-        line, bound = self.bound.line, self.bound
-        for slot in self.slots:
-            if slot.sign:
-                self._param(slot.key)
-            elif slot.options & {"left", "right"}:
-                bound.signs[slot.key] = -1 if "left" in slot.options else 1
-        everywhere = [step for step in line.steps if step.call.name == "ALL"]
-        bound.steps = tuple(self._step(step) for step in line.steps if step not in everywhere)
-        bound.front = bool(everywhere) and line.steps[0] in everywhere
-        for step in everywhere[:1]:
-            bound.everywhere = Step(Call("ALL", ()), *self._beside(step))
-        unused = self.keys - set(bound.sources)
-        if unused:
-            raise TemplateError(
-                f"{{{min(unused)}}} stands in the text and in no step; for words that are no value"
-                " of the plan write {_list}"
-            )
-        asked = {call.label for step in line.steps for call in step.calls() if call.label}
-        labels = {slot.key for slot in all_slots(line.nodes) if slot.sign == "?"}
-        for name in asked ^ labels:
-            raise TemplateError(f"the label ?{name} stands only in the text or only in the steps")
-        if not bound.steps:
-            raise TemplateError("there is no step")
+    def step(self, step: Step) -> Step:
+        call = step.call
+        bound = self._shape(call) if call.name in SHAPES else self._skill(call, "navigation")
+        each = self.step(step.each) if step.each else None
+        return replace(self.beside(step), call=bound, each=each)
 
-    def _step(self, step: StepText) -> Step:
-        name = step.call.name
-        movement = (
-            self._shape(step.call) if name in SHAPES else self._skill(step.call, "navigation")
-        )
-        return Step(movement, *self._beside(step), self._step(step.each) if step.each else None)
+    def beside(self, step: Step) -> Step:
+        """The step with its filters and perception skills bound."""
+        filters = tuple(self._skill(call, "filter") for call in step.filters)
+        perceptions = tuple(self._skill(call, "perception") for call in step.perceptions)
+        return replace(step, filters=filters, perceptions=perceptions)
 
-    def _beside(self, step: StepText) -> tuple[tuple[Call, ...], tuple[Call, ...]]:
-        return tuple(self._skill(call, "filter") for call in step.filters), tuple(
-            self._skill(call, "perception") for call in step.perceptions
-        )
-
-    def _param(self, name: str) -> Parameter:
+    def parameter(self, name: str) -> bool:
+        """Note that the text or the plan refers to a task parameter; whether it is a position."""
         if name not in self.task.by_name:
-            raise TemplateError(
-                f"{self.task.title} has no parameter {name}{_among(self.task.by_name)}"
-            )
+            has = _among(self.task.by_name)
+            raise TemplateError(f"{self.task.title} has no parameter {name}{has}")
         self.bound.params.add(name)
-        return self.task.by_name[name]
+        return self.task.by_name[name].type == "position"
 
-    # ------------------------------------------------------------ skills
-
-    def _skill(self, call: CallText, role: Role) -> Call:
-        skill = self.book.vocabulary.skill.get(call.name)
-        if skill is None:
-            raise TemplateError(f"there is no skill {call.name}")
-        if skill.role != role:
-            raise TemplateError(
-                f"{call.name} is a {skill.role} skill: write it"
-                f" {'as a step' if skill.role == 'navigation' else 'with + or &'} "
-            )
-        fills: list[Fill] = []
-        for argument in call.arguments:
-            target = self._target(skill, argument, {fill.target for fill in fills})
-            if target:
-                fills.append(
-                    self._fill(argument, target, self._skill_source(skill, target, argument))
-                )
-        if (
-            skill.motion == "goto"
-            and XY not in {fill.target for fill in fills}
-            and not {"x", "y"} <= {fill.target for fill in fills}
-        ):
-            raise TemplateError(f"{call.name} needs a position: P1 or param.NAME")
-        return Call(call.name, tuple(fills), call.label, call.at)
-
-    def _target(self, skill: Skill, argument: Argument, taken: set[str]) -> str | None:
-        if argument.name:
-            return self._known(skill, argument.name)
-        if argument.kind == "slot" and not _is_word(argument):
-            base = base_of(str(argument.value))
-            return XY if skill.motion == "goto" and base == "P" else self._known(skill, base)
-        if argument.kind == "param":
-            return self._param_target(skill, self._param(str(argument.value)))
-        free = [parameter.name for parameter in skill.parameters if parameter.name not in taken]
-        if argument.value in COMPASS_WORDS:
-            return next((name for name in free if name in ("heading", "yaw", "bearing")), None)
-        if _is_word(argument):
-            return None
-        if not free:
-            raise TemplateError(f"{skill.name}: {argument.value} is one value too many")
-        return free[0]
-
-    def _known(self, skill: Skill, name: str) -> str:
-        if name not in skill.by_name and not (name == XY and skill.motion == "goto"):
-            raise TemplateError(f"{skill.name} has no parameter {name}{_among(skill.by_name)}")
-        return name
-
-    def _param_target(self, skill: Skill, parameter: Parameter) -> str:
-        if parameter.type == "position" and skill.motion == "goto":
-            return XY
-        linked = [
-            other.name
-            for other in skill.parameters
-            if self.links.get(f"{skill.name}.{other.name}") == parameter.name
-        ]
-        same = [other.name for other in skill.parameters if other.name == parameter.name]
-        unit = [
-            other.name
-            for other in skill.parameters
-            if other.unit == parameter.unit and parameter.unit and other.type == parameter.type
-        ]
-        texts = [
-            other.name
-            for other in skill.parameters
-            if other.type in ("id", "text", "texts") and parameter.type in ("id", "text", "texts")
-        ]
-        for names in (same, linked, unit, texts):
-            if names:
-                return names[0]
-        raise TemplateError(
-            f"{skill.name} has no parameter that {parameter.name} of {self.task.title} could fill;"
-            f" write NAME=param.{parameter.name}"
-        )
-
-    def _skill_source(self, skill: Skill, target: str, argument: Argument) -> Source:
-        if target == XY:
-            return Source(
-                value_draw("Offset", "point", "P"), f"{skill.name}.xy", "position", position=True
-            )
-        del argument
-        return Source(
-            self.book.skills[skill.name].draws[target],
-            f"{skill.name}.{target}",
-            skill.by_name[target].type,
-        )
-
-    def _fill(self, argument: Argument, target: str, source: Source) -> Fill:
-        value: Any = argument.value
-        if argument.kind == "slot" and not _is_word(argument):
-            self._use(value, source)
-        elif argument.kind == "param":
-            self._param(value)
-        elif _is_word(argument):
-            value = COMPASS_WORDS.get(value, TURNS.get(value, value))
-        return Fill(
-            target, "literal" if _is_word(argument) else argument.kind, value, argument.negative
-        )
+    def _name(self, argument: Argument, place: str) -> str:
+        """The parameter or role that an argument fills; `place` is the one for a position."""
+        base = base_of(str(argument.value))
+        known = argument.kind == "param" and self.parameter(str(argument.value))
+        return argument.name or (place if place and (known or base == "P") else base)
 
     def _use(self, key: str, source: Source) -> None:
         if key not in self.keys:
             raise TemplateError(f"{{{key}}} stands in a step and not in the text")
         self.bound.sources.setdefault(key, source)
 
-    # ------------------------------------------------------------ shapes
+    def _skill(self, call: Call, role: Role) -> Call:
+        skill = self.book.vocabulary.skill.get(call.name)
+        if skill is None:
+            raise TemplateError(f"there is no skill {call.name}")
+        if skill.role != role:
+            how = "as a step" if skill.role == "navigation" else "with + or &"
+            raise TemplateError(f"{call.name} is a {skill.role} skill: write it {how}")
+        goto = skill.motion == "goto"
+        arguments: list[Argument] = []
+        for argument in call.arguments:
+            name = self._name(argument, XY if goto else "")
+            if name not in skill.by_name and not (goto and name == XY):
+                raise TemplateError(f"{call.name} has no parameter {name}{_among(skill.by_name)}")
+            if argument.kind == "slot" and name == XY:
+                draw = value_draw("Offset", "point", "P")
+                self._use(str(argument.value), Source(draw, f"{call.name}.{XY}"))
+            elif argument.kind == "slot":
+                draw = self.book.skills[call.name].draws[name]
+                several = skill.by_name[name].type == "texts"
+                self._use(str(argument.value), Source(draw, f"{call.name}.{name}", several))
+            arguments.append(replace(argument, name=name))
+        given = {argument.name for argument in arguments}
+        if goto and XY not in given and not {"x", "y"} <= given:
+            raise TemplateError(f"{call.name} needs a position: P1 or param.NAME")
+        return replace(call, arguments=tuple(arguments))
 
-    def _shape(self, call: CallText) -> Call:
+    def _shape(self, call: Call) -> Call:
         shape = SHAPES[call.name]
         if shape.motion not in self.book.motions:
             raise TemplateError(f"the vehicle has no skill for {call.name}")
-        fills: dict[str, Fill] = {}
+        arguments: dict[str, Argument] = {}
         for argument in call.arguments:
-            role = self._role(call.name, argument)
-            if role:
-                fills[role] = self._shape_fill(call.name, role, argument)
+            role, value = self._name(argument, "point"), str(argument.value)
+            if role not in shape.roles and role not in shape.options:
+                raise TemplateError(f"{call.name} has no use for {role}")
+            if argument.kind == "slot" and role in WORDS and value not in self.keys:
+                argument = replace(argument, kind="literal")
+            elif argument.kind == "slot":
+                joint = call.name == "Grid" and role in ("width", "length", "spacing", "count")
+                draw = _no_draw if joint else value_draw(call.name, role, base_of(value))
+                self._use(value, Source(draw, shape.roles.get(role, "")))
+            arguments[role] = replace(argument, name=role)
         for role, place in shape.roles.items():
-            if role in fills or (role == "spacing" and "count" in fills):
-                continue
-            name = self.links.get(place) or (
-                self.task.position_parameter
-                if role == "point"
-                else role
-                if role in self.task.by_name
-                else None
-            )
-            if not name:
-                raise TemplateError(
-                    f"{call.name} needs a {role}, and {self.task.title} has no parameter for it"
-                )
-            self._param(name)
-            fills[role] = Fill(role, "param", name)
-        self.bound.located |= {
-            str(fill.value)
-            for fill in fills.values()
-            if fill.kind == "param" and fill.target == "point"
-        }
-        return Call(call.name, tuple(fills.values()), call.label, call.at, shape=True)
+            if role not in arguments and not (role == "spacing" and "count" in arguments):
+                arguments[role] = Argument("param", self._own(call, role, place), role)
+        point = arguments.get("point")
+        if point is not None and point.kind == "param":
+            self.bound.located.add(str(point.value))
+        return replace(call, arguments=tuple(arguments.values()))
 
-    def _role(self, shape: str, argument: Argument) -> str | None:
-        if argument.name:
-            role = role_of(shape, argument.name)
-        elif argument.kind == "literal":
-            role = "count"
-        elif _is_word(argument):
-            role = word_role(shape, str(argument.value))
-            if role is None:
-                return None
-        else:
-            base = base_of(str(argument.value))
-            role = role_of(shape, base)
-            if role is None and argument.kind == "param" and self._param(base).type == "position":
-                role = "point"
-        if role is None:
-            raise TemplateError(f"{shape} has no use for {argument.name or argument.value}")
-        return role
-
-    def _shape_fill(self, shape: str, role: str, argument: Argument) -> Fill:
-        value: Any = argument.value
-        if argument.kind == "slot" and argument.name and value not in self.keys:
-            return Fill(role, "literal", value)
-        if _is_word(argument):
-            value = (
-                TURNS[value]
-                if value in TURNS
-                else COMPASS_WORDS[value]
-                if role == "heading"
-                else value
-            )
-            return Fill(role, "literal", value)
-        place = SHAPES[shape].roles.get(role, "")
-        kind = "position" if role == "point" else "number"
-        return self._fill(
-            argument,
-            role,
-            Source(
-                (
-                    _no_draw
-                    if (shape, role) in JOINT
-                    else value_draw(shape, role, base_of(str(value)))
-                ),
-                place,
-                kind,
-                position=role == "point",
-            ),
-        )
+    def _own(self, call: Call, role: str, place: str) -> str:
+        """The task parameter for what the plan does not give."""
+        name = self.book.tasks[self.task.title].links.get(place)
+        if name is None and role == "point":
+            name = self.task.position_parameter
+        if name is None and role in self.task.by_name:
+            name = role
+        if not name:
+            title = self.task.title
+            raise TemplateError(f"{call.name} needs a {role}, and {title} has no parameter for it")
+        self.parameter(name)
+        return name
 
 
-def _no_draw(_rng: Any) -> Any:
+def _no_draw(_rng: Any) -> Value:
     raise TemplateError("the size of a Grid is drawn as a whole")
 
 
-def _is_word(argument: Argument) -> bool:
-    """Whether the argument is a direction of its own: "north", "clockwise"."""
-    return argument.kind == "slot" and (argument.value in COMPASS_WORDS or argument.value in TURNS)
-
-
-def _among(names: Any) -> str:
-    return f" ({', '.join(names)})" if names else " (it has none)"
+def _among(names: Iterable[str]) -> str:
+    return f" (it has {', '.join(names) or 'none'})"

@@ -2,361 +2,42 @@
 
 from __future__ import annotations
 
-import random
 import re
 from collections.abc import Sequence
 from typing import Any
 
-from planner_ft.data.numbers import Value, angle, count_text, length, rotation
+from planner_ft.data.numbers import Value, angle, count_text, length, pick, rotation
 from planner_ft.data.task.context import Context
-from planner_ft.data.task.phrase import mark
-from planner_ft.data.task.prompts import shapes
-from planner_ft.data.task.prompts.binding import Bound, Call, Fill, Source, Step
-from planner_ft.data.task.steps import Step as Move
-from planner_ft.data.task.steps import plan_step
-from planner_ft.data.templates.grammar import Part, Slot, base_of, choose
-from planner_ft.facts import geometry as g
-from planner_ft.vocabulary.plans import canonical_parameters
+from planner_ft.data.task.prompts.binding import XY, Bound, Source
+from planner_ft.data.task.prompts.shapes import DRAWS, SHAPES, grid_size
+from planner_ft.data.task.steps import Entry, entry_of, plan_step
+from planner_ft.data.templates.grammar import Argument, Call, Part, Slot, Step, base_of, choose
+from planner_ft.data.templates.render import PIECE, after_article, bare, joined, plain
+from planner_ft.facts.geometry import tidy
 
 LINKED = 0.75  # share of stated values that the task's parameters hold too
 SPACING = 0.85  # share of grids whose stated size the task's parameters hold too
-LANES = 12
-
-Entry = dict[str, Any]
-
-
-class Drawing:
-    """The values of one sample and what was chosen of the text."""
-
-    def __init__(self, bound: Bound, context: Context) -> None:
-        self.bound, self.context, self.rng, self.book = bound, context, context.rng, context.book
-        self.values: dict[str, Value] = {}
-        self.flags: set[str] = set()
-        self._task_values()
-        for step in bound.steps:
-            if step.movement.name == "Grid":
-                self._grid(step.movement)
-        self.parts = self._chosen_parts()
-        for part in self.parts:
-            if isinstance(part, Slot) and not part.sign and part.key not in self.values:
-                self.values[part.key] = self._draw(part.key, bound.sources[part.key])
-
-    # ------------------------------------------------------------ values
-
-    def _task_values(self) -> None:
-        """Task parameters that the text refers to are there; positions are known where something is
-        calculated from them.
-        """
-        context = self.context
-        for name in sorted(self.bound.params):
-            context.require(name)
-            context.used.add(name)
-        place = context.task.position_parameter
-        if (
-            place in context.values
-            and context.unresolved(context.values[place])
-            and (place in self.bound.located or place not in self.bound.params)
-        ):
-            context.values[place] = context.entry.draws[place](self.rng)
-        for step in self.bound.steps:
-            for fill in step.movement.fills:
-                if step.movement.shape and fill.kind == "param" and fill.target == "count":
-                    number = self.rng.choice((3, 4, 4, 5, 6, 6, 8, 8, 9, 10, 12))
-                    context.values[fill.value] = Value(number, count_text(number, self.rng))
-
-    def _grid(self, call: Call) -> None:
-        """Size and spacing that fill each other, in the slots and in the task's parameters."""
-        context, rng = self.context, self.rng
-        fills = {fill.target: fill for fill in call.fills}
-        axis = self._early(fills.get("axis")) or "y"
-        width, along, spacing = shapes.grid_size(rng, free=axis == "y")
-        sizes: dict[str, float] = {
-            "width": width,
-            "length": along,
-            "spacing": spacing,
-            "count": g.lane_count(width if axis == "y" else along, spacing) or 0,
-        }
-        for role, size in sizes.items():
-            value = length(size, rng) if role != "count" else Value(size, count_text(size, rng))
-            fill = fills.get(role)
-            if fill and fill.kind == "slot":
-                self.values[fill.value] = value
-            name = (
-                fill.value
-                if fill and fill.kind == "param"
-                else context.entry.links.get(f"lawnmower.{role}")
-            )
-            if name and (
-                (fill and fill.kind == "param") or name in context.values or rng.random() < SPACING
-            ):
-                context.values[name] = value
-
-    def _early(self, fill: Fill | None) -> Any:
-        """The value of a slot that others depend on."""
-        if fill is None or fill.kind != "slot":
-            return fill.value if fill else None
-        value = self.values[fill.value] = self._draw(fill.value, self.bound.sources[fill.value])
-        return value.value
-
-    def _draw(self, key: str, source: Source) -> Value:
-        sign = self.bound.signs.get(key)
-        value = self._linked(source) or self._new(key, source)
-        if sign:
-            size = abs(value.value)
-            said = angle(size, self.rng)
-            return Value(sign * size, said.text, said.short)
-        return value
-
-    def _linked(self, source: Source) -> Value | None:
-        """The task's own value, now and then, so that the parameters repeat what the text
-        states.
-        """
-        context = self.context
-        name = context.linked(source.place) if source.place and self.rng.random() < LINKED else None
-        if not name or context.unresolved(context.values[name]) or source.type == "texts":
-            return None
-        context.used.add(name)
-        value = context.values[name]
-        if base_of(source.place).endswith("delta_yaw"):
-            return None if not value.value else rotation(value.value, self.rng)
-        return value
-
-    def _new(self, key: str, source: Source) -> Value:
-        """A value that differs from those of the same kind."""
-        others = [
-            other.value for name, other in self.values.items() if base_of(name) == base_of(key)
-        ]
-        value = source.draw(self.rng)
-        for _ in range(8):
-            if value.value not in others:
-                break
-            value = source.draw(self.rng)
-        return value
-
-    # ------------------------------------------------------------ text
-
-    def _chosen_parts(self) -> list[Part]:
-        parts: list[Part] = []
-        for part in choose(self.bound.line.nodes, self.rng, []):
-            if isinstance(part, Slot) and part.sign == "?":
-                self.flags.add(part.key)
-            elif isinstance(part, Slot) and part.sign == "_":
-                parts.append(self.context.slots()[f"_{part.key}"])
-            else:
-                parts.append(part)
-        return parts
-
-    def text(self) -> str:
-        """The prompt with its values marked."""
-        said = ""
-        for place, part in enumerate(self.parts):
-            if isinstance(part, str):
-                said += part
-                continue
-            after = "".join(
-                other for other in self.parts[place + 1 : place + 4] if isinstance(other, str)
-            )
-            said += self._say(part, said, after)
-        return tidy(said)
-
-    def _say(self, slot: Slot, before: str, after: str) -> str:
-        if slot.sign:
-            words = self.context.refer(slot.key)
-            return _ARTICLE.sub("", words) if _AFTER_ARTICLE.search(before) else words
-        value = self.values[slot.key]
-        text = worded(value, slot, before, after)
-        if (
-            slot.key in self.bound.signs
-            and "adj" not in slot.options
-            and not (_WAY.search(_clause_end(before)) or _WAY.search(_clause_start(after)))
-        ):
-            text += self.rng.choice(
-                (" to the left", " to port", " anticlockwise")
-                if value.value < 0
-                else (" to the right", " to starboard", " clockwise")
-            )
-        return mark(text)
-
-    # ------------------------------------------------------------ steps
-
-    def steps(self) -> list[Entry]:
-        """The steps of the plan. Raises ValueError when what was chosen makes no plan."""
-        plan: list[Entry] = []
-        for step in self.bound.steps:
-            if not step.movement.flag or step.movement.flag in self.flags:
-                plan += self._expand(step)
-        if self.bound.everywhere is None:
-            return plan
-        filters, perceptions = (
-            self._calls(self.bound.everywhere.filters),
-            self._calls(self.bound.everywhere.perceptions),
-        )
-        for entry in plan:
-            for own, common in ((entry["filters"], filters), (entry["perceptions"], perceptions)):
-                own[:] = [*common, *own] if self.bound.front else [*own, *common]
-        return plan
-
-    def _expand(self, step: Step) -> list[Entry]:
-        moves = self._moves(step.movement)
-        entries: list[Entry] = []
-        for index, (name, parameters) in enumerate(moves):
-            at = {"first": index == 0, "last": index == len(moves) - 1, "": True}
-            filters = self._calls([call for call in step.filters if at[call.at]])
-            perceptions = self._calls([call for call in step.perceptions if at[call.at]])
-            entries.append(
-                {
-                    "name": name,
-                    "parameters": parameters,
-                    "filters": filters,
-                    "perceptions": perceptions,
-                }
-            )
-            if step.each:
-                entries += self._expand(step.each)
-        return entries
-
-    def _moves(self, call: Call) -> list[Move]:
-        if not call.shape:
-            return [(call.name, self._parameters(call))]
-        values = {
-            fill.target: value for fill in call.fills if (value := self._value(fill)) is not None
-        }
-        keys = {
-            motion: self.book.skills[name].skill.parameters[0].name
-            for motion, name in self.book.motions.items()
-            if motion in ("turn_to", "turn_by")
-        }
-        x, y = self.book.vocabulary.home
-        try:
-            return shapes.steps_of(call.name, values, self.book.motions, keys, (x, y))
-        except KeyError as error:
-            raise ValueError(f"{call.name} has no {error}") from None
-
-    def _calls(self, calls: Sequence[Call]) -> list[Entry]:
-        return [
-            {
-                "name": call.name,
-                "parameters": canonical_parameters(
-                    self._parameters(call), self.book.vocabulary.skill[call.name]
-                ),
-            }
-            for call in calls
-            if not call.flag or call.flag in self.flags
-        ]
-
-    def _parameters(self, call: Call) -> dict[str, Any]:
-        parameters: dict[str, Any] = {}
-        known = self.book.vocabulary.skill[call.name].by_name
-        for fill in call.fills:
-            value = self._value(fill)
-            if value is None:
-                continue
-            if fill.target == "xy":
-                parameters["x"], parameters["y"] = value
-            else:
-                as_list = known[fill.target].type == "texts" and not isinstance(value, list)
-                parameters[fill.target] = [value] if as_list else value
-        return parameters
-
-    def _value(self, fill: Fill) -> Any:
-        """The value, or None for a slot of an alternative that was not chosen."""
-        if fill.kind == "literal":
-            return g.tidy(fill.value) if isinstance(fill.value, float) else fill.value
-        said = (
-            self.context.values[fill.value]
-            if fill.kind == "param"
-            else self.values.get(fill.value)
-            if self._chosen(fill.value)
-            else None
-        )
-        if said is None:
-            return None
-        return -said.value if fill.negative else said.value
-
-    def _chosen(self, key: str) -> bool:
-        return any(isinstance(part, Slot) and part.key == key for part in self.parts)
-
-
-# ---------------------------------------------------------------- wording
-
-_ARTICLE = re.compile(r"^(the|a|an) ")
-_AFTER_ARTICLE = re.compile(r"\b(the|a|an|this|that|each|every|its|any) $", re.IGNORECASE)
 _WAY = re.compile(
     r"\b(left|right|port|starboard|clockwise|anticlockwise|counter-clockwise)\b", re.IGNORECASE
 )
-
-
-def _clause_end(text: str) -> str:
-    return re.split(r"[.;:\x03]", text)[-1][-40:]
-
-
-def _clause_start(text: str) -> str:
-    return re.split(r"[.;:\x02]", text)[0][:40]
-
-
-def worded(value: Value, slot: Slot, before: str, after: str) -> str:
-    """The value's wording here: without its article after one, bare between quotation marks, else
-    as the slot asks.
-    """
-    if before[-1:] in ("'", '"') and after[:1] == before[-1:]:
-        return str(value.value)
-    if slot.options & {"adj", "num"} and value.short:
-        return value.short
-    if "noun" in slot.options and value.noun:
-        return value.noun
-    if "way" in slot.options and value.way:
-        return value.way
-    return _ARTICLE.sub("", value.text) if _AFTER_ARTICLE.search(before) else value.text
-
-
-_GAPS = re.compile(r" +(?=[ .,;:!?)])")
-_SENTENCE = re.compile(r"(?<!i\.e)(?<!e\.g)(?<!approx)(?<=[.!?] )([a-z])")
-_SPOKEN = re.compile(
-    r"(^|(?<=[.!?] ))\x02(the |a |an |due"
-    r" |(?:north|south|east|west)(?:-(?:east|west))?|[a-z]+-?[a-z]*"
-    r" (?:metres?|seconds?|minutes?|degrees?))"
-)
-
-
-def tidy(text: str) -> str:
-    """No double blanks; a capital after a full stop where the text begins with one."""
-    text = _GAPS.sub("", text).strip()
-    if text[:1].isupper() or text[:1] in "\x0212345(":
-        text = _SENTENCE.sub(lambda match: match.group(1).upper(), text)
-        text = _SPOKEN.sub(
-            lambda match: "\x02" + match.group(2)[0].upper() + match.group(2)[1:], text
-        )
-    return text
+LEFT = (" to the left", " to port", " anticlockwise")
+RIGHT = (" to the right", " to starboard", " clockwise")
 
 
 def draw_template(bound: Bound, context: Context) -> tuple[str, dict[str, Any], set[str]] | None:
     """The prompt with its values marked, the expected plan and the skills in it; None when the draw
     came to nothing.
     """
-    drawing = Drawing(bound, context)
-    text = drawing.text()
+    drawing = _Drawing(bound, context)
+    text = joined(drawing.pieces(), small=drawing.small)
     try:
-        entries = drawing.steps()
+        steps = drawing.steps()
     except (ValueError, ZeroDivisionError):
         return None
-    if not entries or any(
-        _twice(entry[key]) for entry in entries for key in ("filters", "perceptions")
-    ):
+    beside = [step[key] for step in steps for key in ("filter_skills", "perception_skills")]
+    if not steps or any(_twice(calls) for calls in beside):
         return None
-    vocabulary = context.book.vocabulary
-    steps = [
-        plan_step(
-            entry["name"], entry["parameters"], entry["filters"], entry["perceptions"], vocabulary
-        )
-        for entry in entries
-    ]
-    skills = {
-        call["name"]
-        for entry in entries
-        for key in ("filters", "perceptions")
-        for call in entry[key]
-    }
-    return text, {"skill_sequence": steps}, skills
+    return text, {"skill_sequence": steps}, {call["name"] for calls in beside for call in calls}
 
 
 def _twice(calls: list[Entry]) -> bool:
@@ -368,7 +49,210 @@ def _twice(calls: list[Entry]) -> bool:
     )
 
 
-def pick(lines: Sequence[Sequence[Bound]], rng: random.Random) -> Bound:
-    """A line, each equally often, for one of its tasks."""
-    tasks = lines[int(rng.random() * len(lines))]
-    return tasks[int(rng.random() * len(tasks))]
+class _Drawing:
+    """The values of one sample and what was chosen of the text."""
+
+    def __init__(self, bound: Bound, context: Context) -> None:
+        self.bound, self.context, self.rng, self.book = bound, context, context.rng, context.book
+        self.values: dict[str, Value] = {}
+        self._task_values()
+        for step in bound.steps:
+            if step.call.name == "Grid":
+                self._grid(step.call)
+        self.parts: list[Part] = choose(bound.template.nodes, self.rng, [])
+        first = self.parts[0] if self.parts else ""
+        self.small = isinstance(first, str) and first[:1].islower()
+        slots = [part for part in self.parts if isinstance(part, Slot)]
+        self.labels = {slot.key for slot in slots if slot.sign == "?"}
+        self.chosen = {slot.key for slot in slots if not slot.sign}
+        for slot in slots:
+            if not slot.sign and slot.key not in self.values:
+                self._draw(slot.key)
+
+    # ------------------------------------------------------------ values
+
+    def _task_values(self) -> None:
+        """Task parameters that the text refers to are there; positions are known where something is
+        calculated from them.
+        """
+        context, bound = self.context, self.bound
+        for name in sorted(bound.params):
+            context.require(name)
+            context.used.add(name)
+        place = context.task.position_parameter
+        unknown = place in context.values and context.unresolved(context.values[place])
+        if place and unknown and (place in bound.located or place not in bound.params):
+            context.values[place] = context.entry.draws[place](self.rng)
+        for step in bound.steps:
+            for argument in step.call.arguments if step.call.name in SHAPES else ():
+                if argument.kind == "param" and argument.name == "count":
+                    draw = DRAWS["Sectors", "count"]
+                    context.values[str(argument.value)] = draw(self.rng)
+
+    def _grid(self, call: Call) -> None:
+        """Size and spacing that fill each other, in the slots and in the task's parameters."""
+        context, rng = self.context, self.rng
+        arguments = {argument.name: argument for argument in call.arguments}
+        axis: Any = "y"
+        if "axis" in arguments:
+            axis = arguments["axis"].value
+            if arguments["axis"].kind == "slot":
+                axis = self._draw(str(axis)).value
+        for role, size in grid_size(rng, free=axis == "y").items():
+            value = length(size, rng) if role != "count" else Value(size, count_text(size, rng))
+            argument = arguments.get(role)
+            if argument is not None and argument.kind == "slot":
+                self.values[str(argument.value)] = value
+            if argument is not None and argument.kind == "param":
+                context.values[str(argument.value)] = value
+                continue
+            name = context.entry.links.get(f"lawnmower.{role}")
+            if name and (name in context.values or rng.random() < SPACING):
+                context.values[name] = value
+
+    def _draw(self, key: str) -> Value:
+        """A value for the slot: the task's own, now and then, or a new one."""
+        source, sign = self.bound.sources[key], self.bound.signs.get(key)
+        value = self._linked(source) or self._new(key, source)
+        if sign:
+            size = abs(value.value)
+            said = angle(size, self.rng)
+            value = Value(sign * size, said.text, said.short)
+        self.values[key] = value
+        return value
+
+    def _linked(self, source: Source) -> Value | None:
+        context = self.context
+        name = context.linked(source.place) if self.rng.random() < LINKED else None
+        if not name or source.several or context.unresolved(context.values[name]):
+            return None
+        context.used.add(name)
+        value = context.values[name]
+        if source.place.endswith("delta_yaw"):
+            return rotation(value.value, self.rng) if value.value else None
+        return value
+
+    def _new(self, key: str, source: Source) -> Value:
+        """A value that differs from those of the same kind."""
+        kind = base_of(key)
+        others = [other.value for name, other in self.values.items() if base_of(name) == kind]
+        for _ in range(9):
+            value = source.draw(self.rng)
+            if value.value not in others:
+                break
+        return value
+
+    # ------------------------------------------------------------ text
+
+    def pieces(self) -> list[PIECE]:
+        """The prompt as pieces of text, and whether each is a value."""
+        pieces: list[PIECE] = []
+        for place, part in enumerate(self.parts):
+            if isinstance(part, str):
+                pieces.append((part, False))
+            elif part.sign == "_":
+                pieces.append((plain(self.context.slots()[f"_{part.key}"]), True))
+            elif part.sign == "param":
+                said = self.context.refer(part.key)
+                follows = pieces and after_article(pieces[-1][0])
+                pieces.append((bare(said) if follows else said, False))
+            elif not part.sign:
+                pieces.append((self._said(part, place), True))
+        return pieces
+
+    def _said(self, slot: Slot, place: int) -> str:
+        """The value's wording: bare between quotation marks, with the side where the text around it
+        does not tell.
+        """
+        value = self.values[slot.key]
+        around = (self.parts[:place][-2:], self.parts[place + 1 : place + 4])
+        before, after = ("".join(part for part in some if isinstance(part, str)) for some in around)
+        if before[-1:] in ("'", '"') and after[:1] == before[-1:]:
+            return str(value.value)
+        text = value.worded(slot.options)
+        if slot.key in self.bound.signs and "adj" not in slot.options:
+            clause = re.split(r"[.;:]", before)[-1][-40:], re.split(r"[.;:]", after)[0][:40]
+            if not any(_WAY.search(text) for text in clause):
+                text += pick(LEFT if value.value < 0 else RIGHT, self.rng)
+        return text
+
+    # ------------------------------------------------------------ steps
+
+    def steps(self) -> list[Entry]:
+        """The steps of the plan. Raises ValueError when what was chosen makes no plan."""
+        everywhere = self.bound.everywhere
+        common = self._beside(everywhere) if everywhere else ([], [])
+        entries: list[Entry] = []
+        for step in self.bound.steps:
+            if not step.call.label or step.call.label in self.labels:
+                entries += self._expand(step, common)
+        return entries
+
+    def _expand(self, step: Step, common: tuple[list[Entry], list[Entry]]) -> list[Entry]:
+        entries: list[Entry] = []
+        moves, vocabulary = self._moves(step.call), self.book.vocabulary
+        for number, (name, parameters) in enumerate(moves):
+            own = self._beside(step, number == 0, number == len(moves) - 1)
+            parts = (common, own) if self.bound.front else (own, common)
+            filters, perceptions = ([*first, *then] for first, then in zip(*parts, strict=True))
+            entries.append(plan_step(name, parameters, filters, perceptions, vocabulary))
+            if step.each:
+                entries += self._expand(step.each, common)
+        return entries
+
+    def _beside(
+        self, step: Step, first: bool = True, last: bool = True
+    ) -> tuple[list[Entry], list[Entry]]:
+        """Filters and perception skills at this waypoint."""
+        at = {"": True, "first": first, "last": last}
+        filters, perceptions = (
+            [
+                entry_of(call.name, self._parameters(call), self.book.vocabulary)
+                for call in calls
+                if at[call.at] and (not call.label or call.label in self.labels)
+            ]
+            for calls in (step.filters, step.perceptions)
+        )
+        return filters, perceptions
+
+    def _moves(self, call: Call) -> Sequence[tuple[str, dict[str, Any]]]:
+        """Navigation skills with their parameters. Raises ValueError when lanes do not fill."""
+        shape = SHAPES.get(call.name)
+        if shape is None:
+            return [(call.name, self._parameters(call))]
+        values = {argument.name: self._value(argument) for argument in call.arguments}
+        values = {name: value for name, value in values.items() if value is not None}
+        name = self.book.motions[shape.motion]
+        try:
+            found = shape.expand({**values, "home": self.book.vocabulary.home})
+        except KeyError as error:
+            raise ValueError(f"{call.name} has no {error}") from None
+        if shape.motion == "goto":
+            return [(name, {"x": x, "y": y}) for x, y in found]
+        key = self.book.skills[name].skill.parameters[0].name
+        return [(name, {key: value}) for value in found]
+
+    def _parameters(self, call: Call) -> dict[str, Any]:
+        parameters: dict[str, Any] = {}
+        known = self.book.vocabulary.skill[call.name].by_name
+        for argument in call.arguments:
+            value = self._value(argument)
+            if value is None:
+                continue
+            if argument.name == XY:
+                parameters["x"], parameters["y"] = value
+            else:
+                as_list = known[argument.name].type == "texts" and not isinstance(value, list)
+                parameters[argument.name] = [value] if as_list else value
+        return parameters
+
+    def _value(self, argument: Argument) -> Any:
+        """The value, or None for a slot of an alternative that was not chosen."""
+        if argument.kind == "literal":
+            value = argument.value
+            return tidy(value) if isinstance(value, float) else value
+        key = str(argument.value)
+        if argument.kind == "slot" and key not in self.chosen:
+            return None
+        drawn = self.context.values[key] if argument.kind == "param" else self.values[key]
+        return -drawn.value if argument.negative else drawn.value

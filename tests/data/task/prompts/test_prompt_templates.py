@@ -8,9 +8,8 @@ import pytest
 
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.phrasebook import Phrasebook
-from planner_ft.data.task.prompts.binding import bind
+from planner_ft.data.task.prompts.binding import bind, bindings
 from planner_ft.data.task.prompts.draw import draw_template
-from planner_ft.data.task.prompts.library import bindings
 from planner_ft.data.templates.grammar import TemplateError
 from planner_ft.data.templates.records import Template, templates
 from planner_ft.data.templates.render import plain
@@ -79,7 +78,7 @@ def test_a_flag_brings_a_skill_when_its_alternative_was_chosen():
 
 
 def test_the_tasks_own_parameter_is_copied():
-    source = "KeepStation | Hold for {param.duration}. => StationKeep param.duration"
+    source = "KeepStation | Hold for {param.duration}. => StationKeep time=param.duration"
     for prompt, parameters, [(_name, given, _filters, _calls)] in samples(source):
         assert given == {"time": parameters["duration"]}
         assert not re.search(r"\d", prompt)
@@ -113,7 +112,7 @@ def test_all_runs_in_every_step_and_in_the_order_of_the_line():
 
 def test_shapes_take_what_they_need_from_the_task():
     for _prompt, given, steps in samples(
-        "PerformOrbit | Four points round the centre. => Ring 4 / StationKeep &GetThermalStats"
+        "PerformOrbit | Four points round the centre. => Ring count=4 / StationKeep &GetThermalStats"
     ):
         (x, y), radius = given["center"], given["radius"]
         points = [(step[1]["x"], step[1]["y"]) for step in steps[::2]]
@@ -127,7 +126,7 @@ def test_shapes_take_what_they_need_from_the_task():
 def test_a_grid_of_stated_size_is_covered():
     text = "{width} by {length} about {P1}, {spacing} apart, from the {corner}."
     source = (
-        f"BathymetryGridSurvey | {text} => Grid P1 width length spacing corner"
+        f"BathymetryGridSurvey | {text} => Grid P1 width length spacing start=corner"
         " &LogEnvironmentState@last"
     )
     for _prompt, _parameters, steps in samples(source):
@@ -139,7 +138,7 @@ def test_a_grid_of_stated_size_is_covered():
 def test_an_offset_lies_in_the_named_direction():
     source = (
         "Transit | Go {distance num} {direction} of {param.target_position}. => Offset"
-        " param.target_position distance direction"
+        " param.target_position length=distance heading=direction"
     )
     for prompt, parameters, [(_name, given, *_rest)] in samples(source):
         east, north = (
