@@ -74,7 +74,10 @@ def stream(
     With a probability of `unfamiliar_share` a sample's target gets a name that the generators do
     not know, where it has a word that can be changed.
     """
-    missions, tasks = sample_missions(seed, None, vocabulary), sample_tasks(vocabulary, seed, None, "train")
+    missions, tasks = (
+        sample_missions(seed, None, vocabulary),
+        sample_tasks(vocabulary, seed, None, "train"),
+    )
     handed_down = mission_tasks(vocabulary, seed + HANDED_DOWN_SEED)
     draw, words = np.random.default_rng(seed), Random(f"{seed} unfamiliar")
     while True:
