@@ -4,7 +4,6 @@ decide.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
 from typing import Literal
 
@@ -17,7 +16,7 @@ from planner_ft.decoding.constraints import Constraint
 from planner_ft.decoding.lookup import LONGEST_DRAFT, Lookup
 from planner_ft.decoding.sampling import Sampler
 
-RELEASE = float(os.environ.get("REL", "3.0"))
+RELEASE = 3.0
 """Nats by which the model must prefer its own value to every one with evidence to keep it."""
 FinishReason = Literal["stop", "length", "error"]
 

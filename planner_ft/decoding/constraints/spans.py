@@ -52,6 +52,25 @@ FUNCTION_WORDS = frozenset(
         "than",
     ]
 )
+ELLIPSES = frozenset(
+    [
+        "one",
+        "ones",
+        "other",
+        "others",
+        "same",
+        "both",
+        "two",
+        "three",
+        "four",
+        "pair",
+        "another",
+        "latter",
+    ]
+)
+"""Words that stand for words left out ("the red buoy and the green one"): a value may be two spans,
+and a plural its singular.
+"""
 QUOTES = ('"', "'", "“", "‘", "«")
 
 _UNSPACED = "\u0e00-\u0eff\u3040-\u30ff\u3400-\u9fff\uf900-\ufaff"
@@ -76,6 +95,8 @@ class Spans:
 
     def __init__(self, texts: Sequence[str]) -> None:
         self._pieces: list[Piece] = []
+        said = {word.lower() for text in texts for word in _PIECE.findall(text)}
+        self._loose = not said.isdisjoint(ELLIPSES)
         for text in texts:
             self._read(text)
 
@@ -95,8 +116,9 @@ class Spans:
             starts |= self._chain(grammar, BLOCK // 2)
         if not starts:
             return None
-        marks = literal('"')
-        span = grammar.terminal(f"{marks} ({' | '.join(sorted(starts))}) {marks}")
+        marks, one = literal('"'), grammar.terminal(" | ".join(sorted(starts)))
+        more = f'(" " {one})?' if self._loose else ""
+        span = grammar.terminal(f"{marks} {one} {more} {marks}")
         return grammar.terminal(f"{span}{none_of_texts(without)}") if without else span
 
     def _chain(self, grammar: Grammar, offset: int) -> set[str]:
@@ -126,25 +148,31 @@ class Spans:
             run = run + 1 if plain else 0
             begins = (before in QUOTES or not plain) and before != "_"
             ends = run % MOST_UNENDING == 0 and text[match.end() : match.end() + 1] != "_"
-            self._pieces.append(Piece(_forms(word), begins, ends))
+            self._pieces.append(Piece(self._forms(word), begins, ends))
         for number, (one, two) in enumerate(itertools.pairwise(matches)):
             gap = text[one.end() : two.start()]
+            if one.group().lower() == "a" and not gap.isspace():
+                # "Region a, top left" has no article there.
+                self._pieces[first + number].begins = self._pieces[first + number].ends = True
             self._link(first + number, _written_gaps(gap, one.group()), first + number + 1)
             possessive = gap in ("'", "’") and two.group().lower() == "s"
             if possessive and number + 2 < len(matches):
                 gap = text[two.end() : matches[number + 2].start()]
                 self._link(first + number, _written_gaps(gap, "s"), first + number + 2)
 
+    def _forms(self, word: str) -> tuple[str, ...]:
+        """The ways to write a word in a value."""
+        if len(quoted(word).encode()) > LONGEST_WORD // 2:
+            return ()
+        forms = [word, word.lower(), *corrections(word)]
+        if word.isupper() and len(word) > 1:
+            forms.append(word.title())
+        if self._loose and len(word) > 3 and word.endswith("s") and not word.endswith("ss"):
+            forms.append(word[:-1])
+        return tuple(map(quoted, dict.fromkeys(forms)))
+
     def _link(self, place: int, gaps: list[str], following: int) -> None:
         self._pieces[place].following += [(quoted(gap), following) for gap in gaps]
-
-
-def _forms(word: str) -> tuple[str, ...]:
-    """The ways to write a word in a value."""
-    if len(quoted(word).encode()) > LONGEST_WORD // 2:
-        return ()
-    capitals = [word.title()] if word.isupper() and len(word) > 1 else []
-    return tuple(map(quoted, dict.fromkeys([word, word.lower(), *capitals, *corrections(word)])))
 
 
 def _written_gaps(gap: str, before: str) -> list[str]:

@@ -11,18 +11,11 @@ from planner_ft.decoding.constraints.spans import BLOCK, MOST_WORDS, Spans
 from planner_ft.support.files import compact_json
 
 
-def admitted(
-    tokenizer: Any,
-    texts: list[str],
-    value: str,
-    without: tuple[str, ...] = (),
-    *,
-    named: bool = False,
-) -> bool:
+def admitted(tokenizer: Any, texts: list[str], value: str, without: tuple[str, ...] = ()) -> bool:
     from planner_ft.decoding.constraints.tokens import tokens_of
 
     grammar = Grammar()
-    terminal = Spans(texts, named=named).terminal(grammar, without)
+    terminal = Spans(texts).terminal(grammar, without)
     if terminal is None:
         return False
     tokens = tokens_of(tokenizer, (tokenizer.eos_token_id,))
@@ -84,8 +77,6 @@ def test_spans_can_be_written(embedded: Any, command: str, value: str) -> None:
         ("find Krösting Demel", "Krosting Demel"),
         ("", "buoy"),
         ("x" * 200, "x" * 200),
-        ("The grey raft is to be towed.", "grey raft is to be towed"),
-        ("Circle the barge then film the crane.", "barge then film the crane"),
     ],
 )
 def test_what_nobody_said_cannot(embedded: Any, command: str, value: str) -> None:
@@ -112,44 +103,3 @@ def test_long_commands_keep_their_spans(embedded: Any) -> None:
         assert admitted(embedded, [" ".join(words)], " ".join(words[place : place + 5]))
     assert Spans([" ".join(words)]).too_long is False
     assert Spans(["word " * (MOST_WORDS + 1)]).too_long is True
-
-
-@pytest.mark.parametrize(
-    ("text", "value", "admits"),
-    [
-        ("Record with camera quad_2.", "quad_2", True),
-        ("Record with camera quad_2.", "camera quad_2", False),
-        ("Record with camera 2.", "camera 2", True),
-        ("Sonar for freespans on both legs.", "freespans", True),
-        ("Sonar for freespans on both legs.", "both legs", False),
-        ("hodl for teh duraton and keep watch for porpises plese", "porpoises", True),
-        ("hodl for teh duraton and keep watch for porpises plese", "porpises", False),
-        ("Hold for the duration and keep watch for porpises please", "porpises", True),
-        ("A snapshot from pano_cam.", "snapshot", False),
-        ("A snapshot from pano_cam.", "pano_cam", True),
-    ],
-)
-def test_a_name_is_told_from_its_kind(embedded: Any, text: str, value: str, admits: bool) -> None:
-    assert admitted(embedded, [text], value, named=True) == admits
-
-
-@pytest.mark.parametrize(
-    ("command", "value", "right"),
-    [
-        ("Find the raft Łódka, please.", "raft Łódka", True),
-        ("Find the raft Łódka, please.", "raft łódka", False),
-        ("Circle the buoy Hestholmen at 9 m.", "buoy hestholmen", False),
-        ("Red buoy: circle it.", "red buoy", True),
-        ("FIND THE RED BUOY", "red buoy", True),
-        ("find the raft with um three masts", "raft with three masts", True),
-        ("find the raft with, er, three masts", "raft with three masts", True),
-        ("find the raft with um three masts", "raft with um", False),
-        ("Send the data, both logs first.", "data data", False),
-        ("Send the data, both logs first.", "data data logs", False),
-        ("Send the data, both logs first.", "data logs", True),
-    ],
-)
-def test_names_keep_their_capitals_and_sounds_are_no_words(
-    tokenizer: Any, command: str, value: str, right: bool
-) -> None:
-    assert admitted(tokenizer, [command], value) == right
