@@ -157,7 +157,7 @@ def test_a_disk_that_is_full_when_results_are_written(
     assert not (tmp_path / "out" / "results.json").exists()
     assert not list((tmp_path / "out").glob(".*.tmp"))
     with monkeypatch.context() as patch:
-        patch.setattr(generate_module, "_generate_batch", None)
+        patch.setattr(generate_module, "_run", None)
         run_bench(settings(resume=True))
     assert records(tmp_path / "out") == before
 
