@@ -121,7 +121,7 @@ def load_tokenizer(candidate: Candidate) -> PreTrainedTokenizerBase:
         known = (token for token in PAD_TOKENS if token in tokenizer.get_vocab())
         tokenizer.pad_token = next(known, tokenizer.eos_token)
     tokenizer.padding_side = "left"
-    # Prompts that the model cannot hold are refused elsewhere; the library's notice is switched off.
+    # Prompts that the model cannot hold are refused elsewhere, without the library's notice.
     tokenizer.deprecation_warnings["sequence-length-is-longer-than-the-specified-maximum"] = True
     return tokenizer
 

@@ -70,7 +70,7 @@ class Input:
         tolerance: float = EXACT,
         before: Iterable[Point] = (),
     ) -> Evidence:
-        """Where a value is from. A waypoint (WAYPOINT) may follow from the waypoints `before` it."""
+        """Where a value is from; a waypoint (WAYPOINT) may follow from those `before` it."""
         if parameter is WAYPOINT:
             return self._waypoint(value, tolerance, before)
         if parameter.type == "position" and is_place(value) and self._is_vehicles(value):

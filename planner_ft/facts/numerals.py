@@ -47,7 +47,7 @@ def word_at(tokens: list[Token], index: int) -> str:
 
 
 def number_at(tokens: list[Token], index: int) -> tuple[float, int]:
-    """The number that begins at `index` and how many tokens it takes; no token where none begins."""
+    """The number that begins at `index` and its number of tokens; 0 where none begins."""
     word, following = word_at(tokens, index), word_at(tokens, index + 1)
     if word[:1].isdigit() or (word[:1] == "." and word[1:].isdigit()):
         if word.isdigit() and following in MIXED and unit_at(tokens, index + 2)[0]:

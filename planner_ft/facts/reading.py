@@ -313,7 +313,7 @@ def same_place(value: Sequence[float], said: Place, tolerance: float = EXACT) ->
 
 
 def together(parts: Iterable[Evidence]) -> Evidence:
-    """The evidence of a value that has parts: the weakest kind, and the first words of each part."""
+    """The evidence of a value with parts: the weakest kind, and the first words of each part."""
     found = list(parts)
     if len(found) == 1:
         return found[0]

@@ -97,7 +97,7 @@ def _long_words() -> list[str]:
 
 
 def _shortens(word: str, whole: str) -> bool:
-    """Whether a word has the letters of `whole` in order, the first one first, and half at least."""
+    """Whether a word has half of the letters of `whole` at least, in order, the first one first."""
     letters = iter(whole)
     return (
         whole[0] == word[0]

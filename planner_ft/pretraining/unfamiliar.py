@@ -31,7 +31,7 @@ _ACCENTS: dict[str, str] = _TABLES["accents"]
 def with_unfamiliar_words(
     record: dict[str, Any], vocabulary: Vocabulary, rng: Random
 ) -> dict[str, Any] | None:
-    """`record` with one or two words of its targets replaced everywhere; None without such words."""
+    """`record` with one or two words of its targets replaced everywhere; None without any."""
     words = _shared_words(record, vocabulary)
     if not words:
         return None

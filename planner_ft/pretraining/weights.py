@@ -46,7 +46,7 @@ def deepened(weights: dict[str, Tensor], layers: int) -> dict[str, Tensor]:
 
 
 def nf4(weights: Tensor) -> Tensor:
-    """A bfloat16 matrix after a round trip through NF4 with double quantisation; same shape, dtype."""
+    """A bfloat16 matrix after a round trip through NF4 with double quantisation."""
     from bitsandbytes.functional import dequantize_4bit, quantize_4bit
 
     matrix = weights.detach().to(torch.bfloat16).contiguous()

@@ -48,7 +48,7 @@ def render_prompt(
     *,
     with_vocabulary: bool,
 ) -> list[int]:
-    """Ids of the prompt, up to the answer. `with_vocabulary`: for models that have not learned it."""
+    """Ids of the prompt, up to the answer. `with_vocabulary`: for models that lack it."""
     system = system_text(level, vocabulary, with_vocabulary=with_vocabulary)
     user = user_text(level, record, vocabulary)
     if tokenizer.chat_template:

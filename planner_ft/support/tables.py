@@ -98,7 +98,7 @@ def figure(
     mark: str = "",
     sign: bool = False,
 ) -> Cell:
-    """A figure in the unit of its column (`scale` times the value) with its interval in brackets."""
+    """A figure in the unit of its column (`scale` times the value), its interval in brackets."""
 
     def text(number: float | None) -> str:
         plus = "+" if sign else ""
@@ -213,7 +213,7 @@ def _tex_cell(cell: Cell) -> str:
 
 
 def terminal_table(table: Table) -> RichTable:
-    """A table for a rich console: intervals below their figures, published and baseline rows dim."""
+    """A table for a rich console: intervals below figures, published and baseline rows dim."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table as RichTable
     from rich.text import Text

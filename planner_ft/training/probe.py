@@ -74,7 +74,7 @@ def _restored(model: Any) -> Iterator[None]:
 def _loss_problems(
     model: Any, sample: Sample, pad: int, device: torch.device, dtype: torch.dtype
 ) -> list[str]:
-    """Compare with the model's own loss: an architecture may change logits after the output layer."""
+    """Compare with the model's own loss: an architecture may change logits behind the output."""
     batch = collate([sample], pad).to(device)
     ids = torch.tensor([sample.rendered.input_ids], device=device)
     mask = torch.tensor([sample.rendered.completion_mask], device=device)

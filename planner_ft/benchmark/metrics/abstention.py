@@ -1,4 +1,4 @@
-"""Abstention: commands that ask for nothing the vehicle can do are answered by a plan without tasks.
+"""Abstention: commands that the vehicle cannot carry out are answered by a plan without tasks.
 
 An output that does not parse refuses nothing: a model that breaks down is not praised for caution.
 """

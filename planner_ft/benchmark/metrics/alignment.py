@@ -21,7 +21,7 @@ Company = Callable[[int, int], float]
 LEADING = (TASK, "navigation")
 """Roles of entries that are paired first: one of them makes a step."""
 COMPANY, NEARNESS = 1e-2, 1e-4
-"""Weights that decide between equals, over all pairs together, beside 1 for one pair's parameters."""
+"""Weights that decide between equals, over all pairs, beside 1 for a pair's parameters."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Longest common subsequence: entries that are right and in the right order, whatever is between."""
+"""Longest common subsequence: right entries in the right order, whatever is between."""
 
 from __future__ import annotations
 

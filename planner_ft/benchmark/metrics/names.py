@@ -1,6 +1,6 @@
 """Names of tasks and skills as sets and as multisets: of a plan, per name and per role.
 
-Every predicted name counts, also outside the vocabulary, and an answer that does not parse has none.
+Every predicted name counts, also outside the vocabulary; an answer that does not parse has none.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The time that a suite has left: the queries that are left, at the pace of those that were done."""
+"""The time that a suite has left: its remaining queries, at the pace of those that were done."""
 
 from __future__ import annotations
 

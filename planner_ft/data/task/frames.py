@@ -196,7 +196,7 @@ class Scopes:
 
 
 def opened(text: str, c: Context) -> str:
-    """The prompt with a full stop, now and then with polite words or the task's opener before it."""
+    """The prompt with a full stop, now and then behind polite words or the task's opener."""
     command = text.partition(" ")[0] in c.book.verbs
     text = text if text[-1] in ".!?" else f"{text}."
     if c.book.unseen or not command or c.rng.random() < 0.85:

@@ -20,7 +20,7 @@ from planner_ft.facts import corrections
 MOST_WORDS = 2000
 """Words of a command that spans are made of; compiling more takes longer than an answer."""
 BLOCK = 60
-"""Words of a span at least: the engine follows a row of words by recursion, so long rows are cut."""
+"""Words of a span at least: the engine follows rows of words by recursion, so they are cut."""
 MOST_UNENDING = 4
 """Function words in a row behind which a span may end all the same: an answer must be able to."""
 FUNCTION_WORDS = frozenset(
