@@ -91,7 +91,9 @@ class Factory:
             moves = any(name in text for name in goes)
             return [*values.notes, *([free] if free and moves else [])]
 
-        return Answer(self.tokens, script, limit, self._reserve, notes, self._logic)
+        # A mission's places are stated or unresolved, its other values can be left out.
+        loose = self._logic if self.level == "task" else None
+        return Answer(self.tokens, script, limit, self._reserve, notes, loose)
 
     def check(self, limit: int) -> None:
         """Raise PlannerError for a limit within which an answer cannot be guaranteed to end."""

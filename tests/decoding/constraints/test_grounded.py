@@ -326,19 +326,28 @@ def test_a_time_may_be_told_by_another_one(
 
 def test_a_value_that_the_model_insists_on_is_released_and_noted(embedded: Any) -> None:
     vocabulary = load_vocabulary()
-    record = {"prompt": "Circle the buoy at [40, 20] at 12 m."}
-    begun = '{"tasks":[{"title":"PerformOrbit","parameters":{"center":[40,20],"radius":'
-    constraint = make_factory(embedded, "mission", vocabulary, "grounded").start(record, 1024)
-    schema = make_factory(embedded, "mission", vocabulary, "state").start(record, 1024)
-    begun = begun.replace("PerformOrbit", "SurveyTarget").replace("center", "target_position")
+    record = {"task": "KeepStation", "parameters": {}, "prompt": "Hold for 12 s within 4 m."}
+    begun = '{"skill_sequence":[{"navigation_skill":{"name":"StationKeep","parameters":{"time":'
+    constraint = make_factory(embedded, "task", vocabulary, "grounded").start(record, 2048)
+    logic = make_factory(embedded, "task", vocabulary, "state").start(record, 2048)
     for token in embedded.encode(begun, add_special_tokens=False):
         constraint.accept(token)
-        schema.accept(token)
+        logic.accept(token)
     (nine,) = embedded.encode("9", add_special_tokens=False)
     (letter,) = embedded.encode("x", add_special_tokens=False)
-    assert constraint.admits([nine]) == 0 and schema.admits([nine]) == 1
+    assert constraint.admits([nine]) == 0 and logic.admits([nine]) == 1
     assert not constraint.release(letter) and constraint.admits([nine]) == 0
     assert constraint.release(nine) and constraint.admits([nine]) == 1
     constraint.accept(nine)
-    assert any("SurveyTarget" in note for note in constraint.notes)
-    assert not schema.release(nine)
+    assert any("StationKeep" in note for note in constraint.notes)
+    assert not logic.release(nine)
+
+
+def test_degrees_are_no_place_in_metres(embedded: Any) -> None:
+    record = {"prompt": "Go to 54.3217 N, 10.1412 E and hold."}
+    constraint = make_factory(embedded, "mission", load_vocabulary(), "grounded").start(record)
+    begun = '{"tasks":[{"title":"Transit","parameters":{"target_position":['
+    for token in embedded.encode(begun, add_special_tokens=False):
+        constraint.accept(token)
+    (five,) = embedded.encode("5", add_special_tokens=False)
+    assert constraint.admits([five]) == 0 and not constraint.release(five)
