@@ -23,8 +23,8 @@ ROLES: tuple[Role, ...] = get_args(Role)
 BUNDLED = Path(__file__).parent
 DEFAULT = "usv"
 PHRASES, VEHICLE, ONTOLOGY = ".phrases.toml", ".vehicle.toml", ".ontology.toml"
-MISSIONS = ".missions.toml"
-UNHASHED = (LOGIC, MOTION, VEHICLE, ONTOLOGY, MISSIONS)
+MISSIONS, LIMITS = ".missions.toml", ".limits.toml"
+UNHASHED = (LOGIC, MOTION, VEHICLE, ONTOLOGY, MISSIONS, LIMITS)
 """Files beside a definition that no prompt, schema or grammar, and so no adapter depends on."""
 
 

@@ -1,0 +1,158 @@
+"""Limits of a mission: their canonical sentences in NAME.limits.toml, written and read back."""
+
+from __future__ import annotations
+
+import functools
+import re
+import string
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary.definition import LIMITS, Vocabulary
+
+KINDS = (
+    *("fence", "keep_out_area", "keep_out", "clearance", "distance"),
+    *("speed", "duration", "return", "no_recording"),
+)
+"""What a limit can be about; a plan is checked by its kind."""
+NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
+POSITION = rf"\[\s*{NUMBER}\s*,\s*{NUMBER}\s*\]"
+READ = {
+    "polygon": rf"{POSITION}(?:\s*,\s*{POSITION})+",
+    "position": POSITION,
+    "distance": NUMBER,
+    "speed": NUMBER,
+    "duration": NUMBER,
+    "object": r"[^\[\]]+?",
+    "time": r".+?",
+}
+"""How the values of a limit are written, by name: positions and numbers, else words."""
+NUMBERS = ("distance", "speed", "duration")
+
+
+@dataclass(frozen=True)
+class LimitKind:
+    """The sentences of a kind, and the filter skill that keeps it.
+
+    The first sentence whose values are all given is written; `parameters` of the filter by the
+    name of the limit's value that they take.
+    """
+
+    sentences: tuple[str, ...]
+    prompts: tuple[str, ...]
+    filter: str | None = None
+    parameters: Mapping[str, str] = field(default_factory=dict)
+
+    @functools.cached_property
+    def readers(self) -> tuple[re.Pattern[str], ...]:
+        """Patterns of the sentences, for the constraint and for the task prompt."""
+        return tuple(_reader(form) for form in (*self.sentences, *self.prompts))
+
+
+Limits = Mapping[str, LimitKind]
+
+
+@dataclass(frozen=True)
+class Limit:
+    """One limit: its kind, its values by name, and the sentence that it was read from."""
+
+    kind: str
+    values: dict[str, Any]
+    text: str
+
+
+@functools.lru_cache(maxsize=16)
+def load_limits(vocabulary: Vocabulary) -> Limits:
+    """The kinds of limits of a vehicle; none without NAME.limits.toml. Raises PlannerError."""
+    raw = vocabulary.beside(LIMITS)
+    return {kind: _kind(kind, entry, vocabulary) for kind, entry in raw.items()}
+
+
+def sentence(kind: str, values: Mapping[str, Any], limits: Limits) -> str:
+    """The limit as one of the mission plan's constraints: metres, seconds, m/s, [x, y]."""
+    return _written(limits[kind].sentences, values)
+
+
+def prompt_sentence(kind: str, values: Mapping[str, Any], limits: Limits) -> str:
+    """The limit as a sentence of a task prompt."""
+    return _written(limits[kind].prompts, values)
+
+
+def read_limit(text: str, limits: Limits) -> Limit | None:
+    """The limit of a canonical sentence; None for any other sentence."""
+    line = " ".join(text.split())
+    for kind, known in limits.items():
+        for reader in known.readers:
+            if found := reader.fullmatch(line):
+                values = {name: _value(name, words) for name, words in found.groupdict().items()}
+                return Limit(kind, values, text)
+    return None
+
+
+def slots(form: str) -> list[str]:
+    """The names of the values in a sentence."""
+    return [name for _text, name, _spec, _conversion in string.Formatter().parse(form) if name]
+
+
+def written(value: Any) -> str:
+    """A value as the sentences have it: 70, [260, 80], [0, 0], [9, 0], [9, 9] or words."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, Sequence):
+        inner = ", ".join(map(written, value))
+        return inner if value and isinstance(value[0], Sequence) else f"[{inner}]"
+    return f"{value:g}" if float(f"{value:g}") == value else repr(value)
+
+
+def _written(forms: Sequence[str], values: Mapping[str, Any]) -> str:
+    given = {name: written(value) for name, value in values.items() if value is not None}
+    form = next(form for form in forms if set(slots(form)) <= given.keys())
+    return form.format(**given)
+
+
+def _reader(form: str) -> re.Pattern[str]:
+    parts = []
+    for text, name, _spec, _conversion in string.Formatter().parse(form):
+        parts.append(re.escape(text))
+        if name:
+            parts.append(f"(?P<{name}>{READ[name]})")
+    return re.compile("".join(parts).removesuffix(r"\.") + r"\.?", re.IGNORECASE)
+
+
+def _value(name: str, words: str) -> Any:
+    if name in NUMBERS:
+        return _number(words)
+    if name not in ("polygon", "position"):
+        return words
+    numbers = [_number(found) for found in re.findall(NUMBER, words)]
+    points = [list(point) for point in zip(numbers[::2], numbers[1::2], strict=True)]
+    return points if name == "polygon" else points[0]
+
+
+def _number(words: str) -> float:
+    value = float(words)
+    return int(value) if value.is_integer() else value
+
+
+def _kind(kind: str, entry: Mapping[str, Any], vocabulary: Vocabulary) -> LimitKind:
+    where = f"{vocabulary.name}{LIMITS}: [{kind}]"
+    if kind not in KINDS:
+        raise PlannerError(f"{where}: no such kind of limit; there is {', '.join(KINDS)}")
+    made = LimitKind(
+        tuple(entry.get("sentences", ())),
+        tuple(entry.get("prompts", ())),
+        entry.get("filter"),
+        entry.get("parameters", {}),
+    )
+    used = {name for form in (*made.sentences, *made.prompts) for name in slots(form)}
+    if unknown := used - READ.keys():
+        known = ", ".join(READ)
+        raise PlannerError(f"{where}: no value {', '.join(sorted(unknown))}; there is {known}")
+    if not made.sentences or not made.prompts:
+        raise PlannerError(f"{where}: sentences and prompts are needed, at least one of each")
+    skill = vocabulary.skill.get(made.filter) if made.filter else None
+    if made.filter and (skill is None or made.parameters.keys() - skill.by_name.keys()):
+        raise PlannerError(f"{where}: {made.filter} is no skill with these parameters")
+    return made

@@ -1,0 +1,90 @@
+"""Limits are written in canonical sentences and read back from them."""
+
+import dataclasses
+
+import pytest
+
+from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.limits import (
+    KINDS,
+    load_limits,
+    prompt_sentence,
+    read_limit,
+    sentence,
+    written,
+)
+
+USV = load_limits(load_vocabulary("usv"))
+SQUARE = [[0, 0], [200, 0], [200, 200], [0, 200.5]]
+PLATFORM = {"distance": 70, "object": "the platform", "position": [260, 80]}
+SENTENCES = [
+    (
+        "fence",
+        {"polygon": SQUARE},
+        "The vehicle stays inside [0, 0], [200, 0], [200, 200], [0, 200.5].",
+    ),
+    ("keep_out", PLATFORM, "The vehicle stays at least 70 m from the platform at [260, 80]."),
+    (
+        "keep_out",
+        {"distance": 70, "object": "the platform"},
+        "The vehicle stays at least 70 m from the platform.",
+    ),
+    (
+        "keep_out",
+        {"distance": 70, "position": [260, 80]},
+        "The vehicle stays at least 70 m from [260, 80].",
+    ),
+    ("speed", {"speed": 1.5}, "The vehicle goes no faster than 1.5 m/s."),
+    ("return", {"time": "16:30"}, "The vehicle is back by 16:30."),
+    ("no_recording", {}, "Nothing is recorded."),
+    ("no_recording", {"object": "the marina"}, "Nothing is recorded near the marina."),
+]
+VALUES = {
+    **{"polygon": SQUARE, "position": [-3.25, 80], "distance": 0.5, "speed": 1.25},
+    **{"duration": 1200, "object": "the old pier", "time": "high water"},
+}
+
+
+@pytest.mark.parametrize(("kind", "values", "text"), SENTENCES)
+def test_the_sentence_is_the_documented_one(kind, values, text) -> None:
+    assert sentence(kind, values, USV) == text
+
+
+@pytest.mark.parametrize("vehicle", ["usv", "inspection_drone"])
+def test_every_sentence_is_read_back(vehicle) -> None:
+    limits = load_limits(load_vocabulary(vehicle))
+    assert set(limits) == set(KINDS)
+    for kind, known in limits.items():
+        for write, forms in ((sentence, known.sentences), (prompt_sentence, known.prompts)):
+            for form in forms:
+                given = {name: value for name, value in VALUES.items() if f"{{{name}}}" in form}
+                text = write(kind, given, limits)
+                limit = read_limit(text, limits)
+                assert (limit.kind, limit.values, limit.text) == (kind, given, text)
+
+
+@pytest.mark.parametrize(
+    "text", ["The vehicle stays near [0, 0].", "Keep 70 m from it.", "", "The mission is short."]
+)
+def test_other_sentences_are_no_limits(text) -> None:
+    assert read_limit(text, USV) is None
+
+
+def test_numbers_keep_their_digits() -> None:
+    assert written(0.1) == "0.1"
+    assert written(123456.75) == "123456.75"
+    assert written([[1, 2.0], [3, 4]]) == "[1, 2], [3, 4]"
+
+
+def test_a_wrong_file_is_refused_in_one_sentence(tmp_path) -> None:
+    usv = load_vocabulary("usv")
+    for name, wrong in {
+        "kind": '[fency]\nsentences = ["a"]\nprompts = ["b"]',
+        "value": '[fence]\nsentences = ["a {polgon}"]\nprompts = ["b"]',
+        "prompts": '[fence]\nsentences = ["a"]',
+        "filter": '[fence]\nsentences = ["a"]\nprompts = ["b"]\nfilter = "Fence"',
+    }.items():
+        (tmp_path / f"{name}.limits.toml").write_text(wrong)
+        with pytest.raises(PlannerError, match=r"usv.limits.toml: \[fenc"):
+            load_limits(dataclasses.replace(usv, path=tmp_path / f"{name}.toml"))
