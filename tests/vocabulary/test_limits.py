@@ -41,8 +41,13 @@ SENTENCES = [
     ("no_recording", {"object": "the marina"}, "Nothing is recorded near the marina."),
 ]
 VALUES = {
-    **{"polygon": SQUARE, "position": [-3.25, 80], "distance": 0.5, "speed": 1.25},
-    **{"duration": 1200, "object": "the old pier", "time": "high water"},
+    "polygon": SQUARE,
+    "position": [-3.25, 80],
+    "distance": 0.5,
+    "speed": 1.25,
+    "duration": 1200,
+    "object": "the old pier",
+    "time": "high water",
 }
 
 
