@@ -34,16 +34,16 @@ from planner_ft.candidates.loading import compute_dtype, load_model, load_tokeni
 from planner_ft.support.files import write_json
 from planner_ft.support.manifest import build_manifest
 from planner_ft.training.batches import epoch_steps
-from planner_ft.training.checkpoint import (
-    Trainee,
-    TrainState,
+from planner_ft.training.checkpoint import Run
+from planner_ft.training.loop import train_loop
+from planner_ft.training.model import (
     adapter_tensors,
-    seed_everything,
+    attach_adapter,
+    cpu_threads,
     set_adapter,
+    unpack,
 )
-from planner_ft.training.loop import Run, train_loop
-from planner_ft.training.model import attach_adapter, cpu_threads, make_optimizer, unpack
-from planner_ft.training.report import Trackers, TrainLog, make_display, read_log
+from planner_ft.training.report import Report, read_log
 from planner_ft.training.samples import Sample, read_split, render_split
 from planner_ft.training.settings import PUBLISHED, TrainSettings
 from planner_ft.vocabulary import load_vocabulary
@@ -83,7 +83,9 @@ class Side:
         self.start = {name: value.float() for name, value in adapter_tensors(self.model).items()}
 
     def reset(self) -> None:
-        seed_everything(0)
+        import torch
+
+        torch.manual_seed(0)
         set_adapter(self.model, self.start)
         self.model.train()
 
@@ -97,23 +99,15 @@ def ours(
     device = resolve_device("cpu")
 
     def run() -> tuple[float, list[float]]:
-        import torch
 
         side.reset()
         output = Path(tempfile.mkdtemp(dir=folder))
-        trainee = Trainee(
-            side.model,
-            make_optimizer(side.model, settings),
-            torch.amp.GradScaler("cpu", enabled=False),
-        )
-        log, trackers = TrainLog(output, 0), Trackers(settings, output, "throughput")
-        state, dtype = TrainState(), compute_dtype(device)
-        job = Run(settings, trainee, samples, [], pad, device, dtype, output, log, trackers)
-        console = Console(file=io.StringIO())
-        job.display = make_display(console, settings.max_steps or 0, 0, settings.log_every)
-        train_loop(job, state)
-        log.close()
-        return state.tokens, [
+        dtype = compute_dtype(device)
+        job = Run(settings, side.model, samples, [], pad, device, dtype, output)
+        job.report = Report(Console(file=io.StringIO()), output, settings, "throughput")
+        train_loop(job)
+        job.report.close()
+        return job.state.tokens, [
             record["loss"] for record in read_log(output / "train_log.jsonl") if "loss" in record
         ]
 

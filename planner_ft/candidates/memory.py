@@ -10,9 +10,12 @@ fragmentation; training and `bench` report the memory that they used.
 from __future__ import annotations
 
 from dataclasses import astuple, dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from planner_ft.candidates.registry import Candidate, Dimensions, Quantization
+
+if TYPE_CHECKING:
+    import torch
 
 GIB = 2**30
 RUNTIME = GIB // 2
@@ -146,3 +149,16 @@ def memory_summary(candidate: Candidate) -> dict[str, Any] | None:
         "train_fits": {f"{gib} GB": trains(gib) for gib in gpus},
         "infer_fits": {f"{gib} GB": "yes" if infer.fits(gib) else "no" for gib in gpus},
     }
+
+
+def device_memory(device: torch.device) -> tuple[int, int]:
+    """Free and total memory of a device in bytes."""
+    if device.type == "cuda":
+        import torch
+
+        free, total = torch.cuda.mem_get_info(device)
+        return free, total
+    import psutil
+
+    memory = psutil.virtual_memory()
+    return int(memory.available), int(memory.total)

@@ -4,21 +4,16 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_origin
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from planner_ft.cli.options import command, set_parameters
 from planner_ft.cli.progress import resume_command
-from planner_ft.training.settings import ABOUT, FIELDS, TYPES, default_text
+from planner_ft.training.settings import ABOUT, FIELDS, default_text, kind_of
 
 if TYPE_CHECKING:
     from rich.console import Console
-
-DATA_OPTIONS = (
-    *("level", "candidate", "vocabulary", "data_dir", "train_file"),
-    *("validation_file", "corrections", "output"),
-)
 
 
 def _with_settings(function: Callable[..., None]) -> Callable[..., None]:
@@ -32,10 +27,7 @@ def _with_settings(function: Callable[..., None]) -> Callable[..., None]:
 
 
 def _option(name: str) -> Any:
-    annotation, default = TYPES[name], default_text(name)
-    is_choice = get_origin(annotation) is Literal
-    kinds = (str,) if is_choice else get_args(annotation) or (annotation,)
-    kind = next(kind for kind in kinds if kind is not type(None))
+    (kind, choices), default = kind_of(name), default_text(name)
     flag = name.replace("_", "-")
     flags = f"--{flag}/--no-{flag}" if kind is bool else f"--{flag}"
     return Annotated[
@@ -43,7 +35,7 @@ def _option(name: str) -> Any:
         typer.Option(
             flags,
             help=ABOUT[name]["help"] + (f" Default: {default}." if default else ""),
-            metavar="|".join(get_args(annotation)) if is_choice else None,
+            metavar="|".join(choices) or None,
             rich_help_panel=ABOUT[name]["panel"],
         ),
     ]
@@ -70,10 +62,10 @@ def train(
     """Fine-tune a LoRA adapter on a 4-bit base."""
     from rich.console import Console
 
-    from planner_ft.training.request import build_request
+    from planner_ft.training.request import RUN_KEYS, build_request
 
     options = locals()
-    names = {name: options[name] for name in DATA_OPTIONS}
+    names = {name: options[name] for name in RUN_KEYS}
     request = build_request(names, settings, recipe=recipe, overwrite=overwrite, resume=resume)
     console = Console(highlight=False, soft_wrap=True)
     if preview or preview_id:
@@ -117,8 +109,9 @@ def _result(request: Any, result: dict[str, Any]) -> list[str]:
 
 def _preview(request: Any, sample_id: str | None, console: Console) -> None:
     from planner_ft.training.run import preview_sample
-    from planner_ft.training.samples import preview_caption, preview_text
+    from planner_ft.training.samples import preview_text
 
     sample, tokenizer = preview_sample(request, sample_id)
     console.print(preview_text(sample, tokenizer))
-    console.print(preview_caption(sample), markup=False)
+    trained = f"{sample.completion_length} of them trained (between ⟦ and ⟧)"
+    console.print(f"{sample.id}: {sample.length} tokens, {trained}", markup=False)

@@ -49,15 +49,8 @@ def render_prompt(
     with_vocabulary: bool,
 ) -> list[int]:
     """Ids of the prompt, up to the answer. `with_vocabulary`: for models that lack it."""
-    system = system_text(level, vocabulary, with_vocabulary=with_vocabulary)
+    before, after = prompt_frame(level, tokenizer, vocabulary, with_vocabulary=with_vocabulary)
     user = user_text(level, record, vocabulary)
-    if tokenizer.chat_template:
-        messages = [{"role": "system", "content": system}, {"role": "user", "content": PROBE}]
-        options = {"tokenize": False, "add_generation_prompt": True, "date_string": TODAY}
-        text = str(tokenizer.apply_chat_template(messages, **options))
-    else:
-        text = _bos(tokenizer) + PLAIN_FORM.format(system=system, user=PROBE)
-    before, after = text.split(PROBE)
     # The template or _bos already wrote the beginning-of-text token: special tokens must not be
     # added again. What the operator wrote is text: "<|eot_id|>" in a command is spelt out and ends
     # nothing.
@@ -66,6 +59,34 @@ def render_prompt(
         *tokenizer.encode(user.strip(), add_special_tokens=False, split_special_tokens=True),
         *tokenizer.encode(after, add_special_tokens=False),
     ]
+
+
+def prompt_frame(
+    level: Level,
+    tokenizer: PreTrainedTokenizerBase,
+    vocabulary: Vocabulary,
+    *,
+    with_vocabulary: bool = False,
+) -> tuple[str, str]:
+    """The text of a prompt before and behind the agent's input, special tokens included."""
+    system = system_text(level, vocabulary, with_vocabulary=with_vocabulary)
+    if tokenizer.chat_template:
+        messages = [{"role": "system", "content": system}, {"role": "user", "content": PROBE}]
+        options = {"tokenize": False, "add_generation_prompt": True, "date_string": TODAY}
+        text = str(tokenizer.apply_chat_template(messages, **options))
+    else:
+        text = _bos(tokenizer) + PLAIN_FORM.format(system=system, user=PROBE)
+    before, after = text.split(PROBE)
+    return before, after
+
+
+def with_fixed_date(template: Any) -> Any:
+    """A chat template that writes TODAY where it would write today's date (Llama 3)."""
+    if not isinstance(template, str) or "date_string" not in template:
+        return template
+    setting = f'{{%- set date_string = "{TODAY}" %}}'
+    fixed = f"{{%- if not date_string is defined %}}{setting}{{%- endif %}}"
+    return template if template.startswith(fixed) else fixed + template
 
 
 def render_sample(
@@ -81,6 +102,12 @@ def render_sample(
     answer = tokenizer.encode(answer_text(level, record, vocabulary), add_special_tokens=False)
     completion = [*answer, end_of_turn_ids(tokenizer)[0]]
     return Rendered(prompt + completion, [0] * len(prompt) + [1] * len(completion), len(prompt))
+
+
+def ends_of_answers(tokenizer: PreTrainedTokenizerBase, named: Any = None) -> list[int]:
+    """Ids that end an answer: those of the tokenizer, then those of generation settings."""
+    more = [named] if isinstance(named, int) else list(named or [])
+    return list(dict.fromkeys([*end_of_turn_ids(tokenizer), *more]))
 
 
 def end_of_turn_ids(tokenizer: PreTrainedTokenizerBase) -> list[int]:

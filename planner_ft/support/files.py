@@ -54,6 +54,38 @@ def nearest_folder(path: Path) -> Path:
     return next(folder for folder in (path, *path.parents) if folder.exists())
 
 
+@contextlib.contextmanager
+def alone(folder: Path, flag: str, work: str) -> Iterator[None]:
+    """Refuse a second `work` ("a training") in `folder` beside the block.
+
+    The lock lies beside the folder, and a dead process holds none. Raises PlannerError.
+    """
+    from filelock import FileLock, Timeout  # 40 ms
+
+    folder, existing = folder.absolute(), nearest_folder(folder)
+    lock = FileLock(folder.parent / f".{folder.name}.lock")
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        lock.acquire(blocking=False)
+    except Timeout:
+        way_out = "wait for its end, or give another folder"
+        raise PlannerError(f"{flag} {folder}: {work} runs there; {way_out}") from None
+    except OSError:
+        pass  # whoever writes into the folder says why that cannot be done
+    try:
+        yield
+    finally:
+        with contextlib.suppress(OSError):
+            if lock.is_locked:
+                Path(lock.lock_file).unlink()
+        lock.release()
+        with contextlib.suppress(OSError):  # work that was refused leaves no empty folders
+            for empty in folder.parents:
+                if empty == existing:
+                    break
+                empty.rmdir()
+
+
 def write_text(path: Path | str, text: str) -> None:
     """Write `text` to `path` atomically."""
     with atomic_writer(path) as stream:

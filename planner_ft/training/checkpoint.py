@@ -1,16 +1,17 @@
-"""Checkpoints: everything that a run needs to continue as if it had not been interrupted.
+"""A run's state, and checkpoints: all that it needs to go on as if it had not been interrupted.
 
-A checkpoint is a folder `step-00000120` with `state.json` (position, history, Python's random
-state, plain optimizer values) and `tensors.safetensors` (adapter, best adapter, optimizer moments,
-torch and CUDA random states). It is renamed into place when it is complete. No pickle is involved.
+A checkpoint is a folder `step-00000120` with `state.json` (position, history, plain optimizer
+values, the digest of the tensors) and `tensors.safetensors` (adapter, best adapter, optimizer
+moments, torch and CUDA random states). It is renamed into place when it is complete, and the one
+before stays in case it is damaged. No pickle is involved.
 """
 
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import json
 import os
-import random
 import shutil
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -22,9 +23,13 @@ from safetensors.torch import save as save_tensors
 from torch import Tensor
 
 from planner_ft.support.errors import PlannerError
-from planner_ft.training.model import adapter_parameters
-from planner_ft.training.output import CHECKPOINTS
+from planner_ft.training.model import adapter_tensors, make_optimizer, set_adapter
+from planner_ft.training.report import Report
+from planner_ft.training.samples import Sample
+from planner_ft.training.settings import TrainSettings
 
+CHECKPOINTS = "checkpoints"
+KEPT = 2
 PREFIX, TENSOR = "step-", "$tensor"
 
 
@@ -49,37 +54,56 @@ class TrainState:
 
 
 @dataclass
-class Trainee:
-    """The model with its adapter, optimizer, and the best adapter so far (None: the current)."""
+class Run:
+    """A model in training. `pad` is the id that fills batches; layers compute in `dtype`.
 
+    `best` is the best adapter so far, None for the current one.
+    """
+
+    settings: TrainSettings
     model: Any
-    optimizer: torch.optim.Optimizer
-    scaler: torch.amp.GradScaler
+    train: list[Sample]
+    validation: list[Sample]
+    pad: int
+    device: torch.device
+    dtype: torch.dtype
+    output: Path
+    state: TrainState = field(default_factory=TrainState)
     best: dict[str, Tensor] | None = None
+    report: Report = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.optimizer = make_optimizer(self.model, self.settings)
+        half = self.dtype == torch.float16
+        self.scaler = torch.amp.GradScaler(self.device.type, enabled=half)
+        size = self.settings.batch_size * self.settings.gradient_accumulation
+        self.steps_per_epoch = -(-len(self.train) // size)
+        steps = self.settings.epochs * self.steps_per_epoch
+        self.total_steps = min(steps, self.settings.max_steps or steps)
+
+    @property
+    def epoch(self) -> float:
+        """The epochs trained so far."""
+        return round(self.state.step / self.steps_per_epoch, 4)
 
 
-def adapter_tensors(model: Any) -> dict[str, Tensor]:
-    """A copy of the adapter's weights on the CPU."""
-    values = adapter_parameters(model).items()
-    return {name: value.detach().to("cpu", copy=True) for name, value in values}
-
-
-def set_adapter(model: Any, tensors: dict[str, Tensor]) -> None:
-    """Put weights from `adapter_tensors` into the model."""
-    with torch.no_grad():
-        for name, value in adapter_parameters(model).items():
-            value.copy_(tensors[name])
-
-
-def save_checkpoint(output: Path, state: TrainState, trainee: Trainee) -> None:
-    """Write a checkpoint under `output`, then remove older ones. Raises PlannerError: disk full."""
-    folder = output / CHECKPOINTS
-    target = folder / f"{PREFIX}{state.step:08d}"
+def save_checkpoint(run: Run) -> None:
+    """Write a checkpoint, then remove all but the last KEPT. Raises PlannerError: disk full."""
+    folder = run.output / CHECKPOINTS
+    target = folder / f"{PREFIX}{run.state.step:08d}"
     temporary = folder / f".{target.name}.{os.getpid()}.tmp"
-    values, tensors = _collect(state, trainee)
+    cuda = torch.cuda.get_rng_state_all() if torch.cuda.is_available() else []
+    random = {"torch": torch.get_rng_state(), **{f"cuda:{i}": s for i, s in enumerate(cuda)}}
+    parts = {"adapter": adapter_tensors(run.model), "best": run.best or {}, "rng": random}
+    tensors = {f"{part}/{name}": v for part, named in parts.items() for name, v in named.items()}
+    # Groups (learning rate, betas) follow from the settings; only the moments are saved.
+    moments = _take(run.optimizer.state_dict()["state"], "optimizer", tensors)
+    content = save_tensors(tensors)
+    values = {"state": asdict(run.state), "scaler": run.scaler.state_dict(), "optimizer": moments}
+    values["sha256"] = hashlib.sha256(content).hexdigest()
     try:
         temporary.mkdir(parents=True)
-        _write(temporary / "tensors.safetensors", save_tensors(tensors))
+        _write(temporary / "tensors.safetensors", content)
         _write(temporary / "state.json", json.dumps(values).encode())
         shutil.rmtree(target, ignore_errors=True)
         temporary.rename(target)
@@ -91,54 +115,60 @@ def save_checkpoint(output: Path, state: TrainState, trainee: Trainee) -> None:
         ) from error
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
-    for older in checkpoints(output)[:-1]:
+    for older in checkpoints(run.output)[:-KEPT]:
         shutil.rmtree(older, ignore_errors=True)
 
 
-def load_checkpoint(path: Path, trainee: Trainee) -> TrainState:
-    """Put a checkpoint's adapter, optimizer and random states in place and return its state."""
-    try:
-        values = json.loads((path / "state.json").read_text(encoding="utf-8"))
-        tensors = load_tensors((path / "tensors.safetensors").read_bytes())
-        set_adapter(trainee.model, _part(tensors, "adapter"))
-        moments = {int(key): _put(entry, tensors) for key, entry in values["optimizer"].items()}
-        groups = trainee.optimizer.state_dict()["param_groups"]
-        trainee.optimizer.load_state_dict({"state": moments, "param_groups": groups})
-    except Exception as error:
+def load_newest_checkpoint(run: Run) -> str:
+    """Go back to the newest checkpoint that is whole; return a sentence on it.
+
+    Raises PlannerError when there are only damaged ones.
+    """
+    for path in (run.output / CHECKPOINTS).glob(f".{PREFIX}*.tmp"):
+        shutil.rmtree(path, ignore_errors=True)
+    damaged: dict[Path, Exception] = {}
+    for path in reversed(checkpoints(run.output)):
+        try:
+            load_checkpoint(path, run)
+        except Exception as error:  # a damaged file fails in many ways
+            damaged[path] = error
+            continue
+        for other in damaged:
+            shutil.rmtree(other, ignore_errors=True)
+        notes = [f"{other} cannot be read ({reason})" for other, reason in damaged.items()]
+        return "; ".join([*notes, f"resuming at step {run.state.step}"])
+    for path, reason in damaged.items():
         raise PlannerError(
-            f"{path}: the checkpoint cannot be read ({error}); start again with --overwrite"
-        ) from error
-    trainee.best = _part(tensors, "best") or None
+            f"{path}: the checkpoint cannot be read ({reason}); start again with --overwrite"
+        ) from reason
+    return "no checkpoint was written yet: starting from the beginning"
+
+
+def load_checkpoint(path: Path, run: Run) -> None:
+    """Put a checkpoint's adapter, optimizer, random states and position in place."""
+    values = json.loads((path / "state.json").read_text(encoding="utf-8"))
+    content = (path / "tensors.safetensors").read_bytes()
+    digest = hashlib.sha256(content).hexdigest()
+    if values.get("sha256", digest) != digest:
+        raise ValueError("its tensors are not those that were written")
+    tensors = load_tensors(content)
+    set_adapter(run.model, _part(tensors, "adapter"))
+    moments = {int(key): _put(entry, tensors) for key, entry in values["optimizer"].items()}
+    groups = run.optimizer.state_dict()["param_groups"]
+    run.optimizer.load_state_dict({"state": moments, "param_groups": groups})
+    run.best = _part(tensors, "best") or None
     if values["scaler"]:
-        trainee.scaler.load_state_dict(values["scaler"])
-    restore_rng(values["python"], _part(tensors, "rng"))
-    return TrainState(**values["state"])
+        run.scaler.load_state_dict(values["scaler"])
+    torch.set_rng_state(tensors["rng/torch"])
+    for index in range(torch.cuda.device_count()):
+        if f"rng/cuda:{index}" in tensors:
+            torch.cuda.set_rng_state(tensors[f"rng/cuda:{index}"], index)
+    run.state = TrainState(**values["state"])
 
 
 def checkpoints(output: Path) -> list[Path]:
     """Complete checkpoints under `output`, oldest first."""
     return sorted(path for path in (output / CHECKPOINTS).glob(f"{PREFIX}*") if path.is_dir())
-
-
-def remove_leftovers(output: Path) -> None:
-    """Remove checkpoints that a killed run had not finished writing."""
-    for path in (output / CHECKPOINTS).glob(f".{PREFIX}*.tmp"):
-        shutil.rmtree(path, ignore_errors=True)
-
-
-def _collect(state: TrainState, trainee: Trainee) -> tuple[dict[str, Any], dict[str, Tensor]]:
-    """The values of state.json and the tensors, named PART/NAME."""
-    python, generators = rng_state()
-    parts = {"adapter": adapter_tensors(trainee.model), "best": trainee.best or {}}
-    tensors = {
-        f"{part}/{name}": value
-        for part, named in {**parts, "rng": generators}.items()
-        for name, value in named.items()
-    }
-    # Groups (learning rate, betas) follow from the settings; only the moments are saved.
-    moments = _take(trainee.optimizer.state_dict()["state"], "optimizer", tensors)
-    values = {"state": asdict(state), "scaler": trainee.scaler.state_dict(), "python": python}
-    return {**values, "optimizer": moments}, tensors
 
 
 def _part(tensors: dict[str, Tensor], part: str) -> dict[str, Tensor]:
@@ -181,27 +211,3 @@ def _sync(folder: Path) -> None:
             os.fsync(descriptor)
         finally:
             os.close(descriptor)
-
-
-def rng_state() -> tuple[list[Any], dict[str, Tensor]]:
-    """States of the generators: Python's for JSON, and byte tensors "torch", "cuda:0", ..."""
-    version, values, gauss = random.getstate()
-    cuda = torch.cuda.get_rng_state_all() if torch.cuda.is_available() else []
-    tensors = {f"cuda:{index}": state for index, state in enumerate(cuda)}
-    return [version, list(values), gauss], {"torch": torch.get_rng_state(), **tensors}
-
-
-def restore_rng(python: list[Any], tensors: dict[str, Tensor]) -> None:
-    """Set the generators to states from `rng_state`; devices that are not here are skipped."""
-    version, values, gauss = python
-    random.setstate((version, tuple(values), gauss))
-    torch.set_rng_state(tensors["torch"])
-    for index in range(torch.cuda.device_count()):
-        if f"cuda:{index}" in tensors:
-            torch.cuda.set_rng_state(tensors[f"cuda:{index}"], index)
-
-
-def seed_everything(seed: int) -> None:
-    """Seed all generators."""
-    random.seed(seed)
-    torch.manual_seed(seed)

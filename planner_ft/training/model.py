@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import warnings
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -42,17 +41,19 @@ def attach_adapter(model: Any, settings: TrainSettings, reference: str) -> Any:
     """
     from peft import LoraConfig, get_peft_model
 
-    config = LoraConfig(bias="none", task_type="CAUSAL_LM", target_modules=settings.targets)
-    config.r, config.lora_alpha = settings.rank, settings.lora_alpha
-    config.lora_dropout = settings.dropout
+    config = LoraConfig(
+        r=settings.rank,
+        lora_alpha=settings.lora_alpha,
+        lora_dropout=settings.dropout,
+        target_modules=settings.targets,
+        bias="none",
+        task_type="CAUSAL_LM",
+    )
     parameters = model.num_parameters()
     model.requires_grad_(False)
     torch.manual_seed(settings.seed)
     try:
-        with warnings.catch_warnings():
-            # PEFT asks transformers under a name that transformers is giving up.
-            warnings.simplefilter("ignore", FutureWarning)
-            peft_model = get_peft_model(model, config)
+        peft_model = get_peft_model(model, config)
     except ValueError as error:
         reason = str(error).splitlines()[0]
         raise PlannerError(f"--target-modules {settings.target_modules}: {reason}") from None
@@ -91,6 +92,24 @@ def adapter_parameters(model: Any) -> dict[str, nn.Parameter]:
     return {name: value for name, value in model.named_parameters() if value.requires_grad}
 
 
+def adapter_tensors(model: Any) -> dict[str, Tensor]:
+    """A copy of the adapter's weights on the CPU."""
+    values = adapter_parameters(model).items()
+    return {name: value.detach().to("cpu", copy=True) for name, value in values}
+
+
+def set_adapter(model: Any, tensors: dict[str, Tensor]) -> None:
+    """Put weights from `adapter_tensors` into the model."""
+    with torch.no_grad():
+        for name, value in adapter_parameters(model).items():
+            value.copy_(tensors[name])
+
+
+def autocast(device: torch.device, dtype: torch.dtype) -> torch.autocast:
+    """Layers compute in `dtype` in the block."""
+    return torch.autocast(device.type, dtype=dtype, enabled=dtype != torch.float32)
+
+
 def loss_sum(model: Any, batch: Batch, dtype: torch.dtype) -> Tensor:
     """Cross-entropy summed over the batch's completion tokens, a float32 scalar.
 
@@ -100,7 +119,7 @@ def loss_sum(model: Any, batch: Batch, dtype: torch.dtype) -> Tensor:
     base = model.get_base_model()
     head = base.get_output_embeddings()
     places = {} if batch.positions is None else {"position_ids": batch.positions}
-    with torch.autocast(batch.input_ids.device.type, dtype=dtype, enabled=dtype != torch.float32):
+    with autocast(batch.input_ids.device, dtype):
         output = base.get_decoder()(input_ids=batch.input_ids, use_cache=False, **places)
         selected = output.last_hidden_state[batch.rows, batch.columns]
         size = max(1, LOGIT_VALUES // base.config.get_text_config().vocab_size)
@@ -195,9 +214,8 @@ def _dense(layer: Any) -> Any:
     from bitsandbytes.functional import dequantize_4bit
 
     weight = dequantize_4bit(layer.weight.data, layer.weight.quant_state)
-    biased, size = layer.bias is not None, (layer.in_features, layer.out_features)
-    dense = nn.Linear(*size, bias=biased, device="meta")
+    dense = nn.Linear(layer.in_features, layer.out_features, bias=False, device="meta")
     dense.weight = nn.Parameter(weight, requires_grad=False)
-    if biased:
+    if layer.bias is not None:
         dense.bias = nn.Parameter(layer.bias.data, requires_grad=False)
     return dense

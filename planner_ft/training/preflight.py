@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterator
+import tempfile
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from planner_ft.candidates.loading import compute_dtype, load_tokenizer, resolve_device
-from planner_ft.candidates.memory import adapter_parameters, training_memory
+from planner_ft.candidates.memory import adapter_parameters, device_memory, training_memory
 from planner_ft.prompts import end_of_turn_ids
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import nearest_folder
 from planner_ft.support.resources import memory_size
 from planner_ft.training.model import LOGIT_VALUES, memory_levers, uses_gradient_checkpointing
-from planner_ft.training.output import folder_problems, writable_problem
+from planner_ft.training.output import folder_problem
 from planner_ft.training.report import tracker_problems
 from planner_ft.training.request import TrainRequest
 from planner_ft.training.samples import (
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
 
 CHECKS = 7
 """Six here; the seventh, on gradients, needs the loaded model."""
+OTHER_FILES = 2**25
+"""Bytes for everything in an output folder but weights."""
 
 
 @dataclass
@@ -47,10 +50,6 @@ class Prepared:
     @property
     def splits(self) -> list[Split]:
         return [split for split in (self.train, self.validation) if split]
-
-    @property
-    def samples(self) -> list[tuple[Split, Sample]]:
-        return [(split, sample) for split in self.splits for sample in split.samples]
 
     @property
     def pad(self) -> int:
@@ -72,40 +71,46 @@ class Finding:
 
 def run_preflight(request: TrainRequest, prepared: Prepared) -> Iterator[Finding]:
     """Yield the outcome of each check and fill `prepared`. Problems of the run raise nothing."""
-    checks = (check_candidate, check_data, check_rendering, check_tokens, check_output)
-    for check in (*checks, check_memory):
-        yield check(request, prepared)
+    checks = {
+        "candidate": check_candidate,
+        "data": check_data,
+        "rendering": check_rendering,
+        "special tokens": check_tokens,
+        "output": check_output,
+        "memory": check_memory,
+    }
+    for title, check in checks.items():
+        finding = Finding(title)
+        try:
+            check(request, prepared, finding)
+        except PlannerError as error:
+            finding.problems.append(str(error))
+        yield finding
 
 
-def check_candidate(request: TrainRequest, prepared: Prepared) -> Finding:
+def check_candidate(request: TrainRequest, prepared: Prepared, finding: Finding) -> None:
     """Is the model here, and can the device and the installed packages do what is asked?"""
-    finding, candidate, settings = Finding("candidate"), request.candidate, request.settings
-    try:
-        prepared.device = resolve_device(settings.device)
-    except PlannerError as error:
-        finding.problems.append(str(error))
-    try:
-        prepared.tokenizer = load_tokenizer(candidate)
-    except PlannerError as error:
-        finding.problems.append(str(error))
-    device, optimizer = prepared.device, settings.optimizer
-    if optimizer.startswith("paged") and device and device.type != "cuda":
-        other = "needs CUDA; take adamw-8bit or adamw"
-        finding.problems.append(f"--optimizer {optimizer} {other}")
+    candidate, settings = request.candidate, request.settings
     finding.problems += tracker_problems(settings)
-    if device:
+    try:
+        device = prepared.device = resolve_device(settings.device)
         size = f"{candidate.parameters / 1e6:,.1f} M parameters, " if candidate.parameters else ""
         base = "4-bit base" if settings.quantization == "nf4" else "16-bit base"
         dtype = str(compute_dtype(device)).removeprefix("torch.")
         model = f"{candidate.row_name}: {size}{candidate.source or 'not here'}"
         finding.text = f"{model}; {base}, computing in {dtype} on {device}"
-    return finding
+        if settings.optimizer.startswith("paged") and device.type != "cuda":
+            other = "needs CUDA; take adamw-8bit or adamw"
+            finding.problems.append(f"--optimizer {settings.optimizer} {other}")
+    except PlannerError as error:
+        finding.problems.append(str(error))
+    prepared.tokenizer = load_tokenizer(candidate)
 
 
-def check_data(request: TrainRequest, prepared: Prepared) -> Finding:
+def check_data(request: TrainRequest, prepared: Prepared, finding: Finding) -> None:
     """Do the files hold records of this level and vocabulary?"""
-    finding, level, vocabulary = Finding("data"), request.level, request.vocabulary
-    settings, problems, added = request.settings, finding.problems, []
+    level, vocabulary, settings = request.level, request.vocabulary, request.settings
+    problems, added = finding.problems, []
     train = read_split(request.train_file, level, vocabulary, problems, settings.max_samples)
     if train and request.corrections:
         own = len(train.records)
@@ -129,70 +134,68 @@ def check_data(request: TrainRequest, prepared: Prepared) -> Finding:
             prompts = f"{len(shared)} validation prompts are in the training split, too"
             note = f"{prompts} (first: {shared[0]}); the validation loss will flatter"
             finding.notes.append(note)
-    return finding
 
 
-def check_rendering(request: TrainRequest, prepared: Prepared) -> Finding:
+def check_rendering(request: TrainRequest, prepared: Prepared, finding: Finding) -> None:
     """Does every sample fit the limit whole, and is something of it trained?"""
-    finding, train, validation = Finding("rendering"), prepared.train, prepared.validation
     level, tokenizer, vocabulary = request.level, prepared.tokenizer, request.vocabulary
     if tokenizer is None or not prepared.splits:
-        return replace(finding, text="skipped: no tokenizer or no data", skipped=True)
-    try:
-        prepared.train = train and render_split(train, level, tokenizer, vocabulary)
-        prepared.validation = validation and render_split(validation, level, tokenizer, vocabulary)
-    except PlannerError as error:
-        finding.problems.append(str(error))
-        return finding
-    context = request.candidate.dimensions.context if request.candidate.dimensions else None
-    limit = min(request.settings.max_length, context or request.settings.max_length)
-    lever = f"{request.candidate.name} takes no more"
-    if limit == request.settings.max_length:
-        lever = f"raise --max-length (now {limit})"
+        finding.text, finding.skipped = "skipped: no tokenizer or no data", True
+        return
+    if prepared.train:
+        prepared.train = render_split(prepared.train, level, tokenizer, vocabulary)
+    if prepared.validation:
+        prepared.validation = render_split(prepared.validation, level, tokenizer, vocabulary)
+    most, dimensions = request.settings.max_length, request.candidate.dimensions
+    limit = min(most, dimensions.context) if dimensions else most
+    holds = f"{request.candidate.name} takes no more"
+    lever = f"raise --max-length (now {most})" if limit == most else holds
+    samples = [(split.path, sample) for split in prepared.splits for sample in split.samples]
     finding.problems += shortened(
-        f"{split.path}: sample {sample.id} has {sample.length} tokens and its answer would be cut"
-        f" at {limit}; {lever}, or leave the sample out"
-        for split, sample in prepared.samples
+        f"{path}: sample {sample.id} has {sample.length} tokens and its answer would be cut at"
+        f" {limit}; {lever}, or leave the sample out"
+        for path, sample in samples
         if sample.length > limit
     )
     finding.problems += shortened(
-        f"{split.path}: sample {sample.id} has no token that is trained"
-        for split, sample in prepared.samples
+        f"{path}: sample {sample.id} has no token that is trained"
+        for path, sample in samples
         if not any(sample.rendered.completion_mask)
     )
-    if prepared.train and prepared.train.samples:
-        tokens, longest = prepared.train.tokens, prepared.train.longest
-        share = sum(sample.completion_length for sample in prepared.train.samples) / tokens
-        trained = f"{tokens:,} tokens, {share:.0%} of them trained"
-        finding.text = f"{trained}; longest sample {longest} of {limit}"
-    return finding
+    if prepared.train and (trained := prepared.train.samples):
+        tokens = sum(sample.length for sample in trained)
+        share = sum(sample.completion_length for sample in trained) / tokens
+        counts = f"{tokens:,} tokens, {share:.0%} of them trained"
+        finding.text = f"{counts}; longest sample {longest(trained)} of {limit}"
 
 
-def check_tokens(request: TrainRequest, prepared: Prepared) -> Finding:
+def check_tokens(request: TrainRequest, prepared: Prepared, finding: Finding) -> None:
     """Does every answer end with a trained end-of-turn token, and a text begin with one BOS?"""
-    finding, tokenizer = Finding("special tokens"), prepared.tokenizer
-    if tokenizer is None or not prepared.samples:
-        return replace(finding, text="skipped: nothing rendered", skipped=True)
+    tokenizer = prepared.tokenizer
+    samples = [sample for split in prepared.splits for sample in split.samples]
+    if tokenizer is None or not samples:
+        finding.text, finding.skipped = "skipped: nothing rendered", True
+        return
     end, bos = end_of_turn_ids(tokenizer)[0], tokenizer.bos_token_id
     dimensions = request.candidate.dimensions
     size = dimensions.vocabulary if dimensions else len(tokenizer)
     kinds: dict[str, list[str]] = {}
-    for _, sample in prepared.samples:
-        for problem in _token_problems(sample, end, bos if isinstance(bos, int) else None, size):
+    for sample in samples:
+        for problem in token_problems(sample, end, bos if isinstance(bos, int) else None, size):
             kinds.setdefault(problem, []).append(sample.id)
     finding.problems = [
         f"{len(ids)} samples {problem} (first: {ids[0]})" for problem, ids in kinds.items()
     ]
-    begins = any(bos in sample.rendered.input_ids[:1] for _, sample in prepared.samples)
+    begins = any(bos in sample.rendered.input_ids[:1] for sample in samples)
     begin = (
         f"one {tokenizer.bos_token} at the beginning" if begins else "no beginning-of-text token"
     )
     ends = f"every answer ends with a trained {tokenizer.convert_ids_to_tokens(end)}; {begin}"
     finding.text = "see below" if finding.problems else ends
-    return finding
 
 
-def _token_problems(sample: Sample, end: int, bos: int | None, size: int) -> Iterator[str]:
+def token_problems(sample: Sample, end: int, bos: int | None, size: int) -> Iterator[str]:
+    """The sample's special tokens in wrong places; `size` is the number of embeddings."""
     ids, mask = sample.rendered.input_ids, sample.rendered.completion_mask
     if ids[-1] != end or not mask[-1]:
         yield "do not train the end-of-turn token: the model would not learn to stop"
@@ -206,38 +209,41 @@ def _token_problems(sample: Sample, end: int, bos: int | None, size: int) -> Ite
         yield f"{beyond}: tokenizer and model do not belong together"
 
 
-def check_output(request: TrainRequest, prepared: Prepared) -> Finding:
+def check_output(request: TrainRequest, prepared: Prepared, finding: Finding) -> None:
     """May the output folder be used, and is there room for checkpoints?"""
     output, dimensions = request.output, request.candidate.dimensions
-    problems = folder_problems(output, overwrite=request.overwrite, resume=request.resume)
-    finding = Finding("output", problems=problems)
-    if problem := writable_problem(output):
+    if problem := folder_problem(output, overwrite=request.overwrite, resume=request.resume):
         finding.problems.append(problem)
-        return finding
-    free = shutil.disk_usage(nearest_folder(output)).free
-    # Adapter, best adapter and two moments in float32, twice: the old checkpoint goes last.
+    try:
+        with tempfile.TemporaryFile(dir=nearest_folder(output)):
+            free = shutil.disk_usage(nearest_folder(output)).free
+    except OSError as error:
+        why = f"cannot be written ({error.strerror}); choose another folder"
+        raise PlannerError(f"--output {output}: {why}") from None
+    # Adapter, best adapter and two moments in float32, three times: the oldest goes last.
     weights = adapter_parameters(dimensions, request.settings.rank) if dimensions else 0
-    needed = 2 * 4 * 4 * weights + 2**25
-    sizes = memory_size(needed), memory_size(free)
-    finding.text = "{}: {} needed for checkpoints, {} free".format(output, *sizes)
+    needed = 3 * 4 * 4 * weights + OTHER_FILES
+    room = f"{memory_size(needed)} needed for checkpoints"
+    finding.text = f"{output}: {room}, {memory_size(free)} free"
     if needed > free:
-        text = "--output {}: {} are needed for checkpoints and {} free; choose another disk"
-        finding.problems.append(text.format(output, *sizes))
-    return finding
+        short = f"{room} and {memory_size(free)} free; choose another disk"
+        finding.problems.append(f"--output {output}: {short}")
 
 
-def check_memory(request: TrainRequest, prepared: Prepared) -> Finding:
+def check_memory(request: TrainRequest, prepared: Prepared, finding: Finding) -> None:
     """Will training fit the device's memory?"""
-    finding, settings = Finding("memory"), request.settings
-    dimensions, train, device = request.candidate.dimensions, prepared.train, prepared.device
+    settings, dimensions = request.settings, request.candidate.dimensions
+    train, device = prepared.train, prepared.device
     if dimensions is None or device is None or train is None or not train.samples:
-        unknown = "no estimate: dimensions, device or samples are unknown"
-        return replace(finding, text=unknown, skipped=True)
+        finding.text = "no estimate: dimensions, device or samples are unknown"
+        finding.skipped = True
+        return
+    tokens = longest(train.samples)
     estimate = training_memory(
         dimensions,
         quantization=settings.quantization,
         rank=settings.rank,
-        tokens=train.longest,
+        tokens=tokens,
         batch=settings.batch_size,
         dropout=settings.dropout > 0,
         checkpointing=uses_gradient_checkpointing(settings, dimensions.parameters),
@@ -245,28 +251,16 @@ def check_memory(request: TrainRequest, prepared: Prepared) -> Finding:
     # The loss runs in chunks: the logits never exist all at once.
     needed = replace(estimate, logits=min(estimate.logits, 12 * LOGIT_VALUES)).total
     free, total = device_memory(device)
-    size, advice = (
-        memory_size(needed),
-        memory_levers(settings, dimensions.parameters, train.longest),
-    )
-    finding.text = f"about {size} of {memory_size(free)} free on {device}"
+    advice = memory_levers(settings, dimensions.parameters, tokens)
+    finding.text = f"about {memory_size(needed)} of {memory_size(free)} free on {device}"
     if needed > total:
         has = f"{device} has {memory_size(total)}"
-        finding.problems.append(f"training needs about {size} and {has}; {advice}")
+        finding.problems.append(f"training needs about {memory_size(needed)} and {has}; {advice}")
     elif needed > free:
-        short = f"{memory_size(free)} are free and about {size} needed"
+        short = f"{memory_size(free)} are free and about {memory_size(needed)} needed"
         finding.notes.append(f"{short}; close other programs, or {advice}")
-    return finding
 
 
-def device_memory(device: torch.device) -> tuple[int, int]:
-    """Free and total memory of a device in bytes."""
-    if device.type == "cuda":
-        import torch
-
-        free, total = torch.cuda.mem_get_info(device)
-        return free, total
-    import psutil
-
-    memory = psutil.virtual_memory()
-    return int(memory.available), int(memory.total)
+def longest(samples: Sequence[Sample]) -> int:
+    """Tokens of the longest sample."""
+    return max((sample.length for sample in samples), default=0)

@@ -9,17 +9,22 @@ what packs them. Afterwards weights, gradients and random state are as before.
 
 from __future__ import annotations
 
-import contextlib
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import torch
 from torch import Tensor
 
 from planner_ft.training.batches import Batch, collate
-from planner_ft.training.checkpoint import restore_rng, rng_state, set_adapter
-from planner_ft.training.model import adapter_parameters, evaluating, loss_sum
+from planner_ft.training.model import (
+    adapter_parameters,
+    adapter_tensors,
+    autocast,
+    evaluating,
+    loss_sum,
+    set_adapter,
+)
 
 if TYPE_CHECKING:
     from planner_ft.training.samples import Sample
@@ -39,36 +44,27 @@ def probe_model(
     """
     by_length = sorted(samples, key=lambda sample: sample.length)
     longest = collate(by_length[-batch_size:], pad).to(device)
-    with _restored(model):
-        problems = _loss_problems(model, by_length[0], pad, device, dtype)
-        base = [name for name in adapter_parameters(model) if "lora_" not in name]
-        if base:
-            count = f"{len(base)} weights of the base model"
-            problems.append(f"{count} would be trained (first: {base[0]})")
-        gradients = _gradients(model, longest, dtype)
-        generator = torch.Generator().manual_seed(0)
-        with torch.no_grad():
-            for name, value in adapter_parameters(model).items():
-                if "lora_B" in name:
-                    value.copy_(torch.randn(value.shape, generator=generator) * B_DEVIATION)
-        second = _gradients(model, longest, dtype)
-        gradients |= {name: value for name, value in second.items() if "lora_A" in name}
-        return problems + _gradient_problems(gradients)
-
-
-@contextlib.contextmanager
-def _restored(model: Any) -> Iterator[None]:
-    """After the block, adapter weights, gradients and random state are as before."""
-    state = rng_state()
-    saved = {name: value.detach().clone() for name, value in adapter_parameters(model).items()}
+    saved = adapter_tensors(model)
     model.train()
     try:
-        yield
+        with torch.random.fork_rng():
+            problems = _loss_problems(model, by_length[0], pad, device, dtype)
+            base = [name for name in saved if "lora_" not in name]
+            if base:
+                count = f"{len(base)} weights of the base model"
+                problems.append(f"{count} would be trained (first: {base[0]})")
+            gradients = _gradients(model, longest, dtype)
+            generator = torch.Generator().manual_seed(0)
+            with torch.no_grad():
+                for name, value in adapter_parameters(model).items():
+                    if "lora_B" in name:
+                        value.copy_(torch.randn(value.shape, generator=generator) * B_DEVIATION)
+            second = _gradients(model, longest, dtype)
+            gradients |= {name: value for name, value in second.items() if "lora_A" in name}
+            return problems + _gradient_problems(gradients)
     finally:
         set_adapter(model, saved)
-        for value in adapter_parameters(model).values():
-            value.grad = None
-        restore_rng(*state)
+        model.zero_grad(set_to_none=True)
 
 
 def _loss_problems(
@@ -78,11 +74,10 @@ def _loss_problems(
     batch = collate([sample], pad).to(device)
     ids = torch.tensor([sample.rendered.input_ids], device=device)
     mask = torch.tensor([sample.rendered.completion_mask], device=device)
-    with evaluating(model):
+    with evaluating(model), autocast(device, dtype):
         ours = float(loss_sum(model, batch, dtype)) / len(batch.targets)
-        with torch.autocast(device.type, dtype=dtype, enabled=dtype != torch.float32):
-            labels = ids.masked_fill(mask == 0, -100)
-            theirs = float(model(input_ids=ids, labels=labels, use_cache=False).loss)
+        labels = ids.masked_fill(mask == 0, -100)
+        theirs = float(model(input_ids=ids, labels=labels, use_cache=False).loss)
     if not math.isfinite(ours):
         broken = "the base model's weights are broken, or its dtype overflows"
         return [f"the loss of sample {sample.id} is {ours} before any training: {broken}"]
@@ -94,26 +89,25 @@ def _loss_problems(
 
 def _gradients(model: Any, batch: Batch, dtype: torch.dtype) -> dict[str, Tensor | None]:
     """The gradient of every adapter weight."""
-    for value in adapter_parameters(model).values():
-        value.grad = None
+    model.zero_grad(set_to_none=True)
     torch.autograd.backward(loss_sum(model, batch, dtype) / len(batch.targets))
     return {name: value.grad for name, value in adapter_parameters(model).items()}
 
 
 def _gradient_problems(gradients: dict[str, Tensor | None]) -> list[str]:
     """Sentences on matrices without a gradient, and on those with one that is not finite."""
-    found: dict[str, list[str]] = {"no": [], "infinite": []}
-    for name, value in gradients.items():
-        if value is None or not bool(value.any()):
-            found["no"].append(name)
-        elif not bool(torch.isfinite(value).all()):
-            found["infinite"].append(name)
+    without = [name for name, value in gradients.items() if value is None or not value.any()]
+    infinite = [
+        name
+        for name, value in gradients.items()
+        if value is not None and not value.isfinite().all()
+    ]
     texts = {
-        "no": "get no gradient (first: {}); they would stay as they are",
-        "infinite": "get a gradient that is not finite (first: {})",
+        "get no gradient (first: {}); they would stay as they are": without,
+        "get a gradient that is not finite (first: {})": infinite,
     }
     return [
-        f"{len(names)} of {len(gradients)} adapter matrices {texts[kind].format(names[0])}"
-        for kind, names in found.items()
+        f"{len(names)} of {len(gradients)} adapter matrices {text.format(names[0])}"
+        for text, names in texts.items()
         if names
     ]

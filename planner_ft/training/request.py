@@ -12,15 +12,16 @@ from planner_ft.candidates import Candidate, resolve_candidate
 from planner_ft.prompts.render import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text
-from planner_ft.training.samples import Split
 from planner_ft.training.settings import Resolved, Source, TrainSettings, resolve_settings
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level, check_level
 
 T = TypeVar("T")
-DEFAULT_VOCABULARY = "usv"
 BUNDLED = Path(__file__).parent / "recipes"
-RUN_KEYS = "level candidate vocabulary data_dir train_file validation_file corrections output"
+RUN_KEYS = (
+    *("level", "candidate", "vocabulary", "data_dir", "train_file", "validation_file"),
+    *("corrections", "output"),
+)
 """Flags that a recipe may set besides settings. Paths are relative to the working folder."""
 
 
@@ -47,17 +48,20 @@ class TrainRequest:
         return self.resolved.settings
 
     def fingerprint(
-        self, train: Split, validation: Split | None, base_sha256: str
+        self, training: str, validation: str | None, base_weights: str
     ) -> dict[str, Any]:
-        """Everything that the learned weights depend on; a resumed run must have the same."""
+        """Everything that the learned weights depend on, with the digests of data and base.
+
+        A resumed run must have the same.
+        """
         return {
             "level": self.level,
             "candidate": self.candidate.name,
-            "base_weights": base_sha256,
+            "base_weights": base_weights,
             "vocabulary": self.vocabulary.sha256,
             "prompt_version": PROMPT_VERSION,
-            "training_data": train.sha256,
-            "validation_data": validation.sha256 if validation else None,
+            "training_data": training,
+            "validation_data": validation,
             "settings": self.settings.learned(),
         }
 
@@ -67,26 +71,18 @@ def bundled_recipes() -> list[str]:
     return sorted(path.stem for path in BUNDLED.glob("*.toml"))
 
 
-def load_recipe(name_or_path: str, problems: list[str]) -> tuple[dict[str, str], Source]:
-    """The RUN_KEYS and the settings of a recipe (TOML), bundled or any; wrong types are problems.
-
-    Raises PlannerError when the file is missing or no TOML.
-    """
+def load_recipe(name_or_path: str) -> tuple[str, dict[str, Any]]:
+    """The path and the values of a recipe (TOML), bundled or any. Raises PlannerError."""
     bundled = BUNDLED / f"{name_or_path}.toml"
     path = bundled if bundled.is_file() else Path(name_or_path)
     if not path.is_file():
-        neither = (
-            f"no such file, and no bundled recipe of that name ({', '.join(bundled_recipes())})"
-        )
-        raise PlannerError(f"--recipe {name_or_path}: {neither}")
+        there = ", ".join(bundled_recipes())
+        problem = f"no such file, and no bundled recipe of that name ({there})"
+        raise PlannerError(f"--recipe {name_or_path}: {problem}")
     try:
-        values = tomllib.loads(read_text(path))
+        return str(path), tomllib.loads(read_text(path))
     except tomllib.TOMLDecodeError as error:
         raise PlannerError(f"{path}: not TOML: {error}") from None
-    run = {key: values.pop(key) for key in RUN_KEYS.split() if key in values}
-    wrong = {key: value for key, value in run.items() if not isinstance(value, str)}
-    problems += [f"{path}: {key} = {value!r}: must be text" for key, value in wrong.items()]
-    return {key: run[key] for key in run if key not in wrong}, Source(str(path), values)
 
 
 def build_request(
@@ -113,52 +109,50 @@ def build_request(
             problems.append(str(error))
             return None
 
-    loaded = attempt(lambda name: load_recipe(name, problems), recipe) if recipe else None
-    given = {**(loaded[0] if loaded else {}), **{k: v for k, v in run.items() if v is not None}}
+    path, values = (attempt(load_recipe, recipe) if recipe else None) or ("", {})
+    given = {key: values.pop(key) for key in RUN_KEYS if key in values}
+    texts = {key: value for key, value in given.items() if isinstance(value, str)}
+    problems += [
+        f"{path}: {key} = {given[key]!r}: must be text" for key in given if key not in texts
+    ]
+    named = {**texts, **{key: value for key, value in run.items() if value is not None}}
     if overwrite and resume:
         problems.append("--overwrite and --resume exclude each other")
-    if given.get("data_dir") and given.get("train_file"):
+    if named.get("data_dir") and named.get("train_file"):
         problems.append("--data-dir and --train-file exclude each other")
-    if given.get("validation_file") and not given.get("train_file"):
+    if named.get("validation_file") and not named.get("train_file"):
         both = "with --data-dir both files come from the folder"
         problems.append(f"--validation-file needs --train-file; {both}")
-    level = attempt(check_level, given.get("level"), "--level is missing: mission or task")
+    level = attempt(check_level, named.get("level"), "--level is missing: mission or task")
     names = "a name that `plannerft candidates` lists, a folder or a hub id"
     missing = f"--candidate is missing: {names}"
-    candidate = attempt(resolve_candidate, given.get("candidate"), missing)
-    vocabulary = attempt(load_vocabulary, given.get("vocabulary") or DEFAULT_VOCABULARY)
-    sources = [Source("flag", flags, flags=True), *([loaded[1]] if loaded else [])]
+    candidate = attempt(resolve_candidate, named.get("candidate"), missing)
+    vocabulary = attempt(load_vocabulary, named.get("vocabulary") or "usv")
+    sources = [Source("flag", flags), Source(path, values)]
     if candidate and level:
         sources.append(Source(candidate.name, asdict(candidate.adapter_defaults(level))))
-    resolved, found = resolve_settings(level or "mission", sources)
-    problems += found
-    if problems or not (level and candidate and vocabulary and resolved):
+    resolved = resolve_settings(level or "mission", sources, problems)
+    if problems or not (level and candidate and vocabulary):
         raise refusal("the configuration has", problems)
-    output = Path(given.get("output") or Path("adapters") / candidate.slug / level)
-    files, corrections = _files(level, given), _path(given.get("corrections"))
+    output = Path(named.get("output") or Path("adapters") / candidate.slug / level)
+    folder = Path(named.get("data_dir") or Path("data") / level)
+    files: tuple[Path, Path | None] = (folder / "train.jsonl", folder / "validation.jsonl")
+    if named.get("train_file"):
+        files = Path(named["train_file"]), _path(named.get("validation_file"))
+    corrections = _path(named.get("corrections"))
     return TrainRequest(
         level, candidate, vocabulary, *files, output, resolved, overwrite, resume, corrections
     )
 
 
-def listed(title: str, problems: list[str]) -> str:
-    """A numbered list of problems as one message."""
-    count = len(problems)
-    lines = [f"  [{index}/{count}] {problem}" for index, problem in enumerate(problems, 1)]
-    return "\n".join([f"{title} {count} problem{'s' if count > 1 else ''}:", *lines])
-
-
 def refusal(title: str, problems: list[str]) -> PlannerError:
-    """The error for one problem, or for a list of them."""
-    return PlannerError(problems[0] if len(problems) == 1 else listed(title, problems))
+    """The error for one problem, or for a numbered list of them under a title."""
+    count = len(problems)
+    if count == 1:
+        return PlannerError(problems[0])
+    lines = [f"  [{index}/{count}] {problem}" for index, problem in enumerate(problems, 1)]
+    return PlannerError("\n".join([f"{title} {count} problems:", *lines]))
 
 
 def _path(name: str | None) -> Path | None:
     return Path(name) if name else None
-
-
-def _files(level: Level, given: dict[str, str]) -> tuple[Path, Path | None]:
-    if train := given.get("train_file"):
-        return Path(train), _path(given.get("validation_file"))
-    folder = Path(given.get("data_dir") or Path("data") / level)
-    return folder / "train.jsonl", folder / "validation.jsonl"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import torch
@@ -11,38 +12,22 @@ import torch
 from planner_ft.candidates.loading import compute_dtype, load_model, load_tokenizer
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.support.errors import PlannerError
-from planner_ft.training.checkpoint import (
-    Trainee,
-    TrainState,
-    checkpoints,
-    load_checkpoint,
-    remove_leftovers,
-    seed_everything,
-)
-from planner_ft.training.loop import InterruptedRunError, Run, train_loop
+from planner_ft.support.files import alone
+from planner_ft.training.checkpoint import Run, load_newest_checkpoint
+from planner_ft.training.loop import InterruptedRunError, train_loop
 from planner_ft.training.model import (
     SMALL_MODEL,
     adapter_parameters,
     attach_adapter,
     cpu_threads,
-    make_optimizer,
     memory_levers,
     unpack,
 )
-from planner_ft.training.output import (
-    clear,
-    existing_result,
-    fingerprint_problems,
-    folder_state,
-    only_run,
-    stored_fingerprint,
-    write_result,
-    write_run,
-)
-from planner_ft.training.preflight import CHECKS, Finding, Prepared, run_preflight
+from planner_ft.training.output import begin, folder_state, is_unfinished, write_result, write_run
+from planner_ft.training.preflight import CHECKS, Finding, Prepared, longest, run_preflight
 from planner_ft.training.probe import probe_model
-from planner_ft.training.report import Trackers, TrainLog, make_display
-from planner_ft.training.request import TrainRequest, listed, refusal
+from planner_ft.training.report import Report
+from planner_ft.training.request import TrainRequest, refusal
 from planner_ft.training.samples import Sample, Split, read_split, render_split
 
 if TYPE_CHECKING:
@@ -72,47 +57,59 @@ def train(request: TrainRequest, console: Console) -> dict[str, Any] | None:
     """
     for text in request.resolved.departures(request.level):
         _say(console, f"note: {text}")
-    with only_run(request.output):
-        prepared = _preflight(request, console)
+    with alone(request.output, "--output", "a training"):
+        prepared, problems = Prepared(), []
+        with console.status("checking ..."):
+            for number, finding in enumerate(run_preflight(request, prepared), 1):
+                problems += finding.problems
+                _show(console, number, finding)
+        if problems:
+            raise refusal("the preflight found", problems)
         assert prepared.train and request.candidate.folder
+        validation = prepared.validation.sha256 if prepared.validation else None
         base = weights_sha256(request.candidate.folder)
-        fingerprint = request.fingerprint(prepared.train, prepared.validation, base)
-        if request.resume and not _resumable(request, fingerprint):
-            _say(console, existing_result(request.output))
+        fingerprint = request.fingerprint(prepared.train.sha256, validation, base)
+        if request.resume and folder_state(request.output) == "empty":
+            _say(console, f"--resume: {request.output} holds no run: starting from the beginning")
+            request = replace(request, resume=False)
+        if request.resume and not is_unfinished(request.output, fingerprint):
+            _say(console, f"{request.output}: this run is complete; nothing to resume")
             return None
         with _limits(request, prepared):
             return _train(request, prepared, console, fingerprint)
 
 
-def _preflight(request: TrainRequest, console: Console) -> Prepared:
-    prepared, problems = Prepared(), []
-    with console.status("checking ..."):
-        for number, finding in enumerate(run_preflight(request, prepared), 1):
-            problems += finding.problems
-            _show(console, number, finding)
-    if problems:
-        raise PlannerError(listed("the preflight found", problems))
-    return prepared
-
-
 def _train(
     request: TrainRequest, prepared: Prepared, console: Console, fingerprint: dict[str, Any]
 ) -> dict[str, Any]:
+    settings, output = request.settings, request.output
     with console.status("loading the model ..."):
         model, finding = ready_model(request, prepared)
     _show(console, CHECKS, finding)
     if finding.problems:
-        raise PlannerError(listed("the preflight found", finding.problems))
-    with _open_run(request, prepared, model, console, fingerprint) as (run, state):
-        try:
-            train_loop(run, state)
-            return write_result(request, prepared, run, state, fingerprint)
-        except (Exception, KeyboardInterrupt) as error:
-            stopped = isinstance(error, InterruptedRunError)
-            with contextlib.suppress(PlannerError):
-                status = "interrupted" if stopped else f"failed: {error!r}"
-                write_run(request.output, fingerprint, status)
-            raise
+        raise refusal("the preflight found", finding.problems)
+    device, train, validation = prepared.device, prepared.train, prepared.validation
+    assert device and train
+    torch.manual_seed(settings.seed)
+    samples = train.samples, validation.samples if validation else []
+    run = Run(settings, model, *samples, prepared.pad, device, compute_dtype(device), output)
+    if request.resume:
+        write_run(output, fingerprint, "running")
+        _say(console, load_newest_checkpoint(run))
+    else:
+        begin(output, fingerprint)
+    name = f"{request.candidate.slug}-{request.level}"
+    run.report = Report(console, output, settings, name, run.state.step)
+    try:
+        train_loop(run)
+        return write_result(request, prepared, run, fingerprint)
+    except (Exception, KeyboardInterrupt) as error:
+        stopped = isinstance(error, InterruptedRunError)
+        with contextlib.suppress(PlannerError):
+            write_run(output, fingerprint, "interrupted" if stopped else f"failed: {error!r}")
+        raise
+    finally:
+        run.report.close()
 
 
 def ready_model(request: TrainRequest, prepared: Prepared) -> tuple[Any, Finding]:
@@ -134,60 +131,6 @@ def ready_model(request: TrainRequest, prepared: Prepared) -> tuple[Any, Finding
 
 
 @contextlib.contextmanager
-def _open_run(
-    request: TrainRequest,
-    prepared: Prepared,
-    model: Any,
-    console: Console,
-    fingerprint: dict[str, Any],
-) -> Iterator[tuple[Run, TrainState]]:
-    """Prepare the output folder, load the newest checkpoint to resume, open log and display."""
-    settings, output, device = request.settings, request.output, prepared.device
-    assert device and prepared.train
-    dtype = compute_dtype(device)
-    scaler = torch.amp.GradScaler(device.type, enabled=dtype == torch.float16)
-    trainee = Trainee(model, make_optimizer(model, settings), scaler)
-    if not request.resume:
-        clear(output)
-    write_run(output, fingerprint, "running")
-    seed_everything(settings.seed)
-    state = _resumed(request, trainee, console) if request.resume else TrainState()
-    samples = (prepared.train.samples, prepared.validation.samples if prepared.validation else [])
-    log = TrainLog(output, state.step)
-    trackers = Trackers(settings, output, f"{request.candidate.slug}-{request.level}")
-    run = Run(settings, trainee, *samples, prepared.pad, device, dtype, output, log, trackers)
-    run.display = make_display(console, run.total_steps, state.step, settings.log_every)
-    try:
-        yield run, state
-    finally:
-        run.display.close()
-        trackers.close()
-        log.close()
-
-
-def _resumed(request: TrainRequest, trainee: Trainee, console: Console) -> TrainState:
-    remove_leftovers(request.output)
-    found = checkpoints(request.output)
-    if not found:
-        _say(console, "no checkpoint was written yet: starting from the beginning")
-        return TrainState()
-    state = load_checkpoint(found[-1], trainee)
-    _say(console, f"resuming at step {state.step}")
-    return state
-
-
-def _resumable(request: TrainRequest, fingerprint: dict[str, Any]) -> bool:
-    """Whether a run is unfinished. Raises PlannerError when it was another one."""
-    differences = fingerprint_problems(stored_fingerprint(request.output), fingerprint)
-    if differences:
-        raise PlannerError(
-            f"--resume: the run in {request.output} was another one ({'; '.join(differences)});"
-            " undo that, or start again with --overwrite"
-        )
-    return folder_state(request.output) == "unfinished"
-
-
-@contextlib.contextmanager
 def _limits(request: TrainRequest, prepared: Prepared) -> Iterator[None]:
     """The CPU threads of the settings; out of memory becomes a sentence with the next lever."""
     settings, parameters = request.settings, request.candidate.parameters
@@ -199,8 +142,9 @@ def _limits(request: TrainRequest, prepared: Prepared) -> Iterator[None]:
     except (torch.OutOfMemoryError, MemoryError, RuntimeError) as error:
         if type(error) is RuntimeError and "allocate memory" not in str(error):
             raise
-        longest = prepared.train.longest if prepared.train else 0
-        advice = memory_levers(settings, parameters or 0, longest)
+        advice = memory_levers(
+            settings, parameters or 0, longest(prepared.train.samples if prepared.train else ())
+        )
         raise PlannerError(
             f"out of memory on {prepared.device}; {advice}. The checkpoints so far are kept: see"
             f" {request.output}"

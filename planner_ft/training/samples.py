@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from itertools import groupby
@@ -23,6 +22,7 @@ SHOWN = 5
 """Problems of one kind that are listed; the others are counted."""
 AUGMENT_SEED = 7_000_000
 """Far from the seeds of `gen-data`: no synthetic data set of a small seed has the same samples."""
+Record = dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -47,16 +47,13 @@ class Split:
 
     path: Path
     sha256: str
-    records: list[dict[str, Any]]
+    records: list[Record]
     samples: list[Sample] = field(default_factory=list)
 
-    @property
-    def tokens(self) -> int:
-        return sum(sample.length for sample in self.samples)
-
-    @property
-    def longest(self) -> int:
-        return max((sample.length for sample in self.samples), default=0)
+    def extended(self, records: list[Record], digest: str) -> Split:
+        """The split with more records behind its own; its digest covers theirs."""
+        both = sha256_text(self.sha256 + digest)
+        return replace(self, sha256=both, records=[*self.records, *records])
 
 
 def read_split(
@@ -77,20 +74,19 @@ def read_split(
         problems.append(f"{path}: no such file; {way_out}")
         return None
     found: list[str] = []
-    records: list[dict[str, Any]] = []
+    records: list[Record] = []
     seen = {record["id"]: str(known.path) for record in known.records} if known else {}
     try:
         for line, value, problem in iterate_jsonl(path):
             problem = problem or record_problem(value, level, vocabulary)
-            if problem is None and value is not None:
-                place = seen.setdefault(value["id"], f"line {line}")
-                if place == f"line {line}":
-                    records.append(value)
-                else:
-                    problem = f"id {value['id']!r} stands in {place} already"
-            if problem:
+            if problem is None and value is not None and value["id"] in seen:
+                problem = f"id {value['id']!r} stands in {seen[value['id']]} already"
+            if problem or value is None:
                 found.append(f"{path}:{line}: {problem}")
-            if limit is not None and len(records) >= limit:
+                continue
+            seen[value["id"]] = f"line {line}"
+            records.append(value)
+            if len(records) == limit:
                 break
     except PlannerError as error:
         problems.append(str(error))
@@ -121,17 +117,14 @@ def with_corrections(
 ) -> Split:
     """The split with the records of `path`, as `plannerft review --harvest` writes them, behind.
 
-    Its digest covers them. Everything wrong with the file is added to `problems`.
+    Everything wrong with the file is added to `problems`.
     """
     added = read_split(path, level, vocabulary, problems, known=split)
-    if added is None:
-        return split
-    digest = sha256_text(split.sha256 + added.sha256)
-    return replace(split, sha256=digest, records=[*split.records, *added.records])
+    return split.extended(added.records, added.sha256) if added else split
 
 
 def augmented(split: Split, level: Level, vocabulary: Vocabulary, seed: int, count: int) -> Split:
-    """The split with `count` synthetic records behind its own; its digest covers them.
+    """The split with `count` synthetic records behind its own.
 
     The level's generator makes them, which holds no curated and no test sample. Raises
     PlannerError for a vocabulary without templates.
@@ -144,17 +137,19 @@ def augmented(split: Split, level: Level, vocabulary: Vocabulary, seed: int, cou
         made = list(sample_tasks(vocabulary, seed, count, "train"))
     else:
         made = list(sample_missions(seed, count, vocabulary))
-    digest = sha256_text(split.sha256 + "".join(compact_json(record) for record in made))
-    added = [{**record, "id": f"augment-{record['id']}"} for record in made]
-    return replace(split, sha256=digest, records=[*split.records, *added])
+    named = [{**record, "id": f"augment-{record['id']}"} for record in made]
+    return split.extended(named, "".join(compact_json(record) for record in made))
 
 
 def render_split(
     split: Split, level: Level, tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary
 ) -> Split:
     """The split with its samples rendered."""
-    render = functools.partial(render_sample, tokenizer=tokenizer, vocabulary=vocabulary)
-    return replace(split, samples=[Sample(one["id"], render(level, one)) for one in split.records])
+    samples = [
+        Sample(record["id"], render_sample(level, record, tokenizer, vocabulary))
+        for record in split.records
+    ]
+    return replace(split, samples=samples)
 
 
 def shortened(problems: Iterable[str]) -> list[str]:
@@ -187,9 +182,3 @@ def preview_text(sample: Sample, tokenizer: PreTrainedTokenizerBase) -> Text:
         tokens = [ids[position] for position in run]
         text.append(str(tokenizer.decode(tokens, clean_up_tokenization_spaces=False)), style)
     return text.append("⟧", "bold") if trained else text
-
-
-def preview_caption(sample: Sample) -> str:
-    """Counts of the sample's tokens."""
-    trained = f"{sample.completion_length} of them trained (between ⟦ and ⟧)"
-    return f"{sample.id}: {sample.length} tokens, {trained}"

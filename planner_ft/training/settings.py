@@ -11,7 +11,7 @@ import tomllib
 from collections.abc import Iterable
 from dataclasses import Field, asdict, dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin, get_type_hints
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
 
 if TYPE_CHECKING:
     from planner_ft.vocabulary.plans import Level
@@ -27,7 +27,6 @@ PUBLISHED: dict[Level, dict[str, Any]] = {
     "task": {"rank": 8, "epochs": 2, **_SHARED},
 }
 """The settings of the published study. The rest has our defaults, in the fields below."""
-UNBOUNDED = {"low": -math.inf, "above": -math.inf, "high": math.inf}
 ABOUT = tomllib.loads((Path(__file__).parent / "settings.toml").read_text(encoding="utf-8"))
 
 
@@ -98,16 +97,16 @@ def _names(text: str) -> list[str]:
     return [name.strip() for name in text.split(",") if name.strip()]
 
 
-@dataclass(frozen=True)
-class Source:
-    """Values from one place; `style` names a setting as the user wrote it there, for errors."""
+class Source(NamedTuple):
+    """Settings from one place: "flag", or the name that errors show."""
 
     label: str
     values: dict[str, Any]
-    flags: bool = False
 
-    def style(self, name: str) -> str:
-        return f"--{name.replace('_', '-')}" if self.flags else f"{self.label}: {name}"
+    def written(self, name: str) -> str:
+        """A setting as the user wrote it there."""
+        flag = self.label == "flag"
+        return f"--{name.replace('_', '-')}" if flag else f"{self.label}: {name}"
 
 
 @dataclass(frozen=True)
@@ -127,37 +126,32 @@ class Resolved:
         ]
 
 
-def resolve_settings(level: Level, sources: Iterable[Source]) -> tuple[Resolved | None, list[str]]:
+def resolve_settings(level: Level, sources: Iterable[Source], problems: list[str]) -> Resolved:
     """Settings from `sources`, the first one first, then published ones, then our defaults.
 
-    A value of None counts as not given. Returns (None, every problem) where there are problems.
+    A value of None counts as not given; everything wrong is added to `problems`.
     """
     values: dict[str, Any] = {}
-    origin: dict[str, str] = {}
-    problems: list[str] = []
+    origin = dict.fromkeys(FIELDS, "default")
     for source in (*sources, Source("published", PUBLISHED[level])):
         for name, value in source.values.items():
             if name not in FIELDS:
                 close = difflib.get_close_matches(name, FIELDS, n=1)
                 hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(FIELDS)}"
-                problems.append(f"{source.style(name)} is no setting; {hint}")
+                problems.append(f"{source.written(name)} is no setting; {hint}")
             elif value is not None and name not in values:
                 values[name], problem = check_value(name, value)
                 origin[name] = source.label
                 if problem:
-                    problems.append(f"{source.style(name)} = {value!r}: {problem}")
-    if problems:
-        return None, problems
-    return Resolved(TrainSettings(**values), {**dict.fromkeys(FIELDS, "default"), **origin}), []
+                    problems.append(f"{source.written(name)} = {value!r}: {problem}")
+    return Resolved(TrainSettings(**values), origin)
 
 
 def check_value(name: str, value: Any) -> tuple[Any, str | None]:
     """The value in the field's type, and the problem with it or None."""
-    annotation = TYPES[name]
-    if get_origin(annotation) is Literal:
-        choices = get_args(annotation)
+    kind, choices = kind_of(name)
+    if choices:
         return value, None if value in choices else f"must be one of {', '.join(choices)}"
-    kind = next((item for item in get_args(annotation) if item is not type(None)), annotation)
     if kind in (bool, str):
         wanted = "true or false" if kind is bool else "text"
         return value, None if isinstance(value, kind) else f"must be {wanted}"
@@ -165,16 +159,23 @@ def check_value(name: str, value: Any) -> tuple[Any, str | None]:
         return value, "must be a number"
     if kind is int and value != int(value):
         return value, "must be a whole number"
-    limits = (ABOUT[name].get(key, default) for key, default in UNBOUNDED.items())
-    return kind(value), _bounds_problem(value, *limits)
+    bounds = ABOUT[name]
+    if value < bounds.get("low", -math.inf):
+        return value, f"must be at least {bounds['low']:g}"
+    if value <= bounds.get("above", -math.inf):
+        return value, f"must be greater than {bounds['above']:g}"
+    if value > bounds.get("high", math.inf):
+        return value, f"must be at most {bounds['high']:g}"
+    return kind(value), None
 
 
-def _bounds_problem(value: float, low: float, above: float, high: float) -> str | None:
-    if value < low:
-        return f"must be at least {low:g}"
-    if value <= above:
-        return f"must be greater than {above:g}"
-    return f"must be at most {high:g}" if value > high else None
+def kind_of(name: str) -> tuple[type, tuple[str, ...]]:
+    """The type of a setting's values, and the values of one that is chosen from a list."""
+    annotation = TYPES[name]
+    if get_origin(annotation) is Literal:
+        return str, get_args(annotation)
+    kinds = get_args(annotation) or (annotation,)
+    return next(kind for kind in kinds if kind is not type(None)), ()
 
 
 def default_text(name: str) -> str | None:

@@ -120,16 +120,16 @@ def interrupt_at() -> Callable[..., None]:
     """Let this process get a signal while a run works on a step: `interrupt_at(patch, step,
     signal)`.
     """
-    from planner_ft.training.report import Display
+    from planner_ft.training.report import Report
 
     def arrange(monkeypatch: pytest.MonkeyPatch, step: int, number: int = signal.SIGINT) -> None:
-        original = Display.step
+        original = Report.step
 
-        def stepping(self: Any, record: dict[str, Any], eta_seconds: float, peak: int) -> None:
-            original(self, record, eta_seconds, peak)
+        def stepping(self: Any, record: dict[str, Any], *values: Any) -> None:
+            original(self, record, *values)
             if record["step"] == step:
                 os.kill(os.getpid(), number)
 
-        monkeypatch.setattr(Display, "step", stepping)
+        monkeypatch.setattr(Report, "step", stepping)
 
     return arrange

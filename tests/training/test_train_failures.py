@@ -37,7 +37,8 @@ def test_a_loss_that_is_not_finite_stops_the_run_and_leaves_the_checkpoint(
             train(ask(**short, checkpoint_steps=2), quiet)
     assert "step 5, sample mission-train-" in str(caught.value)
     assert "the loss is nan; lower --learning-rate (now 0.0002)" in str(caught.value)
-    assert [path.name for path in checkpoint.checkpoints(tmp_path / "adapter")] == ["step-00000004"]
+    kept = [path.name for path in checkpoint.checkpoints(tmp_path / "adapter")]
+    assert kept == ["step-00000002", "step-00000004"]
     assert (
         "failed"
         in json.loads((tmp_path / "adapter" / "checkpoints" / "run.json").read_text())["status"]
@@ -111,6 +112,30 @@ def test_a_corrupt_checkpoint_is_named(ask, quiet, tmp_path, monkeypatch, short,
         match=r"step-00000002: the checkpoint cannot be read .* start again with --overwrite",
     ):
         train(ask(**short, resume=True), quiet)
+
+
+@pytest.mark.parametrize("damage", ["truncated", "changed", "no state"])
+def test_the_checkpoint_before_a_damaged_one_goes_on(
+    ask, quiet, tmp_path, monkeypatch, short, interrupt_at, reference, step_losses, damage
+):
+    with monkeypatch.context() as patch:
+        interrupt_at(patch, 5)
+        with pytest.raises(InterruptedRunError):
+            train(ask(**short, checkpoint_steps=2), quiet)
+    newest = tmp_path / "adapter" / "checkpoints" / "step-00000005"
+    tensors = newest / "tensors.safetensors"
+    content = tensors.read_bytes()
+    if damage == "truncated":
+        tensors.write_bytes(content[:-100])
+    elif damage == "changed":
+        tensors.write_bytes(content[:-1] + bytes([content[-1] ^ 1]))
+    else:
+        (newest / "state.json").unlink()
+    train(ask(**short, resume=True), quiet)
+    said = quiet.export_text()
+    assert "step-00000005 cannot be read" in said and "resuming at step 4" in said
+    assert step_losses(tmp_path / "adapter") == reference[0]
+    assert (tmp_path / "adapter" / "adapter_model.safetensors").read_bytes() == reference[1]
 
 
 def test_target_modules_that_fit_nothing_are_an_error(ask, quiet, tmp_path, short):

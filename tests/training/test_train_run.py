@@ -17,9 +17,10 @@ import torch
 from safetensors.torch import load_file
 
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import alone
 from planner_ft.training import checkpoint, loop
 from planner_ft.training.loop import InterruptedRunError
-from planner_ft.training.output import only_run
+from planner_ft.training.model import adapter_tensors
 from planner_ft.training.run import train
 
 
@@ -33,6 +34,7 @@ def test_the_folder_of_a_finished_run(ask, quiet, tmp_path, short):
         "tokenizer.json",
         "tokenizer_config.json",
         "chat_template.jinja",
+        "generation_config.json",
         "manifest.json",
         "README.md",
         "train_log.jsonl",
@@ -119,7 +121,7 @@ def test_the_best_adapter_is_kept(ask, quiet, tmp_path, monkeypatch):
     values = iter([2.0, 1.0, 3.0])
 
     def pretended(model, *args):
-        seen.append(checkpoint.adapter_tensors(model))
+        seen.append(adapter_tensors(model))
         return next(values)
 
     monkeypatch.setattr(loop, "validation_loss", pretended)
@@ -229,7 +231,7 @@ def test_a_resumed_run_still_knows_the_best_adapter(
     values = iter([1.0, 2.0])
 
     def pretended(model, *args):
-        seen.append(checkpoint.adapter_tensors(model))
+        seen.append(adapter_tensors(model))
         return next(values)
 
     monkeypatch.setattr(loop, "validation_loss", pretended)
@@ -317,7 +319,7 @@ def test_a_finished_run_is_complete_protected_and_can_be_replaced(ask, quiet, tm
     first = train(ask(**short), quiet)
     (tmp_path / "adapter" / "notes.txt").write_text("mine")
     assert train(ask(**short, resume=True), quiet) is None
-    assert "this run is complete (16 steps, 2.0 epochs); nothing to resume" in quiet.export_text()
+    assert "this run is complete; nothing to resume" in quiet.export_text()
     with pytest.raises(PlannerError, match="holds a finished adapter; give --overwrite"):
         train(ask(**short), quiet)
     second = train(ask(**short, overwrite=True), quiet)
@@ -331,23 +333,44 @@ def test_a_finished_run_is_complete_protected_and_can_be_replaced(ask, quiet, tm
 @pytest.mark.parametrize("options", [{}, {"overwrite": True}, {"resume": True}])
 def test_a_second_run_in_one_folder_is_refused(ask, quiet, tmp_path, short, options):
     with (
-        only_run(tmp_path / "new" / "adapter"),
+        alone(tmp_path / "new" / "adapter", "--output", "a training"),
         pytest.raises(PlannerError, match=r"--output .*adapter: a training runs there"),
     ):
         train(ask(**short, **options, output=str(tmp_path / "new" / "adapter")), quiet)
     assert not (tmp_path / "new").exists()
 
 
-def test_resume_without_a_run_says_so(ask, quiet, short):
-    with pytest.raises(PlannerError, match="holds no run to continue; leave --resume out"):
-        train(ask(**short, resume=True), quiet)
+@pytest.mark.parametrize("left", [None, "checkpoints/.run.json.12.abcdef.tmp"])
+def test_resume_without_a_run_starts_and_says_so(ask, quiet, tmp_path, short, left):
+    """Also after a kill during start-up, which left no more than part of a file."""
+    if left:
+        (tmp_path / "adapter" / left).parent.mkdir(parents=True)
+        (tmp_path / "adapter" / left).write_text("{")
+    assert train(ask(**short, resume=True), quiet)["result"]["steps"] == 16
+    assert "holds no run: starting from the beginning" in quiet.export_text()
+
+
+def test_a_kill_while_the_former_run_is_removed_leaves_a_run_to_resume(
+    ask, quiet, tmp_path, monkeypatch, reference, step_losses, short
+):
+    from planner_ft.training import output
+
+    def killed(*args, **options):
+        raise KeyboardInterrupt
+
+    train(ask(**short, seed=1), quiet)
+    with monkeypatch.context() as patch:
+        patch.setattr(output.shutil, "rmtree", killed)
+        with pytest.raises(KeyboardInterrupt):
+            train(ask(**short, overwrite=True), quiet)
+    train(ask(**short, resume=True), quiet)
+    assert step_losses(tmp_path / "adapter") == reference[0]
 
 
 def test_checkpoints_can_be_kept(ask, quiet, tmp_path, short):
     train(ask(**short, keep_checkpoints=True), quiet)
-    assert [path.name for path in (tmp_path / "adapter" / "checkpoints").iterdir()] == [
-        "step-00000016"
-    ]
+    kept = sorted(path.name for path in (tmp_path / "adapter" / "checkpoints").iterdir())
+    assert kept == ["step-00000008", "step-00000016"]
     assert train(ask(**short, resume=True), quiet) is None
 
 

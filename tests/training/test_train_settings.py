@@ -20,7 +20,8 @@ from planner_ft.training.settings import (
 
 
 def resolved(*sources: Source, level: str = "mission"):
-    result, problems = resolve_settings(level, sources)
+    problems: list[str] = []
+    result = resolve_settings(level, sources, problems)
     assert problems == []
     return result
 
@@ -38,7 +39,7 @@ def test_the_published_settings_are_the_defaults():
 
 def test_flag_beats_recipe_beats_candidate_beats_published():
     flag, recipe = (
-        Source("flag", {"rank": 2, "epochs": None}, flags=True),
+        Source("flag", {"rank": 2, "epochs": None}),
         Source("r.toml", {"rank": 3, "epochs": 4}),
     )
     candidate = Source("embedded", {"rank": 5, "epochs": 6.0, "learning_rate": 1e-3})
@@ -83,8 +84,8 @@ def test_alpha_follows_the_rank_unless_it_is_given():
     ],
 )
 def test_a_bad_value_is_named_with_its_flag(name, value, message):
-    result, problems = resolve_settings("mission", [Source("flag", {name: value}, flags=True)])
-    assert result is None
+    problems: list[str] = []
+    resolve_settings("mission", [Source("flag", {name: value})], problems)
     assert problems == [f"--{name.replace('_', '-')} = {value!r}: {message}"]
 
 
