@@ -21,6 +21,7 @@ PLANNING = (
     *("vocabulary", "device", "quantization", "mission_only"),
 )
 """Options that are settings of the planner."""
+PLACES = ("locate", "locate_file", "origin", "area")
 PATIENCE = 3.0
 """Seconds without an answer before progress is shown: a short wait needs none."""
 
@@ -29,6 +30,9 @@ PATIENCE = 3.0
 def plan(
     command: str,
     locate: list[str] | None = None,
+    locate_file: Path | None = None,
+    origin: str | None = None,
+    area: Path | None = None,
     json: bool = False,
     out: Path | None = None,
     overwrite: bool = False,
@@ -56,7 +60,7 @@ def plan(
     if out is not None:
         new_file(out, overwrite=overwrite)
     named = {name: options[name] for name in PLANNING}
-    document = _plan(command, locate or [], vehicle, named)
+    document = _plan(command, vehicle, named, {name: options[name] for name in PLACES})
     typer.echo(indented_json(document) if json else plan_tree(document), nl=not json)
     if out is not None:
         write_document(out, document)
@@ -66,17 +70,24 @@ def plan(
 
 
 def _plan(
-    command: str, locate: list[str], vehicle: Path | None, named: dict[str, Any]
+    command: str, vehicle: Path | None, named: dict[str, Any], places: dict[str, Any]
 ) -> PlanDocument:
     """Check the options, then plan."""
+    from dataclasses import replace
+
     from planner_ft.document import build
     from planner_ft.document.ontology import check
-    from planner_ft.document.vehicle import load_vehicle
+    from planner_ft.document.vehicle import check_area, load_vehicle
+    from planner_ft.planning.chart import read_area, read_places
     from planner_ft.planning.locations import parse_locations
     from planner_ft.planning.planner import Planner, check_command, read_command
     from planner_ft.planning.settings import PlanSettings
+    from planner_ft.support.geodesy import parse_origin
 
-    locations = parse_locations(locate)
+    origin = parse_origin(places["origin"]) if places["origin"] is not None else None
+    locations = parse_locations(places["locate"] or [])
+    chart = read_places(places["locate_file"], origin) if places["locate_file"] else {}
+    corners = check_area(read_area(places["area"], origin)) if places["area"] else None
     text = check_command(read_command(sys.stdin.buffer) if command == "-" else command)
     with (
         interruptible() as report,
@@ -84,9 +95,11 @@ def _plan(
         Planner(PlanSettings(**named), patient) as planner,
     ):
         profile = load_vehicle(vehicle, planner.vocabulary)
+        profile = replace(profile, area=corners) if corners else profile
         for question in check(text, planner.vocabulary)["questions"]:
             typer.echo(f"the command does not say: {question}", err=True)
-        return build(planner.plan(text, locations), planner.vocabulary, profile)
+        planned = planner.plan(text, locations, origin=origin, chart=chart)
+        return build(planned, planner.vocabulary, profile)
 
 
 class Patient:

@@ -52,6 +52,8 @@ def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = No
         "command": planned.command,
         "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
         "vehicle": (vehicle or load_vehicle(None, vocabulary)).as_json(),
+        **({"origin": asdict(planned.origin)} if planned.origin else {}),
+        **({"structures": _structures(planned.chart)} if planned.chart else {}),
         **proposal,
         **_problems(planned.mission),
         "proposed": copy.deepcopy(proposal),
@@ -72,6 +74,10 @@ def _task(number: int, task: PlannedTask) -> dict[str, Any]:
         entry |= {"assumptions": list(answer.notes)} if answer.notes else {}
         entry |= _problems(answer)
     return copy.deepcopy(entry)
+
+
+def _structures(chart: Mapping[str, Sequence[float]]) -> dict[str, list[float]]:
+    return {name: list(position) for name, position in chart.items()}
 
 
 def _problems(answer: Answer) -> dict[str, Any]:

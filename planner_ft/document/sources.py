@@ -7,6 +7,7 @@ from typing import Any
 
 from planner_ft.document.language import language
 from planner_ft.facts import Evidence, Input, Span, read_input
+from planner_ft.planning.frame import frame_of
 from planner_ft.vocabulary import Parameter, Vocabulary
 
 Source = dict[str, Any]
@@ -15,12 +16,16 @@ Source = dict[str, Any]
 
 def sources(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[str, Source]]:
     """Per task, in order, {parameter: source}; the mention nearest to the task's others."""
-    command = read_input({"prompt": document["command"]}, vocabulary)
+    frame = frame_of(document)
+    command = read_input({"prompt": frame.spoken}, vocabulary)
     before = document.get("proposed", document)["tasks"]
     proposed = {task["id"]: task["parameters"] for task in before}
     found, place = [], 0
     for task in document["tasks"]:
         of_task, place = _of_task(task, proposed.get(task["id"]), command, place)
+        for source in of_task.values() if frame.swaps else ():
+            if "spans" in source:
+                source["spans"] = [list(frame.span(*span)) for span in source["spans"]]
         found.append(of_task)
     return found
 

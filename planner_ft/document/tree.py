@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.build import PlanDocument
+from planner_ft.planning.frame import origin_of
 from planner_ft.support.files import compact_json
 from planner_ft.support.resources import memory_size
 from planner_ft.vocabulary.plans import step_skills
@@ -23,6 +24,8 @@ def plan_tree(document: PlanDocument) -> str:
 
 def _lines(document: PlanDocument) -> Iterator[str]:
     yield document["command"]
+    if origin := origin_of(document):
+        yield f"Origin of [0, 0]: {origin}"
     yield from task_tree(document)
     places = []
     for place in document["open_places"]:

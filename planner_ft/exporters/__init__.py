@@ -5,8 +5,8 @@ holds, and a module per format writes it. `tables.toml` holds the reasons of los
 """
 
 from planner_ft.exporters.formats import DRAFT, Format, PlanExport, Written, load_format
-from planner_ft.exporters.geodesy import Origin, parse_origin
 from planner_ft.exporters.ledger import Account, Ledger
+from planner_ft.support.geodesy import Origin, parse_origin
 
 __all__ = ["DRAFT", "Account", "Format", "Ledger", "Origin", "PlanExport", "Written"]
 __all__ += ["load_format", "parse_origin"]

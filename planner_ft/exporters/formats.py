@@ -16,9 +16,9 @@ from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.exporters.geodesy import Origin
 from planner_ft.exporters.ledger import Account, Ledger
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.geodesy import Origin
 from planner_ft.vocabulary import Vocabulary
 
 if TYPE_CHECKING:

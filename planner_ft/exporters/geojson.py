@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 
 from planner_ft.document.track import Circle, Leg, Point
 from planner_ft.exporters.formats import TABLES, Format, PlanExport, Written
-from planner_ft.exporters.geodesy import Origin
 from planner_ft.support.files import indented_json
+from planner_ft.support.geodesy import Origin
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry

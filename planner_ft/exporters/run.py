@@ -9,12 +9,13 @@ from pathlib import Path
 from planner_ft.document import read_document
 from planner_ft.document.tree import plain
 from planner_ft.exporters.formats import DRAFT, Format, PlanExport, format_names, load_format
-from planner_ft.exporters.geodesy import Origin
 from planner_ft.exporters.ledger import Account, Loss, ranges
+from planner_ft.planning.frame import origin_of
 from planner_ft.review.log import log_beside
 from planner_ft.review.verify import approval_of
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import write_text
+from planner_ft.support.geodesy import Origin
 from planner_ft.vocabulary import load_vocabulary
 
 ALL = "all"
@@ -58,6 +59,10 @@ def export_plan(settings: PlanExportSettings) -> list[ExportedPlan]:
     cannot take.
     """
     formats, plan = _formats(settings), _plan(settings)
+    needing = next((chosen.name for chosen in formats if chosen.needs_origin), None)
+    if needing and plan.origin is None:
+        where = "where the plan's [0, 0] lies, such as 59.9075,10.7231"
+        raise PlannerError(f"--format {needing}: needs --origin LAT,LON, {where}")
     files = [_file(settings, chosen, draft=plan.approval is None) for chosen in formats]
     made = []
     for chosen in formats:
@@ -83,10 +88,6 @@ def _formats(settings: PlanExportSettings) -> list[Format]:
     if settings.out is not None and len(formats) > 1:
         asked = f"names one file, and {len(formats)} formats are asked for"
         raise PlannerError(f"--out {settings.out}: {asked}; leave it out, or give one --format")
-    needing = next((chosen.name for chosen in formats if chosen.needs_origin), None)
-    if needing and settings.origin is None:
-        where = "where the plan's [0, 0] lies, such as 59.9075,10.7231"
-        raise PlannerError(f"--format {needing}: needs --origin LAT,LON, {where}")
     return formats
 
 
@@ -101,7 +102,12 @@ def _plan(settings: PlanExportSettings) -> PlanExport:
         raise PlannerError(f"{settings.plan}: {approval.text}; {way}, or {draft}")
     vocabulary = vocabulary or load_vocabulary(document["vocabulary"]["name"])
     words = f"{approval.text}; digest {approval.digest}" if approved else None
-    return PlanExport(document, vocabulary, settings.origin, words)
+    planned = origin_of(document)
+    if planned and settings.origin not in (None, planned):
+        problem = f"the plan was made with {planned.latitude:g},{planned.longitude:g} ({planned})"
+        given = f"{settings.origin.latitude:g},{settings.origin.longitude:g}"
+        raise PlannerError(f"--origin {given}: {problem}; leave it out, or plan anew")
+    return PlanExport(document, vocabulary, settings.origin or planned, words)
 
 
 def _file(settings: PlanExportSettings, chosen: Format, *, draft: bool) -> Path:

@@ -29,7 +29,7 @@ _PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
 
 _COORDINATE = re.compile(
     r"(?P<word>\b(?:lat(?:itude)?|lon(?:g(?:itude)?)?|lng)\b[\s.:=]{0,3}(?:of |is )?)?"
-    r"(?P<lead>\b[NSEW]\s?)?(?<![\w.])(?P<sign>[-−–+])?(?P<degrees>\d{1,3}(?:\.\d+)?)(?![\d.]*\d)"
+    r"(?:(?P<lead>\b[NSEW]\s?)|(?<![\w.]))(?P<sign>[-−–+])?(?P<degrees>\d{1,3}(?:\.\d+)?)(?![\d.]*\d)"
     r"(?P<ring>\s?°\s?(?:(?P<minutes>\d{1,2}(?:\.\d+)?)\s?['′’]\s?"
     r"(?:(?P<seconds>\d{1,2}(?:\.\d+)?)\s?(?:[\"″”]|'')\s?)?)?)?"
     r"(?P<hemisphere>\s?(?:[NSEW]\b|north\b|south\b|east\b|west\b))?"

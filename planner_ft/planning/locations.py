@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from planner_ft.facts.places import read_geographic
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import canonical_value
@@ -104,6 +105,18 @@ def resolve(
     return filled
 
 
+def charted(chart: Mapping[str, Position], places: Sequence[OpenPlace]) -> dict[str, Position]:
+    """The positions of a chart, by open place, that fit just one."""
+    found: dict[str, Position] = {}
+    for place in places:
+        wanted = _plain(place.name)
+        fits = [name for name in chart if _plain(name) == wanted]
+        fits = fits or [name for name in chart if _plain(name) in wanted or wanted in _plain(name)]
+        if len({chart[name] for name in fits}) == 1:
+            found[place.name] = chart[fits[0]]
+    return found
+
+
 def _matching(name: str, places: Sequence[OpenPlace]) -> OpenPlace:
     wanted = _plain(name)
     exact = [place for place in places if _plain(place.name) == wanted]
@@ -117,8 +130,10 @@ def _matching(name: str, places: Sequence[OpenPlace]) -> OpenPlace:
 
 
 def _name_of(entry: Mapping[str, Any], searched: Sequence[str], vocabulary: Vocabulary) -> str:
-    """The searched target in the task prompt, else the last one; a berth in the prompt's words."""
-    prompt = entry["task_prompt"]
+    """Degrees of the task prompt, the searched target in it, else the last one; a berth in words."""
+    prompt: str = entry["task_prompt"]
+    if degrees := read_geographic(prompt):
+        return prompt[degrees[0].start : degrees[0].end].strip()
     mentioned = [name for name in searched if name.lower() in prompt.lower()]
     if mentioned:
         return max(mentioned, key=len)

@@ -9,11 +9,20 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.planning.agents import Agents, Progress, silent
-from planner_ft.planning.locations import OpenPlace, Position, is_open, open_places, resolve
+from planner_ft.planning.frame import agents_frame
+from planner_ft.planning.locations import (
+    OpenPlace,
+    Position,
+    charted,
+    is_open,
+    open_places,
+    resolve,
+)
 from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask
 from planner_ft.planning.settings import DEFAULT_CANDIDATE, PlanSettings, choose_agents
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import nearest_folder
+from planner_ft.support.geodesy import Origin
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import load_vocabulary
 
@@ -66,27 +75,41 @@ class Planner:
         return planner
 
     def plan(
-        self, command: str, locations: Locations | None = None, on_event: OnEvent = unwatched
+        self,
+        command: str,
+        locations: Locations | None = None,
+        on_event: OnEvent = unwatched,
+        origin: Origin | None = None,
+        chart: Locations | None = None,
     ) -> Planned:
         """The plan of a command; `locations` are positions (metres east, north) of open places.
 
-        `on_event` gets the tasks, then the skills of each; an error in it ends planning. Raises
-        PlannerError for a bad command or location; invalid answers are part of the result.
+        Geographic positions of the command are read with the `origin`, where [0, 0] lies; without
+        one they are open places. `chart` has positions of places that may be open, and of
+        structures to keep clear of. `on_event` gets the tasks, then the skills of each; an error in it
+        ends planning. Raises PlannerError for a bad command or location; invalid answers are part
+        of the result.
         """
-        mission = self._mission(check_command(command))
+        check_command(command)
+        frame = agents_frame(command, origin)
+        mission = self._mission(frame.spoken)
+        if mission.plan is not None:
+            mission = replace(mission, plan=frame.restored(mission.plan, self.vocabulary))
         tasks: tuple[PlannedTask, ...] = ()
         places: list[OpenPlace] = []
         located = {}
         if mission.plan is not None:
-            located = {name: list(position) for name, position in (locations or {}).items()}
             filled = resolve(mission.plan, locations or {}, self.vocabulary)
+            found = charted(chart or {}, open_places(filled, self.vocabulary))
+            filled = resolve(filled, found, self.vocabulary)
+            located = {name: list(at) for name, at in {**(locations or {}), **found}.items()}
             places = open_places(filled, self.vocabulary)
             tasks = self._tasks(filled, places, on_event)
         answers = {"mission": [mission], "task": [task.answer for task in tasks if task.answer]}
         agents, manifest = self.agents, self._manifest()
         use: dict[str, AgentUse] = {of: agents.use(of, answers[of]) for of in agents.agents}
         what = command, mission, tasks, tuple(places), located
-        return Planned(*what, use, agents.peak_memory(), manifest)
+        return Planned(*what, use, agents.peak_memory(), manifest, origin, dict(chart or {}))
 
     def skills(self, task: Mapping[str, Any]) -> Answer:
         """The Task Agent's answer, valid or not, for `title`, `parameters` and `task_prompt`.

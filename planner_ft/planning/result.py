@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from planner_ft.planning.locations import OpenPlace
+from planner_ft.planning.locations import OpenPlace, Position
+from planner_ft.support.geodesy import Origin
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,8 @@ class PlannedTask:
 class Planned:
     """A command with its plan: the mission answer as it was, tasks with `located` places filled in.
 
-    `peak_memory` is that of the whole process in bytes (of the GPU, where there is one).
+    `origin` is where [0, 0] lies,
+    `chart` has structures by name. `peak_memory` is that of the whole process in bytes (of the GPU, where there is one).
     """
 
     command: str
@@ -68,6 +70,8 @@ class Planned:
     usage: dict[str, AgentUse] = field(default_factory=dict)
     peak_memory: int = 0
     manifest: dict[str, Any] = field(default_factory=dict)
+    origin: Origin | None = None
+    chart: dict[str, Position] = field(default_factory=dict)
 
     @property
     def valid(self) -> bool:

@@ -20,6 +20,7 @@ from planner_ft.document import PlanDocument
 from planner_ft.document.differences import compare
 from planner_ft.facts import WAYPOINT, is_known, missing_words, read, read_input
 from planner_ft.planning.agents import CUT_NOTE
+from planner_ft.planning.frame import frame_of
 from planner_ft.planning.planner import new_file
 from planner_ft.review.desk import read_plan
 from planner_ft.review.log import existing_log, log_beside
@@ -107,7 +108,7 @@ def sample(
     """The mission sample of an approved document. Raises LeftOutError with the reason for none."""
     if approval.status != "approved":
         raise LeftOutError(approval.text)
-    command = document["command"]
+    command = frame_of(document).spoken
     reviewed, proposed = (
         [_as_commanded(task, command, vocabulary) for task in plan["tasks"]]
         for plan in (document, document["proposed"])

@@ -10,6 +10,7 @@ from planner_ft.document.warnings.command import command_warnings
 from planner_ft.document.warnings.route import order_warnings, range_warnings, space_warnings
 from planner_ft.document.warnings.values import value_warnings
 from planner_ft.document.warnings.warning import KINDS, NOTES, SERIOUS, Warning, named, warning
+from planner_ft.planning.frame import doubt, origin_of
 from planner_ft.vocabulary import Vocabulary
 
 __all__ = ["KINDS", "NOTES", "SERIOUS", "warnings"]
@@ -34,13 +35,16 @@ def warnings(document: Mapping[str, Any], vocabulary: Vocabulary, path: Track) -
 
 
 def _answer_warnings(document: Mapping[str, Any]) -> Iterator[Warning]:
-    """Answers that are not valid, a plan without tasks, skills that are stale or missing."""
+    """Answers that are not valid, a doubtful origin, a plan without tasks, skills that are stale or missing."""
     if document.get("problems"):
         problem = document["problems"][0]
         yield warning("invalid-answer", f"The Mission Agent's answer is not valid: {problem}.")
     elif not document["tasks"]:
         reason = next(iter(document.get("constraints", ())), "no reason is given")
         yield warning("empty-plan", f"The plan has no tasks ({reason.rstrip('.')}).")
+    origin = origin_of(document)
+    if origin and (reason := doubt(document["command"], origin)):
+        yield warning("doubtful-origin", reason)
     for task in document["tasks"]:
         if task.get("problems"):
             text = f"the Task Agent's answer is not valid: {task['problems'][0]}."

@@ -11,7 +11,7 @@ from typing import Any
 from planner_ft.document.language import language, read_clauses
 from planner_ft.document.track import Leg, Point, TaskEntry, Track, place_of
 from planner_ft.document.warnings.warning import Warning, named, warning
-from planner_ft.facts.places import read_positions
+from planner_ft.facts.places import read_geographic, read_positions
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.replay import START, Condition, stops
 
@@ -40,6 +40,9 @@ def order_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Itera
         needed = f"task{'s' * (len(place['tasks']) > 1)} {', '.join(map(str, place['tasks']))}"
         missing = f"{needed} cannot be carried out before it is located"
         text = f"Where {name} is, is not known; {missing}."
+        if read_geographic(name):
+            text = f"{name} is a geographic position (latitude, longitude); {missing}: give"
+            text += " --origin LAT,LON, where the plan's [0, 0] lies."
         parameter = vocabulary.task[first["title"]].position_parameter
         made = warning("unresolved-location", text, about=name)
         yield {**made, "task": first["id"], "parameter": parameter}

@@ -8,13 +8,15 @@ from typing import Any
 from planner_ft.document.unused import unused_facts
 from planner_ft.document.warnings.warning import Warning, named, warning
 from planner_ft.facts import SCORING, WAYPOINT, Facts, Input, is_number, read_input
+from planner_ft.planning.frame import frame_of
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
 
 def value_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
     """Values of tasks and skills that are the model's own, and stated ones that reached no task."""
-    source = read_input({"prompt": document["command"]}, vocabulary)
+    command = frame_of(document).spoken
+    source = read_input({"prompt": command}, vocabulary)
     said = source.facts
     if said.unread:
         unread = "has words or numbers that could not be read with certainty"
@@ -26,7 +28,7 @@ def value_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Itera
     if document["tasks"] and not said.unread:
         texts = [task["task_prompt"] for task in document["tasks"]]
         texts += [*document.get("assumptions", ()), *document.get("constraints", ())]
-        for words in unused_facts(document["command"], document["tasks"], texts, vocabulary):
+        for words in unused_facts(command, document["tasks"], texts, vocabulary):
             text = f'The command says "{words}", and no task has it.'
             yield warning("value-lost", text, about=words.casefold())
 

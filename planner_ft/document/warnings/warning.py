@@ -8,7 +8,8 @@ from typing import Any
 Warning = dict[str, Any]
 """{"id", "kind", "task", "parameter", "text"}; edits elsewhere leave the id as it is."""
 SERIOUS = (
-    *("invalid-answer", "unresolved-location", "used-before-found", "not-at-place"),
+    *("invalid-answer", "structure-close", "limit-broken", "doubtful-origin"),
+    *("unresolved-location", "used-before-found", "not-at-place"),
     *("position-missing", "outside-boundary", "outside-area", "out-of-reach", "over-endurance"),
     *("missing-return", "not-planned", "value-not-said", "skill-value-not-said", "value-lost"),
     *("stale-skills", "no-skills"),

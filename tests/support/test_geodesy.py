@@ -9,10 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pyproj import Geod, Transformer
 
-from planner_ft.exporters import Origin, parse_origin
 from planner_ft.support.errors import PlannerError
-
-from .plans import origins
+from planner_ft.support.geodesy import Origin, parse_origin
+from tests.exporters.plans import origins
 
 METRES = st.floats(-1e6, 1e6, allow_nan=False)
 GEOD = Geod(ellps="WGS84")

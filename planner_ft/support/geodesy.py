@@ -49,6 +49,11 @@ class Origin:
             why = "too near a pole, where the local frame has no north"
             raise PlannerError(f"{given}: {why}; {limit}")
 
+    def __str__(self) -> str:
+        """The place as people write it: 54.32° N, 10.14° E."""
+        north, east = "NS"[self.latitude < 0], "EW"[self.longitude < 0]
+        return f"{abs(self.latitude):.7g}° {north}, {abs(self.longitude):.7g}° {east}"
+
     def to_geographic(self, x: float, y: float) -> tuple[float, float]:
         """(latitude, longitude) in degrees, `x` metres east and `y` metres north of the origin."""
         azimuth, distance = math.degrees(math.atan2(x, y)), math.hypot(x, y)
