@@ -27,7 +27,7 @@ import torch
 from planner_ft.candidates import resolve_candidate
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.decoding.configurations import STRENGTHS, Configuration, Strength
-from planner_ft.decoding.constraints import Constraint
+from planner_ft.decoding.constraints.answer import Answer as Constraint
 from planner_ft.decoding.engine import Engine, Speed, decoding_threads
 from planner_ft.decoding.generate import Query
 from planner_ft.support.files import read_jsonl, write_json

@@ -97,40 +97,27 @@ class Engine:
         if lean is None:
             lean = is_small(candidate, target) and not candidate.is_standin
         folder, forms, model = require_folder(candidate), None, None
-        tokenizer: Any
+        settings: Any = {"quantization": quantization, "vocabulary": vocabulary}
         if lean and target == "cpu":
             with limited_threads(threads):
-                forms = read_forms(
-                    candidate, given, quantization=quantization, vocabulary=vocabulary
-                )
+                forms = read_forms(candidate, given, **settings)
+        tokenizer: Any = (FileTokenizer.read(folder) if forms else None) or load_tokenizer(
+            candidate
+        )
         if forms:
-            tokenizer = FileTokenizer.read(folder) or load_tokenizer(candidate)
             width = forms[None].head.shape[0]
         else:
-            tokenizer = load_tokenizer(candidate)
-            model = load_model(
-                candidate,
-                device=device,
-                quantization=quantization,
-                adapters=given,
-                vocabulary=vocabulary,
-            )
+            model = load_model(candidate, device=device, adapters=given, **settings)
             width = model.config.get_text_config().vocab_size
         ends, pad = end_ids(tokenizer, _named_ends(folder)), int(tokenizer.pad_token_id)
         limits = {
             level: Limits(ends, pad, max_new_tokens or default)
             for level, default in MAX_NEW_TOKENS.items()
         }
+        speed = speed or Speed()
+        adapted = frozenset(given)
         return cls(
-            model,
-            forms or {},
-            tokenizer,
-            width,
-            vocabulary,
-            limits,
-            frozenset(given),
-            threads,
-            speed or Speed(),
+            model, forms or {}, tokenizer, width, vocabulary, limits, adapted, threads, speed
         )
 
     def query(
@@ -139,15 +126,10 @@ class Engine:
         """A question to the agent of a level. `with_vocabulary` is for base models, which have not
         learned it.
         """
-        return Query(
-            level,
-            record,
-            tuple(
-                render_prompt(
-                    level, record, self.tokenizer, self.vocabulary, with_vocabulary=with_vocabulary
-                )
-            ),
+        prompt = render_prompt(
+            level, record, self.tokenizer, self.vocabulary, with_vocabulary=with_vocabulary
         )
+        return Query(level, record, tuple(prompt))
 
     def answer(self, query: Query, configuration: Configuration) -> Generation:
         """The answer to one query."""
@@ -167,15 +149,11 @@ class Engine:
         Raises PlannerError when the level has no adapter that the configuration needs, or the token
         limit is too small for its strength.
         """
-        if queries:
-            level = _only_level(queries)
+        for level in _levels(queries):
+            method = self.method(level, configuration, sampling)
             with self.configured(level, configuration) as decoder:
                 yield from generate_unordered(
-                    decoder,
-                    queries,
-                    self.limits[level],
-                    self.method(level, configuration, sampling),
-                    batch_size=batch_size,
+                    decoder, queries, self.limits[level], method, batch_size=batch_size
                 )
 
     def latencies(
@@ -188,24 +166,18 @@ class Engine:
         """Yield (index of the query, latency), one query at a time. The queries are of one
         level.
         """
-        if queries:
-            level = _only_level(queries)
+        for level in _levels(queries):
+            method = self.method(level, configuration, sampling)
             with self.configured(level, configuration) as decoder:
-                yield from measure_latency(
-                    decoder,
-                    queries,
-                    self.limits[level],
-                    self.method(level, configuration, sampling),
-                )
+                yield from measure_latency(decoder, queries, self.limits[level], method)
 
     def method(
         self, level: Level, configuration: Configuration, sampling: Sampling | None = None
     ) -> Method:
         """How the answers of a configuration are generated."""
-        constraint = self._factory(level, configuration.strength)
         opens = TASK_OPENS if level == "mission" else STEP_OPENS
         return Method(
-            constraint,
+            self._factory(level, configuration.strength),
             self.speed.fast_forward,
             self.speed.drafting,
             self._likeness,
@@ -221,9 +193,7 @@ class Engine:
         return without_working(self._whole_text(answer))[0]
 
     def working(self, answer: Generation) -> str:
-        """The sums that a model wrote before a skill sequence (see
-        `planner_ft.data.task.working`).
-        """
+        """The sums that a model wrote before a skill sequence (planner_ft.data.task.working)."""
         return without_working(self._whole_text(answer))[1]
 
     def _whole_text(self, answer: Generation) -> str:
@@ -262,11 +232,8 @@ class Engine:
                 return
             if adapter:
                 self.model.set_adapter(adapter, inference_mode=True)
-            with (
-                contextlib.nullcontext()
-                if adapter or not self.adapters
-                else self.model.disable_adapter()
-            ):
+            plain = self.adapters and not adapter
+            with self.model.disable_adapter() if plain else contextlib.nullcontext():
                 yield ModelDecoder(self.model, self.limits[level].pad_id)
 
     def _factory(self, level: Level, strength: Strength) -> Factory | None:
@@ -305,11 +272,12 @@ class Engine:
         return likeness
 
 
-def _only_level(queries: Sequence[Query]) -> Level:
+def _levels(queries: Sequence[Query]) -> set[Level]:
+    """The level of the queries; none where there are no queries."""
     levels = {query.level for query in queries}
     if len(levels) > 1:
         raise ValueError("the queries of one call are of one level")
-    return levels.pop()
+    return levels
 
 
 def is_small(candidate: Candidate, device: str) -> bool:

@@ -1,9 +1,8 @@
 """Greedy generation, or sampling where a method asks for it: settings for sampling that the model
 brings are ignored.
 
-The loop is our own and not `model.generate`: tokens that need no choice or were drafted rightly
-share a forward pass, sequences that have ended leave the batch, the cache is not copied at every
-token, and every answer is handed over the moment that it is complete.
+The loop is our own and not `model.generate`: drafts share a forward pass, sequences that have ended
+leave the batch, and every answer is handed over the moment that it is complete.
 """
 
 from __future__ import annotations
@@ -16,7 +15,8 @@ from typing import Any
 import torch
 
 from planner_ft.decoding.configurations import Limits
-from planner_ft.decoding.constraints import RAN_ON, ConstraintFactory
+from planner_ft.decoding.constraints import RAN_ON
+from planner_ft.decoding.constraints.factory import Factory
 from planner_ft.decoding.lookup import Likeness, Lookup
 from planner_ft.decoding.passes import Decoder
 from planner_ft.decoding.sampling import Sampling
@@ -49,8 +49,7 @@ class Generation:
     `finish_reason`: "stop" (an end-of-turn token), "length" (cut at the limit) or "error" (`error`
     says why). `first_token_s` is the time from the batch's begin until its first tokens were known.
     `forward_passes` are those that the answer took part in, those of answers that it was compared
-    with included; `alternatives` counts these. Of its tokens, `forced_tokens` left no choice and
-    `drafted_tokens` were drafted rightly. `notes` and `cut` are the constraint's.
+    with included; `alternatives` counts these. `notes` and `cut` are the constraint's.
     """
 
     ids: tuple[int, ...]
@@ -58,8 +57,6 @@ class Generation:
     seconds: float
     error: str | None = None
     forward_passes: int = 0
-    forced_tokens: int = 0
-    drafted_tokens: int = 0
     notes: tuple[str, ...] = ()
     cut: bool = False
     first_token_s: float | None = None
@@ -86,12 +83,13 @@ class Method:
     `sampling` and `entries` alone.
 
     Without `sampling` the most probable token is taken. `constraint` is enforced, and with
-    `fast_forward` the tokens that it forces are fed together. With `drafting` likely tokens are
-    verified in one pass, from the prompt, the answer so far and `base` (see `lookup`). `entries` counts the tasks or steps of an answer's tokens:
-    a constrained answer with more than twice as many as the free one, and two, is given up.
+    `fast_forward` the tokens that must follow are fed together. With `drafting` likely tokens are
+    verified in one pass, from the prompt, the answer so far and `base` (see `lookup`). `entries`
+    counts the tasks or steps of an answer's tokens: a constrained answer with more than twice as
+    many as the free one, and two, is given up.
     """
 
-    constraint: ConstraintFactory | None = None
+    constraint: Factory | None = None
     fast_forward: bool = True
     drafting: bool = True
     likeness: Likeness = lambda token: token
@@ -100,31 +98,22 @@ class Method:
     entries: Callable[[Sequence[int]], int] | None = None
 
     def state(
-        self,
-        query: Query,
-        limits: Limits,
-        longest: int,
-        begun: Sequence[int] = (),
-        most: int | None = None,
-        enough: Callable[[Sequence[int]], bool] | None = None,
+        self, query: Query, limits: Limits, longest: int, most: int | None = None, **settings: Any
     ) -> SequenceState:
-        """The beginning of an answer of at most `most` entries, its first tokens `begun`.
+        """The beginning of an answer of at most `most` entries; `settings` are those of a
+        SequenceState.
 
         Raises PlannerError when the constraint needs more room than `longest` tokens.
         """
-        record, constraint = query.record, None
-        if self.constraint is not None:
-            constraint = self.constraint.start(record, longest, most)
         return SequenceState(
             query.prompt,
             limits,
             longest,
-            constraint,
+            self.constraint.start(query.record, longest, most) if self.constraint else None,
             Lookup(query.prompt, self.likeness, self.base) if self.drafting else None,
             fast_forward=self.fast_forward,
             sampler=self.sampling.sampler(query.name, longest) if self.sampling else None,
-            begun=begun,
-            enough=enough,
+            **settings,
         )
 
 
@@ -154,11 +143,10 @@ def generate_unordered(
     batch_size: int = 16,
 ) -> Iterator[tuple[int, Generation]]:
     """Yield (index of the query, answer) as answers are completed, batch by batch, longest prompts
-    first.
+    first: the largest memory is needed at the start.
 
-    Prompts of similar length share a batch, and the largest memory is needed at the start, not
-    after an hour. In float32 an answer does not depend on the batch. Raises PlannerError when a
-    batch does not fit the memory.
+    In float32 an answer does not depend on the batch. Raises PlannerError when a batch does not fit
+    the memory.
     """
     order = sorted(range(len(queries)), key=lambda index: -len(queries[index].prompt))
     for start in range(0, len(order), batch_size):
@@ -273,11 +261,12 @@ def _run(
         wanted = [count for _ids, count in fed]
         logits = passes.run([ids for ids, _count in fed], wanted)
         # Reading the tokens waits for the device, so the time below is that of the whole step.
-        best = logits.argmax(-1).tolist()
-        starts = [sum(wanted[:place]) for place in range(len(wanted))]
+        best = torch.split(logits.argmax(-1), wanted)
         wrong = [
-            state.choose(best[start : start + count], logits[start : start + count])
-            for state, start, count in zip(states.values(), starts, wanted, strict=True)
+            state.choose(chosen.tolist(), rows)
+            for state, chosen, rows in zip(
+                states.values(), best, torch.split(logits, wanted), strict=True
+            )
         ]
         now = time.perf_counter()
         first = first or now - began
@@ -300,11 +289,8 @@ def _generation(state: SequenceState, seconds: float, first: float) -> Generatio
         tuple(state.ids),
         state.finished,
         seconds,
-        None,
-        state.forward_passes,
-        state.forced_tokens,
-        state.drafted_tokens,
-        tuple(constraint.notes) if constraint else (),
-        constraint.cut if constraint else False,
-        first,
+        forward_passes=state.forward_passes,
+        notes=tuple(constraint.notes) if constraint else (),
+        cut=constraint.cut if constraint else False,
+        first_token_s=first,
     )

@@ -49,9 +49,10 @@ class Lookup:
             self._followers[tuple(self._likes[-length:])] = token
         self._likes.append(self._likeness(token))
 
-    def propose(self, count: int) -> list[int]:
-        """At most `count` tokens that may follow."""
-        likes, draft = self._likes[-LONGEST_MATCH:], list[int]()
+    def propose(self, count: int, after: Sequence[int] = ()) -> list[int]:
+        """At most `count` tokens that may follow the text and the tokens `after` it."""
+        likes = [*self._likes[-LONGEST_MATCH:], *map(self._likeness, after)][-LONGEST_MATCH:]
+        draft = list[int]()
         while len(draft) < count and (token := self._likely(likes)) is not None:
             draft.append(token)
             likes = [*likes[1 - LONGEST_MATCH :], self._likeness(token)]

@@ -1,51 +1,23 @@
 """Forward passes over the rows of a batch, their keys and values kept: for any model of
-transformers.
+transformers. `forward` has those of small models.
 """
 
 from __future__ import annotations
 
 import inspect
+import itertools
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import torch
 from torch import Tensor
+
+from planner_ft.decoding.forward import SmallModel
 
 SHARED = 16
 """Tokens that prompts must have in common for a pass of their own: below it, the pass costs more
 than it saves.
 """
-
-
-class Passes(Protocol):
-    """The forward passes of one batch. `wide`: after its prompt, a row may be fed several tokens at
-    a time and have some taken back.
-    """
-
-    wide: bool
-
-    def run(self, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:
-        """Feed each row its next tokens; return the logits after the last `wanted` of them (at
-        least 1), row by row: (sum of wanted, tokens).
-        """
-
-    def forget(self, counts: Sequence[int]) -> None:
-        """Take back the last tokens of each row."""
-
-    def select(self, kept: Sequence[int]) -> None:
-        """Keep only these rows."""
-
-
-class Decoder(Protocol):
-    """A model that batches are started on. `context` is the number of positions that it can hold,
-    None where it does not say.
-    """
-
-    @property
-    def context(self) -> int | None: ...
-
-    def start(self, rows: int) -> Passes:
-        """Forward passes for a batch of this many rows."""
 
 
 class ModelDecoder:
@@ -62,13 +34,20 @@ class ModelDecoder:
         # gigabytes.
         self.trims_logits = "logits_to_keep" in inspect.signature(base.forward).parameters
 
-    def start(self, rows: int) -> Passes:
+    def start(self, rows: int) -> _ModelPasses:
         return _ModelPasses(self, rows)
 
 
+Decoder = ModelDecoder | SmallModel
+"""A model that batches are started on. `context` is the number of positions that it can hold, None
+where it does not say; `start(rows)` gives the forward passes of a batch.
+"""
+
+
 class _ModelPasses:
-    """A single row is fed as it comes; in a batch all rows are fed one token at a time, so that
-    their positions stay aligned.
+    """The forward passes of a batch. A single row is `wide`: after its prompt, it may be fed several
+    tokens at a time and have some taken back. In a batch all rows are fed one token at a time, so
+    that their positions stay aligned.
 
     What all prompts of a batch begin with (the instruction, and a base model's vocabulary, most of
     its prompt) is computed once.
@@ -88,6 +67,9 @@ class _ModelPasses:
         self.mask = torch.zeros(rows, 0, dtype=torch.long, device=self.device)
 
     def run(self, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:
+        """Feed each row its next tokens; return the logits after the last `wanted` of them (at
+        least 1), row by row: (sum of wanted, tokens).
+        """
         if len(feeds) > 1 and not self.mask.shape[1]:
             feeds = self._begin_together(feeds)
         ids, mask = self._padded(feeds)
@@ -97,6 +79,7 @@ class _ModelPasses:
         return torch.cat([row[-count:] for row, count in zip(logits, wanted, strict=True)])
 
     def forget(self, counts: Sequence[int]) -> None:
+        """Take back the last tokens of each row."""
         if not any(counts):
             return
         (count,) = counts
@@ -104,6 +87,7 @@ class _ModelPasses:
         self.mask = self.mask[:, :-count]
 
     def select(self, kept: Sequence[int]) -> None:
+        """Keep only these rows."""
         index = torch.tensor(kept, dtype=torch.long, device=self.device)
         self.mask = self.mask[index]
         self.cache.batch_select_indices(index)
@@ -114,7 +98,9 @@ class _ModelPasses:
         """
         from transformers.cache_utils import DynamicLayer
 
-        count = min(min(_common(feeds[0], feed), len(feed) - 1) for feed in feeds)
+        columns = zip(*feeds, strict=False)
+        shared = sum(1 for _ in itertools.takewhile(lambda ids: len(set(ids)) == 1, columns))
+        count = min(shared, min(map(len, feeds)) - 1)
         if count < SHARED or not all(type(layer) is DynamicLayer for layer in self.cache.layers):
             return feeds
         ids = torch.tensor([feeds[0][:count]], device=self.device)
@@ -147,11 +133,3 @@ class _ModelPasses:
             [[0] * (width - len(feed)) + [1] * len(feed) for feed in feeds], device=self.device
         )
         return ids, mask
-
-
-def _common(one: Sequence[int], other: Sequence[int]) -> int:
-    """With how many equal tokens two prompts begin."""
-    return next(
-        (place for place, (a, b) in enumerate(zip(one, other, strict=False)) if a != b),
-        min(len(one), len(other)),
-    )

@@ -56,8 +56,8 @@ class Input:
             return Evidence("stated")
         found = self.facts.evidence(value, parameter, tolerance)
         texts = parameter.type in ("text", "id", "texts")
-        if found.kind == "nobody" and texts and self._texts:
-            said = "\n".join((self.facts.text, *self._texts))
+        if found.kind == "nobody" and texts and self.texts:
+            said = "\n".join((self.facts.text, *self.texts))
             items = value if isinstance(value, list) else [value]
             missing = any(missing_words(said, str(item), misspelt=True) for item in items)
             return NOBODY if missing else Evidence("stated")
@@ -83,7 +83,7 @@ class Input:
         if parameter.type == "position":
             follows = is_place(value) and self._is_way_off(_point(value))
         else:
-            follows = is_number(value) and self._follows(value, parameter)
+            follows = is_number(value) and any(near(value, one) for one in self.values(parameter))
         return Evidence("derived") if follows else found
 
     @functools.cached_property
@@ -164,24 +164,29 @@ class Input:
             return is_place(value) and any(
                 same_place(value, place, tolerance) for place in self._places
             )
-        own_texts = set(map(normalised, self._texts))
+        own_texts = set(map(normalised, self.texts))
         items = value if isinstance(value, list) else [value]
         return bool(own_texts) and all(normalised(str(item)) in own_texts for item in items)
 
-    def _follows(self, value: float, parameter: Parameter) -> bool:
-        """Whether a number follows from those that are stated: as a multiple or a part ("twice as
-        long", "half the distance"), at task level also as an angle.
+    def values(self, parameter: Parameter) -> list[float]:
+        """The numbers that a parameter can have: stated ones in its unit, those of the task, their
+        multiples and parts ("twice as long", "half the distance"), for angles directions and turns,
+        at task level with what follows from them.
         """
-        own = [number for number in self._values if is_number(number)]
-        numbers = [number.value for number in self.facts.numbers(parameter.unit)]
-        said = [*numbers, *self._own(parameter.unit)]
-        if any(near(value, factor * number) for factor in self._factors for number in said):
-            return True
-        if parameter.unit != "deg" or not self.is_task:
-            return False
-        said = [*numbers, *(angle.value for angle in self.facts.bearings), *own]
-        counts = derived.sector_counts((*self.facts.counts, *own))
-        return any(near(value, other) for other in derived.turned(said, counts))
+        unit, known = parameter.unit, self.task.by_name if self.task else {}
+        found = [number.value for number in self.facts.numbers(unit)]
+        for name, value in self.parameters.items():
+            own_unit = known[name].unit if name in known else None
+            if unit is None or own_unit in (None, unit):
+                items = value if isinstance(value, list) else [value]
+                found += [item for item in items if is_number(item)]
+        if unit in ("s", "m"):
+            found += [value * factor for factor in self._factors for value in found]
+        if unit == "deg":
+            found += [angle.value for angle in (*self.facts.bearings, *self.facts.turns)]
+            counts = derived.sector_counts((*self.facts.counts, *filter(is_number, self._values)))
+            found += derived.turned(found, counts) if self.is_task else []
+        return found
 
     @functools.cached_property
     def _factors(self) -> tuple[float, ...]:
@@ -212,7 +217,8 @@ class Input:
         return [item for values in lists for item in values]
 
     @functools.cached_property
-    def _texts(self) -> tuple[str, ...]:
+    def texts(self) -> tuple[str, ...]:
+        """The texts of the task's parameters."""
         return tuple(value for value in self._values if isinstance(value, str))
 
     @functools.cached_property

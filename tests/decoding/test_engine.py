@@ -148,10 +148,8 @@ def test_what_saves_passes_changes_no_answer(embedded: Engine, strength: Strengt
         assert sum(answer.forward_passes for answer in answers) <= most * sum(
             len(answer.ids) for answer in answers
         )
-    assert (
-        strength == "free"
-        or sum(forced.answer(query, configuration).forced_tokens for query in queries) > 0
-    )
+        if strength != "free" or engine is fast:
+            assert any(answer.forward_passes < len(answer.ids) for answer in answers)
 
 
 def test_batches_and_single_queries_give_the_same_answers(embedded: Engine) -> None:

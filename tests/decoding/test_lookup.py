@@ -66,8 +66,8 @@ def test_drafts_save_passes_and_change_nothing(
         # A pass gives the drafts that were right and a choice after them; the last choice may have
         # been drafted, too.
         for answer in drafted:
-            assert answer.forward_passes + answer.drafted_tokens - len(answer.ids) in (0, 1)
-        assert sum(answer.drafted_tokens for answer in drafted) > 0
+            assert answer.forward_passes <= len(answer.ids)
+        assert any(answer.forward_passes < len(answer.ids) for answer in drafted)
 
 
 def test_drafts_do_not_reach_beyond_the_limit(decoder: Decoder) -> None:
@@ -122,4 +122,5 @@ def test_other_kinds_of_models_give_the_same_answers(kind: str) -> None:
     drafted = generate(decoder, QUERIES, LIMITS, Method(), batch_size=1)
     assert [answer.ids for answer in drafted] == [answer.ids for answer in plain]
     # A window that has moved on cannot be taken back, so nothing is drafted.
-    assert (sum(answer.drafted_tokens for answer in drafted) == 0) is (kind == "sliding window")
+    saved = any(answer.forward_passes < len(answer.ids) for answer in drafted)
+    assert saved is (kind != "sliding window")

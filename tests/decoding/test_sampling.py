@@ -105,8 +105,11 @@ def test_forced_tokens_do_not_shift_the_random_numbers() -> None:
         def mask(self) -> Mask:
             return mask(7) if self.count % 2 == 0 else mask(3, 4)
 
-        def forced(self) -> list[int]:
+        def expected(self) -> list[int]:
             return [7] if self.count % 2 == 0 else []
+
+        def admits(self, tokens: list[int]) -> int:
+            return len(tokens)
 
         def accept(self, token: int) -> None:
             self.count += 1
@@ -121,8 +124,8 @@ def test_forced_tokens_do_not_shift_the_random_numbers() -> None:
             sampler=Sampling(1.0).sampler("a", 12),
         )  # type: ignore[arg-type]
         while not row.finished:
-            row.feed(wide=True)
-            row.choose([0], torch.zeros(1, 32))
+            _fed, wanted = row.feed(wide=True)
+            row.choose([0] * wanted, torch.zeros(wanted, 32))
         return row.ids
 
     assert sampled(fast_forward=True) == sampled(fast_forward=False)

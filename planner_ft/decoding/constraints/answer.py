@@ -4,61 +4,33 @@ before it.
 
 from __future__ import annotations
 
+import copy
+import re
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from planner_ft.decoding.constraints import Mask
-from planner_ft.decoding.constraints.budget import Closing
+from planner_ft.decoding.constraints import RELEASED, Mask
+from planner_ft.decoding.constraints.grammar import Script
 from planner_ft.decoding.constraints.tokens import Tokens, allows
+from planner_ft.vocabulary import Task
 
 if TYPE_CHECKING:
     from llguidance import LLMatcher
 
-
-RELEASED = "A value of {name} has no evidence in the command; it is the model's."
-
-
-class Script(Protocol):
-    """The grammars of an answer. Each one ends where nothing can follow it, at a place where no
-    token spans both sides.
-
-    A script does not change: a copy of an answer goes on with the same one.
-    """
-
-    def opening(self) -> str:
-        """The first grammar."""
-
-    def following(self, text: str) -> tuple[str, Script] | None:
-        """The next grammar, and the script from there, after `text` was matched by the last one;
-        None when the answer is complete.
-        """
-
-
-class Whole:
-    """A script of one grammar."""
-
-    def __init__(self, grammar: str) -> None:
-        self._grammar = grammar
-
-    def opening(self) -> str:
-        return self._grammar
-
-    def following(self, text: str) -> tuple[str, Script] | None:
-        return None
-
-
+QUOTE = re.compile(rb'(?:\\.|[^"\\])*"', re.DOTALL)
 Notes = Callable[[str], list[str]]
 """Sentences on an answer so far, given as text."""
 
 
 class Answer:
-    """A Constraint (see the package) that follows a script and ends within `limit` tokens, the last
-    `reserve` of them for closing.
+    """An answer that follows a script and ends within `limit` tokens.
 
-    `without_facts` is the same script without the facts of the input: a part of the answer is
-    released to it where the model finds no value with evidence likely.
+    The last `reserve` of them are for closing what is open: texts end, lists and objects close as
+    soon as the grammar lets them, and what must follow is written with as few tokens as there can
+    be; `cut` says so. `without_facts` is the same script without the facts of the input: a part of
+    the answer is released to it where the model finds no value with evidence likely.
     """
 
     def __init__(
@@ -71,59 +43,65 @@ class Answer:
         without_facts: Script | None = None,
     ) -> None:
         self.cut = False
-        self._released: dict[str, None] = {}
-        self._loose_script = without_facts
-        self._loose = tokens.compile(without_facts.opening()) if without_facts else None
-        self._tokens, self._script, self._left, self._reserve = tokens, script, limit, reserve
-        self._notes = notes
+        self._tokens, self._left, self._reserve, self._notes = tokens, limit, reserve, notes
+        self._script, self._loose_script = script, without_facts
         self._matcher: LLMatcher | None = tokens.compile(script.opening())
+        self._loose = tokens.compile(without_facts.opening()) if without_facts else None
+        self._released: dict[str, None] = {}
         self._ids: list[int] = []
-        self._text = b""
-        self._closing = Closing(tokens)
+        self._begun = 0
         self._mask = tokens.new_mask()
 
     @property
     def notes(self) -> list[str]:
-        text = b"".join(map(self._tokens.bytes_of, self._ids)).decode(errors="ignore")
+        """Sentences for the plan's assumptions: what could not be read from the command, and values
+        without evidence in it that were left to the model.
+        """
+        text = self._tokens.text_of(self._ids).decode(errors="ignore")
         return [*self._notes(text), *(RELEASED.format(name=name) for name in self._released)]
 
     @property
     def ended(self) -> bool:
+        """The answer is complete: only an end token may follow, or has followed."""
         return self._matcher is None
 
     def mask(self) -> Mask:
+        """The tokens that may follow; end tokens among them where the answer may end. The array is
+        the caller's until the next call.
+        """
         if self._matcher is None:
             return self._tokens.ends
         self._matcher.unsafe_compute_mask_ptr(self._mask.ctypes.data, self._mask.nbytes)
         if not self._hurried:
             growing = self._tokens.growing(self._ids, self._matcher)
             return self._tokens.mask_of(tuple(growing)) if growing else self._mask
-        narrowed = self._closing.narrow(self._mask, bytes(self._matcher.compute_ff_bytes()))
+        narrowed = self._closing(self._mask, bytes(self._matcher.compute_ff_bytes()))
         self.cut = self.cut or not np.array_equal(narrowed, self._mask)
         return narrowed
 
-    def forced(self) -> list[int]:
-        follows = self.expected()
-        if not follows or self._loose is None:
-            return follows
-        return follows[: _common(follows, self._tokens.spelt(self._ids, self._loose))]
-
     def expected(self) -> list[int]:
+        """Tokens that must follow, as the tokenizer would write them; empty where there is a
+        choice. The state is unchanged.
+        """
         if self._matcher is None or self._hurried:
             return []
         return self._tokens.spelt(self._ids, self._matcher)[: self._left - self._reserve - 1]
 
     def release(self, token: int) -> bool:
+        """Leave the value that is being written to the model, which would go on with `token`, a
+        token without evidence. False where more than evidence forbids it.
+        """
         if self._matcher is None or self._loose is None or self._hurried:
             return False
         if not self._loose.validate_tokens([token]):
             return False
-        self._matcher = self._loose.deep_copy()
-        if (chosen := getattr(self._script, "chosen", None)) is not None:
-            self._released[getattr(chosen, "title", None) or chosen.name] = None
+        self._matcher, chosen = self._loose.deep_copy(), self._script.chosen
+        if chosen is not None:
+            self._released[chosen.title if isinstance(chosen, Task) else chosen.name] = None
         return True
 
     def accept(self, token: int) -> None:
+        """A token was chosen. Raises ValueError when it is not allowed."""
         if self._matcher is None:
             if token not in self._tokens.end_ids:
                 raise ValueError(f"token {token} follows a complete answer")
@@ -136,15 +114,13 @@ class Answer:
             )
         if self._loose is not None and not self._loose.consume_token(token):
             self._loose = None
-        added = self._tokens.bytes_of(token)
         self._ids.append(token)
-        self._text += added
-        self._closing.read(added)
         self._left -= 1
         if self._matcher.is_accepting():
             self._advance()
 
     def admits(self, tokens: Sequence[int]) -> int:
+        """How many of these tokens in a row are allowed from here. The state is unchanged."""
         if self._matcher is None:
             return int(bool(tokens) and tokens[0] in self._tokens.end_ids)
         room = max(self._left - self._reserve - 1, 0)
@@ -166,34 +142,34 @@ class Answer:
     def _hurried(self) -> bool:
         return self._left <= self._reserve
 
+    def _closing(self, mask: Mask, must_follow: bytes) -> Mask:
+        """The part of a mask that leads to the end: the longest way through what must follow, else
+        a sign that closes, where one is allowed.
+        """
+        if must_follow:
+            return self._tokens.mask_of((self._tokens.shortest(must_follow)[0],))
+        quotes = len(QUOTE.findall(self._tokens.text_of(self._ids)))
+        for sign in '"' if quotes % 2 else "]},":
+            token = self._tokens.byte[sign]
+            if token is not None and allows(mask, token):
+                return self._tokens.mask_of((token,))
+        return mask
+
     def _advance(self) -> None:
-        text = self._text.decode()
+        """Go on to the next grammar, with the text that the last one matched."""
+        text = self._tokens.text_of(self._ids[self._begun :]).decode()
         following = self._script.following(text)
         loose = self._loose_script.following(text) if self._loose_script and following else None
-        self._loose = None
-        if loose is not None:
-            self._loose = self._tokens.compile(loose[0])
+        self._loose = self._tokens.compile(loose[0]) if loose else None
         self._loose_script = loose[1] if loose else None
-        self._text = b""
-        if following is None:
-            self._matcher = None
-            return
-        grammar, self._script = following
-        self._matcher = self._tokens.compile(grammar)
+        self._matcher, self._begun = None, len(self._ids)
+        if following is not None:
+            self._matcher, self._script = self._tokens.compile(following[0]), following[1]
 
     def _copy(self) -> Answer:
-        other = Answer.__new__(Answer)
-        other.__dict__.update(self.__dict__)
+        other = copy.copy(self)
         other._matcher = None if self._matcher is None else self._matcher.deep_copy()
         other._loose = None if self._loose is None else self._loose.deep_copy()
-        other._released = dict(self._released)
-        other._ids = list(self._ids)
-        other._closing = self._closing.copy()
+        other._released, other._ids = dict(self._released), list(self._ids)
         other._mask = self._tokens.new_mask()
         return other
-
-
-def _common(one: Sequence[int], other: Sequence[int]) -> int:
-    """Length of the beginning that two rows of tokens share."""
-    pairs = enumerate(zip(one, other, strict=False))
-    return next((at for at, (left, right) in pairs if left != right), min(len(one), len(other)))

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from planner_ft.decoding.configurations import Strength
-from planner_ft.decoding.constraints import Constraint
-from planner_ft.decoding.constraints.answer import Answer, Script, Whole
-from planner_ft.decoding.constraints.budget import Budget
-from planner_ft.decoding.constraints.grammar import SKILL_OPENS, SchemaValues, plan_grammar
+from planner_ft.decoding.constraints.answer import Answer
+from planner_ft.decoding.constraints.budget import least_limit, reserve
+from planner_ft.decoding.constraints.grammar import SKILL_OPENS, Values
 from planner_ft.decoding.constraints.grounded import GroundedValues
-from planner_ft.decoding.constraints.state import MissionScript, ResolvedValues, names_unresolved
+from planner_ft.decoding.constraints.state import MissionScript
 from planner_ft.decoding.constraints.steps import TaskScript
 from planner_ft.decoding.constraints.tokens import Tokens, tokens_of
 from planner_ft.decoding.constraints.waypoints import Waypoints, read_waypoints
@@ -57,43 +56,30 @@ class Factory:
 
     @functools.cached_property
     def least_tokens(self) -> int:
-        return self._budget.least_limit()
+        """The smallest limit within which every answer ends."""
+        return least_limit(self.level, self.vocabulary, self.tokens)
 
     def start(
         self, record: dict[str, Any], limit: int | None = None, most: int | None = None
-    ) -> Constraint:
+    ) -> Answer:
+        """The state before the first token of the answer to `record` ({"prompt", ...}), which
+        always ends within `limit` tokens, its end token included.
+
+        None takes the factory's limit. With `most`, the answer has at most that many tasks or steps
+        and is held to the schema alone. Raises PlannerError when `limit` is under `least_tokens`.
+        """
         limit = self.limit if limit is None else limit
         self.check(limit)
+        given, unresolved = record.get("parameters"), list(self.vocabulary.unresolved)
+        open_place = isinstance(given, dict) and unresolved in given.values()
+        logical = self.strength != "schema" and not (self.level == "task" and open_place)
+        kind = MissionScript if self.level == "mission" else TaskScript
+        script = kind(self.vocabulary, Values(), logical=logical and most is None)
         if most is not None:
-            grammar = plan_grammar(self.level, self.vocabulary, SchemaValues(), most)
-            return Answer(self.tokens, Whole(grammar), limit, self._reserve)
-        if self.strength == "schema" or (
-            self.level == "task" and names_unresolved(record, self.vocabulary)
-        ):
-            return Answer(self.tokens, self._schema, limit, self._reserve)
-        if self.strength == "state":
-            return Answer(self.tokens, self._logic, limit, self._reserve)
-        return self._grounded(record, limit)
-
-    def _grounded(self, record: dict[str, Any], limit: int) -> Constraint:
-        found = read_waypoints(record, self.vocabulary) if self.level == "task" else None
-        free = found if isinstance(found, str) else ""
-        values = GroundedValues(self.level, record, self.vocabulary, free_waypoints=bool(free))
-        if self.level == "mission":
-            script: Script = MissionScript(self.vocabulary, values)
-        elif isinstance(found, Waypoints):
-            script = TaskScript(self.vocabulary, values, found)
-        else:
-            script = TaskScript(self.vocabulary, ResolvedValues(values, self.vocabulary))
-        goes = [SKILL_OPENS + skill.name for skill in self.vocabulary.skills if skill.coordinates]
-
-        def notes(text: str) -> list[str]:
-            moves = any(name in text for name in goes)
-            return [*values.notes, *([free] if free and moves else [])]
-
-        # A mission's places are stated or unresolved, its other values can be left out.
-        loose = self._logic if self.level == "task" else None
-        return Answer(self.tokens, script, limit, self._reserve, notes, loose)
+            script = replace(script, most=most)
+        if self.strength != "grounded" or not script.logical:
+            return Answer(self.tokens, script, limit, self._reserve)
+        return self._grounded(record, limit, script)
 
     def check(self, limit: int) -> None:
         """Raise PlannerError for a limit within which an answer cannot be guaranteed to end."""
@@ -104,20 +90,25 @@ class Factory:
                 " shorter prompt"
             )
 
+    def _grounded(
+        self, record: dict[str, Any], limit: int, script: MissionScript | TaskScript
+    ) -> Answer:
+        found = read_waypoints(record, self.vocabulary) if self.level == "task" else None
+        free = found if isinstance(found, str) else ""
+        values = GroundedValues(self.level, record, self.vocabulary, free_waypoints=bool(free))
+        grounded = replace(script, values=values)
+        if isinstance(grounded, TaskScript) and isinstance(found, Waypoints):
+            grounded = replace(grounded, waypoints=found)
+        goes = [SKILL_OPENS + skill.name for skill in self.vocabulary.skills if skill.coordinates]
+
+        def notes(text: str) -> list[str]:
+            moves = any(name in text for name in goes)
+            return [*values.notes, *([free] if free and moves else [])]
+
+        # A mission's places are stated or unresolved, its other values can be left out.
+        loose = script if self.level == "task" else None
+        return Answer(self.tokens, grounded, limit, self._reserve, notes, loose)
+
     @functools.cached_property
     def _reserve(self) -> int:
-        return self._budget.reserve()
-
-    @functools.cached_property
-    def _budget(self) -> Budget:
-        return Budget(self.level, self.vocabulary, self.tokens)
-
-    @functools.cached_property
-    def _schema(self) -> Script:
-        return Whole(plan_grammar(self.level, self.vocabulary, SchemaValues()))
-
-    @functools.cached_property
-    def _logic(self) -> Script:
-        if self.level == "mission":
-            return MissionScript(self.vocabulary, SchemaValues())
-        return TaskScript(self.vocabulary, ResolvedValues(SchemaValues(), self.vocabulary))
+        return reserve(self.level, self.vocabulary, self.tokens)

@@ -1,26 +1,25 @@
 """Lark grammars of the two plan forms, put together from a vocabulary and from what its values may
 be.
 
-`Values` decides what a value may be; the strengths differ in nothing else. Key order, separators
-and the order of parameters are those of `answer_text`.
+`Values` decides what a value may be, `Logic` what may stand where; the strengths differ in nothing
+else. Key order, separators and the order of parameters are those of `answer_text`.
 """
 
 from __future__ import annotations
 
 import functools
+import itertools
 from collections.abc import Iterable, Sequence
 from typing import Protocol
 
 from planner_ft.decoding.constraints import patterns
 from planner_ft.decoding.constraints.patterns import literal, regex
 from planner_ft.support.files import compact_json
-from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
-from planner_ft.vocabulary.definition import Role
+from planner_ft.vocabulary import Parameter, Skill, Task
 from planner_ft.vocabulary.plans import (
     MISSION_KEYS,
     STEP_KEYS,
     WORKING,
-    Level,
     canonical_value,
     value_problem,
 )
@@ -43,7 +42,25 @@ Positions = Sequence[Sequence[float]]
 
 TASK_OPENS = '{"title":"'
 SKILL_OPENS = '{"name":"'
-STEP_TAIL = STEP_KEYS[3:]
+
+
+class Script(Protocol):
+    """The grammars of an answer. Each one ends where nothing can follow it, at a place where no
+    token spans both sides: where a name begins or ends, since tokenizers keep letters and signs
+    apart. A script does not change: a copy of an answer goes on with the same one.
+    """
+
+    @property
+    def chosen(self) -> Task | Skill | None:
+        """The task or skill whose name was written last."""
+
+    def opening(self) -> str:
+        """The first grammar."""
+
+    def following(self, text: str) -> tuple[str, Script] | None:
+        """The next grammar, and the script from there, after `text` was matched by the last one;
+        None when the answer is complete.
+        """
 
 
 class Grammar:
@@ -78,126 +95,86 @@ class Grammar:
 Context = frozenset[str]
 """What was written for the same owner that later parameters depend on."""
 IDENTIFIED: Context = frozenset({"id"})
+Options = list[tuple[str, Context]]
+"""The symbols of a value, each with the context behind it."""
 
 
-class Values(Protocol):
-    """What may be written as a value. A symbol is None where there is nothing to write."""
+class Values:
+    """What may be written as a value: all that the strict schema allows, up to the bounds above. A
+    symbol is None where there is nothing to write.
+    """
 
-    def parameter(
-        self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
-    ) -> list[tuple[str, Context]]:
-        """The symbols of a parameter's value, each with the context behind it."""
+    def parameter(self, grammar: Grammar, parameter: Parameter, context: Context) -> Options:
+        """The options of a parameter's value; none where there is nothing to write."""
+        symbol: str | None
+        kind = parameter.type
+        if kind in ("number", "integer"):
+            symbol = self.number(grammar, parameter)
+        elif kind in ("position", "polygon"):
+            symbol = self.position(grammar)
+            symbol = corners(grammar, symbol) if symbol and kind == "polygon" else symbol
+        else:
+            symbol = self.identity(grammar) if kind == "id" else self.text(grammar)
+            symbol = items(grammar, symbol, MOST_TEXTS) if symbol and kind == "texts" else symbol
+        after = context | IDENTIFIED if kind == "id" else context
+        return [(symbol, after)] if symbol else []
 
-    def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
-        """Whether a parameter must be written."""
-
-    def position(self, grammar: Grammar, without: Positions) -> str | None:
+    def position(self, grammar: Grammar, without: Positions = ()) -> str | None:
         """The symbol of a position, none of `without`."""
+        barred = none_of(literal(written(place)) for place in without)
+        return grammar.terminal(f"{regex(patterns.ANY_POSITION)}{barred}")
 
     def number(
-        self, grammar: Grammar, parameter: Parameter, without: Sequence[float]
+        self, grammar: Grammar, parameter: Parameter, without: Sequence[float] = ()
     ) -> str | None:
         """The symbol of a parameter's number, none of `without`."""
+        whole, low, high = parameter.type == "integer", parameter.minimum, parameter.maximum
+        barred = [literal(written_number(number)) for number in without]
+        if low is None or high is None:
+            pattern = patterns.ANY_INTEGER if whole else patterns.ANY_NUMBER
+        else:
+            pattern = patterns.number_range(low, high, whole=whole)
+            barred.append(regex(patterns.CLOSING_ZEROS))
+        return grammar.terminal(f"{regex(pattern)}{none_of(barred)}")
 
     def has_number(self, parameter: Parameter, value: float) -> bool:
         """Whether a parameter's number can be `value`."""
+        return value_problem(value, parameter) is None
 
-    def text(self, grammar: Grammar, without: Sequence[str]) -> str | None:
+    def text(self, grammar: Grammar, without: Sequence[str] = ()) -> str | None:
         """The symbol of a parameter's text, none of `without`."""
+        pattern = patterns.string(LONGEST_TEXT, blank=False)
+        return grammar.terminal(f"{pattern}{none_of_texts(without)}")
+
+    def identity(self, grammar: Grammar) -> str | None:
+        """The symbol of an identifier."""
+        whole = grammar.terminal(regex(patterns.ANY_INTEGER))
+        return grammar.rule(f"{self.text(grammar)} | {whole}")
 
     def prose(self, grammar: Grammar) -> str:
         """The symbol of a task prompt, an assumption or a constraint."""
-
-    def step_texts(self, grammar: Grammar, key: str) -> str:
-        """The symbol of a step's stop_conditions, failure_modes or expected_outputs."""
-
-
-class SchemaValues:
-    """Every value that the strict schema allows, up to the bounds above."""
-
-    def parameter(
-        self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
-    ) -> list[tuple[str, Context]]:
-        kind = parameter.type
-        if kind in ("number", "integer"):
-            return [(self.number(grammar, parameter, ()), context)]
-        if kind in ("position", "polygon"):
-            position = self.position(grammar, ())
-            return [(corners(grammar, position) if kind == "polygon" else position, context)]
-        text = self.text(grammar, ())
-        if kind == "id":
-            return [
-                (
-                    grammar.rule(f"{text} | {grammar.terminal(regex(patterns.ANY_INTEGER))}"),
-                    context | IDENTIFIED,
-                )
-            ]
-        return [(items(grammar, text, MOST_TEXTS) if kind == "texts" else text, context)]
-
-    def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
-        return parameter.required
-
-    def position(self, grammar: Grammar, without: Positions) -> str:
-        return grammar.terminal(
-            f"{regex(patterns.ANY_POSITION)}{_none_of(literal(written(place)) for place in without)}"
-        )
-
-    def number(self, grammar: Grammar, parameter: Parameter, without: Sequence[float]) -> str:
-        pattern = patterns.number_range(
-            parameter.minimum, parameter.maximum, whole=parameter.type == "integer"
-        )
-        return grammar.terminal(
-            f"{regex(pattern)}{_none_of(literal(written_number(number)) for number in without)}"
-        )
-
-    def has_number(self, parameter: Parameter, value: float) -> bool:
-        return value_problem(value, parameter) is None
-
-    def text(self, grammar: Grammar, without: Sequence[str]) -> str:
-        return grammar.terminal(
-            f"{patterns.string(LONGEST_TEXT, blank=False)}{none_of_texts(without)}"
-        )
-
-    def prose(self, grammar: Grammar) -> str:
         return grammar.terminal(patterns.string(LONGEST_PROSE, blank=True))
 
     def step_texts(self, grammar: Grammar, key: str) -> str:
+        """The symbol of a step's stop_conditions, failure_modes or expected_outputs."""
         return items(grammar, self.prose(grammar), MOST_TEXTS)
 
 
-class Narrowed:
-    """The values of another strength, to be narrowed by overriding."""
+class Logic:
+    """What may be written as a parameter of a task or skill: here, whatever `values` allow."""
 
     def __init__(self, values: Values) -> None:
-        self._values = values
+        self.values = values
 
     def parameter(
         self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
-    ) -> list[tuple[str, Context]]:
-        return self._values.parameter(grammar, parameter, owner, context)
+    ) -> Options:
+        """The options of a parameter's value."""
+        return self.values.parameter(grammar, parameter, context)
 
     def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
-        return self._values.needs(parameter, owner)
-
-    def position(self, grammar: Grammar, without: Positions) -> str | None:
-        return self._values.position(grammar, without)
-
-    def number(
-        self, grammar: Grammar, parameter: Parameter, without: Sequence[float]
-    ) -> str | None:
-        return self._values.number(grammar, parameter, without)
-
-    def has_number(self, parameter: Parameter, value: float) -> bool:
-        return self._values.has_number(parameter, value)
-
-    def text(self, grammar: Grammar, without: Sequence[str]) -> str | None:
-        return self._values.text(grammar, without)
-
-    def prose(self, grammar: Grammar) -> str:
-        return self._values.prose(grammar)
-
-    def step_texts(self, grammar: Grammar, key: str) -> str:
-        return self._values.step_texts(grammar, key)
+        """Whether a parameter must be written."""
+        return parameter.required
 
 
 def written_number(number: float) -> str:
@@ -212,35 +189,19 @@ def written(position: Sequence[float]) -> str:
 
 def none_of_texts(texts: Sequence[str]) -> str:
     """What takes these texts, in capitals or not, out of a terminal of JSON strings."""
-    return _none_of(
-        regex(f'(?i:{patterns.QUOTE}{patterns.escaped(patterns.quoted(text))}")') for text in texts
-    )
+    quoted = map(patterns.quoted, texts)
+    return none_of(regex(f'(?i:{patterns.QUOTE}{patterns.escaped(text)}")') for text in quoted)
 
 
-def _none_of(terminals: Iterable[str]) -> str:
+def none_of(terminals: Iterable[str]) -> str:
+    """What takes these terminals out of another one."""
     return "".join(f" & ~{terminal}" for terminal in terminals)
 
 
-def plan_grammar(
-    level: Level, vocabulary: Vocabulary, values: Values, most: int | None = None
-) -> str:
-    """The grammar of a whole plan of at most `most` tasks or steps."""
-    grammar = Grammar()
-    if level == "mission":
-        tasks = [
-            whole
-            for whole in (titled_task(grammar, task, values) for task in vocabulary.tasks)
-            if whole
-        ]
-        task = grammar.rule(f"{literal(TASK_OPENS)} ({' | '.join(tasks)})")
-        return grammar.text(
-            f"{literal(mission_opens())} {_some(task, most or MOST_TASKS)}"
-            f" {mission_closes(grammar, values)}"
-        )
-    step = _step(grammar, vocabulary, values)
-    return grammar.text(
-        f"{sequence_opens(grammar)} {_some(step, most or MOST_STEPS)} {literal(']}')}"
-    )
+def one_of(grammar: Grammar, texts: Iterable[str]) -> str | None:
+    """The terminal that matches one of the texts; None where there is none."""
+    options = list(dict.fromkeys(texts))
+    return grammar.terminal(" | ".join(map(literal, options))) if options else None
 
 
 def sequence_opens(grammar: Grammar) -> str:
@@ -266,31 +227,19 @@ def mission_closes(grammar: Grammar, values: Values) -> str:
     )
 
 
-def titled_task(grammar: Grammar, task: Task, values: Values) -> str | None:
-    """A task behind `{"title":"`, up to its closing brace; None where a required parameter has no
-    value.
-    """
-    body = task_body(grammar, task, values)
-    return None if body is None else f"{title(task)} {body}"
+def step_tail(grammar: Grammar, values: Values) -> str:
+    """The rule of a step behind its perception skills, up to its closing brace."""
+    tail = [
+        f"{literal(',' + key(name))} {values.step_texts(grammar, name)}" for name in STEP_KEYS[3:]
+    ]
+    return grammar.rule(f"{' '.join(tail)} {literal('}')}")
 
 
-def title(task: Task) -> str:
-    """A task's title, without quotation marks."""
-    return literal(patterns.quoted(task.title))
-
-
-def task_body(grammar: Grammar, task: Task, values: Values) -> str | None:
-    """The rule of a task behind its title, up to its closing brace; None where a required parameter
-    has no value.
-    """
-    parameters = _parameters(grammar, task, values)
-    if parameters is None:
-        return None
-    opens = literal(f'",{key("parameters")}{{')
-    return grammar.rule(
-        f"{opens} {parameters} {literal(',' + key('task_prompt'))} {values.prose(grammar)}"
-        f" {literal('}')}"
-    )
+def prefix_free(names: Iterable[str]) -> bool:
+    """Whether no name begins another and none needs an escape."""
+    known = sorted(names)
+    begins = (longer.startswith(shorter) for shorter, longer in itertools.pairwise(known))
+    return not any(begins) and all(patterns.quoted(name) == name for name in known)
 
 
 @functools.cache
@@ -301,7 +250,8 @@ def key(name: str) -> str:
 
 def items(grammar: Grammar, item: str | None, most: int) -> str:
     """The rule of a list of at most `most` items; an empty one where there is no item."""
-    return grammar.rule(f'"[" {_some(item, most)} "]"' if item else literal("[]"))
+    some = f'({item} ("," {item}){{0,{most - 1}}})?'
+    return grammar.rule(f'"[" {some} "]"' if item else literal("[]"))
 
 
 def corners(grammar: Grammar, position: str) -> str:
@@ -309,56 +259,20 @@ def corners(grammar: Grammar, position: str) -> str:
     return grammar.rule(f'"[" {position} ("," {position}){{2,{MOST_CORNERS - 1}}} "]"')
 
 
-def _some(item: str, most: int) -> str:
-    return f'({item} ("," {item}){{0,{most - 1}}})?'
-
-
-def _step(grammar: Grammar, vocabulary: Vocabulary, values: Values) -> str:
-    navigation = _skills(grammar, vocabulary, "navigation", values)
-    return grammar.rule(
-        f"{literal('{' + key(STEP_KEYS[0]))} {navigation} {step_rest(grammar, vocabulary, values)}"
-    )
-
-
-def step_rest(grammar: Grammar, vocabulary: Vocabulary, values: Values) -> str:
-    """The rule of a step behind its navigation skill, up to its closing brace."""
-    others = [_skills(grammar, vocabulary, role, values) for role in ("filter", "perception")]
-    lists = [
-        f"{literal(',' + key(name))} {items(grammar, skill, MOST_SKILLS)}"
-        for name, skill in zip(STEP_KEYS[1:3], others, strict=True)
-    ]
-    return grammar.rule(f"{' '.join(lists)} {step_tail(grammar, values)}")
-
-
-def step_tail(grammar: Grammar, values: Values) -> str:
-    """The rule of a step behind its perception skills, up to its closing brace."""
-    lists = [f"{literal(',' + key(name))} {values.step_texts(grammar, name)}" for name in STEP_TAIL]
-    return grammar.rule(f"{' '.join(lists)} {literal('}')}")
-
-
-def skill_body(grammar: Grammar, skill: Skill, values: Values) -> str | None:
-    """The rule of a skill behind its name, up to its closing brace; None where a required parameter
-    has no value.
+def body(grammar: Grammar, owner: Task | Skill, logic: Logic) -> str | None:
+    """The rule of a task or skill behind its name, up to its closing brace; None where a required
+    parameter has no value.
     """
-    parameters = _parameters(grammar, skill, values)
-    opens = literal(f'",{key("parameters")}{{')
-    return None if parameters is None else grammar.rule(f"{opens} {parameters} {literal('}')}")
+    parameters = _parameters(grammar, owner, logic)
+    if parameters is None:
+        return None
+    opens, closes = literal(f'",{key("parameters")}{{'), literal("}")
+    if isinstance(owner, Task):
+        closes = f"{literal(',' + key('task_prompt'))} {logic.values.prose(grammar)} {closes}"
+    return grammar.rule(f"{opens} {parameters} {closes}")
 
 
-def _skills(grammar: Grammar, vocabulary: Vocabulary, role: Role, values: Values) -> str | None:
-    """The rule of a skill of this role; None where the vocabulary has none that can be written."""
-    bodies = (
-        (skill, skill_body(grammar, skill, values)) for skill in vocabulary.skills_in_role(role)
-    )
-    options = [f"{literal(patterns.quoted(skill.name))} {body}" for skill, body in bodies if body]
-    return (
-        grammar.rule(f"{literal(SKILL_OPENS)} {grammar.rule(' | '.join(options))}")
-        if options
-        else None
-    )
-
-
-def _parameters(grammar: Grammar, owner: Task | Skill, values: Values) -> str | None:
+def _parameters(grammar: Grammar, owner: Task | Skill, logic: Logic) -> str | None:
     """The rule of an owner's parameters behind their opening brace, up to the closing one; None
     where none can be written.
     """
@@ -369,10 +283,10 @@ def _parameters(grammar: Grammar, owner: Task | Skill, values: Values) -> str | 
             return literal("}") if satisfied else None
         parameter, options = owner.parameters[index], []
         opens = literal("," * comma + key(parameter.name))
-        for value, after in values.parameter(grammar, parameter, owner, context):
+        for value, after in logic.parameter(grammar, parameter, owner, context):
             behind = rest(index + 1, True, satisfied or parameter.name in owner.require_any, after)
             options += [f"{opens} {value} {behind}"] if behind else []
-        if not values.needs(parameter, owner):
+        if not logic.needs(parameter, owner):
             behind = rest(index + 1, comma, satisfied, context)
             options += [behind] if behind else []
         return grammar.rule(" | ".join(options)) if options else None

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import functools
 import json
+import math
 from fractions import Fraction
 
 WHOLE_DIGITS = 7
@@ -66,6 +67,7 @@ _FRACTION = rf"\.[0-9]{{0,{DECIMALS - 1}}}[1-9]"
 ANY_INTEGER = rf"(0|-?[1-9][0-9]{{0,{WHOLE_DIGITS - 1}}})"
 ANY_NUMBER = rf"({ANY_INTEGER}|-?(0|[1-9][0-9]{{0,{WHOLE_DIGITS - 1}}}){_FRACTION})"
 ANY_POSITION = rf"\[{ANY_NUMBER},{ANY_NUMBER}\]"
+CLOSING_ZEROS = r"-?[0-9]+\.[0-9]*0"
 SUMS = r"[xy0-9.+/=;\-]"
 """Signs of a working (see planner_ft.data.task.working). Its form is not enforced: where sums are
 read, wrong ones derive nothing.
@@ -73,80 +75,50 @@ read, wrong ones derive nothing.
 
 
 @functools.lru_cache(maxsize=1024)
-def number_range(minimum: float | None, maximum: float | None, *, whole: bool) -> str:
-    """A regular expression for the numbers from `minimum` to `maximum`, both given or neither, with
-    at most DECIMALS decimals.
+def number_range(minimum: float, maximum: float, *, whole: bool) -> str:
+    """A regular expression for the numbers from `minimum` to `maximum` with at most DECIMALS
+    decimals; closing zeros (CLOSING_ZEROS) are to be taken out.
     """
-    if minimum is None or maximum is None:
-        return ANY_INTEGER if whole else ANY_NUMBER
     low, high = Fraction(str(minimum)), Fraction(str(maximum))
     options = []
-    if high >= 0:
-        options += _from_to(max(low, Fraction(0)), high, whole=whole)
-    if low < 0:
-        options += [
-            f"-{option}"
-            for option in _from_to(max(-high, Fraction(0)), -low, whole=whole, zero=False)
-        ]
+    for decimals in range(1 if whole else DECIMALS + 1):
+        scale = 10**decimals
+        least, most = math.ceil(low * scale), math.floor(high * scale)
+        options += _digits(max(least, 0), most, decimals)
+        options += [f"-{option}" for option in _digits(max(-most, 1), -least, decimals)]
     return f"({'|'.join(options)})"
 
 
-def _from_to(low: Fraction, high: Fraction, *, whole: bool, zero: bool = True) -> list[str]:
-    """Patterns of the numbers from `low` to `high`, neither below nought; `zero` says whether
-    nought is one of them.
+def _digits(low: int, high: int, decimals: int) -> list[str]:
+    """Patterns of the whole numbers from `low` to `high`, one for each number of digits, with a
+    point before the last `decimals`.
     """
-    first = max(-(-low // 1), 0 if zero else 1)
-    options = _integers(first, high // 1)
-    if whole:
-        return options
-    first, last = low // 1, high // 1
-    inner_first, inner_last = (first if low == first else first + 1), last - 1
-    options += [f"{option}{_FRACTION}" for option in _integers(inner_first, inner_last)]
-    # The whole numbers at both ends, where only some fractions lie in the range.
-    for end in sorted({first, last}):
-        if inner_first <= end <= inner_last:
-            continue
-        options += _fractions(end, max(low - end, Fraction(0)), min(high - end, Fraction(1)))
-    return options
-
-
-def _fractions(whole: int, low: Fraction, high: Fraction) -> list[str]:
-    """Patterns of `whole` with a fraction between `low` and `high`, which lie between 0 and 1."""
     options = []
-    for digits in range(1, DECIMALS + 1):
-        scale = 10**digits
-        first, last = max(-(-low * scale // 1), 1), min(high * scale // 1, scale - 1)
+    for count in range(decimals + 1, max(len(str(high)), decimals + 1) + 1):
+        first = max(low, 10 ** (count - 1) if count > decimals + 1 else 0)
+        last = min(high, 10**count - 1)
         if first <= last:
-            options.append(
-                rf"{whole}\.{_same_length(str(first).zfill(digits), str(last).zfill(digits))}"
-            )
+            options.append(_between(str(first).zfill(count), str(last).zfill(count), decimals))
     return options
 
 
-def _integers(low: int, high: int) -> list[str]:
-    """Patterns of the whole numbers from `low` to `high`, one for each number of digits."""
-    options = []
-    for digits in range(len(str(low)), len(str(max(high, 0))) + 1):
-        first, last = max(low, 10 ** (digits - 1) if digits > 1 else 0), min(high, 10**digits - 1)
-        if first <= last:
-            options.append(_same_length(str(first), str(last)))
-    return options
-
-
-def _same_length(low: str, high: str) -> str:
+def _between(low: str, high: str, decimals: int) -> str:
     """A pattern of the digit strings from `low` to `high`, which are equally long."""
     if not low:
         return ""
+    point = r"\." if len(low) == decimals else ""
     if low[0] == high[0]:
-        return low[0] + _same_length(low[1:], high[1:])
+        return point + low[0] + _between(low[1:], high[1:], decimals)
     rest = len(low) - 1
     first, last, options = int(low[0]), int(high[0]), []
     if low[1:].strip("0"):
-        options.append(low[0] + _same_length(low[1:], "9" * rest))
+        options.append(low[0] + _between(low[1:], "9" * rest, decimals))
         first += 1
     if high[1:].strip("9"):
-        options.append(high[0] + _same_length("0" * rest, high[1:]))
+        options.append(high[0] + _between("0" * rest, high[1:], decimals))
         last -= 1
     if first <= last:
-        options.append(f"[{first}-{last}]" + (f"[0-9]{{{rest}}}" if rest else ""))
-    return f"({'|'.join(options)})"
+        behind = rf"[0-9]{{{rest - decimals}}}\.[0-9]{{{decimals}}}"
+        plain = f"[0-9]{{{rest}}}"
+        options.append(f"[{first}-{last}]" + (behind if 0 < decimals <= rest else plain))
+    return f"{point}({'|'.join(options)})"

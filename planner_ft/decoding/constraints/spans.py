@@ -12,10 +12,10 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from planner_ft.decoding.constraints.budget import LONGEST_WORD
 from planner_ft.decoding.constraints.grammar import Grammar, none_of_texts
 from planner_ft.decoding.constraints.patterns import literal, quoted
 from planner_ft.facts import corrections
+from planner_ft.facts.lists import WORDS
 
 MOST_WORDS = 2000
 """Words of a command that spans are made of; compiling more takes longer than an answer."""
@@ -23,53 +23,11 @@ BLOCK = 60
 """Words of a span at least: the engine follows rows of words by recursion, so they are cut."""
 MOST_UNENDING = 4
 """Function words in a row behind which a span may end all the same: an answer must be able to."""
-FUNCTION_WORDS = frozenset(
-    [
-        "the",
-        "a",
-        "an",
-        "and",
-        "or",
-        "of",
-        "to",
-        "at",
-        "in",
-        "on",
-        "for",
-        "from",
-        "by",
-        "with",
-        "then",
-        "now",
-        "is",
-        "are",
-        "be",
-        "it",
-        "as",
-        "so",
-        "if",
-        "but",
-        "than",
-    ]
-)
-ELLIPSES = frozenset(
-    [
-        "one",
-        "ones",
-        "other",
-        "others",
-        "same",
-        "both",
-        "two",
-        "three",
-        "four",
-        "pair",
-        "another",
-        "latter",
-    ]
-)
-"""Words that stand for words left out ("the red buoy and the green one"): a value may be two spans,
-and a plural its singular.
+LONGEST_WORD = 64
+"""Bytes of a word that a text can be made to end behind, quotation marks included."""
+FUNCTION_WORDS, ELLIPSES = frozenset(WORDS["function_words"]), frozenset(WORDS["ellipses"])
+"""Words that a value does not begin or end with, and those that stand for words left out ("the red
+buoy and the green one"): with these, a value may be two spans, and a plural its singular.
 """
 QUOTES = ('"', "'", "“", "‘", "«")
 

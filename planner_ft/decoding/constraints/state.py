@@ -10,42 +10,33 @@ says.
 
 from __future__ import annotations
 
-import itertools
 import json
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Any
 
 from planner_ft.data.rules import DOCKING
-from planner_ft.decoding.constraints import patterns
-from planner_ft.decoding.constraints.answer import Script
 from planner_ft.decoding.constraints.grammar import (
     IDENTIFIED,
     MOST_TASKS,
     TASK_OPENS,
     Context,
     Grammar,
-    Narrowed,
-    SchemaValues,
+    Logic,
+    Options,
+    Script,
     Values,
-    corners,
+    body,
     mission_closes,
     mission_opens,
-    task_body,
-    title,
-    titled_task,
+    prefix_free,
     written,
-    written_number,
 )
-from planner_ft.decoding.constraints.patterns import literal
+from planner_ft.decoding.constraints.patterns import literal, quoted
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.replay import START, Progress, target_parameter
 
-Position = tuple[float, float]
 
-
-class LogicalValues(Narrowed):
-    """The values of another strength, less those that break the logic of the plan."""
+class MissionLogic(Logic):
+    """What the tasks so far leave for the next one."""
 
     def __init__(self, values: Values, vocabulary: Vocabulary, progress: Progress) -> None:
         super().__init__(values)
@@ -53,113 +44,58 @@ class LogicalValues(Narrowed):
 
     def parameter(
         self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
-    ) -> list[tuple[str, Context]]:
+    ) -> Options:
         symbol: str | None = None
         if isinstance(owner, Task) and parameter.name == owner.position_parameter:
             symbol = self._place(grammar, owner, identified=context >= IDENTIFIED)
         elif self._is_target(parameter, owner):
-            symbol = self.text(grammar, [target for target in self._progress.searched if target])
+            searched = [target for target in self._progress.searched if target]
+            symbol = self.values.text(grammar, searched)
         else:
             return super().parameter(grammar, parameter, owner, context)
         return [(symbol, context)] if symbol else []
 
     def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
         # Two searches that name no target are the same search.
-        return super().needs(parameter, owner) or (
-            self._is_target(parameter, owner) and "" in self._progress.searched
-        )
+        again = self._is_target(parameter, owner) and "" in self._progress.searched
+        return super().needs(parameter, owner) or again
 
     def _is_target(self, parameter: Parameter, owner: Task | Skill) -> bool:
-        return (
-            isinstance(owner, Task)
-            and owner.title == self._vocabulary.locate
-            and parameter == target_parameter(owner)
-        )
+        search = isinstance(owner, Task) and owner.title == self._vocabulary.locate
+        return isinstance(owner, Task) and search and parameter == target_parameter(owner)
 
     def _place(self, grammar: Grammar, task: Task, *, identified: bool) -> str | None:
-        progress, unresolved = self._progress, self._vocabulary.unresolved
+        progress, unresolved, at = self._progress, self._vocabulary.unresolved, self._progress.here
         unknown = not identified and (bool(progress.searched) or task.pattern == DOCKING)
         if task.arrival == "transit":
-            at = progress.here
-            return (
-                None if at is None or (at == unresolved and not unknown) else literal(written(at))
-            )
+            lost = at is None or (at == unresolved and not unknown)
+            return None if at is None or lost else literal(written(at))
         without = [] if unknown else [unresolved]
         # Two places that are not known yet look the same: behind a second search, unresolved can be
         # another place.
-        same = progress.here == unresolved and len(progress.searched) > 1
-        if (
-            task.title == self._vocabulary.transit
-            and progress.here is not None
-            and not (same or progress.moved)
-        ):
-            without.append(progress.here)
-        return self.position(grammar, tuple(without))
-
-
-class ResolvedValues(Narrowed):
-    """The values of another strength for the skill sequence of a task that has no unresolved place:
-    there is none in it.
-    """
-
-    def __init__(self, values: Values, vocabulary: Vocabulary) -> None:
-        super().__init__(values)
-        self._unresolved = vocabulary.unresolved
-
-    def parameter(
-        self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
-    ) -> list[tuple[str, Context]]:
-        if isinstance(owner, Skill) and parameter in owner.coordinates:
-            return self._coordinate(grammar, parameter, owner.coordinates.index(parameter), context)
-        if parameter.type == "polygon":
-            position = self.position(grammar, (self._unresolved,))
-            return [(corners(grammar, position), context)] if position else []
-        return super().parameter(grammar, parameter, owner, context)
-
-    def _coordinate(
-        self, grammar: Grammar, parameter: Parameter, axis: int, context: Context
-    ) -> list[tuple[str, Context]]:
-        """A coordinate of a destination: the second is not that of the unresolved place when the
-        first one is.
-        """
-        value, suspect = self._unresolved[axis], frozenset({"unresolved"})
-        other = self.number(grammar, parameter, (value,))
-        options = [(other, context)] if other else []
-        if axis == 0 and self.has_number(parameter, value):
-            options.append((literal(written_number(value)), context | suspect))
-        elif axis == 1 and not context >= suspect:
-            options = [
-                (symbol, context) for symbol in [self.number(grammar, parameter, ())] if symbol
-            ]
-        return options
-
-
-def names_unresolved(record: dict[str, Any], vocabulary: Vocabulary) -> bool:
-    """Whether a task itself still has the unresolved place among its parameters."""
-    parameters = record.get("parameters")
-    return isinstance(parameters, dict) and list(vocabulary.unresolved) in parameters.values()
+        same = at == unresolved and len(progress.searched) > 1
+        if task.title == self._vocabulary.transit and at and not (same or progress.moved):
+            without.append(at)
+        return self.values.position(grammar, without)
 
 
 @dataclass(frozen=True)
 class MissionScript:
     """Grammars of a mission plan, made as it grows: the titles that may follow, then what stands
-    behind the chosen title.
-
-    They meet on both sides of a title, where letters follow signs and signs letters: tokenizers
-    keep the two apart. `chosen` is the task whose title was written last.
+    behind the `chosen` title. Without `logical`, any task may follow any other.
     """
 
     vocabulary: Vocabulary
     values: Values
+    logical: bool = True
+    most: int = MOST_TASKS
     progress: Progress = START
     chosen: Task | None = None
 
     def opening(self) -> str:
         grammar = Grammar()
-        return grammar.text(
-            f"{literal(mission_opens())} ({literal(TASK_OPENS)} |"
-            f" {mission_closes(grammar, self.values)})"
-        )
+        closes = mission_closes(grammar, self.values)
+        return grammar.text(f"{literal(mission_opens())} ({literal(TASK_OPENS)} | {closes})")
 
     def following(self, text: str) -> tuple[str, Script] | None:
         if self.chosen is None and text in self.vocabulary.task:
@@ -169,13 +105,10 @@ class MissionScript:
             return None
         if text == mission_opens() + TASK_OPENS:
             return self._titles(), self
-        written_title = self.chosen.title if self.chosen else ""
-        entry, _end = json.JSONDecoder().raw_decode(
-            TASK_OPENS + patterns.quoted(written_title) + text
-        )
-        progress = self.progress.after(
-            self.vocabulary.task[entry["title"]], entry["parameters"], self.vocabulary
-        )
+        title = self.chosen.title if self.chosen else ""
+        entry, _end = json.JSONDecoder().raw_decode(TASK_OPENS + quoted(title) + text)
+        task = self.vocabulary.task[entry["title"]]
+        progress = self.progress.after(task, entry["parameters"], self.vocabulary)
         ahead = replace(self, progress=progress, chosen=None)
         return ahead._titles(), ahead
 
@@ -183,42 +116,30 @@ class MissionScript:
         """The titles that may follow; with their tasks where a title can be the beginning of
         another.
         """
+        known, grammar, logic = self.vocabulary.tasks, Grammar(), self._logic
         offered = [
             task
-            for task in self.vocabulary.tasks
-            if self.progress.offers(task) and self._possible(task)
+            for task in known
+            if (not self.logical or self.progress.offers(task)) and body(grammar, task, logic)
         ]
         # A vocabulary can be such that nothing fits; the schema alone holds then.
-        offered = offered or list(self.vocabulary.tasks)
-        if prefix_free(task.title for task in self.vocabulary.tasks):
-            return Grammar().text(" | ".join(title(task) for task in offered))
+        offered = offered or list(known)
+        if prefix_free(task.title for task in known):
+            return Grammar().text(" | ".join(literal(task.title) for task in offered))
         return self._tasks(offered, titles=True)
 
-    def _possible(self, task: Task) -> bool:
-        needy = task.require_any or any(self._logical.needs(item, task) for item in task.parameters)
-        return not needy or task_body(Grammar(), task, self._logical) is not None
-
     def _tasks(self, tasks: list[Task], *, titles: bool) -> str:
-        grammar = Grammar()
-        make = titled_task if titles else task_body
-        bodies = [
-            make(grammar, task, self._logical) or make(grammar, task, SchemaValues())
-            for task in tasks
-        ]
-        more = f"{literal(',' + TASK_OPENS)} | " if self.progress.tasks + 1 < MOST_TASKS else ""
-        return grammar.text(
-            f"({' | '.join(body for body in bodies if body)})"
-            f" ({more}{mission_closes(grammar, self.values)})"
-        )
+        grammar, options = Grammar(), []
+        for task in tasks:
+            title = literal(quoted(task.title)) if titles else ""
+            behind = body(grammar, task, self._logic) or body(grammar, task, Logic(Values()))
+            options += [f"{title} {behind}"] if behind else []
+        more = f"{literal(',' + TASK_OPENS)} | " if self.progress.tasks + 1 < self.most else ""
+        closes = mission_closes(grammar, self.values)
+        return grammar.text(f"({' | '.join(options)}) ({more}{closes})")
 
     @property
-    def _logical(self) -> LogicalValues:
-        return LogicalValues(self.values, self.vocabulary, self.progress)
-
-
-def prefix_free(names: Iterable[str]) -> bool:
-    """Whether no name begins another and none needs an escape."""
-    known = sorted(names)
-    return not any(
-        longer.startswith(shorter) for shorter, longer in itertools.pairwise(known)
-    ) and all(patterns.quoted(name) == name for name in known)
+    def _logic(self) -> Logic:
+        if not self.logical:
+            return Logic(self.values)
+        return MissionLogic(self.values, self.vocabulary, self.progress)

@@ -12,24 +12,26 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from planner_ft.decoding.constraints.answer import Script
 from planner_ft.decoding.constraints.grammar import (
     MOST_SKILLS,
     MOST_STEPS,
     SKILL_OPENS,
     Context,
     Grammar,
-    Narrowed,
-    SchemaValues,
+    Logic,
+    Options,
+    Script,
     Values,
+    body,
+    corners,
     key,
+    one_of,
+    prefix_free,
     sequence_opens,
-    skill_body,
     step_tail,
     written_number,
 )
 from planner_ft.decoding.constraints.patterns import literal, quoted
-from planner_ft.decoding.constraints.state import prefix_free
 from planner_ft.decoding.constraints.waypoints import Path, Point, Waypoints
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary.definition import Role
@@ -49,58 +51,81 @@ Step = tuple[Skill, Mapping[str, Any]]
 """A skill and its parameters."""
 
 
-class OtherValues(Narrowed):
-    """The values of another strength; a skill that was used in a step has another value there for
-    the parameter that it was used with.
+class StepLogic(Logic):
+    """What the steps so far leave for a skill: no `unresolved` place, for a destination one of
+    `points` where there are any, and for a skill that was `used` in its step another value of the
+    parameter that it was used with.
     """
 
-    def __init__(self, values: Values, skill: Skill, used: Sequence[Mapping[str, Any]]) -> None:
+    def __init__(
+        self,
+        values: Values,
+        unresolved: Sequence[float],
+        points: Sequence[Point],
+        used: Sequence[Mapping[str, Any]],
+    ) -> None:
         super().__init__(values)
-        self._skill, named = skill, {name for one in used for name in one}
-        self._telling = next((item for item in skill.parameters if item.name in named), None)
-        self._barred = [one.get(self._telling.name) for one in used] if self._telling else []
-
-    def parameter(
-        self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
-    ) -> list[tuple[str, Context]]:
-        symbol: str | None = None
-        if owner != self._skill or parameter != self._telling:
-            return super().parameter(grammar, parameter, owner, context)
-        if parameter.type in ("number", "integer"):
-            barred = [value for value in self._barred if isinstance(value, int | float)]
-            symbol = self.number(grammar, parameter, barred)
-        elif parameter.type in ("text", "id"):
-            symbol = self.text(grammar, [str(value) for value in self._barred])
-        else:
-            return super().parameter(grammar, parameter, owner, context)
-        return [(symbol, context)] if symbol else []
-
-    def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
-        return super().needs(parameter, owner) or (
-            owner == self._skill and parameter == self._telling
-        )
-
-
-class WaypointValues(Narrowed):
-    """The values of another strength, with these waypoints alone."""
-
-    def __init__(self, values: Values, points: Sequence[Point]) -> None:
-        super().__init__(values)
+        self._unresolved, self._used = unresolved, used
         self._columns: dict[str, list[str]] = {}
         for x, y in points:
             self._columns.setdefault(written_number(x), []).append(written_number(y))
 
     def parameter(
         self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
-    ) -> list[tuple[str, Context]]:
-        pair = owner.coordinates if isinstance(owner, Skill) else ()
-        if parameter not in pair:
+    ) -> Options:
+        if isinstance(owner, Skill) and parameter in owner.coordinates:
+            axis = owner.coordinates.index(parameter)
+            coordinate = self._waypoint if self._columns else self._coordinate
+            return coordinate(grammar, parameter, axis, context)
+        symbol: str | None
+        if parameter.type == "polygon":
+            corner = self.values.position(grammar, (self._unresolved,))
+            symbol = corners(grammar, corner) if corner else None
+        elif parameter != self._telling(owner) or parameter.type not in (
+            *("number", "integer"),
+            *("text", "id"),
+        ):
             return super().parameter(grammar, parameter, owner, context)
-        if pair.index(parameter) == 0:
+        else:
+            used = [one[parameter.name] for one in self._used if parameter.name in one]
+            if parameter.type in ("text", "id"):
+                symbol = self.values.text(grammar, [str(value) for value in used])
+            else:
+                numbers = [value for value in used if isinstance(value, int | float)]
+                symbol = self.values.number(grammar, parameter, numbers)
+        return [(symbol, context)] if symbol else []
+
+    def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
+        return super().needs(parameter, owner) or parameter == self._telling(owner)
+
+    def _telling(self, owner: Task | Skill) -> Parameter | None:
+        """The parameter that tells one use of a skill from the other."""
+        named = {name for one in self._used for name in one}
+        return next((item for item in owner.parameters if item.name in named), None)
+
+    def _waypoint(
+        self, grammar: Grammar, parameter: Parameter, axis: int, context: Context
+    ) -> Options:
+        """A coordinate of one of the points."""
+        if axis == 0:
             return [(literal(x), context | {f"x {x}"}) for x in self._columns]
         column = next(mark for mark in context if mark.startswith("x "))
-        ways = dict.fromkeys(self._columns[column[2:]])
-        return [(grammar.terminal(" | ".join(map(literal, ways))), context - {column})]
+        symbol = one_of(grammar, self._columns[column[2:]])
+        return [(symbol, context - {column})] if symbol else []
+
+    def _coordinate(
+        self, grammar: Grammar, parameter: Parameter, axis: int, context: Context
+    ) -> Options:
+        """A coordinate of any place: the second is not that of the unresolved place when the first
+        one is.
+        """
+        value, suspect = self._unresolved[axis], frozenset({"unresolved"})
+        without = () if axis == 1 and not context >= suspect else (value,)
+        symbol = self.values.number(grammar, parameter, without)
+        options = [(symbol, context)] if symbol else []
+        if axis == 0 and self.values.has_number(parameter, value):
+            options.append((literal(written_number(value)), context | suspect))
+        return options
 
 
 @dataclass(frozen=True)
@@ -108,15 +133,17 @@ class TaskScript:
     """The parts of an answer: the names that may follow, then what stands behind the chosen name,
     up to the next one.
 
-    A part ends where a name begins or ends: tokenizers keep signs and letters apart. `waypoints`
-    are those that the facts give, None where any may be meant. `steps` are the movements so far,
-    with the one of the step that is being written; `written` is that step's text as far as its
-    parts are matched. `chosen` is the skill whose name was written last, None where one is to
-    follow, `beside` are the skills before it in its list.
+    Without `logical`, any skill may stand beside and behind any other. `waypoints` are those that
+    the facts give, None where any may be meant. `steps` are the movements so far, with the one of
+    the step that is being written; `written` is that step's text as far as its parts are matched.
+    `chosen` is the skill whose name was written last, None where one is to follow, `beside` are the
+    skills before it in its list.
     """
 
     vocabulary: Vocabulary
     values: Values
+    logical: bool = True
+    most: int = MOST_STEPS
     waypoints: Waypoints | None = None
     steps: tuple[Step, ...] = ()
     role: Role = "navigation"
@@ -149,19 +176,16 @@ class TaskScript:
         if self.role == "navigation":
             entry, _end = json.JSONDecoder().raw_decode(text[len(STEP_OPENS) - len(SKILL_OPENS) :])
             steps = (*steps, (self.vocabulary.skill[entry["name"]], entry["parameters"]))
+        ahead = replace(self, steps=steps, chosen=None)
         if text.endswith(STEP_OPENS):
-            return TaskScript(
-                self.vocabulary, self.values, self.waypoints, steps, written=STEP_OPENS
-            )
+            return replace(ahead, role="navigation", beside=(), written=STEP_OPENS)
         role: Role = "perception" if PERCEPTIONS in text else "filter"
         step = json.loads(text.removesuffix(SKILL_OPENS).removesuffix(",") + "]}")
-        beside = [
+        beside = tuple(
             (self.vocabulary.skill[skill["name"]], skill["parameters"])
             for skill in step[f"{role}_skills"]
-        ]
-        return replace(
-            self, steps=steps, role=role, beside=tuple(beside), chosen=None, written=text
         )
+        return replace(ahead, role=role, beside=beside, written=text)
 
     def _names(self) -> str:
         """The names that may follow; with what stands behind them where one begins another."""
@@ -173,44 +197,42 @@ class TaskScript:
         return Grammar().text(" | ".join(literal(skill.name) for skill in offered))
 
     def _offers(self, skill: Skill) -> bool:
-        if self.role == "navigation":
+        if self.logical and self.role == "navigation":
             latest = self.steps[-MOST_SAME:]
             same = len(latest) == MOST_SAME and all(step == latest[0] for step in latest)
             run = [step[0] for step in self.steps[-MOST_RUN:]]
             long = not skill.coordinates and run.count(skill) == MOST_RUN
             return not ((same and latest[0][0] == skill) or long)
-        used = [parameters for other, parameters in self.beside if other == skill]
-        if used and not (all(used) and len(used) < MOST_ALIKE):
+        used = self._used(skill)
+        if self.logical and used and not (all(used) and len(used) < MOST_ALIKE):
             return False
-        return skill_body(Grammar(), skill, self._values_of(skill)) is not None
+        return body(Grammar(), skill, self._logic(skill)) is not None
 
-    def _values_of(self, skill: Skill) -> Values:
-        if skill.coordinates and self.waypoints is not None:
-            points = self.waypoints.following(self._path)
-            return WaypointValues(self.values, points) if points else self.values
-        used = [parameters for other, parameters in self.beside if other == skill]
-        return OtherValues(self.values, skill, used) if used else self.values
+    def _used(self, skill: Skill) -> list[Mapping[str, Any]]:
+        return [parameters for other, parameters in self.beside if other == skill]
 
-    @property
-    def _path(self) -> Path:
-        """The waypoints so far."""
+    def _logic(self, skill: Skill) -> Logic:
+        if not self.logical:
+            return Logic(self.values)
+        # The waypoints so far.
         pairs = ((skill.coordinates, values) for skill, values in self.steps if skill.coordinates)
-        return tuple((values[x.name], values[y.name]) for (x, y), values in pairs)
+        path: Path = tuple((values[x.name], values[y.name]) for (x, y), values in pairs)
+        points = self.waypoints.following(path) if self.waypoints and skill.coordinates else []
+        return StepLogic(self.values, self.vocabulary.unresolved, points, self._used(skill))
 
     def _behind(self, skills: Sequence[Skill], *, names: bool) -> str:
         """What may stand behind a skill's name, up to the next name; with the name before it."""
-        grammar = Grammar()
-        if self.role == "navigation":
-            ends = f"{literal(',' + FILTERS)} {self._list(grammar, 'filter', ())}"
-        bodies = []
+        grammar, options = Grammar(), []
         for skill in skills:
-            if self.role != "navigation":
+            if self.role == "navigation":
+                ends = f"{literal(',' + FILTERS)} {self._list(grammar, 'filter', ())}"
+            else:
                 used = [other for other, _parameters in self.beside]
                 ends = self._list(grammar, self.role, (*used, skill))
-            body = skill_body(grammar, skill, self._values_of(skill))
-            body = body or skill_body(grammar, skill, SchemaValues())
-            bodies.append(f"{literal(quoted(skill.name)) if names else ''} {body} {ends}")
-        return grammar.text(" | ".join(bodies))
+            behind = body(grammar, skill, self._logic(skill))
+            behind = behind or body(grammar, skill, Logic(Values()))
+            options.append(f"{literal(quoted(skill.name)) if names else ''} {behind} {ends}")
+        return grammar.text(" | ".join(options))
 
     def _list(self, grammar: Grammar, role: Role, used: Sequence[Skill]) -> str:
         """What may stand in the list of a role's skills behind those used: the next one, or what
@@ -218,7 +240,9 @@ class TaskScript:
         """
         known = self.vocabulary.skills_in_role(role)
         more = len(used) < MOST_SKILLS and any(
-            skill not in used or (skill.parameters and used.count(skill) < MOST_ALIKE)
+            skill not in used
+            or not self.logical
+            or (skill.parameters and used.count(skill) < MOST_ALIKE)
             for skill in known
         )
         if role == "filter":
@@ -230,5 +254,5 @@ class TaskScript:
     def _ends(self) -> str:
         """What follows a step: another one, or the end."""
         count = len(self.steps) + (self.role == "navigation")
-        more = f"{literal(',' + STEP_OPENS)} | " if count < MOST_STEPS else ""
+        more = f"{literal(',' + STEP_OPENS)} | " if count < self.most else ""
         return f"({more}{literal(CLOSES)})"

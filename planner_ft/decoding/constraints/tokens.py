@@ -116,9 +116,13 @@ class Tokens:
         """A mask that allows nothing."""
         return np.zeros(-(-self.n_vocab // 32), dtype=np.int32)
 
+    def text_of(self, ids: list[int]) -> bytes:
+        """What tokens add to the answer."""
+        return bytes(self.engine.decode_bytes(ids))
+
     def bytes_of(self, token: int) -> bytes:
         """What a token adds to the answer."""
-        return bytes(self.engine.decode_bytes([token]))
+        return self.text_of([token])
 
     def spelt(self, before: list[int], matcher: LLMatcher) -> list[int]:
         """The tokens that the text which must follow is spelt with behind the tokens `before`; what

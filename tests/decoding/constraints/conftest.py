@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from planner_ft.decoding.configurations import Strength
-from planner_ft.decoding.constraints import Constraint, ConstraintFactory, Mask
-from planner_ft.decoding.constraints.factory import constraint_factory
+from planner_ft.decoding.constraints import Mask
+from planner_ft.decoding.constraints.answer import Answer
+from planner_ft.decoding.constraints.factory import Factory, constraint_factory
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, without_working
 
@@ -67,7 +68,7 @@ def embedded() -> Any:
 
 def make_factory(
     tokenizer: Any, level: Level, vocabulary: Vocabulary, strength: Strength, **more: Any
-) -> ConstraintFactory:
+) -> Factory:
     from planner_ft.prompts import end_of_turn_ids
 
     settings = {"end_ids": tuple(end_of_turn_ids(tokenizer)), "limit": LIMITS[level], **more}
@@ -85,7 +86,7 @@ def token_texts(tokenizer: Any) -> list[str]:
     return [tokenizer.decode([token]) for token in range(len(tokenizer))]
 
 
-def random_answer(constraint: Constraint, limit: int, seed: int, busy: Any = None) -> list[int]:
+def random_answer(constraint: Answer, limit: int, seed: int, busy: Any = None) -> list[int]:
     """Token ids of a whole answer that a model of random taste gives: each step takes any allowed
     token.
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from planner_ft.decoding.configurations import Strength
-from planner_ft.decoding.constraints import Constraint
+from planner_ft.decoding.constraints.answer import Answer
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import LEVELS, Level, plan_problems
 
@@ -24,7 +24,7 @@ GRID = {
 }
 
 
-def stubborn_answer(constraint: Constraint, limit: int, seed: int, texts: list[str]) -> list[int]:
+def stubborn_answer(constraint: Answer, limit: int, seed: int, texts: list[str]) -> list[int]:
     """An answer of a model that writes the shortest tokens and closes nothing that it need not."""
     rng, ids = np.random.default_rng(seed), []
     while not constraint.ended:

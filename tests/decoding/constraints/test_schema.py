@@ -67,7 +67,7 @@ def test_forced_tokens_are_those_of_training(tokenizer: Any, level: Level) -> No
         ids = answer_ids(tokenizer, answer_text(level, record, vocabulary))
         constraint = factory.start(record, 4096)
         for place, token in enumerate(ids):
-            forced = constraint.forced()
+            forced = constraint.expected()
             assert forced == ids[place : place + len(forced)]
             assert token in allowed(constraint.mask())
             constraint.accept(token)
@@ -110,8 +110,8 @@ def test_what_is_not_allowed_is_refused_and_changes_nothing(embedded: Any) -> No
     wrong = answer_ids(embedded, "s")[0]
     with pytest.raises(ValueError, match="not allowed"):
         constraint.accept(wrong)
-    assert constraint.forced()
-    assert constraint.admits(constraint.forced()) == len(constraint.forced())
+    assert constraint.expected()
+    assert constraint.admits(constraint.expected()) == len(constraint.expected())
 
 
 @pytest.mark.parametrize("level", LEVELS)

@@ -30,7 +30,7 @@ def test_the_token_of_training_is_allowed_wherever_there_is_a_choice(
         if constraint.admits(ids) < len(ids):
             continue
         for token in ids:
-            if not constraint.forced():
+            if not constraint.expected():
                 choices += 1
                 assert allows(constraint.mask(), token), (
                     record["prompt"],
