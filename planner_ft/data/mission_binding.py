@@ -23,6 +23,8 @@ from planner_ft.data.wordlists import WordLists
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
 
 OBJECTS = ("ID", "T", "P")
+CLAUSE, IT = "C", "it"
+"""Slots for a clause, and for the target that a clause takes up again."""
 HOME = "Home"
 
 
@@ -46,11 +48,13 @@ class Line:
     here: bool = False
     near: str = ""
     part: Nodes = ()
+    clauses: tuple[str, ...] = ()
 
     def slots(self) -> set[str]:
         """The slots of the text that the task needs."""
         parts = {slot.key for slot in all_slots(self.part)}
-        return {self.near, *self.objects, *(fill.slot for fill in self.fills), *parts} - {""}
+        filled = (fill.slot for fill in self.fills)
+        return {self.near, *self.objects, *filled, *parts, *self.clauses} - {""}
 
 
 @dataclass(frozen=True)
@@ -88,7 +92,8 @@ def bind(template: Template, vocabulary: Vocabulary, lists: WordLists) -> Bound:
         if line.task
     }
     for slot in slots:
-        if slot.base not in OBJECTS and slot.key not in owners and slot.base not in lists:
+        known = slot.base in (*OBJECTS, CLAUSE) or slot.key in owners or slot.base in lists
+        if not known:
             owners[slot.key] = _owner(slot, vocabulary)
     places = {
         key: place
@@ -124,11 +129,14 @@ def _line(step: Step, vocabulary: Vocabulary, keys: set[str]) -> Line:
     if step.filters or step.perceptions or step.each:
         raise TemplateError(f"{call.name}: a task has no filters and perception skills")
     if call.name == HOME:
-        return Line(None, call.label)
+        return Line(
+            None, call.label, clauses=tuple(str(argument.value) for argument in call.arguments)
+        )
     task = vocabulary.task.get(call.name)
     if task is None:
         raise TemplateError(f"there is no task {call.name}")
     objects: list[str] = []
+    clauses: list[str] = []
     fills: list[Fill] = []
     here, near = False, ""
     part: Nodes = ()
@@ -144,13 +152,15 @@ def _line(step: Step, vocabulary: Vocabulary, keys: set[str]) -> Line:
             here = True
         elif not argument.name and base_of(value) in OBJECTS:
             objects.append(value)
+        elif not argument.name and base_of(value) == CLAUSE:
+            clauses.append(value)
         else:
             fills.append(_fill(task, argument, keys))
     if task.arrival != "none" and not objects and not here:
         raise TemplateError(f"{call.name} has no place: T1, P1, or here")
     if task.title == vocabulary.locate and not any(key[0] == "T" for key in objects):
         raise TemplateError(f"{call.name} needs a target, T1")
-    return Line(task, call.label, tuple(objects), tuple(fills), here, near, part)
+    return Line(task, call.label, tuple(objects), tuple(fills), here, near, part, tuple(clauses))
 
 
 def _fill(task: Task, argument: Argument, keys: set[str]) -> Fill:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from transformers import PreTrainedTokenizerBase
 
 IGNORE = -100
-HANDED_DOWN, HANDED_DOWN_SEED = 0.1, 50_000_000
+HANDED_DOWN, HANDED_DOWN_SEED = 0.3, 50_000_000
 """Share of the task inputs that come from missions, and the seed offset of those missions."""
 DRILL_SEED = 70_000_000
 CUT = 0.6

@@ -13,15 +13,16 @@ from collections.abc import Iterator, Sequence
 from random import Random
 from typing import Any
 
-from planner_ft.data.missions import sample_missions
-from planner_ft.data.task.steps import Step, entry_of, plan_step
+from planner_ft.data.clauses import Beside
+from planner_ft.data.missions import missions_with_skills
+from planner_ft.data.task.steps import Entry, Step, entry_of, plan_step
 from planner_ft.facts import geometry as g
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import canonical_parameters, plan_problems
 
 TRANSITS = 0.3
-"""Share of the Transits that are kept: every third task of a mission is one, and all are alike."""
+"""Share of the Transits without clauses that are kept: every third task of a mission is one, and all are alike."""
 LONGEST_GRID, MOST_SECTORS = 24, 12
 HEALTH = ("VerifyGeotagQuality", "GetImageQualityMetrics", "GetHorizonAngle", "CheckLensClearness")
 """What a sensor health check covers: GPS, cameras, horizon, lens (the task's own description)."""
@@ -57,13 +58,14 @@ def mission_tasks(vocabulary: Vocabulary, seed: int) -> Iterator[dict[str, Any]]
             f"vocabulary {vocabulary.name}: has no task {missing[0]}; tasks of synthetic missions"
             " are there for usv alone"
         )
-    for mission in sample_missions(seed):
+    for mission, beside in missions_with_skills(seed, None, vocabulary):
         rng = Random(f"{seed}:{mission['id']}")
         place: list[float] = [rng.randrange(-200, 201, 5), rng.randrange(-200, 201, 5)]
         subject = None
         for number, entry in enumerate(mission["expected"]["tasks"]):
-            if entry["title"] != "Transit" or rng.random() <= TRANSITS:
-                record = task_record(entry, subject, place, vocabulary)
+            bare = entry["title"] == "Transit" and not beside[number]
+            if not bare or rng.random() <= TRANSITS:
+                record = task_record(entry, subject, place, vocabulary, beside[number])
                 if record is not None:
                     family = f"mission-task/{entry['title']}"
                     yield {
@@ -76,24 +78,33 @@ def mission_tasks(vocabulary: Vocabulary, seed: int) -> Iterator[dict[str, Any]]
 
 
 def task_record(
-    entry: dict[str, Any], subject: str | None, place: list[float], vocabulary: Vocabulary
+    entry: dict[str, Any],
+    subject: str | None,
+    place: list[float],
+    vocabulary: Vocabulary,
+    added: Sequence[Beside] = (),
 ) -> dict[str, Any] | None:
     """The record of one task of a plan, its open place filled in; None where the geometry is left
     open.
 
     `subject` is the target that was searched last, which a task at a place that has been found is
-    about.
+    about; `added` are the skills that clauses of the command put beside the task.
     """
     task = vocabulary.task[entry["title"]]
     values = {
         name: list(place) if value == list(vocabulary.unresolved) else value
         for name, value in entry["parameters"].items()
     }
-    movements, beside = _skills(task.title, values, subject)
+    movements, own = _skills(task.title, values, subject)
     if not movements:
         return None
+    beside: dict[str, list[Entry]] = {"filter": [], "perception": []}
+    for role, name, given in (*(("perception", *skill) for skill in own), *added):
+        skill = entry_of(name, given, vocabulary)
+        if skill not in beside[role]:
+            beside[role].append(skill)
     steps = [
-        plan_step(name, given, [], [entry_of(*skill, vocabulary) for skill in beside], vocabulary)
+        plan_step(name, given, list(beside["filter"]), list(beside["perception"]), vocabulary)
         for name, given in movements
     ]
     plan = {"skill_sequence": steps}

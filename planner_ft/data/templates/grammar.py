@@ -22,7 +22,7 @@ DIGITS = "0123456789"
 _MARK = re.compile(r"\\(.?)|\{([^}]*)\}|([(\[{|)\]}])")
 _SLOT = re.compile(r"(param\.|[~_?]?)([A-Za-z]\w*)(?::(\w*))?((?: +\w+)*) *", re.ASCII)
 _WORD = re.compile(r"""(?:[^\s"';]|"[^"]*"|(?<==)'[^']*'|')+|;""")
-_HEAD = re.compile(r"[+&]?([A-Za-z]+)(?:\?([^@]*))?(?:@(first|last))?")
+_HEAD = re.compile(r"[+&]?([A-Za-z_]+)(?:\?([^@]*))?(?:@(first|last))?")
 _ARGUMENT = re.compile(
     r"""(?:(?P<name>\w+)=)?(?:(?P<quote>["'])(?P<text>.*)(?P=quote)|~(?P<unused>.+)"""
     r"""|(?P<minus>-?)(?:param\.(?P<param>\w+)|(?P<slot>[A-Za-z][\w-]*))|(?P<number>-?[\d.]+))""",

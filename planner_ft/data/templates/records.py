@@ -1,8 +1,8 @@
 """Template files: JSONL records beside a vehicle's definition, read once and parsed when drawn.
 
-The templates of NAME.toml stand in NAME.commands.jsonl and NAME.prompts.jsonl, or, by subject, in
-the files of the folders NAME.commands/ and NAME.prompts/. schemas/templates.schema.json is the form
-of a record.
+The templates of NAME.toml stand in NAME.commands.jsonl, NAME.clauses.jsonl and NAME.prompts.jsonl,
+or, by subject, in the files of the folders NAME.commands/, NAME.clauses/ and NAME.prompts/.
+schemas/templates.schema.json is the form of a record.
 """
 
 from __future__ import annotations
@@ -20,13 +20,19 @@ from planner_ft.support.files import read_text
 from planner_ft.vocabulary import Vocabulary
 
 T = TypeVar("T")
-Kind = Literal["commands", "prompts"]
+Kind = Literal["commands", "clauses", "prompts"]
 SPLITS = ("train", "validation", "test")
+FORMS = ("order", "phrase", "sentence")
 TEXTS = {
     "commands": ("id", "split", "command", "plan"),
+    "clauses": ("id", "split", "clause", "plan", "form"),
     "prompts": ("id", "split", "prompt", "plan"),
 }
-LISTS = {"commands": ("excluded", "constraints", "assumptions"), "prompts": ("tasks",)}
+LISTS = {
+    "commands": ("excluded", "constraints", "assumptions"),
+    "clauses": ("tasks", "constraints"),
+    "prompts": ("tasks",),
+}
 
 
 @dataclass(eq=False)
@@ -40,6 +46,7 @@ class Template:
     text: str
     plan: str
     where: str
+    form: str = ""
     tasks: tuple[str, ...] = ()
     excluded: tuple[str, ...] = ()
     constraints: tuple[str, ...] = ()
@@ -114,9 +121,9 @@ def read_templates(path: Path, kind: Kind) -> tuple[Template, ...]:
         problem = _problem(record, kind)
         if problem or record["id"] in found:
             raise PlannerError(f"{where}: {problem or 'the id stands twice'}")
-        name, split, text, plan = (record.pop(key) for key in TEXTS[kind])
+        name, split, text, plan, *form = (record.pop(key) for key in TEXTS[kind])
         lists: dict[str, Any] = {key: tuple(items) for key, items in record.items()}
-        found[name] = Template(name, split, text, plan, where, **lists)
+        found[name] = Template(name, split, text, plan, where, *form, **lists)
     return tuple(found.values())
 
 
@@ -128,11 +135,13 @@ def _problem(record: Any, kind: Kind) -> str | None:
         if not isinstance(record.get(name), str):
             return f"{name} is missing or no text"
     for name in LISTS[kind]:
-        items = record.get(name, None if name == "tasks" else [])
+        items = record.get(name, None if kind == "prompts" else [])
         if not isinstance(items, list) or not all(isinstance(item, str) for item in items):
             return f"{name} is missing or no list of texts"
     if unknown := record.keys() - {*TEXTS[kind], *LISTS[kind]}:
         return f"unknown field {min(unknown)}"
     if record["split"] not in SPLITS:
         return f"split {record['split']!r}: must be {', '.join(SPLITS)}"
+    if record.get("form", FORMS[0]) not in FORMS:
+        return f"form {record['form']!r}: must be {', '.join(FORMS)}"
     return None

@@ -1,0 +1,216 @@
+"""Commands of one or two templates with clauses of limits and demands in different places."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from operator import itemgetter
+from random import Random
+from typing import TYPE_CHECKING, Any
+
+from planner_ft.data.clauses import Beside, Clause, Effect
+from planner_ft.data.drawing import Drawing
+from planner_ft.data.mission_binding import CLAUSE
+from planner_ft.data.mission_plan import Intent, Target, label
+from planner_ft.data.numbers import pick
+from planner_ft.data.templates.grammar import Slot
+from planner_ft.data.templates.records import FORMS, Template
+from planner_ft.data.templates.render import PIECE, joined
+
+if TYPE_CHECKING:
+    from planner_ft.data.missions import MissionSampler
+
+TRIES, MANY = 12, 6
+DEMANDED = 0.5
+"""Share of demands for data among the clauses; the others are limits."""
+OPPOSED = ("no_recording", "SetStreamRecording"), ("no_recording", "CaptureGeoSnapshot")
+BUT = (", but ", ", but ", " but ", ", and ", "; ", " and ", ", ")
+BEHIND = (", ", ", ", " ", " - ", " (")
+FIRST, FRONT, BODY, LAST = range(4)
+"""Where a clause stands: before the whole, before or in one of the bodies, behind the whole."""
+THEN = ("", "", "Then ", "After that, ", "Next: ", "And then ")
+
+
+@dataclass
+class Command:
+    """A composed command: its text with the values marked, its plan, and by task the skills that
+    its clauses put beside it.
+    """
+
+    text: str
+    expected: dict[str, Any]
+    beside: list[list[Beside]]
+
+
+class Composer:
+    """Puts one command together."""
+
+    def __init__(self, sampler: MissionSampler, templates: Sequence[Template], rng: Random) -> None:
+        self.sampler, self.rng = sampler, rng
+        self.drawings = [
+            Drawing(sampler, sampler.bound(template), template, rng) for template in templates
+        ]
+        self.intents = [
+            [_renamed(intent, number) for intent in drawing.intents()]
+            for number, drawing in enumerate(self.drawings)
+        ]
+        every = [intent for intents in self.intents for intent in intents]
+        self.planned = label(every, sampler.vocabulary)
+        self.bodies = [list[PIECE]() for _ in self.drawings]
+        self.before, self.after = list[PIECE](), list[PIECE]()
+        self.effects: list[tuple[int, int, Effect]] = []
+
+    def command(self, clauses: int) -> Command:
+        """The command with so many clauses, or fewer where none fits."""
+        self._fill_slots()
+        for number, drawing in enumerate(self.drawings):
+            self.bodies[number] = list(drawing.pieces())
+        for _ in range(clauses if len(self.planned) <= MANY else min(clauses, 1)):
+            self._add(pick(range(len(self.drawings)), self.rng))
+        return Command(self._text(), *self._plan())
+
+    # ------------------------------------------------------------ clauses
+
+    def _fill_slots(self) -> None:
+        for number, (drawing, intents) in enumerate(zip(self.drawings, self.intents, strict=True)):
+            for slot in drawing.parts:
+                if not isinstance(slot, Slot) or slot.base != CLAUSE:
+                    continue
+                lines = zip(drawing.lines, intents, strict=True)
+                own = [intent for line, intent in lines if slot.key in line.clauses]
+                found = self._clause(own, (slot.kind,), alone=True)
+                if found:
+                    drawing.clauses[slot.key], effect = found
+                    self.effects.append((BODY, number, effect))
+
+    def _clause(
+        self, intents: Sequence[Intent], forms: Sequence[str], *, alone: bool
+    ) -> tuple[Clause, Effect] | None:
+        """A clause of one of these forms that fits what was asked for, and what it adds."""
+        covered = {
+            place
+            for place, item in enumerate(self.planned)
+            if any(item.intent is intent for intent in intents)
+        }
+        it = _target(intents)
+        for _ in range(TRIES):
+            demands, limits = self.sampler.clauses
+            group = demands if self.rng.random() < DEMANDED else limits
+            fitting = [template for template in group if template.form in forms]
+            if not fitting:
+                continue
+            template = pick(fitting, self.rng)
+            if it is None and "{it}" in template.text:
+                continue
+            clause = Clause(self.sampler, template, self.rng, it)
+            effect = clause.effect(self.planned, covered, alone=alone)
+            if effect and not self._clashes(effect):
+                return clause, effect
+        return None
+
+    def _clashes(self, effect: Effect) -> bool:
+        """Whether an earlier clause is about the same, or the opposite."""
+        taken = set[str]().union(*(earlier.about for _at, _number, earlier in self.effects))
+        both = taken | effect.about
+        opposed = any(first in both and second in both for first, second in OPPOSED)
+        return opposed or bool(taken & effect.about)
+
+    def _add(self, number: int) -> None:
+        """A clause at the end of one of the bodies, or before or behind the whole."""
+        rng, asked = self.rng, [intent for intent in self.intents[number] if not intent.home]
+        found = self._clause(asked, FORMS, alone=len(asked) == 1)
+        if found is None:
+            return
+        clause, effect = found
+        pieces, form, roll, at = list(clause.pieces()), clause.template.form, rng.random(), BODY
+        if form == "order" and roll < 0.5:
+            self._attach(number, pick(BUT, rng), pieces)
+        elif form == "phrase" and (roll < 0.85 or number):
+            self._attach(number, pick(BEHIND, rng), pieces)
+        elif form == "phrase":
+            at = FRONT
+            self.bodies[number] = [*pieces, (", ", False), *_lowered(self.bodies[number])]
+        elif roll < 0.72 and number == len(self.bodies) - 1:
+            at = LAST
+            self.after += [(" ", False), *pieces, (".", False)]
+        elif number == 0:
+            at = FIRST
+            self.before += [*pieces, (pick((". ", ". ", ". ", ": "), rng), False)]
+        else:
+            self._attach(number, ". ", pieces)
+        self.effects.append((at, number, effect))
+
+    def _attach(self, number: int, joint: str, pieces: list[PIECE]) -> None:
+        body, mark = _open(self.bodies[number])
+        closing = ")" if joint.endswith("(") else ""
+        self.bodies[number] = [*body, (joint, False), *pieces, (closing + mark, False)]
+
+    # ------------------------------------------------------------ text and plan
+
+    def _text(self) -> str:
+        pieces = list(self.before)
+        for number, body in enumerate(self.bodies):
+            if number:
+                then = pick(THEN, self.rng)
+                pieces = [*_open(pieces)[0], (". " + then, False)]
+                body = _lowered(body) if then else body
+            pieces += body
+        if self.after:
+            inner, mark = _open(pieces)
+            pieces = [*inner, (mark or ".", False), *self.after]
+        return joined(pieces, small=self.drawings[0].small and not self.before)
+
+    def _plan(self) -> tuple[dict[str, Any], list[list[Beside]]]:
+        sampler, excluded = self.sampler, list[str]()
+        notes, assumptions = list[str](), list[str]()
+        for drawing in self.drawings:
+            excluded += drawing.template.excluded
+            constraints, taken = drawing.remarks()
+            notes += constraints
+            assumptions += taken
+        notes = [*map(sampler.texts.excluded, excluded), *notes]
+        if not self.planned and excluded:
+            notes.append(sampler.config.get("cancelled", "No task is left."))
+        elif not self.planned and not notes:
+            notes.append(sampler.config.get("nothing", "The command asks for no task."))
+        effects = [effect for _at, _number, effect in sorted(self.effects, key=itemgetter(0, 1))]
+        notes += [text for effect in effects for text in effect.constraints]
+        expected = sampler.texts.plan(self.planned, notes, assumptions)
+        beside: list[list[Beside]] = [[] for _ in self.planned]
+        for effect in effects:
+            for place, text, skill in effect.sentences:
+                expected["tasks"][place]["task_prompt"] += f" {text}"
+                if skill is not None:
+                    beside[place].append(skill)
+        return expected, beside
+
+
+def _renamed(intent: Intent, number: int) -> Intent:
+    """The intent with a target of its own: "T1" of two templates are two things."""
+    target = intent.target
+    if number == 0 or target is None:
+        return intent
+    return replace(intent, target=replace(target, key=f"{number}{target.key}"))
+
+
+def _target(intents: Sequence[Intent]) -> Target | None:
+    """The one thing that the intents are about, which a clause can call "it"."""
+    found = {intent.target.key: intent.target for intent in intents if intent.target}
+    things = [target for target in found.values() if target.description is not None]
+    return things[0] if len(found) == 1 and things else None
+
+
+def _open(pieces: Sequence[PIECE]) -> tuple[list[PIECE], str]:
+    """The text without its end mark, and the mark."""
+    *inner, (last, value) = pieces
+    bare = last if value else last.rstrip(" .?!")
+    mark = last[len(bare) :].strip()[:1]
+    return [*inner, (bare, value)], mark
+
+
+def _lowered(pieces: Sequence[PIECE]) -> list[PIECE]:
+    """The text as it stands in the middle of a sentence."""
+    (first, value), *rest = pieces
+    word = first.partition(" ")[0]
+    plain = not value and word[1:].islower() and not word.startswith(("I'", "I’"))
+    return [(first[:1].lower() + first[1:] if plain else first, value), *rest]

@@ -1,0 +1,378 @@
+"""One command in the making: what its template speaks of, its text and what it asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from random import Random
+from typing import TYPE_CHECKING, Any
+
+from planner_ft.data.mission_binding import CLAUSE, IT, OBJECTS, Bound, Line
+from planner_ft.data.mission_plan import DOCKING, Intent, Target, point_text
+from planner_ft.data.numbers import WRITTEN, Value, digits, pick, position
+from planner_ft.data.task.values import draw_point
+from planner_ft.data.templates.grammar import Nodes, Slot, TemplateError, base_of, choose
+from planner_ft.data.templates.records import Template
+from planner_ft.data.templates.render import PIECE, article_for
+from planner_ft.facts.geometry import Point
+from planner_ft.vocabulary import Task
+
+if TYPE_CHECKING:
+    from planner_ft.data.missions import MissionSampler
+
+LOCATED, SOUGHT = 0.5, 0.12
+"""Shares of targets said with a position, and of those that the command looks for."""
+DOUBTFUL, BARE, FITTING = 0.04, 0.5, 0.6
+"""Shares of positions said with doubt, sizes without a unit before another size, and line spacings
+that divide the width.
+"""
+LANES = 12
+PLACED = (
+    *(" at {}",) * 26,
+    *(" ({})", ", at {},", " at position {}", " over at {}", " out at {}", ", {},"),
+    " located at {}",
+)
+DOUBTS = (
+    *(" somewhere near {}", " at about {}", " at roughly {}", ", which should be at {},"),
+    *(", probably at {},", " at around {}"),
+)
+JOINTS = (" by ", " x ", "x", " times ")
+UNPLACED = frozenset(("a", "one", "look", "nouns"))
+"""Options of mentions that carry no position."""
+
+
+class Drawing:
+    """One command in the making: what it speaks of, by slot."""
+
+    def __init__(
+        self, sampler: MissionSampler, bound: Bound, template: Template, rng: Random
+    ) -> None:
+        self.sampler, self.bound, self.template, self.rng = sampler, bound, template, rng
+        self.words, self.vocabulary = sampler.words, sampler.vocabulary
+        self.targets: dict[str, Target] = {}
+        self.values: dict[str, Value] = {}
+        self.alike: list[Target] = []
+        roll = rng.random()
+        self.form = None if roll > 0.85 else WRITTEN[0] if roll < 0.3 else pick(WRITTEN, rng)
+        self.parts = choose(template.nodes, rng, [])
+        slots = [part for part in self.parts if isinstance(part, Slot)]
+        self.labels = {slot.key for slot in slots if slot.sign == "?"}
+        self.lines = [line for line in bound.lines if not line.label or line.label in self.labels]
+        self.clauses: dict[str, Drawing] = {}
+        self.said = {slot.key for slot in slots if not slot.sign}
+        self.slots = sorted(
+            (slot for slot in slots if slot.sign != "?"), key=lambda slot: slot.base != "P"
+        )
+        for slot in self.slots:
+            if slot.key not in self.targets and slot.key not in self.values:
+                self._draw(slot)
+        self._agree()
+
+    # ------------------------------------------------------------ what is spoken of
+
+    def _draw(self, slot: Slot) -> None:
+        key = slot.key
+        if slot.base == "P":
+            near = {line.near for line in self.lines}
+            self.targets[key] = Target(key, position=self._point(), doubtful=key in near)
+        elif slot.base == "T":
+            self.targets[key] = self._target(slot)
+        elif slot.base == "ID":
+            name, place = self.words.noun("identity", self.rng), self._bound_place(key)
+            self.targets[key] = Target(key, identity=name.value, text=name.text, position=place)
+        elif slot.base != CLAUSE:
+            self.values[key] = self._value(slot)
+
+    def _point(self) -> Point:
+        while True:
+            point = draw_point(self.rng)
+            if point not in (self.vocabulary.home, self.vocabulary.unresolved):
+                return point
+
+    def _bound_place(self, key: str) -> Point | None:
+        place = self.targets.get(self.bound.places.get(key, ""))
+        return place.position if place else None
+
+    def _target(self, slot: Slot) -> Target:
+        key, rng = slot.key, self.rng
+        mentions = [
+            (part.options, self._owns(number))
+            for number, part in enumerate(self.parts)
+            if isinstance(part, Slot) and part.key == key and not part.sign
+        ]
+        lines = [line for line in self.lines if key in line.objects]
+        common = any("a" in options for options, _owns in mentions)
+        fixed = common or any("bare" in options or owns for options, owns in mentions)
+        kind = self.bound.kinds.get(key, self.sampler.default)
+        near = next((line.near for line in lines if line.near), "")
+        target = self._alike(key) if kind == "pair" else self._described(key, kind, fixed, common)
+        if key in self.bound.places:
+            target = replace(target, position=self._bound_place(key))
+        elif not near and kind != "pair" and self._is_located(mentions, lines):
+            doubt = rng.random() < DOUBTFUL
+            target = replace(target, position=self._point(), doubtful=doubt)
+        if near in self.targets:
+            whereabouts = f"near {point_text(self.targets[near].position or (0, 0))}"
+            target = replace(target, whereabouts=whereabouts)
+        spot = any(line.task is not None and line.task.pattern == DOCKING for line in lines)
+        return replace(target, spot=spot, on_site=any(line.here for line in lines))
+
+    def _is_located(
+        self, mentions: Sequence[tuple[frozenset[str], bool]], lines: Sequence[Line]
+    ) -> bool:
+        """Whether the command gives a position with the target: where a mention can carry it."""
+        first = next((mention for mention in mentions if "bare" not in mention[0]), None)
+        every: frozenset[str] = frozenset().union(*(options for options, _owns in mentions))
+        if "lost" in every or first is None or first[0] & UNPLACED or first[1]:
+            return False
+        locate = self.vocabulary.locate
+        sought = any(line.task is not None and line.task.title == locate for line in lines)
+        return "located" in every or self.rng.random() < (SOUGHT if sought else LOCATED)
+
+    def _described(self, key: str, kind: str, fixed: bool, common: bool) -> Target:
+        """A target of a kind; `fixed` takes an article and has no "with ..." phrase, `common` no
+        name.
+        """
+        for _ in range(20):
+            value = self.words.noun(kind, self.rng)
+            article = value.text != value.value
+            unfit = fixed and (not article or " with " in value.value)
+            if not unfit and not (common and _is_name(value.value)):
+                break
+        return Target(key, value.value, article=article, text=value.value)
+
+    def _alike(self, key: str) -> Target:
+        """One of several targets with one noun that differ in their look."""
+        if not self.alike:
+            while (noun := self.words.entry("pair", self.rng)).endswith("y"):
+                continue
+            looks = self.words.entry("looks", self.rng).split("/")
+            if self.rng.random() < 0.5:
+                looks[:2] = looks[1::-1]
+            self.alike = [Target(key, f"{look} {noun}", text=look, noun=noun) for look in looks]
+        return replace(self.alike[int(key[1:]) - 1], key=key)
+
+    def _value(self, slot: Slot) -> Value:
+        """A value with the wordings that its slots ask for; texts of one kind differ."""
+        mentions = [other.options for other in self.slots if other.key == slot.key]
+        options: frozenset[str] = frozenset().union(*mentions)
+        taken = [value.value for key, value in self.values.items() if base_of(key) == slot.base]
+        for _ in range(60):
+            value = self._new(slot.key)
+            forms = {"adj": value.short, "num": value.short, "noun": value.noun, "way": value.way}
+            if all(forms.get(option, "") is not None for option in options) and (
+                value.value not in taken or slot.base not in self.words
+            ):
+                break
+        return value
+
+    def _new(self, key: str) -> Value:
+        owner = self.bound.owners.get(key)
+        if owner is None or owner[1].type in ("text", "texts", "id"):
+            return self.words.noun(base_of(key), self.rng)
+        return self.sampler.value(*owner, self.rng)
+
+    def _agree(self) -> None:
+        """A series of readings has room for two; mostly, lines fit the width of their grid."""
+        values = self.values
+        for line in self.lines:
+            slot = {fill.parameter.name: fill.slot for fill in line.fills if fill.slot in values}
+            if {"interval", "duration"} <= slot.keys():
+                every, whole = slot["interval"], slot["duration"]
+                for _ in range(50):
+                    if 2 * values[every].value <= values[whole].value:
+                        break
+                    values[every], values[whole] = self._new(every), self._new(whole)
+            if {"width", "spacing"} <= slot.keys() and self.rng.random() < FITTING:
+                width, lane = values[slot["width"]].value, slot["spacing"]
+                for _ in range(20):
+                    if any(values[lane].value * count == width for count in range(2, LANES)):
+                        break
+                    values[lane] = self._new(lane)
+
+    def _wrong(self, slot: Slot) -> list[PIECE]:
+        """What is taken back: of the same kind, and another one."""
+        key, rng = slot.key, self.rng
+        if slot.base == "P":
+            right, point = self.targets[key].position or (0, 0), self._point()
+            near = (right[0], point[1]) if rng.random() < 0.5 else point
+            return [(self._place(near if near != right else point), True)]
+        if slot.base == "T":
+            kind = self.bound.kinds.get(key, self.sampler.default)
+            kind = self.sampler.default if kind == "pair" else kind
+            return self._mention(self._described(key, kind, bool(slot.options), True), slot)
+        if slot.base == "ID":
+            return [(self.words.noun("identity", rng).text, True)]
+        for _ in range(60):
+            value = self._new(key)
+            unsaid = "adj" in slot.options and not value.short
+            if value.value != self.values[key].value and not unsaid:
+                break
+        return [(self._worded(value, slot), True)]
+
+    # ------------------------------------------------------------ text
+
+    @property
+    def small(self) -> bool:
+        """Whether the template is written without capitals."""
+        first = self.template.nodes[0] if self.template.nodes else ""
+        return isinstance(first, str) and first[:1].islower()
+
+    def pieces(self) -> Iterator[PIECE]:
+        """The text in pieces, each with whether it is a value."""
+        wrong = {slot.key: self._wrong(slot) for slot in self.slots if slot.sign == "~"}
+        seen: dict[tuple[str, frozenset[str]], str] = {}
+        placed = set(self.bound.places)
+        for number, part in enumerate(self.parts):
+            if isinstance(part, str):
+                yield part, False
+            elif part.sign == "~":
+                yield from wrong[part.key]
+            elif part.sign:
+                continue
+            elif part.base == CLAUSE:
+                if part.key in self.clauses:
+                    yield from self.clauses[part.key].pieces()
+            elif part.base == "T":
+                unplaced = part.options & (UNPLACED | {"bare"}) or self._owns(number)
+                with_place = not unplaced and part.key not in placed
+                if with_place or "a" in part.options:
+                    placed.add(part.key)
+                yield from self._mention(self.targets[part.key], part, with_place=with_place)
+            elif part.base == IT:
+                yield "it", False
+            else:
+                key = part.key, part.options
+                if key not in seen:
+                    seen[key] = self._word(part, number)
+                yield seen[key], True
+
+    def _owns(self, number: int) -> bool:
+        """Whether an apostrophe follows the part: "the barge's"."""
+        after = self.parts[number + 1] if number + 1 < len(self.parts) else ""
+        return isinstance(after, str) and after.startswith(("'s", "’s"))
+
+    def _word(self, slot: Slot, number: int) -> str:
+        if slot.base == "P":
+            return self._place(self.targets[slot.key].position or (0, 0))
+        if slot.base == "ID":
+            return self.targets[slot.key].text
+        value, (joint, after) = self.values[slot.key], (*self.parts[number + 1 :], "", "")[:2]
+        if joint in JOINTS and isinstance(after, Slot) and self.rng.random() < BARE:
+            # "20 by 80 ft" says that the 20 are feet.
+            sizes = [one for one in (slot, after) if one.base in ("width", "length")]
+            plain_ = [one for one in sizes if not one.options and not one.sign]
+            if len(plain_) == 2 and all(_metric(self.values[one.key].text) for one in plain_):
+                return digits(value.value)
+        return self._worded(value, slot)
+
+    def _worded(self, value: Value, slot: Slot) -> str:
+        text = value.worded(slot.options)
+        return str(value.value) if text == value.text and slot.base in self.words else text
+
+    def _place(self, point: Point) -> str:
+        return position(point, self.rng, self.form).text
+
+    def _mention(self, target: Target, slot: Slot, *, with_place: bool = False) -> list[PIECE]:
+        """The target as it is spoken of; ordinary words are no values, so that they can be
+        mistyped.
+        """
+        text, options = target.description or target.text, slot.options
+        if "nouns" in options:
+            return [(plural(target.noun), False)]
+        if "look" in options or "one" in options:
+            return [(target.text if "look" in options else f"the {target.text} one", False)]
+        kept = _is_name(text) or self.rng.random() < 0.6
+        if "a" in options:
+            return [(f"{article_for(text)} ", False), (text, kept)]
+        named = f"the {text}" if target.article and "bare" not in options else text
+        if not with_place or target.position is None:
+            return [(named, kept)]
+        form, place = (
+            pick(DOUBTS if target.doubtful else PLACED, self.rng),
+            self._place(target.position),
+        )
+        before, _brace, after = form.partition("{}")
+        if before.endswith("(") and place[0] in "[(":
+            before, after = " at ", ""
+        return [(named, kept), (before, False), (place, True), (after, False)]
+
+    # ------------------------------------------------------------ plan
+
+    def intents(self) -> list[Intent]:
+        """What is asked for, in the order of execution."""
+        return [self._intent(line) for line in self.lines]
+
+    def remarks(self) -> tuple[list[str], list[str]]:
+        """The template's own constraints and assumptions, as the plan holds them."""
+        constraints, assumptions = (
+            [self._remark(nodes) for nodes in remarks] for remarks in self.template.remarks
+        )
+        return constraints, assumptions
+
+    def _intent(self, line: Line) -> Intent:
+        if line.task is None:
+            return Intent(self.vocabulary.task[self.vocabulary.transit], home=True)
+        keys = [
+            key
+            for base in OBJECTS
+            for key in line.objects
+            if base_of(key) == base and (base != "P" or key in self.said)
+        ]
+        if keys and keys[0] not in self.targets:
+            raise TemplateError(
+                f"{line.task.title} needs {{{keys[0]}}}, which one alternative lacks"
+            )
+        target = self.targets[keys[0]] if keys else None
+        part = self._filled(line.part) if line.part else ""
+        return Intent(line.task, target, self._parameters(line, line.task), part=part)
+
+    def _parameters(self, line: Line, task: Task) -> dict[str, Any]:
+        """The parameters that are said, in the order of the definition."""
+        found: dict[str, Any] = {}
+        for fill in line.fills:
+            name, value = fill.parameter.name, fill.value
+            if fill.slot in self.targets:
+                value = self.targets[fill.slot].description
+            elif fill.slot in self.values and fill.slot in self.said:
+                value = self.values[fill.slot].value
+            if value is None:
+                continue
+            if fill.parameter.type == "texts":
+                found.setdefault(name, []).append(value)
+            else:
+                found.setdefault(name, value)
+        return {name: found[name] for name in task.by_name if name in found}
+
+    def _remark(self, nodes: Nodes) -> str:
+        """A remark as the plan holds it: a sentence."""
+        text = self._filled(nodes)
+        return f"{text[0].upper()}{text[1:].rstrip('.')}."
+
+    def _filled(self, nodes: Nodes) -> str:
+        """A text of the plan with what its slots stand for."""
+        return "".join(
+            part if isinstance(part, str) else self._named(part)
+            for part in choose(nodes, self.rng, [])
+        )
+
+    def _named(self, slot: Slot) -> str:
+        if target := self.targets.get(slot.key):
+            return point_text(target.position or (0, 0)) if slot.base == "P" else target.name
+        if value := self.values.get(slot.key):
+            return str(value.value) if slot.base in self.words else value.text
+        raise TemplateError(f"a remark needs {{{slot.key}}}, which one alternative lacks")
+
+
+def _is_name(text: str) -> bool:
+    """Whether a text has capitals or figures, so that a slip would make it another."""
+    return not text.islower() or any(mark.isdigit() for mark in text)
+
+
+def _metric(text: str) -> bool:
+    return text.endswith(("m", "metres", "meters")) and not text.endswith("km")
+
+
+def plural(noun: str) -> str:
+    """The noun, which does not end in y, for more than one."""
+    return f"{noun}es" if noun.endswith(("s", "x", "ch", "sh")) else f"{noun}s"
