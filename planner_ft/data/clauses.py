@@ -12,15 +12,15 @@ from random import Random
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.data.drawing import Drawing
+from planner_ft.data.fences import corners
 from planner_ft.data.mission_binding import IT, OBJECTS, Bound
 from planner_ft.data.mission_plan import Planned, Target
-from planner_ft.data.numbers import Value, digits, knots, pick, polygon, position
-from planner_ft.data.task.values import draw_point, draw_polygon
+from planner_ft.data.numbers import Value, knots
 from planner_ft.data.templates.grammar import Call, Slot, TemplateError, all_slots, base_of
 from planner_ft.data.templates.records import Template
-from planner_ft.facts.geometry import Point, point, tidy
+from planner_ft.facts.geometry import tidy
 from planner_ft.vocabulary import Parameter, Task
-from planner_ft.vocabulary.limits import load_limits, prompt_sentence, sentence
+from planner_ft.vocabulary.limits import load_limits, prompt_sentence, sentence, slots
 
 if TYPE_CHECKING:
     from planner_ft.data.missions import MissionSampler
@@ -41,15 +41,8 @@ LIMIT = Task(
 )
 """What the values of limits are drawn for; [task.Limit] in NAME.missions.toml has their ranges."""
 SCOPES = ("mission", "task", "way", "home")
-SPOKEN_IN_KNOTS, NAMED_AGAIN, BOXED = 0.5, 0.4, 0.3
-"""Shares of speeds in knots, of targets that are named and not "it", of boxes by two corners."""
-CORNERS = (
-    *("[{x}, {y}]",) * 4,
-    *("({x}, {y})",) * 3,
-    *("{x},{y}",) * 4,
-    *("({x},{y})", "[{x},{y}]", "{x}/{y}", "{x} {y}", "x={x} y={y}"),
-)
-JOINTS = (", ", ", ", " ", " - ", "; ", " and ")
+SPOKEN_IN_KNOTS = 0.5
+"""Share of the limits of speed that are said in knots."""
 Beside = tuple[str, str, dict[str, Any]]
 """A skill that runs in the steps of a task: role, name and parameters."""
 
@@ -150,6 +143,8 @@ class Clause(Drawing):
     ) -> bool:
         limits = load_limits(self.vocabulary)
         places = moving(planned)
+        if not any(set(slots(form)) <= given.keys() for form in limits[kind].sentences):
+            raise TemplateError(f"{kind} needs {' and '.join(slots(limits[kind].sentences[-1]))}")
         effect.about.add(kind)
         effect.constraints.append(sentence(kind, given, limits))
         text, rule = prompt_sentence(kind, given, limits), limits[kind]
@@ -212,50 +207,6 @@ def moving(planned: Sequence[Planned]) -> list[int]:
     ]
 
 
-def corners(rng: Random) -> Value:
-    """Three to six corners in one of many notations, or a box by two of them."""
-    points, roll = draw_polygon(rng), rng.random()
-    if roll < 0.2:
-        width, height = 10 * rng.randrange(4, 50), 10 * rng.randrange(4, 50)
-        points = [point(0, 0), point(width, 0), point(width, height), point(0, height)]
-    elif roll < 0.32:
-        points = _hexagon(rng)
-    elif roll < 0.45:
-        x, y = draw_point(rng)
-        shifts = [(0, 0), (60, -10), (80, 40), (20, 70)]
-        size = pick((0.5, 1, 2, 4), rng)
-        points = [point(x + size * dx, y + size * dy) for dx, dy in shifts]
-    listed = [list(corner) for corner in points]
-    if rng.random() < 0.35:
-        value = polygon(points, rng)
-        if value.noun and rng.random() < BOXED:
-            return Value(listed, value.noun)
-        return Value(listed, value.text)
-    form, joint = pick(CORNERS, rng), pick(JOINTS, rng)
-    if form in ("{x} {y}", "x={x} y={y}") and joint == " ":
-        joint = ", "
-    texts = [form.format(x=digits(x), y=digits(y)) for x, y in points]
-    if len(points) == 4 and rng.random() < BOXED and _is_box(points):
-        low, high = points[0], max(points, key=sum)
-        first, last = (position(corner, rng, "({x}, {y})").text for corner in (low, high))
-        return Value(listed, f"{first} {pick(('to', 'and', 'up to', '-'), rng)} {last}")
-    if joint == " and ":
-        return Value(listed, ", ".join(texts[:-1]) + joint + texts[-1])
-    return Value(listed, joint.join(texts))
-
-
-def _is_box(points: Sequence[Point]) -> bool:
-    """Whether the corners are those of a box that begins in the south-west."""
-    xs, ys = {x for x, _y in points}, {y for _x, y in points}
-    return len(xs) == len(ys) == 2 and points[0] == (min(xs), min(ys))
-
-
-def _hexagon(rng: Random) -> list[Point]:
-    x, y, step = 10 * rng.randrange(-15, 15), 10 * rng.randrange(-15, 15), 10 * rng.randrange(2, 12)
-    shape = ((0, 0), (2, 0), (3, 1), (2, 2), (0, 2), (-1, 1))
-    return [point(x + step * dx, y + step * dy) for dx, dy in shape]
-
-
 def _demands(sampler: MissionSampler) -> Mapping[str, str]:
     demands: Mapping[str, str] = sampler.config.get("demand", {})
     return demands
@@ -264,12 +215,11 @@ def _demands(sampler: MissionSampler) -> Mapping[str, str]:
 def _bound(template: Template, sampler: MissionSampler) -> Bound:
     """The clause for this vehicle. Raises TemplateError."""
     vocabulary = sampler.vocabulary
-    key = ("clause", vocabulary)
-    if key in template.bound:
-        found: Bound = template.bound[key]
-        return found
-    slots = [slot for slot in all_slots(template.nodes) if slot.sign != "?"]
-    keys = {slot.key for slot in slots}
+    bound: Bound | None = template.bound.get(vocabulary)
+    if bound is not None:
+        return bound
+    every = [slot for slot in all_slots(template.nodes) if slot.sign != "?"]
+    keys = {slot.key for slot in every}
     limits, used = load_limits(vocabulary), set[str]()
     for call in (step.call for step in template.steps):
         if call.name not in limits and (
@@ -290,13 +240,13 @@ def _bound(template: Template, sampler: MissionSampler) -> Bound:
     for title in template.tasks:
         if title not in vocabulary.task:
             raise TemplateError(f"there is no task {title}")
-    kinds = {slot.key: slot.kind for slot in slots if slot.kind and slot.base == "T"}
+    kinds = {slot.key: slot.kind for slot in every if slot.kind and slot.base == "T"}
     owners = {
-        slot.key: (LIMIT, LIMIT.by_name[slot.base]) for slot in slots if slot.base in LIMIT.by_name
+        slot.key: (LIMIT, LIMIT.by_name[slot.base]) for slot in every if slot.base in LIMIT.by_name
     }
-    for slot in slots:
+    for slot in every:
         known = slot.base in (*OBJECTS, IT) or slot.key in owners or slot.base in sampler.words
         if not known or kinds.get(slot.key, "thing") not in sampler.words:
             raise TemplateError(f"{{{slot.key}}} is no target, value of a limit or word list")
-    template.bound[key] = Bound((), owners, kinds, {})
-    return template.bound[key]
+    bound = template.bound[vocabulary] = Bound((), owners, kinds, {})
+    return bound

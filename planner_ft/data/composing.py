@@ -34,19 +34,27 @@ THEN = ("", "", "Then ", "After that, ", "Next: ", "And then ")
 @dataclass
 class Command:
     """A composed command: its text with the values marked, its plan, and by task the skills that
-    its clauses put beside it.
+    its clauses put beside it; `clauses` counts them.
     """
 
     text: str
     expected: dict[str, Any]
     beside: list[list[Beside]]
+    clauses: int
 
 
 class Composer:
     """Puts one command together."""
 
-    def __init__(self, sampler: MissionSampler, templates: Sequence[Template], rng: Random) -> None:
-        self.sampler, self.rng = sampler, rng
+    def __init__(
+        self,
+        sampler: MissionSampler,
+        templates: Sequence[Template],
+        rng: Random,
+        clauses: tuple[list[Template], list[Template]],
+    ) -> None:
+        """`clauses` are the records of demands and those of limits."""
+        self.sampler, self.rng, self.clauses = sampler, rng, clauses
         self.drawings = [
             Drawing(sampler, sampler.bound(template), template, rng) for template in templates
         ]
@@ -67,7 +75,7 @@ class Composer:
             self.bodies[number] = list(drawing.pieces())
         for _ in range(clauses if len(self.planned) <= MANY else min(clauses, 1)):
             self._add(pick(range(len(self.drawings)), self.rng))
-        return Command(self._text(), *self._plan())
+        return Command(self._text(), *self._plan(), clauses=len(self.effects))
 
     # ------------------------------------------------------------ clauses
 
@@ -94,7 +102,7 @@ class Composer:
         }
         it = _target(intents)
         for _ in range(TRIES):
-            demands, limits = self.sampler.clauses
+            demands, limits = self.clauses
             group = demands if self.rng.random() < DEMANDED else limits
             fitting = [template for template in group if template.form in forms]
             if not fitting:

@@ -125,14 +125,17 @@ class MissionSampler:
         }
         return record, command.beside
 
-    def compose(self, made: Sequence[Template], rng: Random, clauses: int = 0) -> Command:
-        """The command of these templates, with clauses. Raises PlannerError for a template that
-        does not fit the vehicle.
+    def compose(
+        self, made: Sequence[Template], rng: Random, clauses: int = 0, only: Template | None = None
+    ) -> Command:
+        """The command of these templates, with clauses, `only` of one record where it is given.
+        Raises PlannerError for a template that does not fit the vehicle.
         """
+        records = ([only], [only]) if only else self.clauses
         try:
-            return Composer(self, made, rng).command(clauses)
+            return Composer(self, made, rng, records).command(clauses)
         except TemplateError as error:
-            raise made[0].error(error) from None
+            raise (only or made[0]).error(error) from None
 
     def draw(self, template: Template, rng: Random) -> tuple[str, dict[str, Any]]:
         """A command of the template alone, its values marked, and its plan. Raises PlannerError for

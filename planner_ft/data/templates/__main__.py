@@ -13,6 +13,7 @@ from random import Random
 from typing import Any
 
 from planner_ft.data.missions import MissionSampler
+from planner_ft.data.numbers import pick
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.phrasebook import Phrasebook
 from planner_ft.data.task.prompts.binding import bindings
@@ -75,9 +76,20 @@ def _samples(name: str) -> Iterator[tuple[Level, Template, Iterator[tuple[str, A
                 for text, plan in [sampler.draw(command, Random(seed))]
             )
             yield "mission", command, draws
+        for clause in itertools.chain(*sampler.clauses):
+            yield "mission", clause, _clauses(clause, sampler)
     book = Phrasebook(vocabulary, unseen=False)
     for prompt in itertools.chain(*templates(vocabulary, "prompts")):
         yield "task", prompt, _prompts(prompt, book)
+
+
+def _clauses(clause: Template, sampler: MissionSampler) -> Iterator[tuple[str, Any]]:
+    """Commands with the clause, where it fits one of one task."""
+    for seed in range(200):
+        rng = Random(seed)
+        command = sampler.compose([pick(sampler.short, rng)], rng, 1, only=clause)
+        if command.clauses:
+            yield plain(command.text), command.expected
 
 
 def _prompts(prompt: Template, book: Phrasebook) -> Iterator[tuple[str, Any]]:
