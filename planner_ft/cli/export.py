@@ -76,15 +76,15 @@ def _check_kind(plan: Path | None, given: set[str]) -> None:
 def _export_plan(plan: Path, formats: tuple[str, ...], origin: str | None, *settings: Any) -> None:
     """`settings` are those of PlanExportSettings after the origin, in their order."""
     from planner_ft.exporters import parse_origin, run
-    from planner_ft.planning.frame import doubt
 
     place = parse_origin(origin) if origin is not None else None
-    for one in run.export_plan(run.PlanExportSettings(plan, formats, place, *settings)):
+    done = run.export_plan(run.PlanExportSettings(plan, formats, place, *settings))
+    for one in done:
         typer.echo(f"{one.file}: {run.loss_summary(one.account)} (report: {one.report})")
         for line in run.loss_lines(one.account):
             typer.echo(f"  {line}")
-    if place:
-        typer.echo(f"[0, 0] lies at {place}. {doubt('', place) or ''}".rstrip(), err=True)
+    if done[0].origin:
+        typer.echo(done[0].origin, err=True)
 
 
 def _export_model(settings: Any) -> None:

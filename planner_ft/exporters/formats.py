@@ -89,6 +89,19 @@ class PlanExport:
         """Enter the tasks from the first blocked one on as lost."""
         for index in range(self.ready, len(self.document["tasks"])):
             ledger.lose("tasks", index, why=self.blocked[1] if self.blocked else "")
+        if self.blocked:
+            ledger.stop("tasks", self.ready)
+
+    def hold_time(self, index: int) -> tuple[str, float] | None:
+        """(parameter, seconds) of a task whose one stay is a hold by a skill that takes no time."""
+        task, motions = self.document["tasks"][index], self.vocabulary.motion
+        steps, known = task["skill_sequence"] or (), self.vocabulary.task.get(task["title"])
+        moves = [motions.of(step["navigation_skill"]["name"]) for step in steps]
+        stays = [move for move in moves if move and move.kind in ("hold", "wait", "drift")]
+        timeless = [move for move in stays if move.kind == "hold" and "time" not in move.parameters]
+        times = [one.name for one in (known.parameters if known else ()) if one.unit == "s"]
+        stated = [(name, task["parameters"][name]) for name in times if name in task["parameters"]]
+        return stated[0] if len(stays) == len(timeless) == len(stated) == 1 else None
 
     def head_words(self, ledger: Ledger, form: str) -> Iterator[str]:
         """The words of the plan as a whole, which are entered as carried in this form."""

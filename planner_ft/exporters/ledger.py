@@ -16,6 +16,8 @@ Path = tuple[str | int, ...]
 """A place in the document: ("tasks", 1, "skill_sequence", 0, "navigation_skill", "name")."""
 
 NO_PLACE = "the format has no place for it"
+MOVEMENT = ("navigation_skill", "name")
+"""The end of the path of a step's movement."""
 LISTS = ("stop_conditions", "failure_modes", "expected_outputs")
 
 
@@ -31,22 +33,28 @@ class Item:
 
 @dataclass(frozen=True)
 class Loss:
-    """Something of a task (None: the whole plan) that a file holds otherwise or not, and why."""
+    """Something of a task (None: the whole plan) that a file holds otherwise or not, and why;
+    `stops` says whether the mission stops there or goes another way.
+    """
 
     task: str | None
     what: str
     why: str
+    stops: bool = False
 
 
 @dataclass(frozen=True)
 class Account:
-    """A closed ledger: paths in the file, entries in another form, and entries not in the file."""
+    """A closed ledger: paths in the file, entries in another form, and entries not in the file.
+    `stops` are the paths where the mission stops, until somebody sends the vehicle on or for good.
+    """
 
     carried: frozenset[Path]
     changed: tuple[Loss, ...]
     lost: tuple[Loss, ...]
     changed_paths: frozenset[Path]
     lost_paths: frozenset[Path]
+    stops: frozenset[Path] = frozenset()
 
 
 class Ledger:
@@ -60,6 +68,7 @@ class Ledger:
                 self._below.setdefault(path[:length], []).append(path)
         self._carried: dict[Path, str] = {}
         self._lost: dict[Path, str] = {}
+        self._stops: set[Path] = set()
 
     def __contains__(self, path: Path) -> bool:
         """Whether the plan says anything at or below `path`."""
@@ -77,22 +86,29 @@ class Ledger:
             if item not in self._carried:
                 self._lost[item] = why
 
+    def stop(self, *path: str | int) -> None:
+        """The mission stops here. Raises KeyError for no item."""
+        self._stops.update(self._below[path])
+
     def close(self, why: str = NO_PLACE) -> Account:
         """The account; `why` is the reason for losing items that were never mentioned."""
         lost = {path: self._lost.get(path, why) for path in self.items if path not in self._carried}
         changed = {path: self._carried[path] for path in self.items if self._carried.get(path)}
         losses = self._losses(changed), self._losses(lost)
-        return Account(frozenset(self._carried), *losses, frozenset(changed), frozenset(lost))
+        paths = frozenset(changed), frozenset(lost), frozenset(self._stops)
+        return Account(frozenset(self._carried), *losses, *paths)
 
     def _losses(self, entries: Mapping[Path, str]) -> tuple[Loss, ...]:
         """One loss per task and reason, in the plan's order; equal words of several steps once."""
-        grouped: dict[tuple[str | None, str], dict[str, list[int | None]]] = {}
+        grouped: dict[tuple[str | None, str, bool], dict[str, list[int | None]]] = {}
         for path, why in entries.items():
-            item = self.items[path]
-            grouped.setdefault((item.task, why), {}).setdefault(item.what, []).append(item.step)
+            item, gone = self.items[path], path not in self._carried
+            stops = path in self._stops or (gone and path[4:] == MOVEMENT)
+            of_task = grouped.setdefault((item.task, why, stops), {})
+            of_task.setdefault(item.what, []).append(item.step)
         return tuple(
-            Loss(task, "; ".join(what + _step_words(steps) for what, steps in found.items()), why)
-            for (task, why), found in grouped.items()
+            Loss(task, "; ".join(what + _step_words(steps) for what, steps in found.items()), *rest)
+            for (task, *rest), found in grouped.items()
         )
 
 

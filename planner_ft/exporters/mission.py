@@ -83,7 +83,7 @@ class Mission:
 
     def __init__(self, plan: PlanExport) -> None:
         assert plan.origin is not None
-        self.origin, self.vocabulary = plan.origin, plan.vocabulary
+        self.plan, self.origin, self.vocabulary = plan, plan.origin, plan.vocabulary
         self.motions, self.vehicle = plan.vocabulary.motion, plan.document["vehicle"]
         self.tasks = plan.document["tasks"][: plan.ready]
         moves = [motion for motion in self.motions.skills.values() if motion.kind == "go"]
@@ -173,10 +173,16 @@ class Mission:
             return
         write = {"go": self._move, "arc": self._arc, "hold": self._hold, "wait": self._wait}
         given = {role: motion.value(role, skill["parameters"]) for role in motion.parameters}
+        own = self.plan.hold_time(int(at[1])) if motion.kind == "hold" else None
+        if own:
+            given["time"] = own[1]
+            self.ledger.carry("tasks", at[1], "parameters", own[0])
         carried = write.get(motion.kind, self._turn)(given, leg)
         if carried:
             roles, form = carried
             self.ledger.carry(*at, "name", form=form)
+            if motion.kind == "hold" and given.get("time") is None:
+                self.ledger.stop(*at, "name")
             for name in (motion.parameters.get(role, "") for role in roles):
                 if name in skill["parameters"]:
                     self.ledger.carry(*at, "parameters", name, form=form)

@@ -65,7 +65,9 @@ class _File:
                 at: Path | None = ("tasks", index, "skill_sequence", number) if step else None
                 move, leg = None, legs.get((task["id"], number))
                 if motion or at is None:
-                    move = move_of(motion, skill["parameters"], leg, self.cruise_speed)
+                    own = self.plan.hold_time(index) if motion and motion.kind == "hold" else None
+                    time = own and own[1]
+                    move = move_of(motion, skill["parameters"], leg, self.cruise_speed, time)
                 if move:
                     yield _Place(index, f"{task['id']}_{number + 1}", at, step, move)
                 elif at:
@@ -121,6 +123,8 @@ class _File:
                 yield from comment(f"{key.replace('_', ' ')}: {'; '.join(place.step[key])}")
         if place.at:
             self._account(place.at, place.step, place.move)
+            if own := self.plan.hold_time(place.task):
+                self.ledger.carry("tasks", place.task, "parameters", own[0])
         else:
             known = self.vocabulary.task[self.tasks[place.task]["title"]]
             self.ledger.carry("tasks", place.task, "parameters", known.position_parameter or "")
@@ -153,6 +157,8 @@ class _File:
         """Enter what becomes of a step's movement and words; `_filters` enters its other skills."""
         skill, steered = step["navigation_skill"], (*at, "navigation_skill")
         self.ledger.carry(*steered, "name", form="" if move.ends else TABLE["unended"])
+        if not move.ends:
+            self.ledger.stop(*steered, "name")
         motion = self.motions.of(skill["name"])
         roles = {key: role for role, key in motion.parameters.items()} if motion else {}
         for key in skill["parameters"]:

@@ -47,17 +47,22 @@ class Move:
 
 
 def move_of(
-    motion: Motion | None, parameters: Mapping[str, Any], leg: Leg | None, cruise_speed: float
+    motion: Motion | None,
+    parameters: Mapping[str, Any],
+    leg: Leg | None,
+    cruise_speed: float,
+    time: float | None = None,
 ) -> Move | None:
     """The behaviours of a movement, None where the plan does not say enough for one.
 
     `motion` is None for a task without skills; `leg` is the movement in the plan's track, None
-    where the track does not know it. Speeds are m/s.
+    where the track does not know it; `time` is that of the task for a skill that takes none.
+    Metres, seconds.
     """
     speed = leg.metres / leg.seconds if leg and leg.metres and leg.seconds else cruise_speed
     if motion is None:
         return _go(dict(zip("xy", leg.points[-1], strict=True)) if leg else {}, speed)
-    values = {role: motion.value(role, parameters) for role in motion.parameters}
+    values = {"time": time, **{role: motion.value(role, parameters) for role in motion.parameters}}
     given = {role: value for role, value in values.items() if value is not None}
     match motion.kind:
         case "go":

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from planner_ft.document import read_document
 from planner_ft.document.tree import plain
 from planner_ft.exporters.formats import DRAFT, Format, PlanExport, format_names, load_format
-from planner_ft.exporters.ledger import Account, Loss, ranges
-from planner_ft.planning.frame import origin_of
+from planner_ft.exporters.ledger import MOVEMENT, Account, Loss, ranges
+from planner_ft.exporters.ledger import Path as Place
+from planner_ft.planning.frame import doubt, origin_of
 from planner_ft.review.log import log_beside
 from planner_ft.review.verify import approval_of
 from planner_ft.support.errors import PlannerError
@@ -43,12 +44,15 @@ class PlanExportSettings:
 
 @dataclass(frozen=True)
 class ExportedPlan:
-    """A file that was written, the report beside it, and the account of what the file holds."""
+    """A file that was written, the report beside it, the account of what the file holds, and
+    sentences on where [0, 0] lies.
+    """
 
     format: Format
     file: Path
     report: Path
     account: Account
+    origin: str
 
 
 def export_plan(settings: PlanExportSettings) -> list[ExportedPlan]:
@@ -75,7 +79,8 @@ def export_plan(settings: PlanExportSettings) -> list[ExportedPlan]:
         report = file.with_name(file.name + REPORT)
         write_text(file, written.text)
         write_text(report, loss_report(plan, chosen, file.name, written.account))
-        done.append(ExportedPlan(chosen, file, report, written.account))
+        where = " ".join(origin_words(plan))
+        done.append(ExportedPlan(chosen, file, report, written.account, where))
     return done
 
 
@@ -114,8 +119,9 @@ def _file(settings: PlanExportSettings, chosen: Format, *, draft: bool) -> Path:
     """The path of a format's file. A draft's own name says so, too: some ground stations show no
     more of a mission than that.
     """
-    name = f"{settings.plan.stem}{'.DRAFT' if draft else ''}{chosen.extension}"
-    file = settings.out or settings.plan.with_name(name)
+    file = settings.out or settings.plan.with_suffix(chosen.extension)
+    if draft and "DRAFT" not in file.name:
+        file = file.with_name(f"{file.stem}.DRAFT{file.suffix}")
     if file.resolve() == settings.plan.resolve():
         raise PlannerError(f"--out {file}: is the plan itself; give another file")
     for path in (file, file.with_name(file.name + REPORT)):
@@ -131,29 +137,52 @@ def _file(settings: PlanExportSettings, chosen: Format, *, draft: bool) -> Path:
 
 
 def loss_summary(account: Account) -> str:
-    """One line: how much of the plan is in the file, and which tasks do not move as planned."""
+    """One line: how much of the plan is in the file, which tasks do not move as planned, and where
+    the mission stops.
+    """
     carried, lost, changed = map(len, (account.carried, account.lost_paths, account.changed_paths))
-    movement = ("navigation_skill", "name")
-    still = sorted({int(path[1]) + 1 for path in account.lost_paths if path[4:] == movement})
-    ending = f"; MOVEMENTS LOST in task{'s' if len(still) > 1 else ''} {ranges(still)}"
+    still = {path for path in account.lost_paths if path[4:] == MOVEMENT}
     entries = f"{carried} of {carried + lost} entries carried, {changed} of them in another form"
-    return f"{entries}; {lost} lost{ending if still else ''}"
+    ends = _tasks("MOVEMENTS LOST", still) + _tasks("MISSION STOPS", account.stops)
+    return f"{entries}; {lost} lost{ends}"
+
+
+def _tasks(what: str, paths: Collection[Place]) -> str:
+    numbers = sorted({int(path[1]) + 1 for path in paths})
+    plural = "s" if len(numbers) > 1 else ""
+    return f"; {what} in task{plural} {ranges(numbers)}" if numbers else ""
 
 
 def loss_lines(account: Account) -> Iterator[str]:
-    """The losses, then what is carried in another form; one line per task and reason."""
-    for word, losses in (("lost     ", account.lost), ("changed  ", account.changed)):
-        for loss in losses:
-            yield word + plain(f"{loss.task or 'plan'}: {loss.what} - {loss.why}")
+    """What stops the mission or takes it another way, the other losses, then what is carried in
+    another form; one line per task and reason.
+    """
+    words = [("lost     ", one) for one in account.lost]
+    words += [("changed  ", one) for one in account.changed]
+    for word, loss in sorted(words, key=lambda pair: not pair[1].stops):
+        yield word + plain(f"{loss.task or 'plan'}: {loss.what} - {loss.why}")
 
 
 def loss_report(plan: PlanExport, written: Format, file: str, account: Account) -> str:
     """The report as Markdown."""
-    parts = [f"# What {_cell(file)} does not hold", f"{_cell(written.description)}."]
-    parts[1] += f" {_cell(plan.mark)}."
-    parts += [loss_summary(account) + ".", *_section("Lost", "Why", account.lost)]
-    parts += _section("Carried in another form", "How", account.changed)
+    about = [f"{written.description}.", f"{plan.mark}.", *origin_words(plan)]
+    parts = [f"# What {_cell(file)} does not hold", " ".join(map(_cell, about))]
+    stops = [one for one in (*account.lost, *account.changed) if one.stops]
+    parts += [loss_summary(account) + ".", *_section("Stops or diverts the mission", "Why", stops)]
+    for title, column, losses in (
+        ("Lost", "Why", account.lost),
+        ("Carried in another form", "How", account.changed),
+    ):
+        parts += _section(title, column, [one for one in losses if not one.stops])
     return "\n\n".join(parts) + "\n"
+
+
+def origin_words(plan: PlanExport) -> list[str]:
+    """Sentences on where [0, 0] lies, and what speaks against it."""
+    if plan.origin is None:
+        return []
+    doubtful = doubt(plan.document["command"], plan.origin)
+    return [f"[0, 0] lies at {plan.origin}.", *([doubtful] if doubtful else [])]
 
 
 def _section(title: str, column: str, losses: Sequence[Loss]) -> list[str]:

@@ -11,7 +11,12 @@ import pytest
 from planner_ft.cli import main
 from planner_ft.document import read_document, write_document
 from planner_ft.exporters import DRAFT, Origin
-from planner_ft.exporters.run import PlanExportSettings, export_plan
+from planner_ft.exporters.run import (
+    PlanExportSettings,
+    export_plan,
+    loss_lines,
+    loss_summary,
+)
 from planner_ft.review import approve, log_beside, reject
 from planner_ft.support.errors import PlannerError
 
@@ -92,6 +97,47 @@ def test_a_draft_is_marked_in_its_name_in_itself_and_in_its_report(tmp_path: Pat
         assert DRAFT in done.file.read_text(encoding="utf-8") and DRAFT in done.report.read_text(
             encoding="utf-8"
         )
+
+
+def test_a_draft_is_marked_in_the_name_that_is_given_and_the_place_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "plan.json"
+    write_document(path, built(MAST))
+    out = tmp_path / "t.plan"
+    arguments = ("--format", "qgc", "--origin=-8.84,41.69", "--draft", "--out", out)
+    assert run(monkeypatch, path, *arguments) == 0
+    assert not out.exists() and (tmp_path / "t.DRAFT.plan").is_file()
+    place = "[0, 0] lies at 8.84° S, 41.69° E."
+    assert place in capsys.readouterr().err
+    report = (tmp_path / "t.DRAFT.plan.losses.md").read_text(encoding="utf-8")
+    assert "8.84° S, 41.69° E" in report
+    assert run(monkeypatch, path, "--format", "qgc", "--origin", "0,0", "--draft") == 0
+    assert "Gulf of Guinea" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["qgc", "moos"])
+def test_losses_begin_with_what_stops_the_mission(name: str, tmp_path: Path) -> None:
+    path = tmp_path / "plan.json"
+    waits = task("KeepStation", {}, [step("StationKeep")])
+    write_document(path, built([MAST[0], waits, MAST[3]]))
+    (done,) = export_plan(PlanExportSettings(path, (name,), ORIGIN, draft=True))
+    assert next(loss_lines(done.account)).startswith("changed  t2: StationKeep (step 1)")
+    assert "MISSION STOPS in task 2" in loss_summary(done.account)
+    report = done.report.read_text(encoding="utf-8")
+    assert report.index("## Stops or diverts the mission") < report.index("## Lost")
+
+
+@pytest.mark.parametrize(("name", "held"), [("qgc", '"command": 19'), ("moos", "duration = 300")])
+def test_a_hold_by_a_skill_without_a_time_keeps_the_time_of_its_task(
+    name: str, held: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "plan.json"
+    looks = task("KeepStation", {"duration": 300}, [step("VisualStationKeep", {"target_id": "b1"})])
+    write_document(path, built([MAST[0], looks, MAST[3]]))
+    (done,) = export_plan(PlanExportSettings(path, (name,), ORIGIN, draft=True))
+    assert held in done.file.read_text(encoding="utf-8")
+    assert "MISSION STOPS" not in loss_summary(done.account)
 
 
 def test_nothing_is_overwritten_unless_told(plan: Path) -> None:

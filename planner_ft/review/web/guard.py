@@ -163,6 +163,8 @@ def _is_api(request: Request) -> bool:
 
 
 def _refused(status: int, sentence: str, *, is_api: bool) -> Response:
+    # A connection is kept for those alone who are admitted.
+    closing = {"Connection": "close"}
     if is_api:
-        return JSONResponse({"error": sentence}, status)
-    return PlainTextResponse(sentence + "\n", status)
+        return JSONResponse({"error": sentence}, status, closing)
+    return PlainTextResponse(sentence + "\n", status, closing)

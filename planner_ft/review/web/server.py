@@ -10,7 +10,7 @@ import sys
 import threading
 import webbrowser
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import h11
 import uvicorn
@@ -26,7 +26,8 @@ from planner_ft.vocabulary import load_vocabulary
 
 SLOWEST_REQUEST = 10.0
 """Seconds within which a request must have come in whole."""
-MOST_CONNECTIONS = 100
+MOST_UNFINISHED = 100
+"""Connections without a whole request; the oldest is closed for one more, whoever comes."""
 GRACE = 1
 """Seconds that answers which are on their way are given when the server ends."""
 
@@ -67,7 +68,6 @@ class _Server(uvicorn.Server):
             access_log=False,
             server_header=False,
             proxy_headers=False,
-            limit_concurrency=MOST_CONNECTIONS,
             timeout_graceful_shutdown=GRACE,
         )
         super().__init__(config)
@@ -81,7 +81,7 @@ class _Server(uvicorn.Server):
 class _PromptProtocol(H11Protocol):
     """Closes connections whose request is not in within SLOWEST_REQUEST; uvicorn waits for ever."""
 
-    _limit: asyncio.TimerHandle | None = None
+    unfinished: ClassVar[dict[_PromptProtocol, asyncio.TimerHandle]] = {}
 
     def connection_made(self, transport: Any) -> None:
         super().connection_made(transport)
@@ -99,13 +99,16 @@ class _PromptProtocol(H11Protocol):
         """Set the time when the first byte is due or came; stop it when the request is there."""
         if self.conn.their_state not in (h11.IDLE, h11.SEND_BODY):
             self._unwatch()
-        elif self._limit is None:
-            self._limit = self.loop.call_later(SLOWEST_REQUEST, self.transport.abort)
+        elif self not in self.unfinished:
+            if len(self.unfinished) >= MOST_UNFINISHED:
+                oldest = next(iter(self.unfinished))
+                oldest._unwatch()
+                oldest.transport.abort()
+            self.unfinished[self] = self.loop.call_later(SLOWEST_REQUEST, self.transport.abort)
 
     def _unwatch(self) -> None:
-        if self._limit is not None:
-            self._limit.cancel()
-            self._limit = None
+        if limit := self.unfinished.pop(self, None):
+            limit.cancel()
 
 
 def _listening(settings: WebSettings) -> socket.socket:

@@ -142,6 +142,16 @@ def test_a_request_that_does_not_come_in_is_given_up(server: Server, begun: byte
             assert slow.recv(1000) == b""
 
 
+def test_connections_without_a_request_keep_nobody_out(tmp_path: Path) -> None:
+    plan = tmp_path / "plan.json"
+    write_document(plan, make_document())
+    with running(plan) as server, contextlib.ExitStack() as held, server.client() as client:
+        for _ in range(200):
+            address = ("127.0.0.1", server.port)
+            held.enter_context(socket.create_connection(address, timeout=PATIENCE)).send(b"G")
+        assert [client.get("/api/state").status_code for _ in range(3)] == [200] * 3
+
+
 def test_an_open_event_stream_is_not_taken_for_a_slow_request(server: Server) -> None:
     with server.client() as client, client.stream("GET", "/api/events") as events:
         lines = events.iter_lines()
