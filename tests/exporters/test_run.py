@@ -11,12 +11,7 @@ import pytest
 from planner_ft.cli import main
 from planner_ft.document import read_document, write_document
 from planner_ft.exporters import DRAFT, Origin
-from planner_ft.exporters.run import (
-    PlanExportSettings,
-    export_plan,
-    loss_lines,
-    loss_summary,
-)
+from planner_ft.exporters.run import PlanExportSettings, export_plan, loss_lines, loss_summary
 from planner_ft.review import approve, log_beside, reject
 from planner_ft.support.errors import PlannerError
 
