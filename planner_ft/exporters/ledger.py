@@ -106,10 +106,11 @@ class Ledger:
             stops = path in self._stops or (gone and path[4:] == MOVEMENT)
             of_task = grouped.setdefault((item.task, why, stops), {})
             of_task.setdefault(item.what, []).append(item.step)
-        return tuple(
-            Loss(task, "; ".join(what + _step_words(steps) for what, steps in found.items()), *rest)
-            for (task, *rest), found in grouped.items()
-        )
+        found = []
+        for (task, why, stops), steps in grouped.items():
+            what = "; ".join(text + _step_words(numbers) for text, numbers in steps.items())
+            found.append(Loss(task, what, why, stops))
+        return tuple(found)
 
 
 def ranges(numbers: list[int]) -> str:
