@@ -16,6 +16,7 @@ from planner_ft.document.sources import sources
 from planner_ft.document.track import estimate, track
 from planner_ft.document.vehicle import Vehicle, load_vehicle
 from planner_ft.document.warnings import warnings
+from planner_ft.planning.essentials import asked, kept_additions, kept_defaults, question
 from planner_ft.planning.locations import OpenPlace, open_places
 from planner_ft.planning.result import Answer, Planned, PlannedTask
 from planner_ft.vocabulary import Vocabulary
@@ -24,6 +25,8 @@ from planner_ft.vocabulary.plans import canonical_parameters
 
 PlanDocument = dict[str, Any]
 """A plan document (schemas/plan.schema.json), never changed in place."""
+DERIVED = ("waits_for", "asks", "sources")
+"""Keys of a task that follow from the rest."""
 LARGEST = 2**53 - 1
 """Larger whole numbers have no exact form in RFC 8785 (I-JSON, RFC 7493)."""
 
@@ -68,9 +71,11 @@ def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = No
 def _task(number: int, task: PlannedTask) -> dict[str, Any]:
     entry: dict[str, Any] = {"id": f"t{number}", "title": task.title}
     entry |= {"parameters": task.parameters, "task_prompt": task.task_prompt}
+    entry |= {"defaults": task.defaults} if task.defaults else {}
     entry["skill_sequence"] = None
     if answer := task.answer:
         entry["skill_sequence"] = answer.plan and answer.plan["skill_sequence"]
+        entry |= {"added": list(answer.added)} if answer.added else {}
         entry |= {"assumptions": list(answer.notes)} if answer.notes else {}
         entry |= _problems(answer)
     return copy.deepcopy(entry)
@@ -94,12 +99,20 @@ def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
     for place in places:
         for number in place.tasks:
             tasks[number - 1]["waits_for"] = place.name
+    questions = []
+    for number, task in enumerate(tasks, start=1):
+        if text := question(number, task, vocabulary):
+            task["asks"] = asked(task, vocabulary)
+            questions.append(text)
     valid = not any("problems" in part for part in (document, *tasks))
     revised = {
         **document,
         "tasks": tasks,
         "valid": valid,
-        "complete": valid and all(task["skill_sequence"] is not None for task in tasks),
+        "complete": valid
+        and not questions
+        and all(task["skill_sequence"] is not None for task in tasks),
+        "questions": questions,
         "open_places": [{"name": place.name, "tasks": list(place.tasks)} for place in places],
         "ontology": check(document["command"], vocabulary),
     }
@@ -116,12 +129,15 @@ def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
 def _ordered_task(task: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
     """A task without what derives, its parameters in the order of the definition."""
     known = vocabulary.task.get(task["title"])
-    return {**without_derived(task), "parameters": canonical_parameters(task["parameters"], known)}
+    marks = {"defaults": kept_defaults(task), "added": kept_additions(task)}
+    kept = {key: value for key, value in without_derived(task).items() if key not in marks}
+    kept |= {key: value for key, value in marks.items() if value}
+    return {**kept, "parameters": canonical_parameters(task["parameters"], known)}
 
 
 def without_derived(task: Mapping[str, Any]) -> dict[str, Any]:
     """A task without what derives."""
-    return {key: value for key, value in task.items() if key not in ("waits_for", "sources")}
+    return {key: value for key, value in task.items() if key not in DERIVED}
 
 
 def _ordered(value: Mapping[str, Any], keys: Sequence[str]) -> dict[str, Any]:

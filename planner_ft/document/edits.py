@@ -161,10 +161,15 @@ def _skills(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
     if not isinstance(assumptions, list) or not all(isinstance(text, str) for text in assumptions):
         raise PlannerError("edit skills: assumptions must be a list of texts")
     task["skill_sequence"] = copy.deepcopy(edit["skill_sequence"])
-    for key in ("stale", "assumptions", "problems", "output"):
+    for key in ("stale", "assumptions", "problems", "output", "added"):
         task.pop(key, None)
     if assumptions:
         task["assumptions"] = assumptions
+    for name, value in edit.get("defaults", {}).items():
+        task["parameters"].setdefault(name, value)
+        task["defaults"] = {**task.get("defaults", {}), name: value}
+    if edit.get("added"):
+        task["added"] = edit["added"]
 
 
 def _skill(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
@@ -180,6 +185,26 @@ def _skill(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
     parameter = _known(vocabulary.skill[skill["name"]], skill["name"], edit["name"])
     _set(skill["parameters"], parameter, edit.get("value"))
     _check_skills(steps, where, vocabulary)
+    # What an operator changes is the operator's.
+    added = task.get("added", [])
+    task["added"] = [
+        mark for mark in added if (mark["step"], mark["name"]) != (number, skill["name"])
+    ]
+
+
+def _drop(document: PlanDocument, edit: Edit, _vocabulary: Vocabulary) -> None:
+    task, name, only = _task(document, edit), edit["name"], edit.get("step")
+    steps = list(enumerate(task["skill_sequence"] or []))
+    if only is not None and (not isinstance(only, int) or not 0 <= only < len(steps)):
+        raise PlannerError(f"edit drop: step must be one of the task's {len(steps)}, from 0")
+    chosen = [step for index, step in steps if only in (None, index)]
+    lists = [step[key] for step in chosen for key in ("filter_skills", "perception_skills")]
+    if not any(skill["name"] == name for skills in lists for skill in skills):
+        where = task["id"] if only is None else f"{task['id']} step {only + 1}"
+        problem = f"has no filter or perception skill {_short(name)}"
+        raise PlannerError(f"{where}: {problem}; a navigation skill goes with its step alone")
+    for skills in lists:
+        skills[:] = [skill for skill in skills if skill["name"] != name]
 
 
 def _replace(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
@@ -210,9 +235,10 @@ KINDS: dict[str, tuple[Keys, tuple[str, ...], Callable[[PlanDocument, Edit, Voca
     "remove": (TASK, (), _remove),
     "move": ({**TASK, "to": WHOLE}, (), _move),
     "insert": ({"title": TEXT, "at": WHOLE}, ("parameters", "task_prompt", "id"), _insert),
-    "skills": ({**TASK, "skill_sequence": STEPS}, ("assumptions",), _skills),
+    "skills": ({**TASK, "skill_sequence": STEPS}, ("assumptions", "defaults", "added"), _skills),
     "replace": ({"tasks": TASKS}, (), _replace),
     "skill": (SKILL, ("value",), _skill),
+    "drop": ({**TASK, "name": TEXT}, ("step",), _drop),
 }
 """Per kind of edit: keys that it needs, keys that it may have, and the function that makes it."""
 

@@ -1,4 +1,4 @@
-"""Where a value of a plan is from: command, located place, rule, operator or model."""
+"""Where a value of a plan is from: command, located place, rule, vehicle, operator or model."""
 
 from __future__ import annotations
 
@@ -65,6 +65,8 @@ def _edited(
     task: Mapping[str, Any], name: str, proposed: Mapping[str, Any] | None
 ) -> Source | None:
     """The source of a value that the model did not propose."""
+    if name in task.get("defaults", {}):
+        return _from("vehicle", note="the vehicle's value where none is stated")
     if name in task.get("located", {}):
         return _from("located", note=f"resolved location {task['located'][name]}")
     if proposed is None:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.build import PlanDocument
+from planner_ft.planning.essentials import added_text
 from planner_ft.planning.frame import origin_of
 from planner_ft.support.files import compact_json
 from planner_ft.support.resources import memory_size
@@ -34,6 +35,9 @@ def _lines(document: PlanDocument) -> Iterator[str]:
     sections = {
         "Assumptions": document["assumptions"],
         "Constraints": document["constraints"],
+        "Questions (answer in the command, or in the review as TASK.PARAMETER=VALUE)": [
+            *document.get("questions", ())
+        ],
         'Open places (fill in with --locate "NAME=x,y")': places,
         "Warnings": [warning["text"] for warning in document["warnings"]],
     }
@@ -61,6 +65,10 @@ def task_tree(document: PlanDocument) -> Iterator[str]:
 def _task_lines(number: int, task: dict[str, Any]) -> Iterator[str]:
     yield f"{number:2d} {call(task['title'], task['parameters'])}"
     yield f"{INDENT}{task['task_prompt']}"
+    if added := added_text(task):
+        yield f"{INDENT}(the vehicle's: {added})"
+    if "asks" in task:
+        yield f"{INDENT}(skills wait for {' and '.join(task['asks'])})"
     if "waits_for" in task:
         yield f"{INDENT}(skills wait for the position of {task['waits_for']})"
     if "problems" in task:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.planning.agents import Agents, Progress, silent
+from planner_ft.planning.essentials import asked, missing_defaults, with_defaults, with_essentials
 from planner_ft.planning.frame import agents_frame
 from planner_ft.planning.locations import (
     OpenPlace,
@@ -114,7 +115,8 @@ class Planner:
     def skills(self, task: Mapping[str, Any]) -> Answer:
         """The Task Agent's answer, valid or not, for `title`, `parameters` and `task_prompt`.
 
-        Raises PlannerError without a Task Agent, and for a task whose place is open.
+        The vehicle's defaults and essential skills are part of it. Raises PlannerError without a
+        Task Agent, for a task whose place is open, and for one that lacks what must be asked.
         """
         if "task" not in self.agents.agents:
             raise PlannerError(
@@ -123,9 +125,20 @@ class Planner:
         if is_open(task, self.vocabulary):
             problem = "its place is open, and skills to nowhere would be worth nothing"
             raise PlannerError(f"{task['title']}: {problem}; say where it is first")
+        if names := asked(task, self.vocabulary):
+            problem = f"{' and '.join(names)} must be known before its skills are planned"
+            raise PlannerError(f"{task['title']}: {problem}; give it as a parameter")
         self.agents.load("task")
-        record = {"task": task["title"], "parameters": task["parameters"]}
-        return self.agents.ask("task", {**record, "prompt": task["task_prompt"]})
+        filled = with_defaults(task, self.vocabulary)
+        record = {"task": task["title"], "parameters": filled["parameters"]}
+        answer = self.agents.ask("task", {**record, "prompt": task["task_prompt"]})
+        if answer.plan is None:
+            return answer
+        steps = answer.plan["skill_sequence"]
+        steps, added = with_essentials(filled, steps, self.vocabulary)
+        defaults = missing_defaults(task, self.vocabulary)
+        plan = {"skill_sequence": steps}
+        return replace(answer, plan=plan, defaults=defaults, added=tuple(added))
 
     def __enter__(self) -> Planner:
         return self
@@ -147,22 +160,32 @@ class Planner:
     def _tasks(
         self, plan: dict[str, Any], places: list[OpenPlace], on_event: OnEvent
     ) -> tuple[PlannedTask, ...]:
-        """Every task, with its skills unless it waits for a place or there is no Task Agent."""
+        """Every task with the vehicle's defaults, and with its skills unless it waits for a place
+        or an answer, or there is no Task Agent.
+        """
         waiting = {number: place.name for place in places for number in place.tasks}
         planned = [
-            PlannedTask(**entry, waits_for=waiting.get(number))
+            PlannedTask(
+                **with_defaults(entry, self.vocabulary),
+                waits_for=waiting.get(number),
+                defaults=missing_defaults(entry, self.vocabulary),
+            )
             for number, entry in enumerate(plan["tasks"], start=1)
         ]
         on_event(TasksKnown(tuple(planned)))
-        agent = "task" in self.agents.agents
-        asked = [at for at, task in enumerate(planned) if agent and task.waits_for is None]
-        for done, at in enumerate(asked):
+        ready = [
+            at
+            for at, task in enumerate(planned)
+            if task.waits_for is None and not asked(vars(task), self.vocabulary)
+        ]
+        ready = ready if "task" in self.agents.agents else []
+        for done, at in enumerate(ready):
             self.agents.load("task")
-            self._progress("Task Agent", done, len(asked))
-            answer = self.skills(plan["tasks"][at])
+            self._progress("Task Agent", done, len(ready))
+            answer = self.skills(vars(planned[at]))
             planned[at] = replace(planned[at], answer=answer)
             on_event(SkillsKnown(at + 1, answer))
-            self._progress("Task Agent", done + 1, len(asked))
+            self._progress("Task Agent", done + 1, len(ready))
         return tuple(planned)
 
     def _manifest(self) -> dict[str, Any]:

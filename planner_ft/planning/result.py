@@ -14,7 +14,8 @@ class Answer:
     """One answer of an agent and its cost.
 
     `plan` is None unless the text is a strictly valid plan (see `problems`); `cut`: it met the
-    token limit; `seconds` from prompt ids to the complete answer.
+    token limit; `seconds` from prompt ids to the complete answer. `defaults` and `added` are what
+    the vehicle added to the task and to its steps (planner_ft.planning.essentials).
     """
 
     text: str
@@ -26,6 +27,8 @@ class Answer:
     forward_passes: int
     seconds: float
     cut: bool = False
+    defaults: dict[str, Any] = field(default_factory=dict)
+    added: tuple[dict[str, Any], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -45,13 +48,17 @@ class AgentUse:
 
 @dataclass(frozen=True)
 class PlannedTask:
-    """A task with its skills; `answer` is None when not asked, as while `waits_for` is open."""
+    """A task with its skills; `answer` is None when not asked, as while `waits_for` is open.
+
+    `defaults` are the parameters that are the vehicle's.
+    """
 
     title: str
     parameters: dict[str, Any]
     task_prompt: str
     answer: Answer | None = None
     waits_for: str | None = None
+    defaults: dict[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ def parse_edit(text: str, document: PlanDocument, vocabulary: Vocabulary) -> Edi
     word, rest = [*text.split(maxsplit=1), "", ""][:2]
     match word.lower():
         case "remove":
-            return {"kind": "remove", "task": _task(rest, document)["id"]}
+            return _remove(rest, document)
         case "move":
             return _move(rest, document)
         case "locate":
@@ -116,6 +116,22 @@ def _value(text: str, parameter: Parameter) -> Any:
 # ---------------------------------------------------------------- WORD ...
 
 
+def _remove(rest: str, document: PlanDocument) -> Edit:
+    """A task by its number, or a skill by TASK.SKILL or TASK.STEP.SKILL."""
+    number, *path = rest.split(".")
+    task = _task(number, document)["id"]
+    if not path:
+        return {"kind": "remove", "task": task}
+    edit = {"kind": "drop", "task": task, "name": path[-1]}
+    if len(path) == 1:
+        return edit
+    step = _number(path[0])
+    if not step or len(path) > 2:
+        expected = "expected TASK, TASK.SKILL or TASK.STEP.SKILL"
+        raise PlannerError(f"remove {rest}: {expected}, such as remove 2.1.GetSeabedDepth")
+    return {**edit, "step": step - 1}
+
+
 def _move(rest: str, document: PlanDocument) -> Edit:
     number, _blank, place = rest.partition(" ")
     to = _number(place.strip())
@@ -171,7 +187,8 @@ def _asked(rest: str, document: PlanDocument) -> list[str]:
     return [
         task["id"]
         for task in document["tasks"]
-        if "waits_for" not in task and (task["skill_sequence"] is None or task.get("stale"))
+        if not {"waits_for", "asks"} & task.keys()
+        and (task["skill_sequence"] is None or task.get("stale"))
     ]
 
 

@@ -109,6 +109,8 @@ class Desk:
 def skills_edit(task: str, plan: Mapping[str, Any], answer: Answer) -> dict[str, Any]:
     """The edit that gives a task (by id) the skills of a valid answer."""
     given = {"skill_sequence": plan["skill_sequence"], "assumptions": list(answer.notes)}
+    given |= {"defaults": answer.defaults} if answer.defaults else {}
+    given |= {"added": list(answer.added)} if answer.added else {}
     return {"kind": "skills", "task": task, **given}
 
 

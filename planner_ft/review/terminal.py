@@ -89,7 +89,8 @@ def _warnings(document: PlanDocument) -> Iterator[Line]:
     yield from (("", ""), (_counted(document, "No"), style))
     for warning in warnings:
         yield f" - {warning['text']}  [{warning['id']}]", "yellow"
-    yield from ((f" ? {question}", "") for question in document["ontology"]["questions"])
+    questions = [*document.get("questions", ()), *document["ontology"]["questions"]]
+    yield from ((f" ? {question}", "") for question in questions)
 
 
 def _counted(document: PlanDocument, none: str) -> str:

@@ -23,8 +23,8 @@ ROLES: tuple[Role, ...] = get_args(Role)
 BUNDLED = Path(__file__).parent
 DEFAULT = "usv"
 PHRASES, VEHICLE, ONTOLOGY = ".phrases.toml", ".vehicle.toml", ".ontology.toml"
-MISSIONS, LIMITS = ".missions.toml", ".limits.toml"
-UNHASHED = (LOGIC, MOTION, VEHICLE, ONTOLOGY, MISSIONS, LIMITS)
+MISSIONS, LIMITS, ESSENTIALS = ".missions.toml", ".limits.toml", ".essentials.toml"
+UNHASHED = (LOGIC, MOTION, VEHICLE, ONTOLOGY, MISSIONS, LIMITS, ESSENTIALS)
 """Files beside a definition that no prompt, schema or grammar, and so no adapter depends on."""
 
 

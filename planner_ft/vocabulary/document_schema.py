@@ -13,8 +13,8 @@ from planner_ft.vocabulary.schema import DRAFT, Schema, parameters_schema, step_
 FORMAT = "planner_ft plan"
 VERSION = 1
 TASK_KEYS = (
-    *("id", "title", "parameters", "task_prompt", "skill_sequence", "added", "stale"),
-    *("waits_for", "located", "sources", "assumptions", "problems", "output"),
+    *("id", "title", "parameters", "defaults", "task_prompt", "skill_sequence", "added", "stale"),
+    *("waits_for", "asks", "located", "sources", "assumptions", "problems", "output"),
 )
 """The keys of a document's task in their order."""
 

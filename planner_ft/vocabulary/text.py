@@ -6,6 +6,7 @@ from pathlib import Path
 
 from planner_ft.support.files import read_text
 from planner_ft.vocabulary.definition import Parameter, Role, Skill, Task, Vocabulary
+from planner_ft.vocabulary.essentials import load_essentials
 from planner_ft.vocabulary.plans import Level
 
 PAGE = Path(__file__).parent / "shapes" / "vocabulary.md.j2"
@@ -55,7 +56,11 @@ def documentation_page(vocabulary: Vocabulary) -> str:
     template = environment.from_string(read_text(PAGE))
     categories = dict.fromkeys(task.category for task in vocabulary.tasks)
     page = template.render(
-        vocabulary=vocabulary, categories=categories, headings=ROLE_HEADINGS, notes=_notes
+        vocabulary=vocabulary,
+        categories=categories,
+        headings=ROLE_HEADINGS,
+        notes=_notes,
+        essentials=load_essentials(vocabulary),
     )
     return page.rstrip() + "\n"
 

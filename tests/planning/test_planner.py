@@ -64,7 +64,8 @@ def test_places_are_filled_in_before_the_task_agent_is_asked(known: Known) -> No
     engine = known()
     planned = Planner.load(configuration="base").plan(COMMAND, {"the green buoy": (120.0, -35.0)})
     assert engine.asked[2][1]["parameters"] == {"target_position": [120, -35]}
-    assert engine.asked[3][1]["parameters"] == {"center": [120, -35], "radius": 12}
+    vehicles = {"arc": 360}
+    assert engine.asked[3][1]["parameters"] == {"center": [120, -35], "radius": 12, **vehicles}
     value = as_json(planned)
     assert (
         value["complete"]

@@ -45,6 +45,9 @@ def _answer_warnings(document: Mapping[str, Any]) -> Iterator[Warning]:
     origin = origin_of(document)
     if origin and (reason := doubt(document["command"], origin)):
         yield warning("doubtful-origin", reason)
+    asking = [task for task in document["tasks"] if "asks" in task]
+    for task, text in zip(asking, document.get("questions", ()), strict=False):
+        yield warning("value-asked", text, task)
     for task in document["tasks"]:
         if task.get("problems"):
             text = f"the Task Agent's answer is not valid: {task['problems'][0]}."
@@ -52,5 +55,5 @@ def _answer_warnings(document: Mapping[str, Any]) -> Iterator[Warning]:
         elif task.get("stale"):
             text = "was changed after its skills were planned; plan its skills again."
             yield warning("stale-skills", f"{named(task)} {text}", task)
-        elif task.get("skill_sequence") is None and "waits_for" not in task:
+        elif task.get("skill_sequence") is None and not {"waits_for", "asks"} & task.keys():
             yield warning("no-skills", f"{named(task)} has no skills yet.", task)

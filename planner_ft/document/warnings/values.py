@@ -65,8 +65,10 @@ def _unsaid_skills(
     source, before = read_input(record, vocabulary), list[tuple[float, float]]()
     known = [value for value in own.values() if isinstance(value, list)]
     warned: set[str] = set()
+    added = {(mark["step"], mark["name"]) for mark in task.get("added", ())}
     for number, step in enumerate(steps):
         values = list(_values(step, vocabulary))
+        values = [entry for entry in values if (number, entry[0]) not in added]
         if number < len(proposed) and step != proposed[number]:
             models = list(_values(proposed[number], vocabulary))
             values = [entry for entry in values if entry in models]

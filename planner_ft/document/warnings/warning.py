@@ -9,7 +9,7 @@ Warning = dict[str, Any]
 """{"id", "kind", "task", "parameter", "text"}; edits elsewhere leave the id as it is."""
 SERIOUS = (
     *("invalid-answer", "structure-close", "limit-broken", "doubtful-origin"),
-    *("unresolved-location", "used-before-found", "not-at-place"),
+    *("unresolved-location", "value-asked", "used-before-found", "not-at-place"),
     *("position-missing", "outside-boundary", "outside-area", "out-of-reach", "over-endurance"),
     *("missing-return", "not-planned", "value-not-said", "skill-value-not-said", "value-lost"),
     *("stale-skills", "no-skills"),

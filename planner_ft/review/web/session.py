@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from planner_ft.document import PlanDocument, altered, build, differences, read_document
 from planner_ft.document.track import track
 from planner_ft.document.vehicle import Vehicle
+from planner_ft.planning.essentials import asked as needed
 from planner_ft.planning.locations import Position, is_open
 from planner_ft.planning.planner import SkillsKnown, TasksKnown, check_command
 from planner_ft.planning.result import Answer
@@ -31,7 +32,7 @@ LOOPBACK = "127.0.0.1"
 LAST_PORT = 65535
 LONGEST_COMMAND = 20_000
 """Characters."""
-EDITS = ("locate", "parameter", "prompt", "remove", "move", "insert", "skill")
+EDITS = ("locate", "parameter", "prompt", "remove", "move", "insert", "skill", "drop")
 """The kinds of edits that a page makes: not those that record an agent's answer or an adoption."""
 PLAN = ("document", "path", "revision", "track")
 """Keys of the state that are None without a plan."""
@@ -164,6 +165,8 @@ class Session:
         asked = _task(desk.document, task)
         if is_open(asked, self.vocabulary):
             raise PlannerError(f"task {task}: its place is not known yet; say where it is first")
+        if names := needed(asked, self.vocabulary):
+            raise PlannerError(f"task {task}: {' and '.join(names)} must be known first; add it")
 
         def work(planner: Planner) -> None:
             answer = planner.skills(asked)

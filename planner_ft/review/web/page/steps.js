@@ -6,6 +6,8 @@ import { Add, Value, unknownParameter } from "./values.js";
 
 const ROLES = [["navigation", "Navigation"], ["filter", "Filters"], ["perception", "Perception and data"]];
 
+const WHOSE = { vehicle: "vehicle's", limit: "limit", clearance: "clearance" };
+
 export const skillsOf = (step, role) => (role === "navigation" ? [step.navigation_skill] : role === "filter" ? step.filter_skills : step.perception_skills);
 
 export function Steps({ store, task, number }) {
@@ -37,7 +39,11 @@ const parts = (name) => name.split(/(?<=[a-z])(?=[A-Z])/).flatMap((word, i) => (
 function Skill({ store, task, where, skill, label }) {
   const known = store.plan.vocabulary.skills[skill.name]?.parameters || [];
   const change = (name, value) => store.edit({ kind: "skill", task: task.id, ...where, name, value }, `${label} ${name}`);
+  const mark = (task.added || []).find((one) => one.step === where.step && one.name === skill.name);
+  const drop = () => store.editOrTell({ kind: "drop", task: task.id, step: where.step, name: skill.name }, `${label} left out`);
   return html`<div class="skill"><span class="name" title=${store.plan.vocabulary.skills[skill.name]?.description}>${parts(skill.name)}</span>
+    ${mark && html`<span class=${`source ${mark.kind}`} title=${mark.note || "Added behind the Task Agent"}>${WHOSE[mark.kind]}${mark.parameter ? ` ${mark.parameter}` : ""}</span>`}
+    ${where.role !== "navigation" && html`<button class="plain" aria-label=${`Leave out ${label}`} title="Leave out; undo brings it back" onClick=${drop}>✕</button>`}
     <${Add} short store=${store} label=${label} known=${known} given=${skill.parameters} change=${change} />
     ${Object.entries(skill.parameters).map(([name, value]) => html`<span key=${name} class="parameter"><span class="key">${name}</span>
       <${Value} store=${store} label=${label} parameter=${known.find((one) => one.name === name) || unknownParameter(name, value)} value=${value} change=${(next) => change(name, next)} /></span>`)}</div>`;

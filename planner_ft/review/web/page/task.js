@@ -39,10 +39,11 @@ export function Task({ store, task, index, last, tab, keys, move, remove, open, 
     ${task.problems && html`<p class="refusal">The Task Agent's answer is not valid: ${task.problems.join("; ")}</p>`}
     ${(task.assumptions || []).map((text) => html`<p class="soft" key=${text}>${text}</p>`)}
     ${task.waits_for && html`<p class="waits">Waits for the place of ${task.waits_for}; its steps are planned once it is placed.</p>`}
+    ${task.asks && html`<p class="waits">Waits for ${task.asks.join(" and ")}: add it above, then plan its steps.</p>`}
     ${task.stale && html`<p class="waits">The steps were planned before this task was changed.</p>`}
     <div class="under">
       ${steps && html`<button class="plain fold" aria-expanded=${open} onClick=${toggle}>${open ? "▾" : "▸"} ${count(steps.length, "step")}${open ? "" : `: ${summary(steps)}`}</button>`}
-      <button class=${task.stale || (!steps && !task.waits_for) ? "act" : "plain"} disabled=${!planner.available || Boolean(busy) || Boolean(task.waits_for)} title=${planner.available ? "Asks the Task Agent for this task alone" : planner.why}
+      <button class=${task.stale || (!steps && !task.waits_for && !task.asks) ? "act" : "plain"} disabled=${!planner.available || Boolean(busy) || Boolean(task.waits_for || task.asks)} title=${planner.available ? "Asks the Task Agent for this task alone" : planner.why}
         onClick=${() => store.skillsAgain(task.id, label)}>${steps ? "Plan its steps again" : "Plan its steps"}</button>
     </div>
     ${steps && open && html`<${Steps} store=${store} task=${task} number=${number} />`}
@@ -55,7 +56,7 @@ function summary(steps) {
   return Object.entries(counts).map(([name, n]) => (n > 1 ? `${name} × ${n}` : name)).join(", ");
 }
 
-const KINDS = { command: "command", located: "located", derived: "rule", operator: "operator", model: "model's own" };
+const KINDS = { command: "command", located: "located", derived: "rule", vehicle: "vehicle's", operator: "operator", model: "model's own" };
 
 function Parameter({ store, task, name, value, known, label }) {
   const source = task.sources?.[name];
