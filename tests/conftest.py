@@ -6,6 +6,7 @@ import os
 import signal
 from pathlib import Path
 
+import hypothesis
 import pytest
 
 # Set before anything imports the hub's library, which reads it once: tests never touch a network.
@@ -13,6 +14,9 @@ os.environ["HF_HUB_OFFLINE"] = "1"
 # A shell starts background jobs with Ctrl-C ignored, and so would every process of a suite that
 # runs in one.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+# An example may take any time: the first call loads a library, and machines are busy.
+hypothesis.settings.register_profile("without deadlines", deadline=None)
+hypothesis.settings.load_profile("without deadlines")
 
 
 @pytest.fixture(scope="session")

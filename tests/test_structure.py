@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
+import hypothesis
 import pytest
 
 import planner_ft
@@ -111,3 +112,11 @@ def test_scoring_and_data_import_no_torch(part: str) -> None:
             if name not in seen:
                 seen.add(name)
                 ready.append(name)
+
+
+def test_no_property_test_has_a_deadline() -> None:
+    """None may depend on the clock; the profile in conftest.py holds for all of them."""
+    assert hypothesis.settings.default is not None
+    assert hypothesis.settings.default.deadline is None
+    files = [path for path in Path(__file__).parent.rglob("test_*.py") if path != Path(__file__)]
+    assert [path.name for path in files if "deadline=" in path.read_text("utf-8")] == []

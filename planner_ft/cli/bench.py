@@ -11,6 +11,7 @@ import typer
 from planner_ft.cli.options import command, given, typed
 from planner_ft.cli.progress import interruptible, resume_command, status
 from planner_ft.support.errors import IncompleteError, PlannerError
+from planner_ft.support.files import alone
 
 if TYPE_CHECKING:
     from planner_ft.benchmark.results import Results
@@ -162,11 +163,12 @@ def _run(settings: BenchSettings, *, report: bool) -> None:
     if not ranks.leads:
         help_bench(settings, ranks)
         return
-    with interruptible(lambda: _kept(settings.folder)) as progress:
-        results = run_bench(settings, progress, ranks)
-    _show(results, settings.folder)
-    if report:
-        _report(settings.folder)
+    with alone(settings.folder, "--out", "a benchmark"):
+        with interruptible(lambda: _kept(settings.folder)) as progress:
+            results = run_bench(settings, progress, ranks)
+        _show(results, settings.folder)
+        if report:
+            _report(settings.folder)
 
 
 def _check_file_alone(
@@ -196,7 +198,10 @@ def _run_suite(
         raise PlannerError(f"{problem}: give one of them")
     suite = load_suite(path)
     folder = out or Path("eval/runs") / path.stem
-    with status(lambda: f"go on with: {resume_command()}") as show:
+    with (
+        alone(folder, "--out", "a suite"),
+        status(lambda: f"go on with: {resume_command()}") as show,
+    ):
 
         def shown(state: State) -> None:
             show(state.unit, _state_line(state))
@@ -229,7 +234,10 @@ def _run_gate(path: Path, out: Path | None, common: dict[str, Any]) -> None:
     gate = load_gate(path)
     with tempfile.TemporaryDirectory() as temporary:
         target = out or Path(temporary) / "gate"
-        with interruptible((lambda: _kept(target)) if out else None) as progress:
+        with (
+            alone(target, "--out", "a benchmark"),
+            interruptible((lambda: _kept(target)) if out else None) as progress,
+        ):
             run_gate(gate, target, progress, lambda results: _show(results, out), **common)
     typer.echo(f"{path}: passed ({', '.join(threshold.metric for threshold in gate.thresholds)})")
 

@@ -10,6 +10,7 @@ import typer
 from planner_ft.cli.options import command
 from planner_ft.cli.progress import interruptible
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import alone
 
 
 @command
@@ -33,7 +34,7 @@ def gen_data(
     settings = GenerationSettings(
         level, out, seed, train, validation, test, vocabulary, source, overwrite, chat, synthetic
     )
-    with interruptible(lines=False) as progress:
+    with alone(out, "--out", "gen-data"), interruptible(lines=False) as progress:
         results = generate(settings, progress, chat_messages)
     for result in results:
         counts = ", ".join(f"{split} {count}" for split, count in result.counts.items())

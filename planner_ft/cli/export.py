@@ -9,6 +9,7 @@ import typer
 
 from planner_ft.cli.options import command, typed
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import alone
 
 PLAN_FLAGS = ("format", "origin", "log", "draft")
 MODEL_FLAGS = ("candidate", "merge", "level", "adapter", "gguf", "outtype", "checks", "check_data")
@@ -90,7 +91,8 @@ def _export_plan(plan: Path, formats: tuple[str, ...], origin: str | None, *sett
 def _export_model(settings: Any) -> None:
     from planner_ft.model_export.run import export as run_export
 
-    done = run_export(settings, lambda line: typer.echo(line, err=True))
+    with alone(settings.out, "--out", "an export"):
+        done = run_export(settings, lambda line: typer.echo(line, err=True))
     check = done.check
     same = f"{check.same} of {check.count} answers as before"
     most = f"logits differ by at most {check.largest_logit_difference:.2g}"

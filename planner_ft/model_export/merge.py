@@ -8,7 +8,7 @@ from typing import Any
 from planner_ft.candidates import Candidate, loading
 from planner_ft.candidates.adapters import check_adapter
 from planner_ft.candidates.registry import VOCABULARY_KEY
-from planner_ft.prompts.render import TODAY
+from planner_ft.prompts.render import save_tokenizer
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, write_json
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
@@ -66,20 +66,9 @@ def save_full(model: Any, candidate: Candidate, learned: Vocabulary | None, fold
     config = folder / "config.json"
     for path in folder.glob("*.safetensors"):  # written readable for their owner alone
         path.chmod(config.stat().st_mode)
-    tokenizer = loading.load_tokenizer(candidate)
-    tokenizer.chat_template = with_fixed_date(tokenizer.chat_template)
-    tokenizer.save_pretrained(str(folder))
+    save_tokenizer(loading.load_tokenizer(candidate), model, folder)
     if learned is not None and _is_bundled(learned):
         write_json(config, {**read_json(config), VOCABULARY_KEY: learned.name})
-
-
-def with_fixed_date(template: Any) -> Any:
-    """A chat template that writes the date we train with where it would write today's (Llama 3)."""
-    if not isinstance(template, str) or "date_string" not in template:
-        return template
-    setting = f'{{%- set date_string = "{TODAY}" %}}'
-    fixed = f"{{%- if not date_string is defined %}}{setting}{{%- endif %}}"
-    return template if template.startswith(fixed) else fixed + template
 
 
 def _is_bundled(vocabulary: Vocabulary) -> bool:

@@ -7,11 +7,14 @@ template, base models a plain form that ends with their end-of-text token.
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.prompts.text import PLAIN_FORM, answer_text, system_text, user_text
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import write_json
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -87,6 +90,19 @@ def with_fixed_date(template: Any) -> Any:
     setting = f'{{%- set date_string = "{TODAY}" %}}'
     fixed = f"{{%- if not date_string is defined %}}{setting}{{%- endif %}}"
     return template if template.startswith(fixed) else fixed + template
+
+
+def save_tokenizer(tokenizer: Any, model: Any, folder: Path) -> None:
+    """Write tokenizer, chat template and generation settings that give the prompt and the end of
+    training: a fixed date in the template, the trained end of turn before the model's own ends.
+    """
+    template = tokenizer.chat_template
+    tokenizer.chat_template = with_fixed_date(template)
+    tokenizer.save_pretrained(folder)
+    tokenizer.chat_template = template
+    settings = json.loads(model.generation_config.to_json_string())
+    ends = ends_of_answers(tokenizer, model.generation_config.eos_token_id)
+    write_json(folder / "generation_config.json", {**settings, "eos_token_id": ends})
 
 
 def render_sample(

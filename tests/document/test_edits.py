@@ -257,7 +257,7 @@ EDITS = st.one_of(
 )
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.lists(EDITS, max_size=6))
 def test_undo_gives_every_state_back(plan: PlanDocument, edits: list[dict[str, Any]]) -> None:
     states = [plan]

@@ -54,7 +54,7 @@ def run(answers: dict[str, Any], tasks: list[dict[str, Any]] = ONE_STEP) -> tupl
 
 @pytest.mark.parametrize("vocabulary", [USV, DRONE], ids=lambda vocabulary: vocabulary.name)
 def test_every_skill_comes_back_with_its_parameters(vocabulary: Any) -> None:
-    @settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
+    @settings(max_examples=30, suppress_health_check=list(HealthCheck))
     @given(documents(vocabulary))
     def check(plan: dict[str, Any]) -> None:
         plan_export = PlanExport(plan, vocabulary)

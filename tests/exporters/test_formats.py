@@ -90,7 +90,7 @@ def test_a_step_of_unknown_movement_blocks_nothing() -> None:
 @pytest.mark.parametrize("vocabulary", [USV, DRONE], ids=lambda vocabulary: vocabulary.name)
 @pytest.mark.parametrize("name", formats.BUNDLED)
 def test_nothing_is_dropped_silently(name: str, vocabulary: Any) -> None:
-    @settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+    @settings(max_examples=20, suppress_health_check=[HealthCheck.too_slow])
     @given(documents(vocabulary))
     def check(plan: dict[str, Any]) -> None:
         plan_export = PlanExport(plan, vocabulary, Origin(59.9, 10.7))

@@ -36,7 +36,7 @@ def of_kind(found: list[dict[str, Any]], kind: str) -> list[dict[str, Any]]:
 
 @pytest.mark.parametrize("vocabulary", [USV, DRONE], ids=lambda vocabulary: vocabulary.name)
 def test_all_that_a_plan_says_comes_back(vocabulary: Any) -> None:
-    @settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
+    @settings(max_examples=15, suppress_health_check=list(HealthCheck))
     @given(documents(vocabulary), origins())
     def check(plan: dict[str, Any], origin: Origin) -> None:
         found = features(plan, origin, vocabulary)
@@ -85,7 +85,7 @@ def test_all_that_a_plan_says_comes_back(vocabulary: Any) -> None:
 
 @pytest.mark.parametrize("vocabulary", [USV, DRONE], ids=lambda vocabulary: vocabulary.name)
 def test_every_geometry_lies_where_its_local_metres_say(vocabulary: Any) -> None:
-    @settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
+    @settings(max_examples=15, suppress_health_check=list(HealthCheck))
     @given(documents(vocabulary), origins())
     def check(plan: dict[str, Any], origin: Origin) -> None:
         for feature in features(plan, origin, vocabulary):

@@ -54,7 +54,7 @@ def leaves(value: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[str |
 
 @pytest.mark.parametrize("vocabulary", [USV, DRONE], ids=lambda vocabulary: vocabulary.name)
 def test_a_ledger_lists_everything_that_a_plan_says(vocabulary: Any) -> None:
-    @settings(max_examples=60, deadline=None)
+    @settings(max_examples=60)
     @given(documents(vocabulary))
     def check(plan: dict[str, Any]) -> None:
         assert set(Ledger(plan).items) == set(leaves(plan))

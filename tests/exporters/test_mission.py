@@ -232,7 +232,7 @@ def test_what_flies_keeps_its_altitude_and_does_not_turn_on_the_spot() -> None:
 
 @pytest.mark.parametrize("vocabulary", [USV, DRONE], ids=lambda vocabulary: vocabulary.name)
 def test_what_is_said_to_be_carried_is_in_the_items(vocabulary: Any) -> None:
-    @settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
+    @settings(max_examples=15, suppress_health_check=list(HealthCheck))
     @given(documents(vocabulary), origins())
     def check(plan: dict[str, Any], origin: Origin) -> None:
         try:

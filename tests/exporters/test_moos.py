@@ -57,7 +57,7 @@ def move(name: str, parameters: dict[str, Any], **more: Any) -> Behaviour:
 
 @pytest.mark.parametrize("vocabulary", [USV, DRONE], ids=lambda vocabulary: vocabulary.name)
 def test_every_waypoint_comes_back_to_the_millimetre(vocabulary: Any) -> None:
-    @settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
+    @settings(max_examples=30, suppress_health_check=list(HealthCheck))
     @given(documents(vocabulary))
     def check(plan: dict[str, Any]) -> None:
         plan_export = PlanExport(plan, vocabulary)
@@ -81,7 +81,7 @@ def test_every_waypoint_comes_back_to_the_millimetre(vocabulary: Any) -> None:
 
 @pytest.mark.parametrize("vocabulary", [USV, DRONE], ids=lambda vocabulary: vocabulary.name)
 def test_the_helm_goes_through_all_movements_in_the_plans_order(vocabulary: Any) -> None:
-    @settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
+    @settings(max_examples=30, suppress_health_check=list(HealthCheck))
     @given(documents(vocabulary))
     def check(plan: dict[str, Any]) -> None:
         found = read(load_format("moos").write(PlanExport(plan, vocabulary)).text)
@@ -330,7 +330,7 @@ def test_a_draft_says_so_in_a_variable() -> None:
     assert text.startswith(f"// {DRAFT}")
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(
     st.lists(st.sampled_from(HARM), max_size=8).map("".join),
     st.lists(st.sampled_from(HARM), max_size=6).map("".join),

@@ -31,7 +31,7 @@ def text(
     return load_format(name).write(PlanExport(plan, vocabulary, origin, approval)).text
 
 
-@settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=15, suppress_health_check=list(HealthCheck))
 @given(
     st.lists(st.tuples(METRES, METRES), min_size=1, max_size=8),
     origins(),

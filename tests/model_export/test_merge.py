@@ -20,8 +20,7 @@ from planner_ft.cli import main
 from planner_ft.model_export import Exported, ExportSettings, export
 from planner_ft.model_export import check as check_module
 from planner_ft.model_export import merge as merge_module
-from planner_ft.model_export.merge import with_fixed_date
-from planner_ft.prompts.render import TODAY, render_prompt
+from planner_ft.prompts.render import TODAY, render_prompt, with_fixed_date
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.schema import manifest_schema

@@ -108,7 +108,7 @@ def test_several_lines_cut_from_the_end_are_named(whole: Path) -> None:
         assert "records 1 to 6 are known to the head file" in problem_of(log)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(data=st.data())
 def test_every_changed_byte_is_named(whole: Path, data: st.DataObject) -> None:
     number = data.draw(st.integers(0, RECORDS - 1))
@@ -128,7 +128,7 @@ def test_every_changed_byte_is_named(whole: Path, data: st.DataObject) -> None:
         assert any(f"line {number + 1} " in problem.text for problem in check_log(log).problems)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(order=st.permutations(range(RECORDS)).filter(lambda order: order != list(range(RECORDS))))
 def test_lines_that_changed_places_are_named(whole: Path, order: list[int]) -> None:
     with copy_of(whole, lambda lines: [lines[place] for place in order]) as log:
@@ -137,7 +137,7 @@ def test_lines_that_changed_places_are_named(whole: Path, order: list[int]) -> N
     assert problem.line == wrong and "changed places" in problem.text
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(number=st.integers(0, RECORDS - 1), place=st.integers(0, RECORDS))
 def test_a_repeated_line_is_named(whole: Path, number: int, place: int) -> None:
     with copy_of(whole, lambda lines: [*lines[:place], lines[number], *lines[place:]]) as log:

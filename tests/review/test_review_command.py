@@ -271,7 +271,7 @@ class Terminal:
 
     def until(self, words: str) -> str:
         """What is printed up to these words."""
-        deadline = time.monotonic() + 120
+        deadline = time.monotonic() + 600
         while words not in self.text:
             ready, _, _ = select.select([self.screen], [], [], deadline - time.monotonic())
             assert ready, f"{words!r} never came: {self.text[-2000:]}"
@@ -292,7 +292,7 @@ class Terminal:
                 return
 
     def end(self) -> int:
-        code = self.process.wait(timeout=60)
+        code = self.process.wait(timeout=600)
         os.close(self.screen)
         return code
 

@@ -192,18 +192,19 @@ def test_kill_9_loses_only_what_came_after_the_last_checkpoint(
     ask, quiet, data, tmp_path, reference, step_losses, short
 ):
     output = tmp_path / "killed"
-    # A pause before each step, so that the kill meets the run between the checkpoint after step 8
-    # and the end.
+    # It stops before step 11: the kill meets the run between the checkpoint after step 8 and the
+    # end.
     slow = (
-        "import time, planner_ft.training.loop as l; s = l._step; l._step = lambda *a:"
-        " (time.sleep(0.1), s(*a)); from planner_ft.cli import main; main()"
+        "import time, planner_ft.training.loop as l; s = l._step; l._step = lambda run, *a:"
+        " (run.state.step == 10 and time.sleep(1e6), s(run, *a));"
+        " from planner_ft.cli import main; main()"
     )
     arguments = ["train", *COMMAND, "--data-dir", str(data), "--output", str(output)]
     process = subprocess.Popen(
         [sys.executable, "-c", slow, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
     )
     resumed = ask(**short, output=str(output), resume=True)
-    deadline = time.monotonic() + 100
+    deadline = time.monotonic() + 600
     while (
         process.poll() is None
         and time.monotonic() < deadline

@@ -159,7 +159,7 @@ def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
 PLACES = places(DRONE)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(st.sampled_from(PLACES), JUNK)
 def test_junk_anywhere_is_a_vocabulary_or_one_sentence(path: tuple[Any, ...], junk: Any) -> None:
     raw = copy.deepcopy(DRONE)

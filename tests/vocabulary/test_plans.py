@@ -159,7 +159,7 @@ def test_plan_problems_agrees_with_the_schema(
 ) -> None:
     verdicts = set()
 
-    @settings(max_examples=150, deadline=None, derandomize=True)
+    @settings(max_examples=150, derandomize=True)
     @given(plans)
     def agree(plan: Any) -> None:
         problems = plan_problems(level, plan, vocabulary, strict=strict)
@@ -245,7 +245,7 @@ def test_canonical_form_orders_keys_and_parameters_and_writes_whole_numbers_with
     )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(skill_plans(USV))
 def test_the_canonical_form_of_a_valid_plan_is_valid_and_stays_as_it_is(plan: Any) -> None:
     if plan_problems("task", plan, USV, strict=True):

@@ -408,9 +408,7 @@ EDITS = st.fixed_dictionaries(
 )
 
 
-@settings(
-    max_examples=30, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@settings(max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(change=EDITS)
 def test_any_edit_is_made_or_refused_in_a_sentence(
     serve_plan: Serve, plan: Path, change: dict[str, Any]

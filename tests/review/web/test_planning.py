@@ -38,7 +38,7 @@ class Listener:
         )
         self.listening = threading.Event()
         self.thread.start()
-        assert self.listening.wait(10)
+        assert self.listening.wait(600)
 
     async def _listen(self, events: Events) -> None:
         async for text in events.listen():
@@ -80,7 +80,7 @@ def held(
     answer = engine.answer
 
     def wait(query: Any, configuration: object) -> Any:
-        assert go.wait(30)
+        assert go.wait(600)
         return answer(query, configuration)
 
     monkeypatch.setattr(engine, "answer", wait)
@@ -192,7 +192,7 @@ def test_a_page_that_comes_late_hears_what_was_known_of_the_plan_before(
     answer = engine.answer
 
     def wait(query: Any, configuration: object) -> Any:
-        assert query.level == "mission" or go.wait(30)
+        assert query.level == "mission" or go.wait(600)
         return answer(query, configuration)
 
     monkeypatch.setattr(engine, "answer", wait)

@@ -30,7 +30,7 @@ from planner_ft.support.errors import PlannerError
 from tests.review.web.conftest import make_document
 
 KILLS = int(os.environ.get("PLANNERFT_KILLS", "5"))
-PATIENCE = 60.0
+PATIENCE = 600.0
 """Seconds after which a process hangs."""
 SERVE = """
 import sys
