@@ -102,6 +102,11 @@ class Value:
     noun: str | None = None
     way: str | None = None
 
+    def has(self, options: frozenset[str]) -> bool:
+        """Whether the value can be worded in the way that a slot's options ask for."""
+        asked = {"num": self.short, "adj": self.short, "noun": self.noun, "way": self.way}
+        return all(asked.get(option, "") is not None for option in options)
+
     def worded(self, options: frozenset[str]) -> str:
         """The wording that a slot's options ask for, where the value has it."""
         if self.short and ("adj" in options or "num" in options):

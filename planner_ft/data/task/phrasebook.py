@@ -1,4 +1,12 @@
-"""The phrases of a vocabulary by skill and by task.
+"""The phrases of NAME.phrases.toml by skill and by task, in the grammar of the templates.
+
+(~hold|~keep) (position|station)[ within {radius}][ for {time}]
+
+~verb    inflected: base form in commands, -ing form after "while"
+{slot}   a value as it is stated or referred to ("the planned time"); with a mark, only a value
+         that is stated: {slot#} in full, {slot!} short, {slot^} as a noun, {slot+} as a
+         direction (see numbers.Value)
+{_list}  an entry of a word list, or a value of the task, that is no value of the plan
 
 A definition without phrases still works: each skill falls back on a phrase made from its name and
 parameter names.
@@ -7,24 +15,45 @@ parameter names.
 from __future__ import annotations
 
 import functools
-import random
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.data.numbers import Value, pick
-from planner_ft.data.task.phrase import FORMS, Given, Phrase, mark, parse_phrase, parse_phrases
 from planner_ft.data.task.values import Draw, number_space, value_space
-from planner_ft.data.templates.grammar import all_slots
+from planner_ft.data.templates.grammar import Nodes, TemplateError, all_slots, parse_text
 from planner_ft.data.wordlists import FALLBACK, MADE_UP, WordLists
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.definition import Parameter, Skill, Task, Vocabulary
 
-KINDS = ("phrases", "with", "passive")
+FORMS = {"#": "full", "!": "num", "^": "noun", "+": "way"}
+_FORM = re.compile(r"(?<=\w)[#!^+](?=})")
+_VERB = re.compile(r"~([A-Za-z-]+)")
+_GERUND = {"be": "being", "lie": "lying", "tie": "tying", "begin": "beginning"}
 SETTINGS = {"values", "links", "often", "stated", "phrases_for", "lead_skill", "openers"}
 """Keys of the phrase file that hold no phrases."""
+
+
+def phrase_text(phrase: str, *, ing: bool = False) -> str:
+    """The phrase as the text of a template, its verbs as gerunds if `ing`."""
+    text = _VERB.sub(lambda verb: gerund(verb[1]) if ing else verb[1], phrase)
+    return _FORM.sub(lambda mark: f" {FORMS[mark[0]]}", text)
+
+
+@functools.cache
+def parse_phrase(phrase: str) -> Nodes:
+    """The nodes of a phrase as a command. Raises TemplateError."""
+    return parse_text(phrase_text(phrase))
+
+
+def gerund(verb: str) -> str:
+    """The -ing form of an English verb: "take" -> "taking", "run" -> "running"."""
+    if verb in _GERUND:
+        return _GERUND[verb]
+    vowels = [letter in "aeiou" for letter in verb]
+    if sum(vowels) == 1 and vowels[-2:] == [True, False] and verb[-1] not in "wxy":
+        return verb + verb[-1] + "ing"
+    return (verb[:-1] if verb[-1] == "e" and verb[-2:] != "ee" else verb) + "ing"
 
 
 def spaced(name: str) -> str:
@@ -32,94 +61,37 @@ def spaced(name: str) -> str:
     return re.sub(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])|_", " ", name).lower()
 
 
-class Slots(dict[str, str]):
-    """Wordings by slot. A slot that begins with an underscore is no value of the plan: the task
-    parameter of that name, if the task has it, else a number of [decor] or an entry of a word list.
-    """
-
-    def __init__(
-        self, book: Phrasebook, rng: random.Random, task_values: Mapping[str, Value] | None = None
-    ) -> None:
-        super().__init__()
-        self._book, self._rng, self._task_values = book, rng, task_values or {}
-
-    def __missing__(self, key: str) -> str:
-        name = key[1:]
-        known = self._task_values.get(name)
-        if known is not None and known.text:
-            return mark(known.text)
-        if name in self._book.decor:
-            return mark(self._book.decor[name](self._rng).text)
-        return mark(self._book.lexicon.entry(name, self._rng))
-
-    def put(self, name: str, value: Value) -> Any:
-        """Say the value's wordings in the slot, set apart as values; the value."""
-        self[name] = mark(value.text)
-        wordings = (value.text, value.short, value.noun, value.way)
-        for form, wording in zip(FORMS.values(), wordings, strict=True):
-            if wording is not None:
-                self[f"{name} {form}"] = mark(wording)
-        return value.value
-
-
-@dataclass
-class Saying:
-    """Phrases, any of which says the same thing with these slots."""
-
-    phrases: Sequence[Phrase]
-    slots: Slots
-    suffix: str = ""
-
-    def render(self, rng: random.Random, *, ing: bool = False) -> str:
-        """One wording."""
-        return pick(self.phrases, rng).render(self.slots, rng, ing=ing) + self.suffix
-
-
 class SkillEntry:
     """The phrases and parameter spaces of one skill."""
 
-    def __init__(
-        self, skill: Skill, config: dict[str, Any], lexicon: WordLists, *, unseen: bool
-    ) -> None:
+    def __init__(self, skill: Skill, config: dict[str, Any], book: Phrasebook) -> None:
         self.skill = skill
-        spaces, often = config.get("values", {}), config.get("often", {})
-        self.values: dict[str, dict[str, Any]] = {
-            name: spaces.get(name, {}) for name in skill.by_name
-        }
-        self.draws = _draws(skill, self.values, lexicon)
+        self.draws = _draws(skill, config.get("values", {}), book.lexicon)
+        often = config.get("often", {})
         self.often = {
             item.name: 1.0 if item.required else float(often.get(item.name, 0.5))
             for item in skill.parameters
         }
-        self._layers = {kind: [parse_phrases(config.get(kind, ()))] for kind in KINDS}
-        self.generic = [parse_phrase(_generic_phrase(skill))]
-        self._layers["phrases"].append(self.generic)
-        if unseen:
-            self._layers["phrases"].insert(0, parse_phrases(config.get("unseen", ())))
-            self._layers["passive"] = []
+        own = (book.unseen and config.get("unseen")) or config.get("phrases")
+        self.phrases: dict[str, list[str]] = {
+            "": own or [_generic_phrase(skill)],
+            "with": config.get("with", []),
+            "passive": [] if book.unseen else config.get("passive", []),
+        }
+        self.bare = [one for one in own or () if not _values(parse_phrase(one))]
         self.none: list[str] = config.get("none", [])
-        self.several = bool(config.get("several", True))
+        self.several = bool(config.get("several", True)) and bool(skill.parameters)
         self.repeats = bool(config.get("repeats"))
-        self._fitting: dict[tuple[Given, str], list[Phrase]] = {}
-
-    def fitting(self, given: Given, kind: str = "phrases") -> list[Phrase]:
-        """Phrases that say exactly `given`; of the kind "phrases" there always are some."""
-        if (given, kind) not in self._fitting:
-            layers = ([one for one in layer if one.fits(given)] for layer in self._layers[kind])
-            self._fitting[given, kind] = next(filter(None, layers), [])
-        return self._fitting[given, kind]
 
 
 class TaskEntry:
     """The phrases, links and parameter spaces of one task."""
 
-    def __init__(self, task: Task, book: Phrasebook) -> None:
-        config = book.raw.get("task", {}).get(task.title, {})
-        refer = config.get("refer", {})
+    def __init__(self, task: Task, config: dict[str, Any], book: Phrasebook) -> None:
         self.draws = _draws(task, config.get("values", {}), book.lexicon)
-        self.refer = {
-            name: parse_phrases(refer.get(name, [f"the given {spaced(name)}"]))
-            for name in task.by_name
+        refer = config.get("refer", {})
+        self.refer: dict[str, list[str]] = {
+            name: refer.get(name, [f"the given {spaced(name)}"]) for name in task.by_name
         }
         self.links: dict[str, str] = {}
         """The task parameter that fills a place: "StationKeep.time", "square.center"."""
@@ -127,14 +99,14 @@ class TaskEntry:
             own = config.get("links", {}).get(parameter.name)
             for place in own or _default_links(task, parameter, book.vocabulary):
                 self.links.setdefault(place, parameter.name)
-        lead = (config.get("lead_unseen") if book.unseen else None) or config.get("lead", ())
-        self.lead = parse_phrases(lead)
+        unseen = config.get("lead_unseen") if book.unseen else None
+        self.lead: list[str] = unseen or config.get("lead", [])
         self.lead_skill: dict[str, str] = config.get("lead_skill", {})
         self.stated = frozenset(config.get("stated", ()))
-        self.phrases = [] if book.unseen else parse_phrases(config.get("phrases", ()))
+        self.phrases: list[str] = [] if book.unseen else config.get("phrases", [])
         self.phrases_for: str | None = config.get("phrases_for")
         self.openers: list[str] = config.get("openers", [])
-        self.unresolved = parse_phrases(config.get("unresolved", ()))
+        self.unresolved: list[str] = config.get("unresolved", [])
         self.patterns: dict[str, list[str]] = config.get("pattern_phrases", {})
 
 
@@ -145,44 +117,42 @@ class Phrasebook:
     """
 
     def __init__(self, vocabulary: Vocabulary, *, unseen: bool) -> None:
-        self.vocabulary, self.unseen, self.raw = vocabulary, unseen, vocabulary.phrases
+        self.vocabulary, self.unseen, raw = vocabulary, unseen, vocabulary.phrases
         _check_phrases(vocabulary)
-        self.lexicon = WordLists(self.raw.get("words", {}))
-        configs = self.raw.get("skill", {})
+        self.lexicon = WordLists(raw.get("words", {}))
+        skills, tasks = raw.get("skill", {}), raw.get("task", {})
         self.skills = {
-            skill.name: SkillEntry(skill, configs.get(skill.name, {}), self.lexicon, unseen=unseen)
+            skill.name: SkillEntry(skill, skills.get(skill.name, {}), self)
             for skill in vocabulary.skills
         }
-        self.tasks = {task.title: TaskEntry(task, self) for task in vocabulary.tasks}
+        self.tasks = {
+            task.title: TaskEntry(task, tasks.get(task.title, {}), self)
+            for task in vocabulary.tasks
+        }
         self.decor = {
             name: number_space(Parameter(name, "number", config.get("unit")), config)
-            for name, config in self.raw.get("decor", {}).items()
+            for name, config in raw.get("decor", {}).items()
         }
-        self.sentences: dict[str, list[str]] = self.raw.get("sentence", {})
+        self.sentences: dict[str, list[str]] = raw.get("sentence", {})
+        self.patterns: dict[str, dict[str, Any]] = raw.get("pattern", {})
         self.motions: dict[str, str] = {
             skill.motion: skill.name for skill in reversed(vocabulary.skills) if skill.motion
         }
-        self.verbs = {"run", *re.findall(r"~([A-Za-z-]+)", compact_json(self.raw))}
-        self._patterns: dict[tuple[str, str, str, Given], list[Phrase]] = {}
+        self.roles: dict[str, list[str]] = {
+            role: [skill.name for skill in vocabulary.skills if skill.role == role]
+            for role in ("navigation", "filter", "perception")
+        }
+        self.verbs = {"run", *_VERB.findall(compact_json(raw))}
 
-    def say(self, source: str, rng: random.Random) -> str:
-        """A wording of a phrase without values."""
-        return parse_phrase(source).render(Slots(self, rng), rng)
-
-    def pattern(self, name: str, title: str, given: Given, key: str = "phrases") -> list[Phrase]:
-        """Phrases of a movement of several steps that say exactly `given`: the task's own ones,
-        twice as often, and the general ones.
+    def pattern(self, name: str, title: str) -> Sequence[str]:
+        """Phrases of a movement of several steps: the task's own ones, twice as often, and the
+        general ones.
         """
-        place = (name, title, key, given)
-        if place not in self._patterns:
-            general = self.raw.get("pattern", {}).get(name, {})
-            texts = general.get(key, [])
-            if self.unseen and key == "phrases" and general.get("unseen"):
-                texts = general["unseen"]
-            elif key == "phrases":
-                texts = [*self.tasks[title].patterns.get(name, []) * 2, *texts]
-            self._patterns[place] = [one for one in parse_phrases(texts) if one.fits(given)]
-        return self._patterns[place]
+        general = self.patterns.get(name, {})
+        if self.unseen and general.get("unseen"):
+            found: list[str] = general["unseen"]
+            return found
+        return [*self.tasks[title].patterns.get(name, []) * 2, *general.get("phrases", [])]
 
 
 @functools.lru_cache(maxsize=8)
@@ -200,6 +170,10 @@ def _draws(
     }
 
 
+def _values(nodes: Nodes) -> list[str]:
+    return [slot.key for slot in all_slots(nodes) if not slot.sign]
+
+
 def _generic_phrase(skill: Skill) -> str:
     names = [parameter.name for parameter in skill.parameters]
     if "x" in names and "y" in names:
@@ -210,13 +184,13 @@ def _generic_phrase(skill: Skill) -> str:
 
 def _check_phrases(vocabulary: Vocabulary) -> None:
     raw, where = vocabulary.phrases, f"vocabulary {vocabulary.source}: phrase"
-    known = {*raw.get("words", {}), *raw.get("decor", {}), *FALLBACK, *MADE_UP, "step"}
+    known = {*raw.get("words", {}), *raw.get("decor", {}), *FALLBACK, *MADE_UP}
     known.update(name for task in vocabulary.tasks for name in task.by_name)
     for section in ("skill", "task", "pattern", "sentence"):
         for phrase in _texts(raw.get(section, {})):
             try:
-                slots = all_slots(parse_phrase(phrase.replace("{}", "")).nodes)
-            except ValueError as error:
+                slots = list(all_slots(parse_phrase(phrase.replace("{}", ""))))
+            except TemplateError as error:
                 raise PlannerError(f"{where} file, [{section}]: {phrase!r}: {error}") from None
             for name in (slot.key for slot in slots if slot.sign and slot.key not in known):
                 raise PlannerError(

@@ -2,10 +2,10 @@
 
     for record in sample_tasks(load_vocabulary(), seed=0, count=500, split="test"): ...
 
-About half of the samples are drawn as a script (movements, filters, perception skills), said in a
-prompt, and the label is derived from the script: exactly what the prompt says. The others come from
-whole-prompt templates (prompts/), which belong to one of the splits each. A script's skeleton, its
-prompt without the values, decides which of train, validation and test may hold it.
+About half of the samples are put together (compose.py): movements, filters and perception skills of
+a task, each in a clause of the phrase file, and the label is exactly what the clauses say. The others
+come from whole-prompt templates (prompts/), which belong to one of the splits each. The skeleton of a
+prompt, its text without the values, decides which of train, validation and test may hold it.
 """
 
 from __future__ import annotations
@@ -13,20 +13,18 @@ from __future__ import annotations
 import itertools
 import random
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, Literal, get_args
 
 from planner_ft.data.noise import noisy
 from planner_ft.data.numbers import pick
+from planner_ft.data.task.compose import Misfit, Prompt, aside, opened
 from planner_ft.data.task.context import Context
-from planner_ft.data.task.frames import Speaker, opened, with_aside
-from planner_ft.data.task.phrase import finished
 from planner_ft.data.task.phrasebook import phrasebook
-from planner_ft.data.task.prompts.binding import bindings
+from planner_ft.data.task.prompts.binding import binding, titles
 from planner_ft.data.task.prompts.draw import draw_template
-from planner_ft.data.task.script import draw_script, expected_plan
 from planner_ft.data.templates.records import templates
-from planner_ft.data.templates.render import plain, skeleton
+from planner_ft.data.templates.render import joined, plain, skeleton
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.definition import Vocabulary
 from planner_ft.vocabulary.plans import canonical_parameters, plan_problems, step_skills
@@ -36,11 +34,9 @@ SPLITS: tuple[Split, ...] = get_args(Split)
 
 LONGEST = 24
 """Steps; longer answers are drawn anew."""
-WORDINGS = 60
-"""Wordings of a script until one belongs to the split."""
 TEMPLATES = 0.5
 """Share of the samples that come from a whole-prompt template."""
-HELD_OUT = 6
+HELD_OUT = 12
 """Percent of the skeletons that belong to validation, and as many to test."""
 Draw = Callable[[], dict[str, Any] | None]
 
@@ -69,7 +65,7 @@ def sample_tasks(
                 if key not in seen:
                     break
             misses += 1
-            if misses > 2000 + 200 * (number + 1):
+            if misses > 5000 + 500 * (number + 1):
                 raise PlannerError(
                     f"vocabulary {vocabulary.name}: split {split} has fewer than {count} different"
                     " samples; ask for fewer or add phrases"
@@ -85,9 +81,7 @@ def split_of(text: str) -> Split:
 
 
 class _Draws:
-    """Single draws for one split, from scripts and from whole-prompt templates; None when one came
-    to nothing or belongs to another split.
-    """
+    """Single draws for one split; None when one came to nothing or belongs to another split."""
 
     def __init__(self, vocabulary: Vocabulary, rng: random.Random, split: Split) -> None:
         self.unseen = split == "test_unseen"
@@ -98,63 +92,67 @@ class _Draws:
         """Where the next sample comes from."""
         if self.templates and self.rng.random() < TEMPLATES:
             return self.from_template
-        return self.from_script
+        return self.composed
 
     def from_template(self) -> dict[str, Any] | None:
         """One record without id from a whole-prompt template."""
         template = pick(pick(self.templates, self.rng), self.rng)
-        bound = pick(bindings(template, self.book), self.rng)
-        context = Context(self.book, bound.task, self.rng)
+        title = pick(titles(template, self.book.vocabulary), self.rng)
+        bound = binding(template, title, self.book)
+        if bound is None:
+            return None
+        context = Context(self.book, self.book.vocabulary.task[title], self.rng)
         drawn = draw_template(bound, context)
-        if drawn is None or len(drawn[1]["skill_sequence"]) > LONGEST:
+        if drawn is None:
             return None
-        text, expected, skills = drawn
-        said = finished(with_aside(text, skills, context), small=not text[:1].isupper())
-        if split_of(_key(context, said)) not in ("train", self.split):
-            return None
-        return self._record(f"template/{len(expected['skill_sequence'])}", context, said, expected)
+        said, expected, skills = drawn
+        family = f"template/{len(expected['skill_sequence'])}"
+        return self._record(family, context, said, expected, skills, ("train", self.split))
 
-    def from_script(self) -> dict[str, Any] | None:
-        """One record without id from a script, in words that belong to the split."""
+    def composed(self) -> dict[str, Any] | None:
+        """One record without id that was put together."""
         context = Context(self.book, pick(self.book.vocabulary.tasks, self.rng), self.rng)
-        script = draw_script(context)
-        if script is None or sum(len(item.steps) for item in script.movements) > LONGEST:
+        try:
+            prompt = Prompt(context)
+        except Misfit:
             return None
-        for _ in range(WORDINGS):
-            frame, text = Speaker(self.rng, self.book).script(script)
-            said = finished(with_aside(opened(text, context), script.skills, context))
-            if self.unseen or split_of(_key(context, said)) == self.split:
-                break
-        else:
-            return None
-        expected = expected_plan(script, self.book.vocabulary)
-        family = f"{frame}/{script.movements[0].kind}{len(script.movements)}"
-        return self._record(f"{'unseen-' if self.unseen else ''}{family}", context, said, expected)
+        family = f"{prompt.frame}/{prompt.movements[0].kind}{len(prompt.movements)}"
+        family = f"unseen-{family}" if self.unseen else family
+        said = joined(opened(prompt.pieces, context))
+        skills = {run.skill for run in prompt.runs}
+        return self._record(family, context, said, prompt.plan, skills, (self.split,))
 
     def _record(
-        self, family: str, context: Context, said: str, expected: dict[str, Any]
-    ) -> dict[str, Any]:
+        self,
+        family: str,
+        context: Context,
+        said: str,
+        expected: dict[str, Any],
+        skills: set[str],
+        splits: Sequence[str],
+    ) -> dict[str, Any] | None:
         """The sample without its id. Raises PlannerError when the plan is not strictly valid."""
-        vocabulary = self.book.vocabulary
+        vocabulary, title = self.book.vocabulary, context.task.title
+        if len(expected["skill_sequence"]) > LONGEST:
+            return None
+        said = aside(said, skills, context)
+        if not self.unseen and split_of(f"{title} {skeleton(said)}") not in splits:
+            return None
         problems = plan_problems("task", expected, vocabulary, strict=True)
         if problems:
             raise PlannerError(
-                f"vocabulary {vocabulary.name}: a sample of {context.task.title} is not valid"
+                f"vocabulary {vocabulary.name}: a sample of {title} is not valid"
                 f" ({problems[0]}); correct the phrase file's ranges"
             )
         if not self.unseen:
             said = noisy(said, self.rng, shout=not _has_texts(expected))
         return {
             "family": family,
-            "task": context.task.title,
+            "task": title,
             "parameters": canonical_parameters(context.parameters(), context.task),
             "prompt": plain(said),
             "expected": expected,
         }
-
-
-def _key(context: Context, said: str) -> str:
-    return f"{context.task.title} {skeleton(said)}"
 
 
 def _has_texts(expected: dict[str, Any]) -> bool:

@@ -16,7 +16,7 @@ from planner_ft.data.missions import MissionSampler
 from planner_ft.data.numbers import pick
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.phrasebook import Phrasebook
-from planner_ft.data.task.prompts.binding import bindings
+from planner_ft.data.task.prompts.binding import binding, titles
 from planner_ft.data.task.prompts.draw import draw_template
 from planner_ft.data.templates.records import Template, template_files, templates
 from planner_ft.data.templates.render import plain
@@ -93,12 +93,13 @@ def _clauses(clause: Template, sampler: MissionSampler) -> Iterator[tuple[str, A
 
 
 def _prompts(prompt: Template, book: Phrasebook) -> Iterator[tuple[str, Any]]:
-    bounds = bindings(prompt, book)
-    for seed in range(40 if bounds else 0):
-        bound = bounds[seed % len(bounds)]
-        drawn = draw_template(bound, Context(book, bound.task, Random(seed)))
-        if drawn:
-            yield plain(drawn[0]), drawn[1]
+    names = titles(prompt, book.vocabulary)
+    for seed in range(40):
+        title = names[seed % len(names)]
+        if bound := binding(prompt, title, book):
+            context = Context(book, book.vocabulary.task[title], Random(seed))
+            if drawn := draw_template(bound, context):
+                yield plain(drawn[0]), drawn[1]
 
 
 if __name__ == "__main__":

@@ -4,10 +4,10 @@ import random
 import re
 
 import pytest
-
-from planner_ft.data.task.context import Movement
 from planner_ft.data.task.frames import Scopes
 from planner_ft.data.task.phrase import finished
+
+from planner_ft.data.task.context import Movement
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.vocabulary.definition import load_vocabulary
 

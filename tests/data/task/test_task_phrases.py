@@ -3,9 +3,9 @@
 import random
 
 import pytest
+from planner_ft.data.task.phrase import gerund, mark, parse_phrase
 
 from planner_ft.data.numbers import bearing, duration, polygon, position, rotation
-from planner_ft.data.task.phrase import gerund, mark, parse_phrase
 from planner_ft.data.templates.render import plain, skeleton
 from planner_ft.data.wordlists import made_up_code, made_up_name
 

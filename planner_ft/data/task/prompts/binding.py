@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
@@ -19,7 +19,7 @@ from planner_ft.data.templates.grammar import (
     base_of,
 )
 from planner_ft.data.templates.records import Template
-from planner_ft.vocabulary.definition import Role, Task
+from planner_ft.vocabulary.definition import Role, Task, Vocabulary
 
 XY = "xy"
 WORDS = ("start", "turn", "axis")
@@ -41,7 +41,6 @@ class Bound:
     """A template that can be drawn for one task. Every argument of its steps has a name."""
 
     template: Template
-    task: Task
     steps: list[Step] = field(default_factory=list)
     everywhere: Step | None = None
     front: bool = False
@@ -51,34 +50,38 @@ class Bound:
     params: set[str] = field(default_factory=set)
     located: set[str] = field(default_factory=set)
     """Task parameters whose position is calculated with, so that it must be known."""
+    often: dict[str, float] = field(default_factory=dict)
+    """Slots of optional parts, and how often they are given."""
+    clause: bool = False
+    """Whether this is a part of a prompt, in the words of the phrase file."""
 
 
-def bindings(template: Template, book: Phrasebook) -> tuple[Bound, ...]:
-    """The template for each task that it suits. Raises PlannerError where a task that it names does
-    not fit; of "*" the tasks are left that have what it needs.
+def titles(template: Template, vocabulary: Vocabulary) -> Sequence[str]:
+    """The tasks that the template names; every task for "*"."""
+    return list(vocabulary.task) if "*" in template.tasks else template.tasks
+
+
+def binding(template: Template, title: str, book: Phrasebook) -> Bound | None:
+    """The template for this task; None where it names no task ("*") and this one lacks what it
+    needs. Raises PlannerError where a task that it names does not fit.
     """
-    key = book.vocabulary
+    key = book.vocabulary, title
     if key not in template.bound:
-        template.bound[key] = tuple(_bindings(template, book))
-    found: tuple[Bound, ...] = template.bound[key]
-    return found
-
-
-def _bindings(template: Template, book: Phrasebook) -> Iterator[Bound]:
-    vocabulary, every = book.vocabulary, "*" in template.tasks
-    for title in vocabulary.task if every else template.tasks:
-        if title not in vocabulary.task:
+        if title not in book.vocabulary.task:
             raise template.error(f"there is no task {title}")
         try:
-            yield bind(template, vocabulary.task[title], book)
+            template.bound[key] = bind(template, book.vocabulary.task[title], book)
         except TemplateError as error:
-            if not every:
+            if "*" not in template.tasks:
                 raise template.error(error) from None
+            template.bound[key] = None
+    found: Bound | None = template.bound[key]
+    return found
 
 
 def bind(template: Template, task: Task, book: Phrasebook) -> Bound:
     """The template for this task. Raises TemplateError that says what does not fit."""
-    binder = _Binder(Bound(template, task), book)
+    binder = _Binder(Bound(template), task, book)
     bound, slots = binder.bound, list(all_slots(template.nodes))
     for slot in slots:
         if slot.sign == "param":
@@ -106,8 +109,8 @@ def bind(template: Template, task: Task, book: Phrasebook) -> Bound:
 
 
 class _Binder:
-    def __init__(self, bound: Bound, book: Phrasebook) -> None:
-        self.bound, self.book, self.task = bound, book, bound.task
+    def __init__(self, bound: Bound, task: Task, book: Phrasebook) -> None:
+        self.bound, self.book, self.task = bound, book, task
         self.keys = {slot.key for slot in all_slots(bound.template.nodes) if not slot.sign}
 
     def step(self, step: Step) -> Step:
@@ -161,7 +164,7 @@ class _Binder:
                 draw = self.book.skills[call.name].draws[name]
                 several = skill.by_name[name].type == "texts"
                 self._use(str(argument.value), Source(draw, f"{call.name}.{name}", several))
-            arguments.append(replace(argument, name=name))
+            arguments.append(Argument(argument.kind, argument.value, name, argument.negative))
         given = {argument.name for argument in arguments}
         if goto and XY not in given and not {"x", "y"} <= given:
             raise TemplateError(f"{call.name} needs a position: P1 or param.NAME")
@@ -182,7 +185,7 @@ class _Binder:
                 joint = call.name == "Grid" and role in ("width", "length", "spacing", "count")
                 draw = _no_draw if joint else value_draw(call.name, role, base_of(value))
                 self._use(value, Source(draw, shape.roles.get(role, "")))
-            arguments[role] = replace(argument, name=role)
+            arguments[role] = Argument(argument.kind, argument.value, role, argument.negative)
         for role, place in shape.roles.items():
             if role not in arguments and not (role == "spacing" and "count" in arguments):
                 arguments[role] = Argument("param", self._own(call, role, place), role)

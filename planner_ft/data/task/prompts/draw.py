@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Sequence
 from typing import Any
@@ -11,11 +12,13 @@ from planner_ft.data.task.context import Context
 from planner_ft.data.task.prompts.binding import XY, Bound, Source
 from planner_ft.data.task.prompts.shapes import DRAWS, SHAPES, grid_size
 from planner_ft.data.task.steps import Entry, entry_of, plan_step
+from planner_ft.data.task.steps import Step as Move
 from planner_ft.data.templates.grammar import Argument, Call, Part, Slot, Step, base_of, choose
-from planner_ft.data.templates.render import PIECE, after_article, bare, joined, plain
+from planner_ft.data.templates.render import PIECE, after_article, bare, joined
 from planner_ft.facts.geometry import tidy
 
 LINKED = 0.75  # share of stated values that the task's parameters hold too
+REFER = 0.3  # share of values of a clause that stand in the task's parameters alone
 SPACING = 0.85  # share of grids whose stated size the task's parameters hold too
 _WAY = re.compile(
     r"\b(left|right|port|starboard|clockwise|anticlockwise|counter-clockwise)\b", re.IGNORECASE
@@ -28,19 +31,19 @@ def draw_template(bound: Bound, context: Context) -> tuple[str, dict[str, Any], 
     """The prompt with its values marked, the expected plan and the skills in it; None when the draw
     came to nothing.
     """
-    drawing = _Drawing(bound, context)
+    drawing = Drawing(bound, context)
     text = joined(drawing.pieces(), small=drawing.small)
     try:
         steps = drawing.steps()
     except (ValueError, ZeroDivisionError):
         return None
     beside = [step[key] for step in steps for key in ("filter_skills", "perception_skills")]
-    if not steps or any(_twice(calls) for calls in beside):
+    if not steps or any(twice(calls) for calls in beside):
         return None
     return text, {"skill_sequence": steps}, {call["name"] for calls in beside for call in calls}
 
 
-def _twice(calls: list[Entry]) -> bool:
+def twice(calls: list[Entry]) -> bool:
     """Whether a skill stands twice with the same parameters, or once with none."""
     names = [call["name"] for call in calls]
     return len(set(names)) < len(names) and any(
@@ -49,17 +52,23 @@ def _twice(calls: list[Entry]) -> bool:
     )
 
 
-class _Drawing:
-    """The values of one sample and what was chosen of the text."""
+class Drawing:
+    """The values of one template or clause and what was chosen of the text."""
 
     def __init__(self, bound: Bound, context: Context) -> None:
         self.bound, self.context, self.rng, self.book = bound, context, context.rng, context.book
         self.values: dict[str, Value] = {}
+        self.referred: dict[str, str] = {}
         self._task_values()
         for step in bound.steps:
             if step.call.name == "Grid":
                 self._grid(step.call)
-        self.parts: list[Part] = choose(bound.template.nodes, self.rng, [])
+        given = frozenset(
+            key
+            for key, share in bound.often.items()
+            if self.rng.random() < share or context.linked(bound.sources[key].place)
+        )
+        self.parts: list[Part] = choose(bound.template.nodes, self.rng, [], given)
         first = self.parts[0] if self.parts else ""
         self.small = isinstance(first, str) and first[:1].islower()
         slots = [part for part in self.parts if isinstance(part, Slot)]
@@ -67,7 +76,7 @@ class _Drawing:
         self.chosen = {slot.key for slot in slots if not slot.sign}
         for slot in slots:
             if not slot.sign and slot.key not in self.values:
-                self._draw(slot.key)
+                self.values[slot.key] = self._draw(slot)
 
     # ------------------------------------------------------------ values
 
@@ -79,15 +88,17 @@ class _Drawing:
         for name in sorted(bound.params):
             context.require(name)
             context.used.add(name)
+        shapes = [step.call for step in bound.steps if step.call.name in SHAPES]
         place = context.task.position_parameter
-        unknown = place in context.values and context.unresolved(context.values[place])
-        if place and unknown and (place in bound.located or place not in bound.params):
-            context.values[place] = context.entry.draws[place](self.rng)
-        for step in bound.steps:
-            for argument in step.call.arguments if step.call.name in SHAPES else ():
-                if argument.kind == "param" and argument.name == "count":
-                    draw = DRAWS["Sectors", "count"]
-                    context.values[str(argument.value)] = draw(self.rng)
+        if place in bound.located:
+            context.used.discard(place)
+            context.resolve(place)
+            context.used.add(place)
+        elif shapes or not bound.clause:
+            context.resolve(place)
+        for argument in itertools.chain(*(call.arguments for call in shapes)):
+            if argument.kind == "param" and argument.name == "count":
+                context.values[str(argument.value)] = DRAWS["Sectors", "count"](self.rng)
 
     def _grid(self, call: Call) -> None:
         """Size and spacing that fill each other, in the slots and in the task's parameters."""
@@ -97,7 +108,8 @@ class _Drawing:
         if "axis" in arguments:
             axis = arguments["axis"].value
             if arguments["axis"].kind == "slot":
-                axis = self._draw(str(axis)).value
+                self.values[axis] = self.bound.sources[axis].draw(rng)
+                axis = self.values[axis].value
         for role, size in grid_size(rng, free=axis == "y").items():
             value = length(size, rng) if role != "count" else Value(size, count_text(size, rng))
             argument = arguments.get(role)
@@ -107,38 +119,50 @@ class _Drawing:
                 context.values[str(argument.value)] = value
                 continue
             name = context.entry.links.get(f"lawnmower.{role}")
-            if name and (name in context.values or rng.random() < SPACING):
+            free = name and name not in context.used
+            if name and free and (name in context.values or rng.random() < SPACING):
                 context.values[name] = value
+                context.used.add(name)
 
-    def _draw(self, key: str) -> Value:
+    def _draw(self, slot: Slot) -> Value:
         """A value for the slot: the task's own, now and then, or a new one."""
-        source, sign = self.bound.sources[key], self.bound.signs.get(key)
-        value = self._linked(source) or self._new(key, source)
+        source, sign = self.bound.sources[slot.key], self.bound.signs.get(slot.key)
+        value = self._linked(slot, source) or self._new(slot, source)
         if sign:
             size = abs(value.value)
             said = angle(size, self.rng)
             value = Value(sign * size, said.text, said.short)
-        self.values[key] = value
         return value
 
-    def _linked(self, source: Source) -> Value | None:
-        context = self.context
-        name = context.linked(source.place) if self.rng.random() < LINKED else None
-        if not name or source.several or context.unresolved(context.values[name]):
+    def _linked(self, slot: Slot, source: Source) -> Value | None:
+        """The task's own value; in a clause it may only be referred to."""
+        context, clause = self.context, self.bound.clause
+        name = context.linked(source.place) if clause or self.rng.random() < LINKED else None
+        if not name or source.several:
             return None
-        context.used.add(name)
-        value = context.values[name]
+        value, unresolved = context.values[name], context.unresolved(name)
+        if unresolved and (slot.options or not clause):
+            return None
+        if source.place == "sectors.sectors":
+            value = context.values[name] = source.draw(self.rng)
         if source.place.endswith("delta_yaw"):
-            return rotation(value.value, self.rng) if value.value else None
+            value = rotation(value.value, self.rng)
+        if clause:
+            if unresolved or (
+                not slot.options and name not in context.entry.stated and self.rng.random() < REFER
+            ):
+                self.referred[slot.key] = context.refer(name)
+            elif not value.has(slot.options):
+                return None
+        context.used.add(name)
         return value
 
-    def _new(self, key: str, source: Source) -> Value:
+    def _new(self, slot: Slot, source: Source) -> Value:
         """A value that differs from those of the same kind."""
-        kind = base_of(key)
-        others = [other.value for name, other in self.values.items() if base_of(name) == kind]
+        others = [one.value for key, one in self.values.items() if base_of(key) == slot.base]
         for _ in range(9):
             value = source.draw(self.rng)
-            if value.value not in others:
+            if value.value not in others and (not self.bound.clause or value.has(slot.options)):
                 break
         return value
 
@@ -151,9 +175,9 @@ class _Drawing:
             if isinstance(part, str):
                 pieces.append((part, False))
             elif part.sign == "_":
-                pieces.append((plain(self.context.slots()[f"_{part.key}"]), True))
-            elif part.sign == "param":
-                said = self.context.refer(part.key)
+                pieces.append((self.context.word(part.key), True))
+            elif part.sign == "param" or part.key in self.referred:
+                said = self.referred.get(part.key) or self.context.refer(part.key)
                 follows = pieces and after_article(pieces[-1][0])
                 pieces.append((bare(said) if follows else said, False))
             elif not part.sign:
@@ -181,18 +205,27 @@ class _Drawing:
     def steps(self) -> list[Entry]:
         """The steps of the plan. Raises ValueError when what was chosen makes no plan."""
         everywhere = self.bound.everywhere
-        common = self._beside(everywhere) if everywhere else ([], [])
+        common = self.beside(everywhere) if everywhere else ([], [])
         entries: list[Entry] = []
         for step in self.bound.steps:
             if not step.call.label or step.call.label in self.labels:
                 entries += self._expand(step, common)
         return entries
 
+    def route(self) -> list[Move]:
+        """The movements of a clause. Raises ValueError when lanes do not fill."""
+        return [
+            move
+            for step in self.bound.steps
+            for one in self._moves(step.call)
+            for move in [one, *(self._moves(step.each.call) if step.each else ())]
+        ]
+
     def _expand(self, step: Step, common: tuple[list[Entry], list[Entry]]) -> list[Entry]:
         entries: list[Entry] = []
         moves, vocabulary = self._moves(step.call), self.book.vocabulary
         for number, (name, parameters) in enumerate(moves):
-            own = self._beside(step, number == 0, number == len(moves) - 1)
+            own = self.beside(step, number == 0, number == len(moves) - 1)
             parts = (common, own) if self.bound.front else (own, common)
             filters, perceptions = ([*first, *then] for first, then in zip(*parts, strict=True))
             entries.append(plan_step(name, parameters, filters, perceptions, vocabulary))
@@ -200,7 +233,7 @@ class _Drawing:
                 entries += self._expand(step.each, common)
         return entries
 
-    def _beside(
+    def beside(
         self, step: Step, first: bool = True, last: bool = True
     ) -> tuple[list[Entry], list[Entry]]:
         """Filters and perception skills at this waypoint."""
@@ -215,7 +248,7 @@ class _Drawing:
         )
         return filters, perceptions
 
-    def _moves(self, call: Call) -> Sequence[tuple[str, dict[str, Any]]]:
+    def _moves(self, call: Call) -> Sequence[Move]:
         """Navigation skills with their parameters. Raises ValueError when lanes do not fill."""
         shape = SHAPES.get(call.name)
         if shape is None:

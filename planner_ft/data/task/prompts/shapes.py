@@ -135,6 +135,10 @@ DRAWS: Mapping[tuple[str, str], Draw] = {
     ("Line", "heading"): lambda rng: bearing(draw_bearing(rng), rng),
     ("Sectors", "heading"): lambda rng: bearing(pick((0, 0, 45, 90, 180, 270), rng), rng),
     ("Grid", "start"): _words(*g.CORNERS),
+    ("Grid", "corner"): _words(*g.CORNERS),
+    ("Grid", "compass"): lambda rng: pick(
+        (Value("y", "north-south"), Value("x", "east-west")), rng
+    ),
     ("Square", "start"): _words(*g.SQUARE_STARTS),
     ("Square", "corner"): _words(*(name for name in g.SQUARE_STARTS if "-" in name)),
     ("Square", "side"): _words(*(name for name in g.SQUARE_STARTS if "-" not in name)),
