@@ -9,21 +9,21 @@ from __future__ import annotations
 
 import argparse
 import cProfile
+import gc
 import pstats
 import time
 from collections import defaultdict
 from collections.abc import Callable
 from typing import Any
 
-from planner_ft.data.task import frames, sampler
+from planner_ft.data.task import sampler
 from planner_ft.facts import geometry
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.definition import Vocabulary, load_vocabulary
 
 PARTS: tuple[tuple[str, Any, str], ...] = (
-    ("draw (geometry included)", sampler, "draw_script"),
-    ("phrasing", frames.Speaker, "script"),
-    ("plan", sampler, "expected_plan"),
+    ("put together", sampler, "Prompt"),
+    ("from templates", sampler, "draw_template"),
     ("validation", sampler, "plan_problems"),
     ("geometry", geometry, "survey_square"),
     ("geometry", geometry, "lawnmower"),
@@ -97,6 +97,7 @@ def main() -> None:
     options = parser.parse_args()
     vocabulary = load_vocabulary(options.vocabulary)
     next(sampler.sample_tasks(vocabulary, 0, 1, "train"))  # phrases are compiled once
+    gc.disable()  # as gen-data does
     rate(vocabulary, options.count)
     if options.profile:
         profile(vocabulary, min(options.count, 3000))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -203,13 +204,17 @@ def _sampled(
 ) -> dict[str, list[Record]]:
     splits: dict[str, list[Record]] = {}
     defaults = DEFAULT_COUNTS["task"]
-    for split, asked in settings.counts("task").items():
-        count = asked or defaults[split.removesuffix("_unseen")]
-        records = splits[split] = []
-        for record in sample_tasks(vocabulary, settings.seed, count, split):
-            records.append(record)
-            if len(records) % 100 == 0 or len(records) == count:
-                progress(f"task: {split}", len(records), count)
+    gc.disable()  # Samples have no cycles, and collecting walks thousands of parsed templates.
+    try:
+        for split, asked in settings.counts("task").items():
+            count = asked or defaults[split.removesuffix("_unseen")]
+            records = splits[split] = []
+            for record in sample_tasks(vocabulary, settings.seed, count, split):
+                records.append(record)
+                if len(records) % 100 == 0 or len(records) == count:
+                    progress(f"task: {split}", len(records), count)
+    finally:
+        gc.enable()
     return splits
 
 

@@ -45,13 +45,11 @@ def _slots(template: Template) -> list[str]:
 
 @cache
 def skill_clause(book: Phrasebook, name: str, phrase: str, ing: bool) -> Bound:
-    """The phrase for this skill. Raises PlannerError for a slot that is none of its parameters."""
+    """The phrase for this skill."""
     entry, template = book.skills[name], _template(book, phrase, "", ing)
     skill, bound = entry.skill, Bound(template, clause=True)
     for key in _slots(template):
-        draw = draw_position if key == XY else entry.draws.get(key)
-        if draw is None:
-            raise template.error(f"{name} has no parameter {key}")
+        draw = draw_position if key == XY else entry.draws[key]
         several = key != XY and skill.by_name[key].type == "texts"
         bound.sources[key] = Source(draw, f"{name}.{key}", several)
         bound.often[key] = entry.often.get(key, 1.0)

@@ -141,7 +141,7 @@ class Prompt:
 
     def _extra(self) -> Movement | None:
         roll, motions = self.rng.random(), self.book.motions
-        if roll < 0.1:
+        if roll < 0.06:
             return self._pattern(pick(OTHER, self.rng))
         if roll < 0.35 and "goto" in motions:
             return self._skill(motions["goto"])

@@ -30,6 +30,7 @@ FORMS = {"#": "full", "!": "num", "^": "noun", "+": "way"}
 _FORM = re.compile(r"(?<=\w)[#!^+](?=})")
 _VERB = re.compile(r"~([A-Za-z-]+)")
 _GERUND = {"be": "being", "lie": "lying", "tie": "tying", "begin": "beginning"}
+KINDS = ("phrases", "unseen", "with", "passive")
 SETTINGS = {"values", "links", "often", "stated", "phrases_for", "lead_skill", "openers"}
 """Keys of the phrase file that hold no phrases."""
 
@@ -72,6 +73,13 @@ class SkillEntry:
             item.name: 1.0 if item.required else float(often.get(item.name, 0.5))
             for item in skill.parameters
         }
+        known = {*skill.by_name, "xy"} if skill.motion == "goto" else set(skill.by_name)
+        for phrase in (one for key in KINDS for one in config.get(key, ())):
+            for name in set(_values(parse_phrase(phrase))) - known:
+                raise PlannerError(
+                    f"vocabulary {book.vocabulary.source}: phrase {phrase!r}: {skill.name} has no"
+                    f" parameter {name}"
+                )
         own = (book.unseen and config.get("unseen")) or config.get("phrases")
         self.phrases: dict[str, list[str]] = {
             "": own or [_generic_phrase(skill)],

@@ -4,11 +4,10 @@ import random
 import re
 
 import pytest
-from planner_ft.data.task.frames import Scopes
-from planner_ft.data.task.phrase import finished
 
-from planner_ft.data.task.context import Movement
+from planner_ft.data.task.compose import Movement, Scopes
 from planner_ft.data.task.sampler import sample_tasks
+from planner_ft.data.templates.render import joined
 from planner_ft.vocabulary.definition import load_vocabulary
 
 USV = load_vocabulary("usv")
@@ -25,7 +24,7 @@ def records():
 
 def scope_words(count, chosen, *, numbered=False):
     """Every wording found for the steps `chosen` of so many movements of one step each."""
-    movements = [Movement("hold", [("StationKeep", {})], None)] * count
+    movements = [Movement("hold", None)] * count
     scopes = Scopes(movements, random.Random(5), numbered=numbered)
     return {scopes.words(frozenset(chosen)) for _ in range(600)}
 
@@ -75,11 +74,9 @@ def test_one_skill_can_stand_twice_with_other_parameters(records):
 
 
 def test_articles_fit_what_stands_behind_them():
-    assert (
-        finished("take a image every \x02a minute\x03 in a \x028-second\x03 hold .")
-        == "Take an image every \x02minute\x03 in an \x028-second\x03 hold."
-    )
-    assert finished("a USV, a unit, a one-off, a hold") == "A USV, a unit, a one-off, a hold"
+    pieces = [("take a ", False), ("image every ", False), ("a minute", True), (" in a ", False)]
+    said = joined([*pieces, ("8-second", True), (" hold .", False)])
+    assert said == "Take an image every \x02minute\x03 in an \x028-second\x03 hold."
 
 
 def test_most_answers_are_short(records):

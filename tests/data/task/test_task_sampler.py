@@ -191,7 +191,7 @@ def test_refused_skills_are_not_planned():
     ("phrase", "message"),
     [
         ("~go (to {xy}", "not closed"),
-        ("~go (to {xy}|there)", "same slots"),
+        ("~go to {xy} at {speed}", "no parameter speed"),
         ("~go to the {_castle}", "castle"),
     ],
 )

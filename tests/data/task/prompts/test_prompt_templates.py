@@ -8,7 +8,7 @@ import pytest
 
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.phrasebook import Phrasebook
-from planner_ft.data.task.prompts.binding import bind, bindings
+from planner_ft.data.task.prompts.binding import bind, binding, titles
 from planner_ft.data.task.prompts.draw import draw_template
 from planner_ft.data.templates.grammar import TemplateError
 from planner_ft.data.templates.records import Template, templates
@@ -33,9 +33,10 @@ def samples(source, count=40):
     perceptions).
     """
     rng = random.Random(7)
-    bound = bind(made(source), USV.task[source.partition(" | ")[0]], BOOK)
+    task = USV.task[source.partition(" | ")[0]]
+    bound = bind(made(source), task, BOOK)
     for _ in range(count):
-        context = Context(BOOK, bound.task, rng)
+        context = Context(BOOK, task, rng)
         drawn = draw_template(bound, context)
         if drawn:
             steps = [
@@ -182,15 +183,20 @@ def test_every_line_of_the_vehicle_makes_valid_plans(name):
     vehicle = load_vocabulary(name)
     book = Phrasebook(vehicle, unseen=False)
     lines = list(itertools.chain(*templates(vehicle, "prompts")))
-    titles = {title for line in lines for title in line.tasks}
-    assert {task.title for task in vehicle.tasks} <= titles
+    named = {title for line in lines for title in line.tasks}
+    assert {task.title for task in vehicle.tasks} <= named
     assert {line.split for line in lines} == {"train", "validation", "test"}
     for number, line in enumerate(lines):
-        bounds = bindings(line, book)
+        fitting = [
+            (title, bound)
+            for title in titles(line, vehicle)
+            if (bound := binding(line, title, book))
+        ]
+        assert fitting, line.where
         drawn = []
         for seed in range(3 if number % 5 == 0 else 0):
-            bound = bounds[seed % len(bounds)]
-            context = Context(book, bound.task, random.Random(f"{line.id}{seed}"))
+            title, bound = fitting[seed % len(fitting)]
+            context = Context(book, vehicle.task[title], random.Random(f"{line.id}{seed}"))
             drawn.append(draw_template(bound, context))
         for text, plan, _skills in filter(None, drawn):
             assert "{" not in text, line.where
@@ -204,4 +210,5 @@ def test_a_wrong_record_is_named_by_file_and_line():
         ("KeepStation | Hold. => Hover", "made.jsonl:1: there is no skill Hover"),
     ):
         with pytest.raises(PlannerError, match=message):
-            bindings(made(source), BOOK)
+            template = made(source)
+            binding(template, template.tasks[0], BOOK)
