@@ -61,13 +61,22 @@ def bench(
     suite: Path | None = None,
     processes: Annotated[int, PROCESSES] = 1,
     gate: Path | None = None,
+    field: bool = False,
+    cases: list[Path] | None = None,
     no_report: bool = False,
 ) -> None:
-    """Benchmark candidates, or run a suite or gate file."""
+    """Benchmark candidates, run a suite or gate file, or field cases."""
     named, served = given(locals(), *RUN), given(locals(), *SERVER)
     generation = {"device": device, "batch_size": _batch_size(batch_size), "seed": seed}
     rerun = {"resume": resume, "overwrite": overwrite}
-    if suite is not None:
+    if cases and not field:
+        raise PlannerError(f"{cases[0]}: files stand behind --field; test data is given by --data")
+    if field:
+        from planner_ft.cli.field import check_flags, run_field
+
+        check_flags(named | served | ({"resume": True} if resume else {}))
+        run_field(cases or [], out or Path("eval/runs/field"), named, device, overwrite=overwrite)
+    elif suite is not None:
         _check_file_alone("suite", suite, named | served, ("limit", "latency_samples"))
         flags = generation | named | {"processes": processes}
         _run_suite(suite, out, flags, rerun, report=not no_report)

@@ -6,6 +6,7 @@ the form that grammar compilers take.
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from planner_ft.vocabulary.definition import ROLES, Parameter, Skill, Task, Voca
 from planner_ft.vocabulary.plans import LEVELS, MISSION_KEYS, STEP_KEYS, Level
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
+SHAPES = Path(__file__).parent / "shapes"
 Schema = dict[str, Any]
 
 NON_BLANK: Schema = {"type": "string", "pattern": "\\S"}
@@ -97,6 +99,7 @@ def all_schemas(vocabulary: Vocabulary) -> dict[str, Schema]:
         schemas[f"{level}.strict"] = plan_schema(level, vocabulary, strict=True)
     schemas |= {"record": record_schema(vocabulary), "plan": document_schema(vocabulary)}
     schemas["manifest"] = manifest_schema()
+    schemas["field"] = json.loads(read_text(SHAPES / "field.schema.json"))
     return {f"{name}.schema.json": schema for name, schema in schemas.items()}
 
 
