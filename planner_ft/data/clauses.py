@@ -165,10 +165,9 @@ class Clause(Drawing):
         covered: set[int],
         effect: Effect,
     ) -> bool:
-        skill, titles = self.vocabulary.skill[name], self.template.tasks
+        titles = self.template.tasks
         scope = given.pop("scope", "mission")
         transit = self.vocabulary.transit
-        where, said = given.pop("where", ""), given.pop("say", "")
         places = []
         for place in moving(planned):
             title, home = planned[place].task.title, planned[place].intent.home
@@ -183,19 +182,22 @@ class Clause(Drawing):
                 )
             if fits and (not titles or title in titles):
                 places.append(place)
-        for parameter in skill.parameters:
-            if parameter.type == "texts" and isinstance(given.get(parameter.name), str):
-                given[parameter.name] = [given[parameter.name]]
-        text = said or _demands(self.sampler)[name]
-        for parameter_name, value in given.items():
-            text = text.replace(
-                f"{{{parameter_name}}}",
-                " and ".join(value) if isinstance(value, list) else str(value),
-            )
-        text = f"{text} {where}".rstrip() + "."
+        text, beside = demanded(name, given, self.sampler)
         effect.about.add(name)
-        effect.sentences += [(place, text, (skill.role, name, given)) for place in places]
+        effect.sentences += [(place, text, beside) for place in places]
         return bool(places)
+
+
+def demanded(name: str, given: dict[str, Any], sampler: MissionSampler) -> tuple[str, Beside]:
+    """The sentence of a task prompt that asks for a skill, and the skill with its parameters."""
+    skill, where = sampler.vocabulary.skill[name], given.pop("where", "")
+    text = given.pop("say", "") or _demands(sampler)[name]
+    for parameter in skill.parameters:
+        value = given.get(parameter.name)
+        if parameter.type == "texts" and isinstance(value, str):
+            given[parameter.name] = [value]
+        text = text.replace(f"{{{parameter.name}}}", str(value))
+    return f"{text} {where}".rstrip() + ".", (skill.role, name, given)
 
 
 def moving(planned: Sequence[Planned]) -> list[int]:

@@ -8,7 +8,7 @@ from operator import itemgetter
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.data.clauses import Beside, Clause, Effect
+from planner_ft.data.clauses import Beside, Clause, Effect, demanded
 from planner_ft.data.drawing import Drawing
 from planner_ft.data.mission_binding import CLAUSE
 from planner_ft.data.mission_plan import Intent, Target, label
@@ -70,12 +70,14 @@ class Composer:
 
     def command(self, clauses: int) -> Command:
         """The command with so many clauses, or fewer where none fits."""
+        self._own_demands()
+        own = len(self.effects)
         self._fill_slots()
         for number, drawing in enumerate(self.drawings):
             self.bodies[number] = list(drawing.pieces())
         for _ in range(clauses if len(self.planned) <= MANY else min(clauses, 1)):
             self._add(pick(range(len(self.drawings)), self.rng))
-        return Command(self._text(), *self._plan(), clauses=len(self.effects))
+        return Command(self._text(), *self._plan(), clauses=len(self.effects) - own)
 
     # ------------------------------------------------------------ clauses
 
@@ -89,6 +91,23 @@ class Composer:
                 found = self._clause(own, (slot.kind,), alone=True)
                 if found:
                     drawing.clauses[slot.key], effect = found
+                    self.effects.append((BODY, number, effect))
+
+    def _own_demands(self) -> None:
+        """What the templates themselves ask for beside their tasks."""
+        for number, (drawing, intents) in enumerate(zip(self.drawings, self.intents, strict=True)):
+            for line, intent in zip(drawing.lines, intents, strict=True):
+                for call in line.demands:
+                    if call.label and call.label not in drawing.labels:
+                        continue
+                    given = {argument.name: argument.value for argument in call.arguments}
+                    text, skill = demanded(call.name, given, self.sampler)
+                    places = [
+                        place
+                        for place, item in enumerate(self.planned)
+                        if item.intent is intent and not item.inserted
+                    ]
+                    effect = Effect({call.name}, [], [(place, text, skill) for place in places])
                     self.effects.append((BODY, number, effect))
 
     def _clause(
@@ -108,7 +127,7 @@ class Composer:
             if not fitting:
                 continue
             template = pick(fitting, self.rng)
-            if it is None and "{it}" in template.text:
+            if "{it}" in template.text and (it is None or _open_stand_off(intents)):
                 continue
             clause = Clause(self.sampler, template, self.rng, it)
             effect = clause.effect(self.planned, covered, alone=alone)
@@ -206,6 +225,15 @@ def _target(intents: Sequence[Intent]) -> Target | None:
     found = {intent.target.key: intent.target for intent in intents if intent.target}
     things = [target for target in found.values() if target.description is not None]
     return things[0] if len(found) == 1 and things else None
+
+
+def _open_stand_off(intents: Sequence[Intent]) -> bool:
+    """Whether a task leaves its stand-off open, so that a distance to its target would be that."""
+    return any(
+        name in intent.task.by_name and name not in intent.parameters
+        for intent in intents
+        for name in ("radius", "distance")
+    )
 
 
 def _open(pieces: Sequence[PIECE]) -> tuple[list[PIECE], str]:

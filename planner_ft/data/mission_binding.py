@@ -9,6 +9,7 @@ from typing import Any
 
 from planner_ft.data.templates.grammar import (
     Argument,
+    Call,
     Nodes,
     Slot,
     Step,
@@ -49,6 +50,7 @@ class Line:
     near: str = ""
     part: Nodes = ()
     clauses: tuple[str, ...] = ()
+    demands: tuple[Call, ...] = ()
 
     def slots(self) -> set[str]:
         """The slots of the text that the task needs."""
@@ -75,7 +77,12 @@ def bind(template: Template, vocabulary: Vocabulary, lists: WordLists) -> Bound:
     slots = [slot for slot in every if slot.sign != "?"]
     lines = tuple(_line(step, vocabulary, {slot.key for slot in slots}) for step in template.steps)
     _check_slots(template, slots, lines)
-    asked = {line.label for line in lines if line.label}
+    asked = {
+        label
+        for line in lines
+        for label in (line.label, *(demand.label for demand in line.demands))
+        if label
+    }
     for name in asked ^ {slot.key for slot in every if slot.sign == "?"}:
         raise TemplateError(f"the label ?{name} stands only in the text or only in the plan")
     for title in template.excluded:
@@ -126,17 +133,19 @@ def _check_slots(template: Template, slots: Sequence[Slot], lines: Sequence[Line
 
 def _line(step: Step, vocabulary: Vocabulary, keys: set[str]) -> Line:
     call = step.call
-    if step.filters or step.perceptions or step.each:
-        raise TemplateError(f"{call.name}: a task has no filters and perception skills")
+    if step.filters or step.each:
+        raise TemplateError(f"{call.name}: a task has no filters and nothing behind waypoints")
+    for demand in step.perceptions:
+        if demand.name not in vocabulary.skill:
+            raise TemplateError(f"there is no skill {demand.name}")
     if call.name == HOME:
-        return Line(
-            None, call.label, clauses=tuple(str(argument.value) for argument in call.arguments)
-        )
+        clauses = [str(argument.value) for argument in call.arguments]
+        return Line(None, call.label, clauses=tuple(clauses), demands=step.perceptions)
     task = vocabulary.task.get(call.name)
     if task is None:
         raise TemplateError(f"there is no task {call.name}")
     objects: list[str] = []
-    clauses: list[str] = []
+    clauses = []
     fills: list[Fill] = []
     here, near = False, ""
     part: Nodes = ()
@@ -160,7 +169,17 @@ def _line(step: Step, vocabulary: Vocabulary, keys: set[str]) -> Line:
         raise TemplateError(f"{call.name} has no place: T1, P1, or here")
     if task.title == vocabulary.locate and not any(key[0] == "T" for key in objects):
         raise TemplateError(f"{call.name} needs a target, T1")
-    return Line(task, call.label, tuple(objects), tuple(fills), here, near, part, tuple(clauses))
+    return Line(
+        task,
+        call.label,
+        tuple(objects),
+        tuple(fills),
+        here,
+        near,
+        part,
+        tuple(clauses),
+        step.perceptions,
+    )
 
 
 def _fill(task: Task, argument: Argument, keys: set[str]) -> Fill:

@@ -146,12 +146,31 @@ def test_a_clause_of_one_task_does_not_stand_with_several():
     assert not list(
         with_clause(made, "Survey {T1}, then {T2}.", "SurveyTarget T1; SurveyTarget T2")
     )
-    text, _expected, beside = next(
-        with_clause(clause("never closer than {distance} to {it}", "keep_out it distance"))
+
+
+def test_it_is_the_target_of_a_task_whose_stand_off_is_stated():
+    made = clause("never closer than {distance} to {it}", "keep_out it distance", form="phrase")
+    assert not list(with_clause(made))
+    text, expected, beside = next(
+        with_clause(made, "Survey {T1 located} at {radius}.", "SurveyTarget T1 radius")
     )
-    assert " to it" in text and beside[0][0][2] == {
-        "min_distance": pytest.approx(beside[0][0][2]["min_distance"])
-    }
+    target = expected["tasks"][0]["task_prompt"].split(" around ")[-1]
+    assert " to it" in text and "Keep at least" in target
+    assert beside[0][0][:2] == ("filter", "ObstacleAvoidance")
+
+
+def test_a_command_names_skills_beside_its_tasks():
+    made = Template(
+        "made-1",
+        "train",
+        "Orbit {T1 located} at {radius}(, video on{?v}|).",
+        "PerformOrbit T1 radius &SetStreamRecording?v",
+        "made.jsonl:1",
+    )
+    for seed in range(12):
+        text, expected = mission_sampler(USV).draw(made, random.Random(seed))
+        prompts = [task["task_prompt"].endswith("Record video.") for task in expected["tasks"]]
+        assert prompts == [False, "video on" in plain(text)]
 
 
 def test_places_for_clauses_in_a_command_take_any_that_fits():
