@@ -29,8 +29,10 @@ from planner_ft.decoding.engine import Engine, decoding_threads
 from planner_ft.support.files import compact_json, read_jsonl, write_json
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
+from planner_ft.vocabulary.outputs import parse_output
 from planner_ft.vocabulary.plans import LEVELS, Level
 
+SEED = 77
 SETS = "data/{level}/*.jsonl", "eval/challenge/{level}*.jsonl"
 BOUNDS: dict[Level, tuple[str, int]] = {
     "mission": ("tasks", MOST_TASKS),
@@ -44,7 +46,11 @@ def inputs(level: Level, vocabulary: Vocabulary, sampled: int) -> Iterator[dict[
         for path in sorted(Path().glob(pattern.format(level=level))):
             for number, record in enumerate(read_jsonl(path)):
                 yield {**record, "id": f"{path.stem} {number}"}
-    drawn = sample_missions(77) if level == "mission" else sample_tasks(vocabulary, 77, None, "test")
+    drawn = (
+        sample_missions(SEED)
+        if level == "mission"
+        else sample_tasks(vocabulary, SEED, None, "test")
+    )
     for number, record in enumerate(itertools.islice(drawn, sampled)):
         yield {**record, "id": f"sampled {number}"}
 
@@ -54,11 +60,11 @@ def runs_on(entries: list[Any], level: Level) -> str:
     if len(entries) >= BOUNDS[level][1]:
         return f"{len(entries)} entries"
     moves = [entry if level == "mission" else entry["navigation_skill"] for entry in entries]
-    for bound, digits in ((MOST_SAME, True), (MOST_RUN, False)):
-        texts = (compact_json(move) for move in moves)
-        like = [text if digits else _without_numbers(text) for text in texts]
+    texts = [compact_json(move) for move in moves]
+    turns = [text for text in texts if '"GoToXY"' not in text]
+    for like, bound in ((texts, MOST_SAME), (map(_without_numbers, turns), MOST_RUN)):
         longest = max((len(list(run)) for _text, run in itertools.groupby(like)), default=0)
-        if longest >= bound and not (digits is False and "GoToXY" in like[0]):
+        if longest >= bound:
             return f"{longest} like entries in a row"
     return ""
 
@@ -67,13 +73,16 @@ def _without_numbers(text: str) -> str:
     return "".join("0" if letter in "0123456789.-" else letter for letter in text)
 
 
-def check(engine: Engine, level: Level, strength: str, records: list[Any], size: int) -> Iterator[Any]:
+def check(
+    engine: Engine, level: Level, strength: str, records: list[Any], size: int
+) -> Iterator[dict[str, Any]]:
     """A line for each input: entries of the answer and how it ended."""
     configuration = parse_configuration(f"lora+{strength}")
     queries = [engine.query(level, record) for record in records]
     for index, answer in engine.answers(queries, configuration, batch_size=size):
-        plan, _problem = parse_output(engine.text(answer))
-        entries = (plan or {}).get(BOUNDS[level][0], []) if isinstance(plan, dict) else []
+        plan = parse_output(engine.text(answer)).plan or {}
+        found = plan.get(BOUNDS[level][0])
+        entries = found if isinstance(found, list) else []
         yield {
             "level": level,
             "strength": strength,
@@ -137,8 +146,9 @@ def main() -> None:
     print(*found, sep="\n")
     counts = Counter(f"{line['level']} {line['strength']}" for line in lines)
     again = Counter(f"{line['level']} {line['strength']}" for line in lines if line["alternatives"])
+    configuration = {name: str(value) for name, value in vars(arguments).items()}
     summary = {
-        "manifest": build_manifest("answer_bounds", vars(arguments) | {"out": str(path.parent)}),
+        "manifest": build_manifest("answer_bounds", seed=SEED, configuration=configuration),
         "answers": dict(counts),
         "compared with the free answer": dict(again),
         "violations": found,

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 
 RELEASE = 3.0
 """Nats by which the model must prefer its own value to every one with evidence to keep it."""
+LONGEST_RUN = 16
+"""Tokens in a row, of two kinds at most, behind which an enforced text ends: a small model can write
+"ggg" for ever.
+"""
 LONGEST_FORCED = 31
 """Tokens that must follow and are fed with the choice before them: nothing of them is taken back,
 but for a value that is released.
@@ -100,12 +104,17 @@ class SequenceState:
         if self.sampler is not None:
             allowed = constraint.mask() if constraint else None
             return self.sampler.draw(len(self.ids), logits, allowed)
-        if constraint is None or constraint.admits([best]):
+        if constraint is None:
             return best
-        token = _best_allowed(constraint, logits)
-        doubt = float(logits[best]) - float(logits[token])
-        if doubt > RELEASE and constraint.release(best):
+        latest = {best, *self.ids[-LONGEST_RUN:]}
+        token = constraint.ends_text() if len(latest) <= 2 and len(self.ids) > LONGEST_RUN else None
+        if token is None and constraint.admits([best]):
             return best
+        if token is None:
+            token = _best_allowed(constraint, logits)
+            doubt = float(logits[best]) - float(logits[token])
+            if doubt > RELEASE and constraint.release(best):
+                return best
         self.diverged = len(self.ids) if self.diverged is None else self.diverged
         return token
 

@@ -52,6 +52,9 @@ class Toy:
     def release(self, token: int) -> bool:
         return False
 
+    def ends_text(self) -> None:
+        return None
+
     def accept(self, token: int) -> None:
         if token not in self.allowed():
             raise ValueError(f"{token} is not allowed")

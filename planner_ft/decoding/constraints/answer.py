@@ -87,6 +87,11 @@ class Answer:
             return []
         return self._tokens.spelt(self._ids, self._matcher)[: self._left - self._reserve - 1]
 
+    def ends_text(self) -> int | None:
+        """The token that ends the text that is being written; None where none may."""
+        token = self._tokens.byte['"']
+        return token if self._inside and allows(self.mask(), token) else None
+
     def release(self, token: int) -> bool:
         """Leave the value that is being written to the model, which would go on with `token`, a
         token without evidence. False where more than evidence forbids it.
@@ -142,14 +147,18 @@ class Answer:
     def _hurried(self) -> bool:
         return self._left <= self._reserve
 
+    @property
+    def _inside(self) -> bool:
+        """Whether the answer stands within a text."""
+        return len(QUOTE.findall(self._tokens.text_of(self._ids))) % 2 == 1
+
     def _closing(self, mask: Mask, must_follow: bytes) -> Mask:
         """The part of a mask that leads to the end: the longest way through what must follow, else
         a sign that closes, where one is allowed.
         """
         if must_follow:
             return self._tokens.mask_of((self._tokens.shortest(must_follow)[0],))
-        quotes = len(QUOTE.findall(self._tokens.text_of(self._ids)))
-        for sign in '"' if quotes % 2 else "]},":
+        for sign in '"' if self._inside else "]},":
             token = self._tokens.byte[sign]
             if token is not None and allows(mask, token):
                 return self._tokens.mask_of((token,))
