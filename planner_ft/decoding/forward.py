@@ -61,23 +61,26 @@ PLAIN_LORA = {
 other one set is not plain LoRA.
 """
 NF4_BLOCK, SCALE_BLOCK = 64, 256
-LEVELS = (
-    -1.0,
-    -0.6961928009986877,
-    -0.5250730514526367,
-    -0.39491748809814453,
-    -0.28444138169288635,
-    -0.18477343022823334,
-    -0.09105003625154495,
-    0.0,
-    0.07958029955625534,
-    0.16093020141124725,
-    0.24611230194568634,
-    0.33791524171829224,
-    0.44070982933044434,
-    0.5626170039176941,
-    0.7229568362236023,
-    1.0,
+LEVELS = tuple(
+    float(level)
+    for level in [
+        "-1",
+        "-0.6961928009986877",
+        "-0.5250730514526367",
+        "-0.39491748809814453",
+        "-0.28444138169288635",
+        "-0.18477343022823334",
+        "-0.09105003625154495",
+        "0",
+        "0.07958029955625534",
+        "0.16093020141124725",
+        "0.24611230194568634",
+        "0.33791524171829224",
+        "0.44070982933044434",
+        "0.5626170039176941",
+        "0.7229568362236023",
+        "1",
+    ]
 )
 """The sixteen values of NormalFloat: quantiles of the normal distribution, scaled to [-1, 1]."""
 HALF_TABLE = (2**16 - 1) / 2
@@ -112,15 +115,18 @@ def read_forms(
     layers = [name for name in tensors if name.endswith("_proj.weight")]
     if quantization == "nf4":
         tensors |= {name: rounded_to_nf4(tensors[name]) for name in layers}
-    forms: dict[Level | None, SmallModel | None] = {None: small_model(config, tensors)}
-    for level, path in adapters.items():
-        added = _added(path, layers)
-        merged = {
-            name: (tensors[name].float() + new).to(dtype) for name, new in (added or {}).items()
-        }
-        forms[level] = small_model(config, {**tensors, **merged}) if added else None
-    found = {level: form for level, form in forms.items() if form is not None}
-    return found if len(found) == len(forms) else None
+    forms: dict[Level | None, SmallModel] = {}
+    levels: list[Level | None] = [None, *adapters]
+    for level in levels:
+        added = _added(adapters[level], layers) if level else {}
+        if added is None:
+            return None
+        merged = {name: (tensors[name].float() + new).to(dtype) for name, new in added.items()}
+        form = small_model(config, {**tensors, **merged})
+        if form is None:
+            return None
+        forms[level] = form
+    return forms
 
 
 def _is_supported(config: Mapping[str, Any]) -> bool:
@@ -157,7 +163,7 @@ def _added(folder: Path, layers: Collection[str]) -> dict[str, Tensor] | None:
     if (
         not plain
         or others
-        or set(tensors) != {name + end for name in used.values() for end in (down, up)}
+        or set(tensors) != {one + end for one in used.values() for end in LORA[1:]}
     ):
         return None
     scaling = config["lora_alpha"] / config["r"]
@@ -219,57 +225,55 @@ def small_model(config: Mapping[str, Any], tensors: Mapping[str, Tensor]) -> Sma
     tensors are not those of its configuration.
     """
     sizes = Dimensions.from_config(dict(config))
-    if sizes is None or not _is_supported(config) or not _fits(sizes, tensors):
+    if sizes is None or not _is_supported(config):
         return None
+    left, hidden = dict(tensors), sizes.hidden
+    shapes = dict(zip(PROJECTIONS, sizes.linear_shapes, strict=True))
 
-    def joined(prefix: str, *projections: str) -> Linear:
+    def take(name: str, *shape: int) -> Tensor:
+        found = left.pop(name)
+        if tuple(found.shape) != shape:
+            raise KeyError(name)
+        return found
+
+    def joined(prefix: str, *names: str) -> Linear:
         """Several linear layers on the same input as one."""
-        weights = [tensors[f"{prefix}.{name}.weight"] for name in projections]
-        biases = [tensors.get(f"{prefix}.{name}.bias") for name in projections]
-        if all(bias is None for bias in biases):
-            return torch.cat(weights), None
-        filled = (
-            weight.new_zeros(len(weight)) if bias is None else bias
-            for weight, bias in zip(weights, biases, strict=True)
-        )
-        return torch.cat(weights), torch.cat(list(filled))
+        weights, biases = [], []
+        for name in names:
+            inputs, outputs = shapes[name]
+            weights.append(take(f"{prefix}.{name}.weight", outputs, inputs))
+            biases.append(left.pop(f"{prefix}.{name}.bias", weights[-1].new_zeros(outputs)))
+        return torch.cat(weights), torch.cat(biases) if any(map(torch.any, biases)) else None
 
     def layer(prefix: str) -> Layer:
-        norm, feed_norm = (tensors[f"{prefix}.{name}.weight"].float() for name in NORMS)
+        norm, feed_norm = (take(f"{prefix}.{name}.weight", hidden).float() for name in NORMS)
         qkv, out = joined(prefix, *PROJECTIONS[:3]), joined(prefix, PROJECTIONS[3])
         gate_up, down = joined(prefix, *PROJECTIONS[4:6]), joined(prefix, PROJECTIONS[6])
         return Layer(norm, qkv, out, feed_norm, gate_up, down)
 
-    return SmallModel(
-        tuple(layer(f"model.layers.{index}") for index in range(sizes.layers)),
-        tensors[EMBEDDINGS],
-        tensors[NORM].float(),
-        tensors[EMBEDDINGS if sizes.tied else HEAD],
-        _frequencies(_rope(config), sizes.head_dim),
-        sizes.heads,
-        sizes.kv_heads,
-        sizes.head_dim,
-        config["rms_norm_eps"],
-        sizes.context,
+    try:
+        embeddings = take(EMBEDDINGS, sizes.vocabulary, hidden)
+        head = left.pop(HEAD, None) if sizes.tied else take(HEAD, sizes.vocabulary, hidden)
+        layers = tuple(layer(f"model.layers.{index}") for index in range(sizes.layers))
+        norm = take(NORM, hidden).float()
+    except KeyError:
+        return None
+    return (
+        None
+        if left
+        else SmallModel(
+            layers,
+            embeddings,
+            norm,
+            embeddings if sizes.tied or head is None else head,
+            _frequencies(_rope(config), sizes.head_dim),
+            sizes.heads,
+            sizes.kv_heads,
+            sizes.head_dim,
+            config["rms_norm_eps"],
+            sizes.context,
+        )
     )
-
-
-def _fits(sizes: Dimensions, tensors: Mapping[str, Tensor]) -> bool:
-    """Whether tensors have the names and shapes of these sizes; biases may be missing."""
-    table = (sizes.vocabulary, sizes.hidden)
-    shapes: dict[str, tuple[int, ...]] = {
-        EMBEDDINGS: table,
-        NORM: (sizes.hidden,),
-        **({} if sizes.tied else {HEAD: table}),
-    }
-    optional: dict[str, tuple[int, ...]] = {HEAD: table}
-    for prefix in (f"model.layers.{index}" for index in range(sizes.layers)):
-        shapes |= {f"{prefix}.{name}.weight": (sizes.hidden,) for name in NORMS}
-        for name, (inputs, outputs) in zip(PROJECTIONS, sizes.linear_shapes, strict=True):
-            shapes[f"{prefix}.{name}.weight"] = (outputs, inputs)
-            optional[f"{prefix}.{name}.bias"] = (outputs,)
-    found = {name: tuple(tensor.shape) for name, tensor in tensors.items()}
-    return shapes.items() <= found.items() <= (optional | shapes).items()
 
 
 def _frequencies(rope: Mapping[str, Any], size: int) -> Tensor:
