@@ -116,7 +116,8 @@ def read_forms(
     if quantization == "nf4":
         tensors |= {name: rounded_to_nf4(tensors[name]) for name in layers}
     forms: dict[Level | None, SmallModel] = {}
-    folders: dict[Level | None, Path | None] = {None: None, **adapters}
+    folders: dict[Level | None, Path | None] = {None: None}
+    folders |= {level: path for level, path in adapters.items()}  # noqa: C416
     for name, at in folders.items():
         added = _added(at, layers) if at else {}
         if added is None:

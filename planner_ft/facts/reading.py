@@ -166,7 +166,7 @@ class Facts:
     @functools.cached_property
     def unread(self) -> tuple[str, ...]:
         """Why numbers of the text could not be read with certainty, for an operator."""
-        return tuple(_notes(self.text[:THOROUGH]))
+        return tuple(_notes(without_geographic(self.text)[:THOROUGH]))
 
     @functools.cached_property
     def loose(self) -> tuple[float, ...]:

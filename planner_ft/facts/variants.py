@@ -119,6 +119,12 @@ def _pair(match: re.Match[str]) -> str:
     return match[0] if int(second) == int(first) + 1 or first == "0" else first + second
 
 
+def _span(match: re.Match[str]) -> str:
+    """The seconds between two times of the day, the second one on the next day if need be."""
+    hours, minutes, end, more = (int(match[name]) for name in (1, 2, 3, 4))
+    return f"{((end - hours) * 60 + more - minutes) % (24 * 60) * 60} seconds"
+
+
 def _hundreds(match: re.Match[str]) -> str:
     hundreds, tens, ones = (part.lower() if part else "zero" for part in match.groups())
     return str(int(100 * SMALL[hundreds] + SMALL[tens] + SMALL[ones]))
@@ -139,6 +145,8 @@ ALWAYS: tuple[Rule, ...] = (
     _rule(r"(?<![\w.])\d+(?:\.\d+)?e\+?\d{1,2}(?!\w)", lambda found: f"{float(found[0]):.2f}"),
     _rule(rf"(?<![\w-])({_SAID})-({_SAID})(?![\w-])", _pair),
     _rule(rf"\b({_SAID})-(?=(?:{_SAID})\b)", lambda found: f"{found[1]} "),
+    _rule(r"\bright[ -]angles?\b", lambda _: "rightangle"),
+    _rule(rf"\bevery other (?=(?:{_LONG_UNITS})\b)", lambda _: "every two "),
     # A tree is a tree where neither a digit nor a unit follows.
     _rule(
         rf"\b({'|'.join(PRONOUNCED)})(?= (?:{_SAID}|[a-z]*(?:metres?|meters?|minutes?|seconds?"
@@ -150,6 +158,8 @@ ALTERNATIVES: tuple[Rule, ...] = (
     _rule(r"(?<![\d.,])\d{1,3}(?:,\d{3})+(?![\d.])", lambda found: found[0].replace(",", "")),
     _rule(r"(?<![\d:])(\d{1,3}):([0-5]\d)(?![\d:])", lambda m: f"{m[1]} minutes {m[2]} seconds"),
     _rule(r"(?<![\d:])(\d{1,3}):([0-5]\d)(?![\d:])", lambda m: f"{m[1]} hours {m[2]} minutes"),
+    # "From 11:10 to 11:30" are twenty minutes.
+    _rule(r"(?<![\d:])(\d{1,2}):([0-5]\d)\b\D{1,9}\b(\d{1,2}):([0-5]\d)(?![\d:])", _span),
     # "33w 15s" are coordinates and no seconds.
     _rule(
         r"(?<=\d)(\s?)s(?![a-z])(?=\W{1,5}\d+(?:\.\d+)?\s?[ew](?![a-z]))"

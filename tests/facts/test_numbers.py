@@ -237,3 +237,18 @@ def test_a_dash_can_be_a_minus(text: str, value: float) -> None:
 def test_nothing_else_is_a_number(text: str) -> None:
     with pytest.raises(ValueError, match="could not convert"):
         signed(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "value", "unit"),
+    [
+        ("hold from 11:10 to 11:30", 1200, "s"),
+        ("between 23:50 and 00:20 keep station", 1800, "s"),
+        ("a still every other minute", 120, "s"),
+        ("turn half a right angle to port", 45, "deg"),
+        ("turn through a right angle", 90, "deg"),
+        ("two right angles", 180, "deg"),
+    ],
+)
+def test_values_that_words_stand_for(text: str, value: float, unit: str) -> None:
+    assert states(text, value, unit) in ("stated", "converted", "derived")

@@ -136,3 +136,10 @@ def test_bearings(text: str, angles: list[float]) -> None:
 )  # fmt: skip
 def test_turns(text: str, angle: float) -> None:
     assert any(turn.value == pytest.approx(angle) for turn in read(text).turns)
+
+
+def test_degrees_with_minutes_and_seconds_are_read_whole() -> None:
+    facts = read("go to 54°19'18\"N 10°08'30\"E")
+    (place,) = facts.geographic
+    assert (place.latitude, place.longitude) == pytest.approx((54.321667, 10.141667))
+    assert facts.unread == () and facts.positions == ()
