@@ -42,13 +42,18 @@ def task(
 
 
 def document(
-    tasks: Sequence[dict[str, Any]], vocabulary: Vocabulary = USV, *, command: str = "Do it."
+    tasks: Sequence[dict[str, Any]],
+    vocabulary: Vocabulary = USV,
+    *,
+    command: str = "Do it.",
+    constraints: Sequence[str] = (),
+    **planned_as: Any,
 ) -> PlanDocument:
     """The document of a command that was planned as `tasks`."""
     entries = [
         {key: value for key, value in entry.items() if key != "skill_sequence"} for entry in tasks
     ]
-    plan = {"tasks": entries, "assumptions": [], "constraints": []}
+    plan = {"tasks": entries, "assumptions": [], "constraints": [*constraints]}
     waiting = {
         number: place.name for place in open_places(plan, vocabulary) for number in place.tasks
     }
@@ -65,9 +70,8 @@ def document(
         "plan", seed=None, configuration={}, agents={"mission": {"candidate": "embedded"}}
     )
     answer = Answer("", plan, (), (), 1, 1, 1, 1.0)
-    return build(
-        Planned(command, answer, tuple(planned), (), {}, {"mission": use}, 1, manifest), vocabulary
-    )
+    what = command, answer, tuple(planned), (), {}, {"mission": use}, 1, manifest
+    return build(Planned(*what, **planned_as), vocabulary)
 
 
 def _answer(steps: list[dict[str, Any]] | None) -> Answer | None:

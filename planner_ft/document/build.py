@@ -11,6 +11,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
+from planner_ft.document.clearance import cleared
+from planner_ft.document.limits import carried, with_words
 from planner_ft.document.ontology import check
 from planner_ft.document.sources import sources
 from planner_ft.document.track import estimate, track
@@ -59,13 +61,19 @@ def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = No
         **({"structures": _structures(planned.chart)} if planned.chart else {}),
         **proposal,
         **_problems(planned.mission),
-        "proposed": copy.deepcopy(proposal),
         "edits": [],
         "usage": {agent: asdict(use) for agent, use in planned.usage.items()},
         "peak_memory_bytes": planned.peak_memory,
         "manifest": planned.manifest,
     }
+    tasks = made_safe(document, vocabulary)
+    document |= {"tasks": tasks, "proposed": copy.deepcopy({**proposal, "tasks": tasks})}
     return revise(document, vocabulary)
+
+
+def made_safe(document: PlanDocument, vocabulary: Vocabulary) -> list[dict[str, Any]]:
+    """The tasks with the filters of the plan's limits, and clear of structures."""
+    return cleared({**document, "tasks": carried(document, vocabulary)}, vocabulary)
 
 
 def _task(number: int, task: PlannedTask) -> dict[str, Any]:
@@ -106,7 +114,7 @@ def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
             questions.append(text)
     valid = not any("problems" in part for part in (document, *tasks))
     revised = {
-        **document,
+        **{key: value for key, value in document.items() if key != "limits"},
         "tasks": tasks,
         "valid": valid,
         "complete": valid
@@ -116,6 +124,8 @@ def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
         "open_places": [{"name": place.name, "tasks": list(place.tasks)} for place in places],
         "ontology": check(document["command"], vocabulary),
     }
+    if limits := with_words(revised, vocabulary):
+        revised["limits"] = limits
     for task, found in zip(tasks, sources(revised, vocabulary), strict=True):
         task["sources"] = found
     path = track(revised, vocabulary)

@@ -13,6 +13,7 @@ from typing import Any
 from planner_ft.document.build import (
     PlanDocument,
     altered,
+    made_safe,
     places_of,
     revise,
     tasks_at,
@@ -170,6 +171,8 @@ def _skills(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
         task["defaults"] = {**task.get("defaults", {}), name: value}
     if edit.get("added"):
         task["added"] = edit["added"]
+    index = document["tasks"].index(task)
+    document["tasks"][index] = made_safe(document, vocabulary)[index]
 
 
 def _skill(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:

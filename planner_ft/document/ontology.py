@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.language import Clause, Language, language, read_clauses
-from planner_ft.facts import Span, pieces
+from planner_ft.facts import Position, Span, pieces
 from planner_ft.facts.places import read_positions
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.schema import ELEMENTS
@@ -82,6 +82,22 @@ def _targets(command: str, spoken: Language) -> Iterator[Span]:
         ]
         here = [match.span() for match in spoken.words["here"].finditer(text)]
         yield from ((start + offset, end + offset) for start, end in (*named, *places, *here))
+
+
+def named_places(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Position]]:
+    """(words, position) of things beside certain positions: no waypoints and other places."""
+    spoken = language(vocabulary)
+    named = sorted([*_noun_phrases(text, spoken), *_names(text, spoken)])
+    for place in read_positions(text):
+        start = _before(text, place.start, named)
+        words = next((text[one:end] for one, end in reversed(named) if one == start), "")
+        if place.certain and words and is_thing(words, vocabulary):
+            yield words, place
+
+
+def is_thing(words: str, vocabulary: Vocabulary) -> bool:
+    """Whether a noun phrase names a thing in the water, and not a place of it."""
+    return not language(vocabulary).words["water"].search(words)
 
 
 def _noun_phrases(text: str, spoken: Language) -> Iterator[Span]:

@@ -84,7 +84,7 @@ class Track:
 def track(document: Mapping[str, Any], vocabulary: Vocabulary) -> Track:
     """The track of a plan document."""
     tasks: Sequence[TaskEntry] = document["tasks"]
-    pen = _Pen(vocabulary, document.get("vehicle") or {})
+    pen = Pen(vocabulary, document.get("vehicle") or {})
     for task in tasks:
         pen.draw(task)
     circles, boundaries = _circles(tasks, vocabulary), _boundaries(tasks, vocabulary)
@@ -109,7 +109,7 @@ def place_of(task: TaskEntry, vocabulary: Vocabulary) -> Point | None:
     return None if value is None or tuple(value) == vocabulary.unresolved else _point(value)
 
 
-class _Pen:
+class Pen:
     """Draws tasks from `here` (None: not known), with `heading` in degrees from north."""
 
     def __init__(self, vocabulary: Vocabulary, vehicle: Mapping[str, Any]) -> None:
@@ -124,27 +124,32 @@ class _Pen:
 
     def draw(self, task: TaskEntry) -> None:
         """Add the legs of a task, or note that it is open."""
+        self.begin(task)
         known, place = self.vocabulary.task.get(task["title"]), place_of(task, self.vocabulary)
-        speeds = [item.name for item in (known.parameters if known else ()) if item.unit == "m/s"]
-        stated = [task["parameters"].get(name) for name in speeds]
-        self._speed = next(filter(None, stated), self.vehicle.get("cruise_speed"))
-        self._center = place if self.vocabulary.motion.standoff(task["title"]) else None
-        self._at = (task["id"], 0, "")
         if is_open(task, self.vocabulary):
             self._leave_open()
             self.here = None
         elif task.get("skill_sequence") is not None:
             for number, step in enumerate(task["skill_sequence"]):
-                skill = step["navigation_skill"]
-                self._at = (task["id"], number, skill["name"])
-                self._draw_skill(skill)
+                self.step(number, step["navigation_skill"])
         elif known and known.pattern == "goto" and place is not None:
             self._go(place)
         else:
             self._leave_open()
             self.here = None if known is None or known.leaves else place or self.here
 
-    def _draw_skill(self, skill: Mapping[str, Any]) -> None:
+    def begin(self, task: TaskEntry) -> None:
+        """Take over the speed and the centre of a task."""
+        known, place = self.vocabulary.task.get(task["title"]), place_of(task, self.vocabulary)
+        speeds = [item.name for item in (known.parameters if known else ()) if item.unit == "m/s"]
+        stated = [task["parameters"].get(name) for name in speeds]
+        self._speed = next(filter(None, stated), self.vehicle.get("cruise_speed"))
+        self._center = place if self.vocabulary.motion.standoff(task["title"]) else None
+        self._at = (task["id"], 0, "")
+
+    def step(self, number: int, skill: Mapping[str, Any]) -> None:
+        """Add the leg of a navigation skill, in the step of this number (from 0)."""
+        self._at = (self._at[0], number, skill["name"])
         motion, given = self.vocabulary.motion.of(skill["name"]), skill["parameters"]
         if motion is None:
             self._leave_open()

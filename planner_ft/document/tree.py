@@ -34,7 +34,7 @@ def _lines(document: PlanDocument) -> Iterator[str]:
         places.append(f"{place['name']}: task{'s' * (len(place['tasks']) > 1)} {numbers}")
     sections = {
         "Assumptions": document["assumptions"],
-        "Constraints": document["constraints"],
+        "Constraints": list(constraint_lines(document)),
         "Questions (answer in the command, or in the review as TASK.PARAMETER=VALUE)": [
             *document.get("questions", ())
         ],
@@ -47,6 +47,17 @@ def _lines(document: PlanDocument) -> Iterator[str]:
     for agent, use in document["usage"].items():
         yield f"{agent.capitalize()} Agent  {_use(use)}"
     yield f"peak memory {memory_size(document['peak_memory_bytes'])}"
+
+
+def constraint_lines(document: PlanDocument) -> Iterator[str]:
+    """The constraints; limits with the words that they came from and what keeps them."""
+    limits = {limit["text"]: limit for limit in document.get("limits", ())}
+    for text in document["constraints"]:
+        limit = limits.get(text, {})
+        notes = [f'from "{limit["words"]}"'] if "words" in limit else []
+        notes += [f"kept by {limit['filter']}"] if "filter" in limit else []
+        notes += [f"not checked: {limit['unchecked']}"] if "unchecked" in limit else []
+        yield f"{text} ({'; '.join(notes)})" if notes else text
 
 
 def task_tree(document: PlanDocument) -> Iterator[str]:
@@ -79,7 +90,9 @@ def _task_lines(number: int, task: dict[str, Any]) -> Iterator[str]:
         # The navigation skill, filters after "|", what gathers data after "+".
         used = step_skills(step)
         skills = [SIGNS[role] + call(skill["name"], skill["parameters"]) for role, skill in used]
-        yield f"{INDENT}{place:2d}. {''.join(skills)}"
+        marks = [mark["kind"] for mark in task.get("added", ()) if mark["step"] == place - 1]
+        kinds = "".join(f"  ({kind})" for kind in dict.fromkeys(marks) if kind != "vehicle")
+        yield f"{INDENT}{place:2d}. {''.join(skills)}{kinds}"
     yield from (f"{INDENT}({note})" for note in task.get("assumptions", ()))
 
 

@@ -13,7 +13,15 @@ from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import VEHICLE
 from planner_ft.vocabulary.plans import is_number, is_position
 
-UNITS = {"cruise_speed": "m/s", "endurance": "s", "turn_rate": "deg/s", "orbit_angle": "degrees"}
+UNITS = {
+    "cruise_speed": "m/s",
+    "endurance": "s",
+    "turn_rate": "deg/s",
+    "orbit_angle": "degrees",
+    "stand_off": "m",
+}
+STAND_OFF = 10.0
+"""Metres kept from a structure where nothing else is said."""
 LARGEST = 1e9
 FULL_CIRCLE = 360
 
@@ -22,7 +30,8 @@ FULL_CIRCLE = 360
 class Vehicle:
     """Speed in m/s, endurance in s, turn rate in degrees/s, `area` in metres (None: anywhere).
 
-    `orbit_angle` (degrees) is how far the vehicle goes round a target by default.
+    `orbit_angle` (degrees) is how far the vehicle goes round a target by default, `stand_off`
+    (metres) what it keeps from structures.
     """
 
     name: str
@@ -31,6 +40,7 @@ class Vehicle:
     turn_rate: float
     orbit_angle: float
     area: tuple[tuple[float, float], ...] | None = None
+    stand_off: float = STAND_OFF
 
     def as_json(self) -> dict[str, Any]:
         """The profile as it stands in a plan document."""
@@ -50,7 +60,7 @@ def load_vehicle(path: Path | str | None, vocabulary: Vocabulary) -> Vehicle:
     except tomllib.TOMLDecodeError as error:
         raise PlannerError(f"{path}: not TOML: {error}") from None
     try:
-        return _built({"orbit_angle": FULL_CIRCLE, **own, **raw})
+        return _built({"orbit_angle": FULL_CIRCLE, "stand_off": STAND_OFF, **own, **raw})
     except PlannerError as error:
         raise PlannerError(f"{where}: {error}") from None
 

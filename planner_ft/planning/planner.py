@@ -11,6 +11,7 @@ from typing import Any
 from planner_ft.planning.agents import Agents, Progress, silent
 from planner_ft.planning.essentials import asked, missing_defaults, with_defaults, with_essentials
 from planner_ft.planning.frame import agents_frame
+from planner_ft.planning.limits import with_limits, without_limits
 from planner_ft.planning.locations import (
     OpenPlace,
     Position,
@@ -95,7 +96,8 @@ class Planner:
         frame = agents_frame(command, origin)
         mission = self._mission(frame.spoken)
         if mission.plan is not None:
-            mission = replace(mission, plan=frame.restored(mission.plan, self.vocabulary))
+            told = frame.restored(mission.plan, self.vocabulary)
+            mission = replace(mission, plan=with_limits(told, self.vocabulary))
         tasks: tuple[PlannedTask, ...] = ()
         places: list[OpenPlace] = []
         located = {}
@@ -131,7 +133,8 @@ class Planner:
         self.agents.load("task")
         filled = with_defaults(task, self.vocabulary)
         record = {"task": task["title"], "parameters": filled["parameters"]}
-        answer = self.agents.ask("task", {**record, "prompt": task["task_prompt"]})
+        prompt = without_limits(task["task_prompt"], self.vocabulary)
+        answer = self.agents.ask("task", {**record, "prompt": prompt})
         if answer.plan is None:
             return answer
         steps = answer.plan["skill_sequence"]

@@ -37,13 +37,14 @@ class LimitKind:
     """The sentences of a kind, and the filter skill that keeps it.
 
     The first sentence whose values are all given is written; `parameters` of the filter by the
-    name of the limit's value that they take.
+    name of the limit's value that they take; `forbids` are skills that break it.
     """
 
     sentences: tuple[str, ...]
     prompts: tuple[str, ...]
     filter: str | None = None
     parameters: Mapping[str, str] = field(default_factory=dict)
+    forbids: tuple[str, ...] = ()
 
     @functools.cached_property
     def readers(self) -> tuple[re.Pattern[str], ...]:
@@ -145,6 +146,7 @@ def _kind(kind: str, entry: Mapping[str, Any], vocabulary: Vocabulary) -> LimitK
         tuple(entry.get("prompts", ())),
         entry.get("filter"),
         entry.get("parameters", {}),
+        tuple(entry.get("forbids", ())),
     )
     used = {name for form in (*made.sentences, *made.prompts) for name in slots(form)}
     if unknown := used - READ.keys():
@@ -155,4 +157,6 @@ def _kind(kind: str, entry: Mapping[str, Any], vocabulary: Vocabulary) -> LimitK
     skill = vocabulary.skill.get(made.filter) if made.filter else None
     if made.filter and (skill is None or made.parameters.keys() - skill.by_name.keys()):
         raise PlannerError(f"{where}: {made.filter} is no skill with these parameters")
+    if unknown := {*made.forbids} - vocabulary.skill.keys():
+        raise PlannerError(f"{where}: forbids {', '.join(sorted(unknown))}, which is no skill")
     return made

@@ -7,6 +7,7 @@ from typing import Any
 
 from planner_ft.document.track import Track
 from planner_ft.document.warnings.command import command_warnings
+from planner_ft.document.warnings.limits import limit_warnings
 from planner_ft.document.warnings.route import order_warnings, range_warnings, space_warnings
 from planner_ft.document.warnings.values import value_warnings
 from planner_ft.document.warnings.warning import KINDS, NOTES, SERIOUS, Warning, named, warning
@@ -22,6 +23,7 @@ def warnings(document: Mapping[str, Any], vocabulary: Vocabulary, path: Track) -
     document = {**document, "tasks": tasks}
     found = [
         *_answer_warnings(document),
+        *limit_warnings(document, path, vocabulary),
         *order_warnings(document, vocabulary),
         *space_warnings(document, path, vocabulary),
         *range_warnings(document, path, vocabulary),

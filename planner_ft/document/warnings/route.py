@@ -12,6 +12,7 @@ from planner_ft.document.language import language, read_clauses
 from planner_ft.document.track import Leg, Point, TaskEntry, Track, place_of
 from planner_ft.document.warnings.warning import Warning, named, warning
 from planner_ft.facts.places import read_geographic, read_positions
+from planner_ft.planning.limits import without_limits
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.replay import START, Condition, stops
 
@@ -61,7 +62,10 @@ def _elsewhere(tasks: list[TaskEntry], vocabulary: Vocabulary) -> Iterator[tuple
     """(index, reason) of tasks at a place of their prompt that no task before goes to."""
     progress, transit = START, vocabulary.transit
     for index, task in enumerate(tasks):
-        known, text = vocabulary.task[task["title"]], task["task_prompt"]
+        known, text = (
+            vocabulary.task[task["title"]],
+            without_limits(task["task_prompt"], vocabulary),
+        )
         places = [(place.x, place.y) for place in read_positions(text) if place.certain]
         if known.arrival == "transit" and places and progress.here not in places:
             x, y = places[0]
@@ -119,9 +123,17 @@ def _boundaries(
     document: Mapping[str, Any], path: Track, vocabulary: Vocabulary
 ) -> Iterator[tuple[str, int | None, Any]]:
     """(task, step or None for all, polygon) of filter skills, task parameters and constraints."""
+    fences = [
+        [tuple(map(float, corner)) for corner in limit["values"]["polygon"]]
+        for limit in document.get("limits", ())
+        if "polygon" in limit["values"]
+    ]
     for boundary in path.boundaries:
-        yield boundary.task, boundary.step, _polygon(boundary.polygon)
-    plan = [corners for text in document.get("constraints", ()) for corners in _corners(text)]
+        if list(boundary.polygon) not in fences:
+            yield boundary.task, boundary.step, _polygon(boundary.polygon)
+    limits = {limit["text"] for limit in document.get("limits", ())}
+    texts = [text for text in document.get("constraints", ()) if text not in limits]
+    plan = [corners for text in texts for corners in _corners(text)]
     for task in document["tasks"]:
         parameters = vocabulary.task[task["title"]].parameters
         own = [task["parameters"].get(item.name) for item in parameters if item.type == "polygon"]

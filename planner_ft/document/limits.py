@@ -1,0 +1,141 @@
+"""Limits of a plan: what they hold for, the words that they came from, and the filters they are.
+
+They are the canonical sentences among the plan's constraints (planner_ft.vocabulary.limits).
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from planner_ft.document.language import read_clauses
+from planner_ft.facts import WAYPOINT, Facts, Span, read
+from planner_ft.planning.frame import frame_of
+from planner_ft.planning.limits import limits_in
+from planner_ft.vocabulary import Parameter, Vocabulary
+from planner_ft.vocabulary.limits import Limit, Limits, load_limits
+
+UNITS = {"distance": "m", "speed": "m/s", "duration": "s"}
+MOVING = ("go", "arc", "drift")
+"""Motions in which a filter has something to do."""
+
+
+def limits_of(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[str, Any]]:
+    """The limits of a plan document as its key `limits` has them, without the words."""
+    known = load_limits(vocabulary)
+    found = limits_in(list(document.get("constraints", ())), known)
+    everywhere = list(range(1, len(document["tasks"]) + 1))
+    return [_entry(limit, known, everywhere) for limit in found]
+
+
+def with_words(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[str, Any]]:
+    """The limits of a plan document, each with the words of the command that it came from."""
+    frame = frame_of(document)
+    found = limits_of(document, vocabulary)
+    for limit in found:
+        span = _words(limit, frame.spoken, vocabulary)
+        if span:
+            start, end = frame.span(*span)
+            limit["spans"] = [[start, end]]
+            limit["words"] = document["command"][start:end]
+    return found
+
+
+def _entry(limit: Limit, known: Limits, tasks: list[int]) -> dict[str, Any]:
+    kind = known[limit.kind]
+    entry = {"kind": limit.kind, "values": limit.values, "text": limit.text, "tasks": tasks}
+    entry |= {"filter": kind.filter} if kind.filter else {}
+    place = "position" in limit.values or "object" not in limit.values
+    if limit.kind == "return":
+        entry["unchecked"] = "the plan has no time of day"
+    elif not place:
+        entry["unchecked"] = f"where {limit.values['object']} is, is not known"
+    return entry
+
+
+def _words(limit: Mapping[str, Any], command: str, vocabulary: Vocabulary) -> Span | None:
+    """The clauses of the command that have the values of a limit."""
+    facts = read(command)
+    spans = list(_mentions(limit["values"], facts))
+    if not spans:
+        return None
+    first, last = min(start for start, _end in spans), max(end for _start, end in spans)
+    clauses = read_clauses(command, vocabulary)
+    start = max((one.start for one in clauses if one.start <= first), default=first)
+    end = min((one.end for one in clauses if one.end >= last), default=last)
+    text = command[start:end]
+    return start + len(text) - len(text.lstrip(" ,;")), end - (len(text) - len(text.rstrip(" ,;")))
+
+
+def _mentions(values: Mapping[str, Any], facts: Facts) -> Iterator[Span]:
+    for name, value in values.items():
+        if name in UNITS:
+            yield from facts.evidence(value, Parameter(name, "number", UNITS[name])).spans[:1]
+        elif name == "position":
+            yield from facts.evidence(value, WAYPOINT).spans[:1]
+        elif name == "polygon":
+            for corner in value:
+                yield from facts.evidence(corner, WAYPOINT).spans[:1]
+        elif (at := facts.text.casefold().find(value.casefold())) >= 0:
+            yield at, at + len(value)
+
+
+# ---------------------------------------------------------------- filters
+
+
+def carried(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[str, Any]]:
+    """The tasks of a plan with every limit that has a filter in each step that moves."""
+    known = load_limits(vocabulary)
+    limits = [limit for limit in limits_of(document, vocabulary) if "filter" in limit]
+    tasks: list[dict[str, Any]] = list(document["tasks"])
+    if not limits:
+        return tasks
+    done = []
+    for task in tasks:
+        steps, marks = copy.deepcopy(task.get("skill_sequence")), list(task.get("added", ()))
+        for number, step in enumerate(steps or ()):
+            if moves(step, vocabulary) and not task.get("stale"):
+                for limit in limits:
+                    marks += _filter(number, step, limit, known, vocabulary)
+        entry = {**task, "skill_sequence": steps}
+        done.append({**entry, "added": marks} if marks else entry)
+    return done
+
+
+def moves(step: Mapping[str, Any], vocabulary: Vocabulary) -> bool:
+    """Whether a step moves the vehicle."""
+    motion = vocabulary.motion.of(step["navigation_skill"]["name"])
+    return motion is not None and motion.kind in MOVING
+
+
+def _filter(
+    number: int,
+    step: dict[str, Any],
+    limit: Mapping[str, Any],
+    known: Limits,
+    vocabulary: Vocabulary,
+) -> Iterable[dict[str, Any]]:
+    """Have a step keep a limit by its filter; the mark where that changes it."""
+    kind, name = known[limit["kind"]], limit["filter"]
+    given = {own: limit["values"][value] for own, value in kind.parameters.items()}
+    mark = {"step": number, "role": "filter", "name": name, "kind": "limit", "note": limit["text"]}
+    standing = [own for own in step["filter_skills"] if own["name"] == name]
+    for own in standing:
+        if all(_keeps(own["parameters"].get(key), value) for key, value in given.items()):
+            return []
+        if not given.keys() & own["parameters"].keys():
+            own["parameters"] |= copy.deepcopy(given)
+            return [{**mark, "parameter": key} for key in given]
+    step["filter_skills"].append({"name": name, "parameters": copy.deepcopy(given)})
+    text = vocabulary.skill[name].failure
+    if text and text not in step["failure_modes"]:
+        step["failure_modes"].append(text)
+    return [mark]
+
+
+def _keeps(own: Any, value: Any) -> bool:
+    """Whether a filter's value is as strict as the limit: the same, or a greater distance."""
+    if isinstance(own, (int, float)) and isinstance(value, (int, float)):
+        return own >= value
+    return bool(own == value)

@@ -1,0 +1,50 @@
+"""Limits between the two agents: into every task prompt that lacks them, and not to the Task Agent.
+
+A limit of the mission holds for all of its tasks. The Task Agent is not asked for it: planning
+carries it into the steps as a filter (planner_ft.document.limits).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.limits import Limit, Limits, load_limits, prompt_sentence, read_limit
+
+SENTENCE = re.compile(r"(?<=\.)\s+(?=[A-Z])")
+
+
+def limits_in(texts: list[str], limits: Limits) -> list[Limit]:
+    """The limits of sentences, each once."""
+    found: list[Limit] = []
+    for limit in (read_limit(text, limits) for text in texts):
+        if limit and not any(_same(limit, other) for other in found):
+            found.append(limit)
+    return found
+
+
+def with_limits(plan: Mapping[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
+    """The mission plan with its limits in the prompts of all tasks."""
+    limits = load_limits(vocabulary)
+    constraints = list(plan.get("constraints", ()))
+    stated = limits_in(constraints, limits)
+    tasks = []
+    for task in plan["tasks"]:
+        own = limits_in(SENTENCE.split(task["task_prompt"]), limits)
+        missing = [limit for limit in stated if not any(_same(limit, one) for one in own)]
+        added = [prompt_sentence(limit.kind, limit.values, limits) for limit in missing]
+        tasks.append({**task, "task_prompt": " ".join([task["task_prompt"], *added])})
+    return {**plan, "tasks": tasks}
+
+
+def without_limits(prompt: str, vocabulary: Vocabulary) -> str:
+    """A task prompt without the sentences that are limits."""
+    limits = load_limits(vocabulary)
+    kept = [text for text in SENTENCE.split(prompt) if read_limit(text, limits) is None]
+    return " ".join(kept) or prompt
+
+
+def _same(one: Limit, other: Limit) -> bool:
+    return (one.kind, one.values) == (other.kind, other.values)

@@ -1,0 +1,128 @@
+"""Ways end at the stand-off of structures and lead round them."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import pytest
+
+from planner_ft.document import apply
+from planner_ft.document.clearance import structures, way_off, way_round
+from planner_ft.document.track import track
+from tests.documents import USV, document, step, task
+
+MAST = [250, -80]
+
+
+def go(x: float, y: float) -> dict[str, Any]:
+    return step("GoToXY", {"x": x, "y": y})
+
+
+def transit(x: float, y: float, prompt: str = "Go there.") -> dict[str, Any]:
+    return task("Transit", {"target_position": [x, y]}, [go(x, y)], prompt)
+
+
+def orbit(arc: float = 360) -> dict[str, Any]:
+    turn = step("ArcTurn", {"radius": 40, "delta_yaw": arc})
+    return task("PerformOrbit", {"center": MAST, "radius": 40, "arc": arc}, [turn])
+
+
+def nearest(plan: dict[str, Any], place: list[float]) -> float:
+    legs = [leg.points for leg in track(plan, USV).legs if len(leg.points) > 1]
+    pairs = itertools.chain.from_iterable(map(itertools.pairwise, legs))
+    return min(way_off((place[0], place[1]), *pair) for pair in pairs)
+
+
+def waypoints(plan: dict[str, Any]) -> list[list[float]]:
+    steps = [one for entry in plan["tasks"] for one in entry["skill_sequence"]]
+    skills = [one["navigation_skill"] for one in steps]
+    return [[*own["parameters"].values()] for own in skills if own["name"] == "GoToXY"]
+
+
+def kinds(plan: dict[str, Any]) -> list[str]:
+    return [item["kind"] for item in plan["warnings"]]
+
+
+@pytest.mark.parametrize("arc", [360, 180, 90, -180])
+def test_an_orbit_is_entered_on_its_circle_and_left_round_it(arc: float) -> None:
+    plan = document([transit(*MAST), orbit(arc), transit(0, 0)])
+    assert nearest(plan, MAST) >= 39
+    assert waypoints(plan)[0] == [211.9, -67.8]
+    assert waypoints(plan)[-1] == [0, 0]
+    assert plan["tasks"][0]["parameters"]["target_position"] == MAST
+    assert plan["tasks"][0]["added"][0]["kind"] == "clearance"
+    assert "structure-close" not in kinds(plan)
+    assert "skill-value-not-said" not in kinds(plan)
+
+
+def test_a_thing_that_the_prompt_names_has_the_vehicles_standoff() -> None:
+    plan = document([transit(60, 0, "Go to the green buoy at [60, 0]."), transit(100, 0)])
+    assert waypoints(plan)[0] == [50, 0]
+    assert nearest(plan, [60, 0]) >= 9.5
+    assert waypoints(plan)[-1] == [100, 0]
+    (buoy,) = structures(plan, USV)
+    assert (buoy.name, buoy.standoff) == ("the green buoy", 10)
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    ["Go to [60, 0].", "Go to the waypoint at [60, 0].", "Hold the position at [60, 0] for 5 s."],
+)
+def test_a_place_of_the_water_is_gone_to_itself(prompt: str) -> None:
+    plan = document([transit(60, 0, prompt), transit(0, 0)])
+    assert waypoints(plan) == [[60, 0], [0, 0]]
+    assert "added" not in plan["tasks"][0]
+
+
+def test_berths_and_areas_that_are_gone_over_are_no_structures() -> None:
+    berth = task(
+        "DockingApproach", {"goal_position": [5, 5]}, [go(5, 5)], "Dock at the pier at [5, 5]."
+    )
+    size = {"center": [50, 30], "width": 20, "length": 20, "spacing": 20}
+    grid = task("BathymetryGridSurvey", size, [go(40, 20), go(40, 40), go(60, 40), go(60, 20)])
+    plan = document([grid, berth], chart={"wreck": (50.0, 30.0)})
+    assert structures(plan, USV) == []
+    assert waypoints(plan)[-1] == [5, 5]
+
+
+def test_a_ring_is_begun_on_the_near_side_unless_a_side_is_named() -> None:
+    ring = [(60, 30), (60, 40), (50, 40), (40, 40), (40, 30), (40, 20), (50, 20), (60, 20)]
+    survey = task(
+        "SurveyTarget", {"target_position": [50, 30], "radius": 10}, [go(*at) for at in ring]
+    )
+    plan = document([survey])
+    assert waypoints(plan)[0] == [40, 20] and len(waypoints(plan)) == 8
+    survey["task_prompt"] = "Inspect it from the east."
+    plan = document([survey])
+    assert len(waypoints(plan)) > 8 and waypoints(plan)[-8] == [60, 30]
+    assert nearest(plan, [50, 30]) >= 9.5
+
+
+def test_a_chart_names_structures_and_a_waypoint_beside_one_is_the_first_warning() -> None:
+    plan = document([transit(100, 0)], chart={"mast": (50.0, 0.0), "pier": (103.0, 0.0)})
+    assert plan["structures"] == {"mast": [50, 0], "pier": [103, 0]}
+    assert nearest(plan, [50, 0]) >= 9.5
+    assert kinds(plan)[0] == "structure-close"
+    assert "pier" in plan["warnings"][0]["text"]
+
+
+def test_new_skills_of_a_task_keep_clear_too() -> None:
+    plan = document([transit(60, 0, "Go to the buoy at [60, 0]."), transit(100, 0)])
+    edit = {"kind": "skills", "task": "t2", "skill_sequence": [go(100, 0)]}
+    plan = apply(plan, edit, USV)
+    assert nearest(plan, [60, 0]) >= 9.5
+    moved = {"kind": "skill", "task": "t2", "step": 0, "role": "navigation", "index": 0}
+    plan = apply(plan, {**moved, "name": "y", "value": 3}, USV)
+    assert "structure-close" in kinds(plan)
+
+
+def test_a_way_leads_round_many_structures_and_none_through_a_fence() -> None:
+    chart = {f"pile {number}": (50.0, 12.0 * number) for number in range(-3, 4)}
+    plan = document([transit(100, 0)], chart=chart)
+    assert all(nearest(plan, [*place]) >= 9.5 for place in chart.values())
+    limit = "The vehicle stays inside [-5, -5], [105, -5], [105, 5], [-5, 5]."
+    plan = document([transit(100, 0)], chart={"mast": (50.0, 0.0)}, constraints=[limit])
+    assert waypoints(plan) == [[100, 0]]
+    assert kinds(plan)[0] == "structure-close"
+    assert way_round((0, 0), (1, 0), [], lambda _start, _goal: True) == []

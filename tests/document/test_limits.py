@@ -1,0 +1,126 @@
+"""Limits among the constraints: filters in the steps, words of the command, and what breaks them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from planner_ft.planning.limits import with_limits, without_limits
+from tests.documents import DRONE, USV, document, step, task
+
+FENCE = "The vehicle stays inside [0, 0], [200, 0], [200, 200], [0, 200]."
+PLATFORM = "The vehicle stays at least 70 m from the platform at [260, 80]."
+
+
+def transit(x: float, y: float) -> dict[str, Any]:
+    go = step("GoToXY", {"x": x, "y": y})
+    return task("Transit", {"target_position": [x, y]}, [go], f"Go to [{x}, {y}].")
+
+
+def broken(*constraints: str, tasks: Any = None, **how: Any) -> list[str]:
+    plan = document(tasks or [transit(100, 50), transit(0, 0)], constraints=constraints, **how)
+    return [one["text"] for one in plan["warnings"] if one["kind"] == "limit-broken"]
+
+
+def test_a_limit_is_a_filter_in_every_step_that_moves() -> None:
+    hold = task("KeepStation", {}, [step("StationKeep")])
+    plan = document([transit(100, 50), hold], constraints=[FENCE, "Be careful."])
+    (limit,) = plan["limits"]
+    assert (limit["kind"], limit["filter"]) == ("fence", "BoundaryEnforcement")
+    assert limit["tasks"] == [1, 2]
+    (own,) = plan["tasks"][0]["skill_sequence"][0]["filter_skills"]
+    corners = [[0, 0], [200, 0], [200, 200], [0, 200]]
+    assert own == {"name": "BoundaryEnforcement", "parameters": {"poly_coords": corners}}
+    assert plan["tasks"][0]["added"][0]["kind"] == "limit"
+    assert plan["tasks"][1]["skill_sequence"][0]["filter_skills"] == []
+    assert not [one for one in plan["warnings"] if one["kind"] == "skill-value-not-said"]
+
+
+def test_a_filter_that_is_there_is_kept_when_it_is_as_strict() -> None:
+    moving = transit(100, 50)
+    strict = {"name": "ObstacleAvoidance", "parameters": {"min_distance": 15}}
+    moving["skill_sequence"][0]["filter_skills"] = [strict]
+    for metres, count in ((5, 1), (25, 2)):
+        text = f"The vehicle keeps at least {metres} m from every obstacle."
+        plan = document([moving], constraints=[text])
+        assert len(plan["tasks"][0]["skill_sequence"][0]["filter_skills"]) == count
+
+
+def test_the_words_of_the_command_are_found() -> None:
+    command = "Go to 100,50, but never leave the area 0,0 200,0 200,200 0,200, then come home."
+    (limit,) = document([transit(100, 50)], command=command, constraints=[FENCE])["limits"]
+    assert limit["words"] == "never leave the area 0,0 200,0 200,200 0,200"
+    start, end = limit["spans"][0]
+    assert command[start:end] == limit["words"]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("The vehicle stays inside [0, 0], [80, 0], [80, 80], [0, 80].", "goes to [100, 50]"),
+        ("The vehicle stays outside [40, 0], [60, 0], [60, 80], [40, 80].", "enters it"),
+        ("The vehicle stays at least 30 m from the wreck at [120, 50].", "within 20 m"),
+        ("The vehicle stays within 100 m of home.", "112 m away"),
+        ("The mission takes at most 60 s.", "takes about"),
+    ],
+)
+def test_what_the_track_breaks_is_told(text: str, words: str) -> None:
+    (found,) = broken(text)
+    assert words in found and text.rstrip(".") in found
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        FENCE,
+        PLATFORM,
+        "The vehicle stays outside [40, 80], [60, 80], [60, 90], [40, 90].",
+        "The vehicle stays within 120 m of home.",
+        "The mission takes at most 600 s.",
+        "The vehicle goes no faster than 2 m/s.",
+        "The vehicle is back by 16:30.",
+        "Nothing is recorded.",
+    ],
+)
+def test_what_holds_is_not_told(text: str) -> None:
+    assert broken(text) == []
+
+
+def test_a_leg_is_led_round_what_it_must_keep_away_from() -> None:
+    text = "The vehicle stays at least 20 m from the wreck at [50, 25]."
+    command = "Go to [100, 50] and keep 20 m from the wreck at [50, 25]."
+    plan = document([transit(100, 50)], constraints=[text], command=command)
+    assert len(plan["tasks"][0]["skill_sequence"]) > 1
+    assert [one["kind"] for one in plan["warnings"]] == ["ends-away"]
+
+
+def test_speed_and_recording_are_checked_in_tasks_and_steps() -> None:
+    arc = step("ArcTurn", {"radius": 20, "delta_yaw": 90})
+    arc["perception_skills"] = [{"name": "SetStreamRecording", "parameters": {}}]
+    given = {"center": [100, 50], "radius": 20, "speed": 2}
+    tasks = [transit(100, 50), task("PerformOrbit", given, [arc], "Circle the marina.")]
+    assert "2 m/s" in broken("The vehicle goes no faster than 1 m/s.", tasks=tasks)[0]
+    assert "SetStreamRecording" in broken("Nothing is recorded.", tasks=tasks)[0]
+    assert broken("Nothing is recorded near the marina.", tasks=tasks)
+    assert not broken("Nothing is recorded near the pier.", tasks=tasks)
+
+
+def test_what_cannot_be_checked_is_said() -> None:
+    texts = ["The vehicle is back by 16:30.", "The vehicle stays at least 9 m from the ferry."]
+    plan = document([transit(100, 50)], constraints=texts)
+    assert [bool(limit["unchecked"]) for limit in plan["limits"]] == [True, True]
+
+
+def test_limits_reach_all_task_prompts_and_not_the_task_agent() -> None:
+    own = {"title": "Transit", "parameters": {}, "task_prompt": "Go to [1, 2]."}
+    told = {**own, "task_prompt": "Go to [3, 4]. Stay within 90 m of home."}
+    text = "The vehicle stays within 90 m of home."
+    plan = with_limits({"tasks": [own, told], "constraints": [text]}, USV)
+    prompts = [entry["task_prompt"] for entry in plan["tasks"]]
+    assert prompts == ["Go to [1, 2]. Stay within 90 m of home.", told["task_prompt"]]
+    assert without_limits(prompts[0], USV) == "Go to [1, 2]."
+    assert (
+        without_limits("Fly to [1, 2]. Stay inside [0, 0], [9, 0], [9, 9].", DRONE)
+        == "Fly to [1, 2]."
+    )
