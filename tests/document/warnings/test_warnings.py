@@ -210,9 +210,7 @@ def test_a_boundary_of_the_plan_holds_for_every_task() -> None:
         HOME,
         constraints=["Stay inside [0, 0], [20, 0], [20, 20], [0, 20]."],
     )
-    assert [item["task"] for item in plan["warnings"] if item["kind"] == "outside-boundary"] == [
-        "t1"
-    ]
+    assert [item["task"] for item in plan["warnings"] if item["kind"] == "limit-broken"] == ["t1"]
 
 
 def test_corners_with_crossing_sides_are_no_error() -> None:
