@@ -58,7 +58,7 @@ def test_an_arc_from_the_centre_goes_out_to_the_circle_first() -> None:
             "PerformOrbit",
             {"center": [0, 0], "radius": 10},
             [step("ArcTurn", {"radius": 10, "delta_yaw": 360})],
-        ),
+        )
     )
     assert path.legs[0].points[:2] == ((0, 0), (0, 10))
     assert path.legs[0].metres == pytest.approx(10 + 20 * math.pi)
