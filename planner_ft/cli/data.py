@@ -72,7 +72,8 @@ def validate(
             typer.echo(str(problem))
         counts = report.counts.items()
         held = [f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in counts]
-        found = f"{len(report.problems) or 'no'} problems"
+        number = len(report.problems)
+        found = f"{number or 'no'} problem{'' if number == 1 else 's'}"
         typer.echo(f"{path}: {', '.join(held) or 'nothing'}: {found}", err=True)
         status = max(status, 1 if report.problems else 0)
     raise typer.Exit(status)

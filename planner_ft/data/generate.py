@@ -175,8 +175,7 @@ def _make(
     if messages is not None:
         for split, records in splits.items():
             texts[f"chat/{split}.jsonl"] = _lines(
-                compact_json({"id": record["id"], "messages": messages(level, record, vocabulary)})
-                for record in records
+                _chat_line(record["id"], messages(level, record, vocabulary)) for record in records
             )
     clock.stop("card and serialisation")
     configuration = {
@@ -216,6 +215,13 @@ def _sampled(
     finally:
         gc.enable()
     return splits
+
+
+def _chat_line(name: str, messages: list[dict[str, str]]) -> str:
+    """A record for other trainers: all messages, and the answer apart from what comes before it."""
+    *prompt, answer = messages
+    chat = {"id": name, "messages": messages, "prompt": prompt, "completion": [answer]}
+    return compact_json(chat)
 
 
 def _lines(lines: Iterable[str]) -> str:

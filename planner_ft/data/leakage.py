@@ -10,13 +10,10 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
-from scipy import sparse
 
 from planner_ft.facts.lists import SMALL
 from planner_ft.support.files import compact_json
@@ -121,39 +118,35 @@ def _shingles(text: str) -> Shingles:
     return frozenset(itertools.pairwise(["^", *shingle_words(text), "$"]))
 
 
-def _counts(documents: Iterable[Iterable[Any]], terms: dict[Any, int]) -> Matrix:
-    """(documents, terms): how often each term stands in each document; `terms` gets the new
-    ones.
+def _counter(analyzer: Callable[[Any], Iterable[Any]], kind: str = "CountVectorizer") -> Any:
+    """A vectorizer of scikit-learn (which has no types), loaded when it is needed."""
+    from sklearn.feature_extraction import text
+
+    return getattr(text, kind)(analyzer=analyzer)
+
+
+def _most_similar(
+    queries: Matrix, documents: Matrix, similarity: Callable[[Any, int], Any]
+) -> Iterator[tuple[int, float]]:
+    """For each query the place of the most similar document, the first of equals, and how similar
+    it is; `similarity` turns the products of a query with all documents into similarities.
     """
-    places: list[int] = []
-    values: list[int] = []
-    ends = [0]
-    for document in documents:
-        counts = Counter(document)
-        places += [terms.setdefault(term, len(terms)) for term in counts]
-        values += counts.values()
-        ends.append(len(places))
-    return sparse.csr_matrix((np.array(values, float), places, ends), (len(ends) - 1, len(terms)))
-
-
-def _products(queries: Matrix, documents: Matrix) -> Iterator[tuple[int, npt.NDArray[np.float64]]]:
-    """Each query's place and its products with all documents, over the terms of the queries."""
-    columns = documents.copy()
-    columns.resize(documents.shape[0], queries.shape[1])
     for start in range(0, queries.shape[0], ROWS):
-        block = (queries[start : start + ROWS] @ columns.T).toarray()
-        yield from enumerate(block, start)
-
-
-# ---------------------------------------------------------------- near duplicates
+        block = (queries[start : start + ROWS] @ documents.T).toarray()
+        for place, products in enumerate(block, start):
+            # Rounded, so that the choice among equals does not depend on the order of summation.
+            similar = np.round(similarity(products, place), 9)
+            best = int(np.argmax(similar))
+            yield best, float(similar[best])
 
 
 def _near_pairs(splits: Mapping[str, Sequence[str]]) -> dict[tuple[str, str], dict[int, int]]:
     """For each pair of splits (later, earlier): index of a text to the index of its most similar
     near duplicate.
     """
-    terms: dict[Any, int] = {}
-    sets = {name: _counts(map(_shingles, texts), terms) for name, texts in splits.items()}
+    counter = _counter(_shingles)
+    counter.fit(itertools.chain(*splits.values()))
+    sets = {name: counter.transform(texts) for name, texts in splits.items()}
     return {
         (second, first): _matches(sets[second], sets[first])
         for place, second in enumerate(splits)
@@ -163,16 +156,10 @@ def _near_pairs(splits: Mapping[str, Sequence[str]]) -> dict[tuple[str, str], di
 
 def _matches(queries: Matrix, documents: Matrix) -> dict[int, int]:
     sizes, lengths = np.diff(documents.indptr), np.diff(queries.indptr)
-    found = {}
-    for place, shared in _products(queries, documents):
-        similar = shared / (lengths[place] + sizes - shared)
-        best = int(np.argmax(similar)) if len(similar) else 0
-        if len(similar) and similar[best] >= NEAR:
-            found[place] = best
-    return found
-
-
-# ---------------------------------------------------------------- retrieval
+    found = _most_similar(
+        queries, documents, lambda shared, place: shared / (lengths[place] + sizes - shared)
+    )
+    return {place: best for place, (best, similar) in enumerate(found) if similar >= NEAR}
 
 
 def nearest_neighbour(level: Level, split: str, train: Records, test: Records) -> dict[str, Any]:
@@ -180,18 +167,18 @@ def nearest_neighbour(level: Level, split: str, train: Records, test: Records) -
     prompt: mean F1 of the name sets, shares of exact name sequences and of exact plans, and the
     median cosine similarity to that prompt.
     """
-    scores, similarities = [], []
-    for record, (neighbour, similarity) in zip(test, _nearest(train, test), strict=True):
+    weights = _counter(_terms, "TfidfVectorizer")
+    documents = weights.fit_transform(train)
+    found = list(_most_similar(weights.transform(test), documents, lambda cosines, _place: cosines))
+    scores = []
+    for record, (neighbour, _similarity) in zip(test, found, strict=True):
         expected, answer = (
             list(named_entries(level, item["expected"])) for item in (record, train[neighbour])
         )
         names, answered = [name for name, _ in expected], [name for name, _ in answer]
-        exact = float(names == answered), float(expected == answer)
-        scores.append((set_f1(answered, names), *exact))
-        similarities.append(similarity)
-    means = np.mean(scores, axis=0) if scores else np.zeros(3)
-    f1, sequence, plan = (round(float(mean), 4) for mean in means)
-    median = round(float(np.median(similarities)), 4) if similarities else 0.0
+        scores.append((set_f1(answered, names), names == answered, expected == answer))
+    f1, sequence, plan = (round(float(mean), 4) for mean in np.mean(scores, axis=0))
+    median = round(float(np.median([similarity for _best, similarity in found])), 4)
     figures = {"f1": f1, "sequence": sequence, "plan": plan, "similarity": median}
     return {"split": split, "n": len(test), **figures}
 
@@ -213,39 +200,10 @@ def _terms(record: Mapping[str, Any]) -> list[str]:
     return [*words, *(f"{first} {second}" for first, second in itertools.pairwise(words))]
 
 
-def _nearest(train: Records, test: Records) -> Iterator[tuple[int, float]]:
-    """Index and cosine similarity of the nearest training record for each test record; the first
-    one where several are as near.
-    """
-    terms: dict[Any, int] = {}
-    documents = _counts(map(_terms, train), terms)
-    queries = _counts(map(_terms, test), terms)
-    frequency = np.bincount(documents.indices, minlength=len(terms))
-    rarity = np.log((1 + len(train)) / (1 + frequency)) + 1
-    documents.resize(len(train), len(terms))
-    weighted = [sparse.csr_matrix(matrix.multiply(rarity)) for matrix in (documents, queries)]
-    unit = []
-    for matrix in weighted:
-        norms = np.sqrt(np.maximum(matrix.multiply(matrix).sum(axis=1), 1e-12))
-        unit.append(sparse.csr_matrix(matrix.multiply(1 / np.asarray(norms))))
-    for _place, cosines in _products(unit[1], unit[0]):
-        # Rounded, so that the choice among equals does not depend on the order of summation.
-        best = int(np.argmax(cosines.round(9)))
-        yield best, float(cosines[best])
-
-
 # ---------------------------------------------------------------- words of a prompt
 
 NUMBER, NAME = "#", "@"
-_NUMBER_WORDS = frozenset(
-    [
-        *(word for word in SMALL if word not in ("oh", "couple")),
-        "hundred",
-        "thousand",
-        "half",
-        "quarter",
-    ]
-)
+_NUMBER_WORDS = {*SMALL, "hundred", "thousand", "half", "quarter"} - {"oh", "couple"}
 _SHINGLE = re.compile(r"[#@]|-?\d+(?:\.\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)?")
 _CODE = re.compile(r"\b(?=\w*\d)(?=\w*[A-Za-z])[\w-]+\b")
 _NAME = re.compile(r"(?<![.!?:;]\s)(?<!^)(?<![\w\"])[A-Z][\w'’-]*(?:\s+(?:[A-Z][\w'’-]*|#))*")

@@ -18,10 +18,11 @@ from planner_ft.data.rules import rule_problems
 from planner_ft.data.steprules import step_problems
 from planner_ft.data.tags import tag_problems
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import compact_json, decode_json, iterate_jsonl, read_text
+from planner_ft.support.files import compact_json, decode_json, read_text
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import (
     LEVELS,
+    STEP_KEYS,
     Level,
     canonical_parameters,
     canonical_plan,
@@ -33,6 +34,8 @@ from planner_ft.vocabulary.schema import ELEMENTS
 Kind = Literal["record", "prediction", "plan"]
 RECORD_KEYS = ("id", "family", "task", "parameters", "prompt", "expected", "spans", "tags")
 """The order in which a record's keys are written; others follow."""
+LONGEST = 500_000
+"""Characters of one record; the rules read every number and word of it."""
 
 
 @dataclass(frozen=True)
@@ -124,11 +127,14 @@ def file_values(path: Path) -> Iterator[tuple[int, Any, str | None]]:
     if not text.strip():
         raise PlannerError(f"{path}: is empty; a dataset, predictions or a plan is expected")
     first = text.lstrip().split("\n", 1)[0]
-    if path.suffix == ".json" or first.strip() in ("{", "["):
-        value, line, problem = decode_json(text)
-        yield line or 1, value, problem
-        return
-    yield from iterate_jsonl(path)
+    whole = path.suffix == ".json" or first.strip() in ("{", "[")
+    for number, line in enumerate([text] if whole else text.split("\n"), 1):
+        if len(line) > LONGEST:
+            problem = f"{len(line):,} characters, at most {LONGEST:,} are expected in one record"
+            yield number, None, problem
+        elif line.strip():
+            value, place, problem = decode_json(line, unique=True)
+            yield (place or number) if whole else number, value, problem
 
 
 def object_problems(
@@ -143,41 +149,29 @@ def object_problems(
     """
     kind, plan = _kind(value)
     if kind is None:
-        return (
-            None,
-            level,
-            [
-                "none of a dataset record (expected), a prediction (output) and a plan (tasks or"
-                " skill_sequence)"
-            ],
-        )
+        what = "a dataset record (expected), a prediction (output) and a plan (tasks or skill_sequence)"
+        return None, level, [f"none of {what}"]
+    problems = _identifier_problems(value, ("id",)) if kind == "prediction" else []
     if kind == "prediction" and isinstance(plan, str):
         plan, _line, problem = decode_json(plan)
         if problem:
-            return kind, level, [*_identifier_problems(value, ("id",)), f"output: {problem}"]
+            return kind, level, [*problems, f"output: {problem}"]
     found = next(
         (known for known in LEVELS if isinstance(plan, dict) and list_key(known) in plan), level
     )
+    key = {"record": "expected: ", "prediction": "output: ", "plan": ""}[kind]
     if found is None:
-        return kind, None, [f"{_plan_key(kind)}holds neither tasks nor skill_sequence"]
-    problems = (
-        [] if level in (None, found) else [f"a {level} plan is expected, this is a {found} plan"]
-    )
+        return kind, None, [f"{key}holds neither tasks nor skill_sequence"]
+    if level not in (None, found):
+        problems.insert(0, f"a {level} plan is expected, this is a {found} plan")
     if kind == "record":
-        return kind, found, problems + record_problems(found, value, vocabulary, complete=complete)
-    identifiers = _identifier_problems(value, ("id",)) if kind == "prediction" else []
-    return (
-        kind,
-        found,
-        [
-            *problems,
-            *identifiers,
-            *(
-                f"{_plan_key(kind)}{text}"
-                for text in _plan_problems(found, plan, vocabulary, value.get("prompt"))
-            ),
-        ],
-    )
+        problems += record_problems(found, value, vocabulary, complete=complete)
+        return kind, found, problems
+    texts = plan_problems(found, plan, vocabulary, strict=True)
+    if found == "mission":
+        prompt = value.get("prompt")
+        texts += rule_problems(plan, vocabulary, prompt if isinstance(prompt, str) else None)
+    return kind, found, [*problems, *(f"{key}{text}" for text in texts)]
 
 
 def _kind(value: dict[str, Any]) -> tuple[Kind | None, Any]:
@@ -186,17 +180,6 @@ def _kind(value: dict[str, Any]) -> tuple[Kind | None, Any]:
     if "output" in value:
         return "prediction", value["output"]
     return ("plan", value) if any(list_key(level) in value for level in LEVELS) else (None, None)
-
-
-def _plan_key(kind: Kind) -> str:
-    return {"record": "expected: ", "prediction": "output: ", "plan": ""}[kind]
-
-
-def _plan_problems(level: Level, plan: Any, vocabulary: Vocabulary, prompt: Any) -> list[str]:
-    problems = plan_problems(level, plan, vocabulary, strict=True)
-    if level == "mission":
-        problems += rule_problems(plan, vocabulary, prompt if isinstance(prompt, str) else None)
-    return problems
 
 
 # ---------------------------------------------------------------- dataset records
@@ -218,19 +201,17 @@ def record_problems(
         level, expected if complete else _filled(level, expected), vocabulary, strict=True
     )
     problems += [f"expected: {text}" for text in form]
-    prompt = record.get("prompt")
+    prompt, tags = record.get("prompt"), record.get("tags")
     if not isinstance(prompt, str) or not isinstance(expected, dict):
         return problems
     if level == "task":
         problems += [f"expected: {text}" for text in step_problems(record, vocabulary)]
     else:
-        tags = record.get("tags")
-        tags = (
+        known = (
             tags if isinstance(tags, list) and all(isinstance(tag, str) for tag in tags) else None
         )
-        problems += [
-            f"expected: {text}" for text in rule_problems(expected, vocabulary, prompt, tags)
-        ]
+        found = rule_problems(expected, vocabulary, prompt, known)
+        problems += [f"expected: {text}" for text in found]
         problems += _annotation_problems(record, prompt, vocabulary, complete=complete)
     if complete and not form:
         problems += completeness_problems(level, record, vocabulary)
@@ -249,38 +230,24 @@ def _filled(level: Level, expected: Any) -> Any:
     """The plan with what an outsider may leave out: texts, and empty lists and parameters."""
     if not isinstance(expected, dict) or not isinstance(expected.get(list_key(level)), list):
         return expected
+    entries = expected[list_key(level)]
     if level == "mission":
-        tasks = [
-            {"parameters": {}, "task_prompt": "", **task} if isinstance(task, dict) else task
-            for task in expected["tasks"]
-        ]
+        tasks = [_with({"parameters": {}, "task_prompt": ""}, task) for task in entries]
         return {"assumptions": [], "constraints": [], **expected, "tasks": tasks}
-    empty: dict[str, list[Any]] = {
-        key: []
-        for key in (
-            "filter_skills",
-            "perception_skills",
-            "stop_conditions",
-            "failure_modes",
-            "expected_outputs",
-        )
-    }
     steps = []
-    for step in expected["skill_sequence"]:
-        filled = {**empty, **step} if isinstance(step, dict) else step
-        if isinstance(filled, dict):
-            for key, item in filled.items():
-                filled[key] = (
-                    [_with_parameters(skill) for skill in item]
-                    if key.endswith("_skills") and isinstance(item, list)
-                    else _with_parameters(item)
-                )
-        steps.append(filled)
+    for entry in entries:
+        step = _with({key: [] for key in STEP_KEYS[1:]}, entry)
+        for key, skills in step.items() if isinstance(step, dict) else ():
+            if key == STEP_KEYS[0]:
+                step[key] = _with({"parameters": {}}, skills)
+            elif key.endswith("_skills") and isinstance(skills, list):
+                step[key] = [_with({"parameters": {}}, skill) for skill in skills]
+        steps.append(step)
     return {**expected, "skill_sequence": steps}
 
 
-def _with_parameters(skill: Any) -> Any:
-    return {"parameters": {}, **skill} if isinstance(skill, dict) else skill
+def _with(defaults: dict[str, Any], entry: Any) -> Any:
+    return {**defaults, **entry} if isinstance(entry, dict) else entry
 
 
 def _task_problems(record: dict[str, Any], vocabulary: Vocabulary) -> list[str]:

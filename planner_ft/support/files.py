@@ -118,10 +118,13 @@ def read_text(path: Path | str) -> str:
         raise PlannerError(f"{path}: cannot be read ({error.strerror})") from None
 
 
-def decode_json(text: str) -> tuple[Any, int, str | None]:
-    """(value, 0, None), or (None, line, problem): syntax, NaN, nesting, half a surrogate pair."""
+def decode_json(text: str, *, unique: bool = False) -> tuple[Any, int, str | None]:
+    """(value, 0, None), or (None, line, problem): syntax, NaN, nesting, half a surrogate pair and,
+    if `unique`, a key that stands twice in an object.
+    """
     try:
-        value = json.loads(text, parse_constant=_no_number)
+        hook = _unique if unique else None
+        value = json.loads(text, parse_constant=_no_number, object_pairs_hook=hook)
         if "\\u" in text:
             json.dumps(value, ensure_ascii=False).encode()
     except json.JSONDecodeError as error:
@@ -137,6 +140,15 @@ def decode_json(text: str) -> tuple[Any, int, str | None]:
 
 def _no_number(name: str) -> None:
     raise ValueError(f"{name} is no JSON number")
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in found:
+            raise ValueError(f"the key {key!r} stands twice in an object")
+        found[key] = value
+    return found
 
 
 def read_json(path: Path | str) -> Any:

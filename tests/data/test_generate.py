@@ -9,6 +9,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+import datasets
 import pytest
 
 from planner_ft.data.generate import GenerationSettings, generate
@@ -118,10 +119,17 @@ def test_the_chat_form_holds_the_answer_that_we_train_on(tmp_path: Path) -> None
         assert [message["role"] for message in chat["messages"]] == ["system", "user", "assistant"]
         assert record["prompt"] in chat["messages"][1]["content"]
         assert json.loads(chat["messages"][2]["content"]) == record["expected"]
+        assert [*chat["prompt"], *chat["completion"]] == chat["messages"]
+        assert [message["role"] for message in chat["completion"]] == ["assistant"]
+        file = str(tmp_path / level / "chat" / "train.jsonl")
+        rows = datasets.load_dataset(
+            "json", data_files=file, split="train", cache_dir=str(tmp_path / "cache")
+        )
+        assert rows.column_names == ["id", "messages", "prompt", "completion"]
+        assert rows[0]["completion"] == chat["completion"]
 
 
 def test_every_split_loads_with_datasets_at_once(tmp_path: Path) -> None:
-    datasets = pytest.importorskip("datasets")
     settings = GenerationSettings(
         out=tmp_path, **{**SMALL, "train": 80}
     )  # the first split names the columns: with too few records some are missing

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-import time
 from typing import Any
 
 import pytest
@@ -132,16 +131,3 @@ def test_the_baseline_answers_with_the_nearest_plan() -> None:
 
 def test_f1_of_two_empty_sets_is_one() -> None:
     assert (set_f1([], []), set_f1(["a"], []), set_f1(["a", "a"], ["a"])) == (1, 0, 1)
-
-
-def test_it_takes_only_seconds_for_a_task_set() -> None:
-    train, test = prompts(4000, 4), prompts(200, 5)
-    started = time.process_time()
-    leakage_report(
-        "mission",
-        {
-            "train": [record(n, p) for n, p in enumerate(train)],
-            "test": [record(n, p) for n, p in enumerate(test)],
-        },
-    )
-    assert time.process_time() - started < 10

@@ -58,6 +58,15 @@ def test_the_curated_set_is_clean() -> None:
         assert report.counts == {"mission record": count}
 
 
+def test_a_key_that_stands_twice_and_a_line_without_end_are_problems(tmp_path: Path) -> None:
+    path = tmp_path / "data.jsonl"
+    long = json.dumps(record(id="b", prompt="Proceed to [4, 5]. " * 60_000))
+    path.write_text('{"id":"x","id":"y","prompt":"Go.","expected":{"tasks":[]}}\n' + long + "\n")
+    first, second = (problem.text for problem in validate_file(path, USV).problems)
+    assert "'id' stands twice" in first
+    assert second.endswith("at most 500,000 are expected in one record")
+
+
 def test_every_problem_is_reported_with_its_line(tmp_path: Path) -> None:
     path = tmp_path / "data.jsonl"
     lines = [
