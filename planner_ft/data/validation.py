@@ -130,8 +130,8 @@ def file_values(path: Path) -> Iterator[tuple[int, Any, str | None]]:
     whole = path.suffix == ".json" or first.strip() in ("{", "[")
     for number, line in enumerate([text] if whole else text.split("\n"), 1):
         if len(line) > LONGEST:
-            problem = f"{len(line):,} characters, at most {LONGEST:,} are expected in one record"
-            yield number, None, problem
+            size = f"{len(line):,} characters, at most {LONGEST:,} are expected in one record"
+            yield number, None, size
         elif line.strip():
             value, place, problem = decode_json(line, unique=True)
             yield (place or number) if whole else number, value, problem
