@@ -96,9 +96,11 @@ class Factory:
         found = read_waypoints(record, self.vocabulary) if self.level == "task" else None
         free = found if isinstance(found, str) else ""
         values = GroundedValues(self.level, record, self.vocabulary, free_waypoints=bool(free))
+        if isinstance(script, TaskScript) and isinstance(found, Waypoints):
+            script = replace(script, whole=found)
         grounded = replace(script, values=values)
-        if isinstance(grounded, TaskScript) and isinstance(found, Waypoints):
-            grounded = replace(grounded, waypoints=found)
+        if isinstance(grounded, TaskScript):
+            grounded = replace(grounded, waypoints=grounded.whole)
         goes = [SKILL_OPENS + skill.name for skill in self.vocabulary.skills if skill.coordinates]
 
         def notes(text: str) -> list[str]:

@@ -134,10 +134,10 @@ class TaskScript:
     up to the next one.
 
     Without `logical`, any skill may stand beside and behind any other. `waypoints` are those that
-    the facts give, None where any may be meant. `steps` are the movements so far, with the one of
-    the step that is being written; `written` is that step's text as far as its parts are matched.
-    `chosen` is the skill whose name was written last, None where one is to follow, `beside` are the
-    skills before it in its list.
+    the facts give, None where any may be meant; a path of `whole` is not left before its end.
+    `steps` are the movements so far, with the one of the step that is being written; `written` is
+    that step's text as far as its parts are matched. `chosen` is the skill whose name was written
+    last, None where one is to follow, `beside` are the skills before it in its list.
     """
 
     vocabulary: Vocabulary
@@ -145,6 +145,7 @@ class TaskScript:
     logical: bool = True
     most: int = MOST_STEPS
     waypoints: Waypoints | None = None
+    whole: Waypoints | None = None
     steps: tuple[Step, ...] = ()
     role: Role = "navigation"
     beside: tuple[Step, ...] = ()
@@ -214,18 +215,23 @@ class TaskScript:
     def _logic(self, skill: Skill) -> Logic:
         if not self.logical:
             return Logic(self.values)
-        # The waypoints so far.
-        pairs = ((skill.coordinates, values) for skill, values in self.steps if skill.coordinates)
-        path: Path = tuple((values[x.name], values[y.name]) for (x, y), values in pairs)
-        points = self.waypoints.following(path) if self.waypoints and skill.coordinates else []
+        onward = self.waypoints if skill.coordinates else None
+        points = onward.following(self._path) if onward else []
         return StepLogic(self.values, self.vocabulary.unresolved, points, self._used(skill))
+
+    @property
+    def _path(self) -> Path:
+        """The waypoints so far."""
+        pairs = ((skill.coordinates, values) for skill, values in self.steps if skill.coordinates)
+        return tuple((values[x.name], values[y.name]) for (x, y), values in pairs)
 
     def _behind(self, skills: Sequence[Skill], *, names: bool) -> str:
         """What may stand behind a skill's name, up to the next name; with the name before it."""
         grammar, options = Grammar(), []
         for skill in skills:
             if self.role == "navigation":
-                ends = f"{literal(',' + FILTERS)} {self._list(grammar, 'filter', ())}"
+                going = bool(skill.coordinates)
+                ends = f"{literal(',' + FILTERS)} {self._list(grammar, 'filter', (), going=going)}"
             else:
                 used = [other for other, _parameters in self.beside]
                 ends = self._list(grammar, self.role, (*used, skill))
@@ -234,9 +240,11 @@ class TaskScript:
             options.append(f"{literal(quoted(skill.name)) if names else ''} {behind} {ends}")
         return grammar.text(" | ".join(options))
 
-    def _list(self, grammar: Grammar, role: Role, used: Sequence[Skill]) -> str:
+    def _list(
+        self, grammar: Grammar, role: Role, used: Sequence[Skill], *, going: bool = False
+    ) -> str:
         """What may stand in the list of a role's skills behind those used: the next one, or what
-        follows the list.
+        follows the list. `going`: a waypoint is chosen in the same part.
         """
         known = self.vocabulary.skills_in_role(role)
         more = len(used) < MOST_SKILLS and any(
@@ -246,13 +254,18 @@ class TaskScript:
             for skill in known
         )
         if role == "filter":
-            behind = literal("]," + PERCEPTIONS) + " " + self._list(grammar, "perception", ())
+            behind = literal("]," + PERCEPTIONS) + " " + self._list(
+                grammar, "perception", (), going=going
+            )
         else:
-            behind = f"{literal(']')} {step_tail(grammar, self.values)} {self._ends()}"
+            behind = f"{literal(']')} {step_tail(grammar, self.values)} {self._ends(going)}"
         return f"({literal(',' * bool(used) + SKILL_OPENS)} | {behind})" if more else behind
 
-    def _ends(self) -> str:
+    def _ends(self, going: bool) -> str:
         """What follows a step: another one, or the end."""
         count = len(self.steps) + (self.role == "navigation")
-        more = f"{literal(',' + STEP_OPENS)} | " if count < self.most else ""
-        return f"({more}{literal(CLOSES)})"
+        ways = [literal("," + STEP_OPENS)] if count < self.most else []
+        open_path = self.whole and self.whole.unfinished(self._path, int(going))
+        if not (ways and open_path):
+            ways.append(literal(CLOSES))
+        return f"({' | '.join(ways)})"

@@ -37,7 +37,8 @@ GRID = re.compile(r"\b(?:grid|lawn-?mow|lanes?|lines?|legs|runs|transect|strip|p
 @dataclass(frozen=True)
 class Waypoints:
     """The facts that waypoints are derived from. `worked` are coordinates by axis that the answer's
-    scratchpad derives; a path counts as begun with `begun` of its waypoints in a row.
+    scratchpad derives; a path counts as begun with `begun` of its waypoints in a row. `whole`: the
+    task is one path of stated size, and is not done before its end.
     """
 
     places: tuple[Point, ...]
@@ -46,6 +47,7 @@ class Waypoints:
     paths: tuple[Path, ...]
     begun: int = BEGUN
     worked: tuple[frozenset[float], frozenset[float]] = (frozenset(), frozenset())
+    whole: bool = False
 
     def shown(self, working: str) -> Waypoints:
         """These with the coordinates that a scratchpad (planner_ft.data.task.working) derives from
@@ -82,6 +84,11 @@ class Waypoints:
             self.places, before, self._starts, onward, away, itertools.product(*self.worked)
         )
         return [point for point in dict.fromkeys(options) if point not in before[-1:]]
+
+    def unfinished(self, before: Path, more: int = 0) -> bool:
+        """Whether a path that must be whole is incomplete after `before` and `more` waypoints."""
+        begun = self._begun(before) if self.whole else []
+        return bool(begun) and all(self.begun <= done < len(path) - more for path, done in begun)
 
     @functools.cached_property
     def derived(self) -> frozenset[Point]:
@@ -134,7 +141,11 @@ def read_waypoints(record: dict[str, Any], vocabulary: Vocabulary) -> Waypoints 
         )
     places = tuple(place for place in ground.places if place != vocabulary.unresolved)
     begun = 2 if pattern in SHAPED else BEGUN
-    return Waypoints(places, ground.lengths, ground.bearings, paths, begun)
+    sizes = {source.parameters.get(name) for name in ("width", "length", "spacing")}
+    # A bare number may say how many lanes are meant: "the first three".
+    bare = set(source.facts.counts) - said - sizes - {axis for place in places for axis in place}
+    whole = pattern == "lawnmower" and None not in sizes and not bare
+    return Waypoints(places, ground.lengths, ground.bearings, paths, begun, whole=whole)
 
 
 @dataclass(frozen=True)

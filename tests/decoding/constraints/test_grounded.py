@@ -12,6 +12,7 @@ from planner_ft.data.rules import rule_problems
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.task.steps import plan_step
 from planner_ft.facts import missing_words
+from planner_ft.facts.geometry import lawnmower
 from planner_ft.prompts.text import completion_text
 from planner_ft.support.files import compact_json, read_jsonl
 from planner_ft.vocabulary import load_vocabulary
@@ -224,6 +225,19 @@ def test_right_plans_can_be_written(embedded: Any, level: Level) -> None:
             if factory.start(record, 4096).admits(ids) < len(ids):
                 refused.append(record["prompt"])
         assert len(refused) <= (1 - share) * len(records), refused
+
+
+def test_a_grid_of_stated_size_is_written_whole_or_not_at_all(embedded: Any) -> None:
+    vocabulary = load_vocabulary()
+    sizes = {"center": [0, 0], "width": 20, "length": 20, "spacing": 5}
+    record = {"task": "BathymetryGridSurvey", "prompt": "Survey the depths.", "parameters": sizes}
+    lanes = lawnmower((0, 0), 20, 20, 5)
+    steps = [plan_step("GoToXY", {"x": x, "y": y}, [], [], vocabulary) for x, y in lanes]
+    factory = make_factory(embedded, "task", vocabulary, "grounded")
+    for count in (8, 10):
+        text = completion_text("task", {"skill_sequence": steps[:count]}, vocabulary)
+        ids = answer_ids(embedded, text)
+        assert (factory.start(record).admits(ids) == len(ids)) is (count == len(lanes))
 
 
 def turned(prompt: str, *movements: tuple[str, dict[str, float]]) -> dict[str, Any]:

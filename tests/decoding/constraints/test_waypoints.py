@@ -38,6 +38,19 @@ def test_a_grid_that_was_begun_is_gone_on_with() -> None:
     assert follows(facts, g.lawnmower((0, 0), 20, 20, 5, "north-east"))
 
 
+def test_a_grid_of_stated_size_is_done_at_its_end_alone() -> None:
+    facts = waypoints("BathymetryGridSurvey", "Survey the depths around [0, 0].", **GRID)
+    lanes = tuple(g.lawnmower((0, 0), 20, 20, 5))
+    assert [facts.unfinished(lanes[:at]) for at in (0, 1, 2, 8, 9, 10)] == [False] * 2 + [
+        *[True] * 3,
+        False,
+    ]
+    assert facts.unfinished(lanes[:8], 1)
+    assert not facts.unfinished(lanes[:9], 1)
+    part = waypoints("BathymetryGridSurvey", "Run the first 3 lanes around [0, 0].", **GRID)
+    assert not part.unfinished(lanes[:6])
+
+
 @pytest.mark.parametrize(
     ("prompt", "path"),
     [
