@@ -254,8 +254,10 @@ class TaskScript:
             for skill in known
         )
         if role == "filter":
-            behind = literal("]," + PERCEPTIONS) + " " + self._list(
-                grammar, "perception", (), going=going
+            behind = (
+                literal("]," + PERCEPTIONS)
+                + " "
+                + self._list(grammar, "perception", (), going=going)
             )
         else:
             behind = f"{literal(']')} {step_tail(grammar, self.values)} {self._ends(going)}"
