@@ -8,6 +8,8 @@ would not give.
 from __future__ import annotations
 
 import copy
+import functools
+import itertools
 import json
 import re
 from collections import Counter
@@ -16,7 +18,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.retrieval import Index
 from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data
 from planner_ft.prompts.text import user_text
 from planner_ft.support.errors import PlannerError
@@ -27,6 +28,11 @@ from planner_ft.vocabulary.plans import Level, list_key, step_skills
 
 MAJORITY, NEAREST = "majority plan", "nearest neighbour"
 TRAIN = "train.jsonl"
+TOKEN = re.compile(r"\w+|[^\w\s]")
+CHARACTERS = (3, 4, 5)
+"""Lengths of the pieces of a word, its borders included."""
+ROWS = 256
+"""Queries that are compared at a time."""
 
 Line = dict[str, Any]
 Plan = dict[str, Any]
@@ -61,18 +67,13 @@ def make_baselines(data: BenchData, vocabulary: Vocabulary) -> Baselines:
     )
     seen = set(map(_normalised, theirs))
     if known := sum(_normalised(text) in seen for text in ours):
-        notes.append(
-            f"{known} of {len(ours)} test inputs stand in the training split, too: figures of"
-            " whatever was trained on it are too high."
-        )
+        stand = f"{known} of {len(ours)} test inputs stand in the training split, too"
+        notes.append(f"{stand}: figures of whatever was trained on it are too high.")
     nearest: dict[str, Line] = {}
     for sample, (place, similarity) in zip(data.samples, Index(theirs).nearest(ours), strict=True):
         neighbour = training.samples[place]
-        nearest[sample.id] = {
-            **_line(sample, neighbour.expected),
-            "neighbour": neighbour.id,
-            "similarity": round(similarity, 4),
-        }
+        found = {"neighbour": neighbour.id, "similarity": round(similarity, 4)}
+        nearest[sample.id] = _line(sample, neighbour.expected) | found
     answers = {MAJORITY: _majority(data, training), NEAREST: nearest}
     return Baselines(answers, training.summary(), tuple(notes))
 
@@ -81,10 +82,8 @@ def _find_training(data: BenchData, vocabulary: Vocabulary) -> tuple[BenchData |
     """The training split that goes with test data: beside it, in data/LEVEL, or the package's; else
     None and why.
     """
-    problem = (
-        f"no training split of the {data.level} level; `plannerft gen-data --level {data.level}`"
-        f" writes data/{data.level}/{TRAIN}"
-    )
+    command = f"`plannerft gen-data --level {data.level}` writes data/{data.level}/{TRAIN}"
+    problem = f"no training split of the {data.level} level; {command}"
     for path in _places(data, vocabulary):
         if path.is_file():
             try:
@@ -108,10 +107,8 @@ def _majority(data: BenchData, training: BenchData) -> dict[str, Line]:
     for a task without samples.
     """
     groups: dict[Any, list[Sample]] = {}
-    for sample in training.samples:
+    for sample in training.samples if data.level == "task" else ():
         groups.setdefault(sample.record.get("task"), []).append(sample)
-    if data.level == "mission":
-        groups = {}
     plans = {group: majority_plan(data.level, samples) for group, samples in groups.items()}
     fallback = majority_plan(data.level, training.samples)
     return {
@@ -125,15 +122,26 @@ def majority_plan(level: Level, samples: Sequence[Sample]) -> Plan:
     parameters that stand there in such plans. Of several that are equally frequent the first
     counts.
     """
-    sequences = [_sequence(level, sample.expected) for sample in samples]
+    sequences = [
+        tuple((step, role, entry.get("title") or entry["name"]) for step, role, entry in entries)
+        for entries in (_entries(level, sample.expected) for sample in samples)
+    ]
     best = Counter(sequences).most_common(1)[0][0]
     like = [sample.expected for sample, one in zip(samples, sequences, strict=True) if one == best]
     majority = copy.deepcopy(like[0])
     places = [_entries(level, plan) for plan in like]
-    for place, entry in enumerate(_entries(level, majority)):
-        given = Counter(compact_json(entries[place].get("parameters", {})) for entries in places)
+    for place, (_step, _role, entry) in enumerate(_entries(level, majority)):
+        given = Counter(compact_json(entries[place][2].get("parameters", {})) for entries in places)
         entry["parameters"] = json.loads(given.most_common(1)[0][0])
     return majority
+
+
+def _entries(level: Level, plan: Plan) -> list[tuple[int, str, dict[str, Any]]]:
+    """The tasks, or the skills of all steps, with their step and role."""
+    steps = enumerate(plan[list_key(level)])
+    if level == "mission":
+        return [(step, "task", entry) for step, entry in steps]
+    return [(step, role, skill) for step, entry in steps for role, skill in step_skills(entry)]
 
 
 def _line(sample: Sample, plan: Plan) -> Line:
@@ -144,19 +152,43 @@ def _normalised(text: str) -> str:
     return re.sub(r"\W+", " ", text.lower()).strip()
 
 
-def _sequence(level: Level, plan: Plan) -> tuple[Any, ...]:
-    """Titles in order, or the names of each step with their roles."""
-    if level == "mission":
-        return tuple(task["title"] for task in plan[list_key(level)])
-    return tuple(
-        tuple((role, skill["name"]) for role, skill in step_skills(step))
-        for step in plan[list_key(level)]
+class Index:
+    """Texts to look up by TF-IDF over words, pairs of words and characters within words, with the
+    weights of Salton and Buckley 1988 and smoothed idf.
+    """
+
+    def __init__(self, texts: Sequence[str]) -> None:
+        from sklearn.feature_extraction.text import TfidfVectorizer
+
+        self.vectorizer = TfidfVectorizer(analyzer=_features)
+        self.matrix = self.vectorizer.fit_transform(texts)
+
+    def nearest(self, texts: Sequence[str]) -> list[tuple[int, float]]:
+        """For each text the index of the most similar one, the first of those that are equally
+        similar, and the cosine similarity, 0 to 1.
+        """
+        queries = self.vectorizer.transform(texts)
+        found: list[tuple[int, float]] = []
+        for start in range(0, len(texts), ROWS):
+            # Rounded, because equal texts may differ in their last bit.
+            similarity = (queries[start : start + ROWS] @ self.matrix.T).toarray().round(9)
+            best = similarity.argmax(1).tolist()
+            found += zip(best, similarity.max(1).tolist(), strict=True)
+        return found
+
+
+def _features(text: str) -> list[str]:
+    words = TOKEN.findall(text.lower())
+    pairs = (f"{one} {other}" for one, other in itertools.pairwise(words))
+    return [*itertools.chain.from_iterable(map(_pieces, words)), *pairs]
+
+
+@functools.lru_cache(maxsize=65_536)
+def _pieces(word: str) -> tuple[str, ...]:
+    padded = f"<{word}>"
+    pieces = (
+        padded[start : start + length]
+        for length in CHARACTERS
+        for start in range(len(padded) - length + 1)
     )
-
-
-def _entries(level: Level, plan: Plan) -> list[dict[str, Any]]:
-    """The tasks, or the skills of all steps."""
-    entries: list[dict[str, Any]] = plan[list_key(level)]
-    if level == "mission":
-        return entries
-    return [skill for step in entries for _role, skill in step_skills(step)]
+    return (word, *pieces)

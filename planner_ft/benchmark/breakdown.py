@@ -8,11 +8,10 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from planner_ft.benchmark.metrics.counts import Counts
+from planner_ft.benchmark.metrics.alignment import substitutions
+from planner_ft.benchmark.metrics.facts import KINDS
 from planner_ft.benchmark.metrics.failures import FAILURES
-from planner_ft.benchmark.metrics.names import counts_by_name, counts_by_role
-from planner_ft.benchmark.metrics.slots import KINDS
-from planner_ft.benchmark.metrics.substitutions import substitutions
+from planner_ft.benchmark.metrics.names import Counts, counts_by_name, counts_by_role
 from planner_ft.benchmark.scoring import SampleScore
 from planner_ft.benchmark.statistics import Estimate, clustered_rate
 
@@ -36,20 +35,21 @@ def breakdown(scores: Scores) -> Breakdown:
     task prompts.
     """
     families = [score.family for score in scores]
-    aligned = [(score.alignment.predicted, score.alignment.expected) for score in scores]
-    by_name = [
-        counts_by_name([entry.name for entry in ours], [entry.name for entry in theirs])
-        for ours, theirs in aligned
-    ]
-    found: Breakdown = {"per_name": _per(by_name, families, "name")}
+    entries = [(score.alignment.predicted, score.alignment.expected) for score in scores]
+    names = [counts_by_name(*([one.name for one in side] for side in pair)) for pair in entries]
+    found: Breakdown = {"per_name": _per(names, families, "name")}
     if any("navigation_size" in score.values for score in scores):
-        by_role = [counts_by_role(*entries) for entries in aligned]
-        found["per_role"] = _per(by_role, families, "role")
+        found["per_role"] = _per([counts_by_role(*pair) for pair in entries], families, "role")
+    replaced = Counter(pair for score in scores for pair in substitutions(score.alignment))
+    frequent = sorted(replaced.items(), key=lambda one: (-one[1], *(name or "" for name in one[0])))
     ungrounded = [score.id for score in scores if score.details.get("ungrounded")]
     return {
         **found,
         "per_type": _per_type(scores, families),
-        "substitutions": _substitutions(scores),
+        "substitutions": [
+            {"expected": expected, "predicted": predicted, "n": count}
+            for (expected, predicted), count in frequent
+        ],
         "failure_examples": _failure_examples(scores),
         "stops": _stops(scores),
         "slots": _slots(scores, families),
@@ -59,22 +59,11 @@ def breakdown(scores: Scores) -> Breakdown:
 
 def _failure_examples(scores: Scores) -> dict[str, list[str]]:
     """The first ids of wrong answers of each kind that there is."""
-    found: dict[str, list[str]] = {kind: [] for kind in FAILURES}
-    for score in scores:
-        if score.failure is not None and score.id not in found[score.failure]:
-            found[score.failure].append(score.id)
+    found = {
+        kind: list(dict.fromkeys(score.id for score in scores if score.failure == kind))
+        for kind in FAILURES
+    }
     return {kind: ids[:SHOWN] for kind, ids in found.items() if ids}
-
-
-def _substitutions(scores: Scores) -> Lines:
-    """Pairs of expected and predicted name that do not agree, most frequent first."""
-    counts = Counter(pair for score in scores for pair in substitutions(score.alignment))
-    return [
-        {"expected": expected, "predicted": predicted, "n": count}
-        for (expected, predicted), count in sorted(
-            counts.items(), key=lambda item: (-item[1], item[0][0] or "", item[0][1] or "")
-        )
-    ]
 
 
 def _stops(scores: Scores) -> Lines:
@@ -83,10 +72,9 @@ def _stops(scores: Scores) -> Lines:
     for score in scores:
         if stop := score.details.get("stop"):
             ids.setdefault((stop["condition"], stop["title"]), []).append(score.id)
-    ordered = sorted(ids.items(), key=lambda item: (-len(item[1]), item[0]))
     return [
         {"condition": condition, "title": title, "n": len(found), "examples": found[:SHOWN]}
-        for (condition, title), found in ordered
+        for (condition, title), found in sorted(ids.items(), key=lambda one: (-len(one[1]), one[0]))
     ]
 
 
@@ -97,32 +85,30 @@ def _slots(scores: Scores, families: Sequence[str]) -> Lines:
     lines: Lines = []
     for kind in KINDS:
         counts = [score.details.get("slots", {}).get(kind, (0, 0, 0)) for score in scores]
-        stated = sum(count[0] for count in counts)
-        line: dict[str, Any] = {"kind": kind, "stated": stated}
+        line: dict[str, Any] = {"kind": kind, "stated": sum(count[0] for count in counts)}
         for place, name in ((1, "in_parameters"), (2, "in_prompt")):
             if all(count[place] is not None for count in counts):
                 pairs = [(count[place], count[0]) for count in counts]
                 line[name] = sum(right for right, _all in pairs)
                 line[f"{name}_share"] = _share(pairs, families).to_json()
-        lines += [line] if stated else []
+        lines += [line] if line["stated"] else []
     return lines
 
 
-def _per(
-    counted: Sequence[dict[str, Counts]], families: Sequence[str], heading: str
-) -> list[dict[str, Any]]:
+def _per(counted: Sequence[dict[str, Counts]], families: Sequence[str], heading: str) -> Lines:
     """A line per name or role, the most expected first."""
-    nothing, lines = Counts(0, 0, 0), []
+    lines = []
     for name in {name for counts in counted for name in counts}:
-        column = [counts.get(name, nothing) for counts in counted]
+        column = [counts.get(name, Counts(0, 0, 0)) for counts in counted]
+        right, predicted, expected = (sum(part) for part in zip(*column, strict=True))
         of_predicted = _share(((one.right, one.predicted) for one in column), families)
         of_expected = _share(((one.right, one.expected) for one in column), families)
         lines.append(
             {
                 heading: name,
-                "expected": sum(one.expected for one in column),
-                "predicted": sum(one.predicted for one in column),
-                "right": sum(one.right for one in column),
+                "expected": expected,
+                "predicted": predicted,
+                "right": right,
                 "samples": sum(one.expected > 0 for one in column),
                 "precision": of_predicted.to_json(),
                 "recall": of_expected.to_json(),
@@ -140,8 +126,7 @@ def _f1(column: Sequence[Counts], families: Sequence[str]) -> Estimate:
     J / (1 + J), which grows with J: the bounds of J give those of F1.
     """
     either = ((one.right, one.predicted + one.expected - one.right) for one in column)
-    share = _share(either, families)
-    bounds = (share.value, share.low, share.high)
+    bounds = _share(either, families).to_json().values()
     return Estimate(*(None if bound is None else 2 * bound / (1 + bound) for bound in bounds))
 
 

@@ -9,16 +9,17 @@ stayed wrong.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from planner_ft.benchmark.catalogue import METRIC
-from planner_ft.benchmark.contrasts import Scores, by_system
+from planner_ft.benchmark.contrasts import by_system
 from planner_ft.benchmark.paired import Paired, Score, holm, paired
 
 RIGHT = "right"
 """The outcome of an answer with right names, order and parameters."""
+COMPARED = ("f1", "whole_plan")
 
 
 @dataclass(frozen=True)
@@ -43,6 +44,7 @@ class Change:
     p_adjusted: tuple[float | None, float | None] = (None, None)
 
     def to_json(self) -> dict[str, Any]:
+        outcomes = self.outcomes.items()
         return {
             **asdict(self),
             "f1": self.f1.difference.to_json(),
@@ -50,57 +52,51 @@ class Change:
             "p": [self.f1.p, self.whole_plan.p],
             "p_adjusted": list(self.p_adjusted),
             "outcomes": [
-                {"before": before, "after": after, "n": count}
-                for (before, after), count in self.outcomes.items()
+                {"before": old, "after": new, "n": count} for (old, new), count in outcomes
             ],
         }
 
 
-def changes(scores: Sequence[dict[str, Any]], seed: int) -> list[Change]:
+def changes(scores: Iterable[Mapping[str, Any]], seed: int) -> list[Change]:
     """Every enforced configuration against the free one of the same weights ("lora+state" against
     "lora").
     """
     # Scores of earlier versions do not say whether the whole plan is right.
     systems = by_system({**score, "whole_plan": score["failure"] is None} for score in scores)
-    found = []
-    for (candidate, configuration), after in systems.items():
-        free, enforced, _strength = configuration.partition("+")
-        before = systems.get((candidate, free))
-        if enforced and before:
-            found.append(_change(candidate, free, before, configuration, after, seed))
-    holms = iter(holm([p for change in found for p in (change.f1.p, change.whole_plan.p)]))
-    return [replace(change, p_adjusted=(next(holms), next(holms))) for change in found]
-
-
-def _change(
-    candidate: str, first: str, before: Scores, second: str, after: Scores, seed: int
-) -> Change:
-    """Pair two configurations by sample id, and repeats by their number."""
-    pairs = [
-        pair
-        for name in before
-        if name in after
-        for pair in zip(before[name], after[name], strict=False)
+    wanted = [
+        (candidate, free, configuration)
+        for candidate, configuration in systems
+        for free, plus, _strength in [configuration.partition("+")]
+        if plus and (candidate, free) in systems
     ]
-    outcomes = Counter((old["failure"] or RIGHT, new["failure"] or RIGHT) for old, new in pairs)
-    return Change(
-        candidate,
-        first,
-        second,
-        len(before.keys() & after.keys()),
-        f1=paired(METRIC["f1"], before, after, seed),
-        whole_plan=paired(METRIC["whole_plan"], before, after, seed),
-        seconds=_ratio(pairs, "latency_s"),
-        forward_passes=_ratio(pairs, "forward_passes"),
-        outcomes=dict(outcomes.most_common()),
-    )
+    ends = [(systems[name, free], systems[name, enforced]) for name, free, enforced in wanted]
+    found = [[paired(METRIC[name], *both, seed) for name in COMPARED] for both in ends]
+    ps = holm([one.p for pair in found for one in pair])
+    made = []
+    for index, (names, (before, after), pair) in enumerate(zip(wanted, ends, found, strict=True)):
+        common = [name for name in before if name in after]
+        answers = [both for name in common for both in zip(before[name], after[name], strict=False)]
+        outcomes = Counter(
+            (old["failure"] or RIGHT, new["failure"] or RIGHT) for old, new in answers
+        )
+        made.append(
+            Change(
+                *names,
+                len(common),
+                f1=pair[0],
+                whole_plan=pair[1],
+                seconds=_ratio(answers, "latency_s"),
+                forward_passes=_ratio(answers, "forward_passes"),
+                outcomes=dict(outcomes.most_common()),
+                p_adjusted=(ps[2 * index], ps[2 * index + 1]),
+            )
+        )
+    return made
 
 
 def _ratio(pairs: Sequence[tuple[Score, Score]], key: str) -> float | None:
-    known = [
-        (old[key], new[key])
-        for old, new in pairs
-        if old.get(key) is not None and new.get(key) is not None
+    known = [[line.get(key) for line in pair] for pair in pairs]
+    sums = [
+        sum(column) for column in zip(*(pair for pair in known if None not in pair), strict=True)
     ]
-    total = sum(old for old, _new in known)
-    return sum(new for _old, new in known) / total if total else None
+    return sums[1] / sums[0] if sums and sums[0] else None

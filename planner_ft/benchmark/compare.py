@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -11,8 +11,10 @@ from rich.console import Console
 from rich.text import Text
 
 from planner_ft.benchmark.catalogue import CATALOGUE, METRIC, Metric
-from planner_ft.benchmark.folder import BASELINES, RESULTS, SCORES
+from planner_ft.benchmark.contrasts import Scores, by_system
+from planner_ft.benchmark.folder import SCORES, read_results
 from planner_ft.benchmark.paired import paired
+from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.statistics import CONFIDENCE, RESAMPLES
 from planner_ft.benchmark.verdicts import (
     DEFAULT_METRICS,
@@ -23,7 +25,6 @@ from planner_ft.benchmark.verdicts import (
     p_text,
 )
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import iterate_jsonl, read_json
 from planner_ft.support.tables import (
     Cell,
     Table,
@@ -44,8 +45,6 @@ CSV = (
     *("first", "second", "metric", "n", "families", "first_value", "second_value", "difference"),
     *("low", "high", "p", "p_mcnemar", "p_adjusted", "verdict"),
 )
-Scores = dict[str, list[dict[str, Any]]]
-"""Lines of scores.jsonl by sample id; several where a sample was repeated."""
 
 
 @dataclass(frozen=True)
@@ -63,20 +62,10 @@ class RunRow:
 
 
 @dataclass(frozen=True)
-class Run:
-    """A folder of `bench` or `score`."""
-
-    path: Path
-    level: str
-    data: dict[str, Any]
-    rows: tuple[RunRow, ...]
-
-
-@dataclass(frozen=True)
 class CompareSettings:
     """`metrics` are names of results.json. `against` names the row that the others are compared
     with, None takes the first one; `same` compares each row with that of the same name in the first
-    run instead. `common` allows different data files.
+    run instead. `common` allows different data files. Raises PlannerError.
     """
 
     runs: tuple[Path, ...]
@@ -85,6 +74,16 @@ class CompareSettings:
     same: bool = False
     common: bool = False
     seed: int = 0
+
+    def __post_init__(self) -> None:
+        known = [metric.name for metric in CATALOGUE]
+        for name in self.metrics:
+            if name not in known:
+                raise PlannerError(f"--metric {name}: unknown; there are {', '.join(known)}")
+
+    @property
+    def asked(self) -> list[Metric]:
+        return [METRIC[name] for name in dict.fromkeys(self.metrics)]
 
 
 @dataclass(frozen=True)
@@ -120,84 +119,42 @@ class Report:
 
 def compare_runs(settings: CompareSettings) -> Report:
     """Compare rows of runs. Raises PlannerError where they cannot be compared."""
-    metrics = _metrics(settings.metrics)
-    runs = {path: load_run(path) for path in settings.runs}
-    _check_same(list(runs.values()), common=settings.common)
-    first_run = runs[settings.runs[0]]
-    pairs = _pairs(_named_apart(list(runs.values())), first_run, settings)
+    runs = {path: read_results(path)[0] for path in settings.runs}
+    _check_same(runs, common=settings.common)
+    rows = [one for path, results in runs.items() for one in run_rows(path, results)]
+    pairs = _pairs(_named_apart(rows, list(runs)), settings)
     found = []
     for first, second in pairs:
         if not first.scores.keys() & second.scores.keys():
-            raise PlannerError(
-                f"{first.name} and {second.name} have no sample in common; compare runs of the same"
-                " data"
-            )
-        for metric in metrics:
+            way = "compare runs of the same data"
+            raise PlannerError(f"{first.name} and {second.name} have no sample in common; {way}")
+        for metric in settings.asked:
             one = paired(metric, first.scores, second.scores, settings.seed)
             found.append((first.name, second.name, one))
     data = tuple(runs[path].data for path in settings.runs)
-    said = tuple(_notes(list(runs.values()), pairs, metrics))
-    return Report(settings, first_run.level, data, tuple(adjusted(found)), said)
+    notes = dict.fromkeys(_notes(data, pairs, settings.asked))
+    level = runs[settings.runs[0]].level
+    return Report(settings, level, data, tuple(adjusted(found)), tuple(notes))
 
 
-def load_run(path: Path) -> Run:
-    """Read a run folder. Raises PlannerError when it is none, or not complete."""
-    if not (path / RESULTS).is_file():
-        raise PlannerError(
-            f"{path}: no {RESULTS}; give a folder that `plannerft bench` or `plannerft score --out`"
-            " has written to its end"
-        )
-    results = read_json(path / RESULTS)
-    kinds = {"level": str, "data": dict, "rows": list}
-    if not isinstance(results, dict) or not all(
-        isinstance(results.get(key), kind) for key, kind in kinds.items()
-    ):
-        raise PlannerError(
-            f"{path / RESULTS}: is no result of `plannerft bench` (level, data and rows are"
-            " expected)"
-        )
-    scores = _scores(path / SCORES)
-    if (path / BASELINES).is_file():
-        scores |= _scores(path / BASELINES)
-    rows = []
-    for one in [*results["rows"], *results.get("baselines", [])]:
-        key = str(one.get("candidate")), str(one.get("configuration"))
+def run_rows(path: Path, results: Results) -> list[RunRow]:
+    """The rows of a run and its baselines. Raises PlannerError for one without scores."""
+    scores, rows = by_system([*results.scores, *results.baseline_scores]), []
+    for one in [*results.rows, *results.baselines]:
+        system = one.system
+        key = system.candidate, system.configuration
         if key not in scores:
-            raise PlannerError(
-                f"{path / SCORES}: has no scores of {' '.join(key)}; score the run again with"
-                f" `plannerft score --run {path}`"
-            )
-        baseline = one.get("is_baseline") is True
-        name = key[0] if baseline else " ".join(key)
-        rows.append(RunRow(name, name, path, scores[key], tuple(one.get("missing", ())), baseline))
-    return Run(path, results["level"], results["data"], tuple(rows))
+            way = f"score the run again with `plannerft score --run {path}`"
+            raise PlannerError(f"{path / SCORES}: has no scores of {one.key}; {way}")
+        name = system.candidate if system.is_baseline else one.key
+        rows.append(RunRow(name, name, path, scores[key], one.missing, system.is_baseline))
+    return rows
 
 
-def _scores(path: Path) -> dict[tuple[str, str], Scores]:
-    found: dict[tuple[str, str], Scores] = {}
-    seen: set[tuple[Any, ...]] = set()
-    for number, line, problem in iterate_jsonl(path):
-        key = ("", "")
-        if not problem and not (isinstance(line, dict) and isinstance(line.get("id"), str)):
-            problem = "no score of a sample (id is expected)"
-        elif isinstance(line, dict):
-            key = str(line.get("candidate")), str(line.get("configuration"))
-            if (*key, line["id"], line.get("repeat")) in seen:
-                problem = f"{' '.join(key)} has a score of {line['id']!r} already"
-        if problem or not isinstance(line, dict):
-            raise PlannerError(
-                f"{path}:{number}: {problem}; score the run again with `plannerft score --run`"
-            )
-        seen.add((*key, line["id"], line.get("repeat")))
-        found.setdefault(key, {}).setdefault(line["id"], []).append(line)
-    return found
-
-
-def _named_apart(runs: Sequence[Run]) -> list[RunRow]:
-    """The rows of all runs, with the name of the run before those that several runs have."""
-    rows = [one for run in runs for one in run.rows]
+def _named_apart(rows: Sequence[RunRow], runs: Sequence[Path]) -> list[RunRow]:
+    """The rows, with the name of the run before those that several runs have."""
     names = [one.system for one in rows]
-    short = len({run.path.name for run in runs}) == len(runs)
+    short = len({path.name for path in runs}) == len(runs)
     return [
         replace(one, name=f"{one.run.name if short else one.run}: {one.system}")
         if names.count(one.system) > 1
@@ -206,48 +163,34 @@ def _named_apart(runs: Sequence[Run]) -> list[RunRow]:
     ]
 
 
-def _metrics(names: Sequence[str]) -> list[Metric]:
-    known = {metric.name: metric for metric in CATALOGUE}
-    for name in names:
-        if name not in known:
-            raise PlannerError(f"--metric {name}: unknown; there are {', '.join(known)}")
-    return [known[name] for name in dict.fromkeys(names)]
-
-
-def _check_same(runs: Sequence[Run], *, common: bool) -> None:
-    first = runs[0]
-    for run in runs[1:]:
+def _check_same(runs: dict[Path, Results], *, common: bool) -> None:
+    (path, first), *others = runs.items()
+    for other, run in others:
         if run.level != first.level:
-            raise PlannerError(
-                f"{first.path} is a run of the {first.level} level and {run.path} one of the"
-                f" {run.level} level; compare runs of one level"
-            )
+            levels = f"{path} is a run of the {first.level} level and {other} one of the"
+            raise PlannerError(f"{levels} {run.level} level; compare runs of one level")
         if run.data.get("sha256") != first.data.get("sha256") and not common:
             raise PlannerError(
-                f"{first.path} was run on {first.data.get('path')} and {run.path} on"
+                f"{path} was run on {first.data.get('path')} and {other} on"
                 f" {run.data.get('path')}, which are not the same data; give --common to compare"
                 " the samples whose ids are in both"
             )
 
 
-def _pairs(
-    rows: Sequence[RunRow], first_run: Run, settings: CompareSettings
-) -> list[tuple[RunRow, RunRow]]:
+def _pairs(rows: Sequence[RunRow], settings: CompareSettings) -> list[tuple[RunRow, RunRow]]:
+    first = settings.runs[0]
     if settings.same:
-        former = {one.system: one for one in rows if one.run == first_run.path}
-        others = [one for one in rows if one.run != first_run.path and not one.is_baseline]
+        former = {one.system: one for one in rows if one.run == first}
+        others = [one for one in rows if one.run != first and not one.is_baseline]
         pairs = [(former[one.system], one) for one in others if one.system in former]
         if not pairs:
-            raise PlannerError(
-                f"--same: no row of the other runs has the name of one in {first_run.path}"
-                f" ({', '.join(former)}); leave out --same"
-            )
+            problem = f"no row of the other runs has the name of one in {first}"
+            raise PlannerError(f"--same: {problem} ({', '.join(former)}); leave out --same")
         return pairs
     reference = rows[0] if settings.against is None else _named(rows, settings.against)
     if len(rows) == 1:
-        raise PlannerError(
-            f"{first_run.path}: holds one row, {rows[0].name}; name a second run to compare it with"
-        )
+        problem = f"holds one row, {rows[0].name}; name a second run to compare it with"
+        raise PlannerError(f"{first}: {problem}")
     return [(reference, one) for one in rows if one is not reference]
 
 
@@ -263,30 +206,26 @@ def _named(rows: Sequence[RunRow], text: str) -> RunRow:
 
 
 def _notes(
-    runs: Sequence[Run], pairs: Sequence[tuple[RunRow, RunRow]], metrics: Sequence[Metric]
-) -> list[str]:
-    found: list[str] = []
-    if len({str(run.data.get("sha256")) for run in runs}) > 1:
-        found.append(
-            "The runs used different data files; samples are paired by id, and nothing says that"
-            " the same id is the same sample."
-        )
+    data: Sequence[dict[str, Any]],
+    pairs: Sequence[tuple[RunRow, RunRow]],
+    metrics: Sequence[Metric],
+) -> Iterator[str]:
+    if len({str(one.get("sha256")) for one in data}) > 1:
+        unsure = "nothing says that the same id is the same sample"
+        yield f"The runs used different data files; samples are paired by id, and {unsure}."
     for one in {one.name: one for pair in pairs for one in pair}.values():
         if one.missing:
-            found.append(
-                f"{one.name}: no prediction for {_listed(one.missing)}, counted as empty outputs."
-            )
+            missing = f"no prediction for {_listed(one.missing)}"
+            yield f"{one.name}: {missing}, counted as empty outputs."
     for first, second in pairs:
         for one, other in ((first, second), (second, first)):
             if absent := [name for name in one.scores if name not in other.scores]:
-                found.append(f"{other.name} lacks {_listed(absent)} of {one.name}: left out.")
+                yield f"{other.name} lacks {_listed(absent)} of {one.name}: left out."
         for metric in metrics:
             key = metric.over[0] or metric.name
             if not (_knows(first, key) and _knows(second, key)):
-                found.append(
-                    f"{metric.name} of {second.name} against {first.name} was not measured in both."
-                )
-    return list(dict.fromkeys(found))
+                pair = f"{second.name} against {first.name}"
+                yield f"{metric.name} of {pair} was not measured in both."
 
 
 def _knows(one: RunRow, key: str) -> bool:
@@ -309,8 +248,8 @@ def render_report(report: Report) -> dict[str, str]:
         difference = values.pop("difference")
         values |= {"difference": difference.pop("value"), **difference}
         lines.append([values[name] for name in CSV])
-    rows = [(row(table.title, kind="section"), *table.rows) for table in tables]
-    together = replace(tables[0], title="", rows=tuple(one for of_pair in rows for one in of_pair))
+    rows = [one for table in tables for one in (row(table.title, kind="section"), *table.rows)]
+    together = replace(tables[0], title="", rows=tuple(rows))
     texts = [*map(markdown_table, tables), *(f"- {note}" for note in below)]
     return {
         "comparison.md": "\n".join(texts) + "\n",
@@ -347,12 +286,11 @@ def _tables(report: Report, *, raw: bool = True) -> list[Table]:
     rows: dict[str, list[TableRow]] = {}
     for one in report.comparisons:
         metric, found = METRIC[one.paired.metric], one.paired
-        values = [
+        shown: list[Cell | str] = [
             figure(value, scale=metric.scale, decimals=metric.decimals)
             for value in (found.first, found.second)
         ]
-        shown: list[Cell | str] = [*values, replace(one.difference(), mark="")]
-        shown += [p_text(found.p)] if raw else []
+        shown += [replace(one.difference(), mark=""), *([p_text(found.p)] if raw else [])]
         verdict = f"{one.mark} {one.verdict}".strip()
         of_pair = rows.setdefault(f"{one.second} against {one.first}", [])
         of_pair.append(row(metric.name, str(found.n), *shown, p_text(one.p_adjusted), verdict))

@@ -16,6 +16,7 @@ Question = Literal["configuration", "best", "baseline"]
 the same weights. best: models in one configuration with the best of them. baseline: every row with
 each baseline.
 """
+Contrasts = Mapping[Question, Sequence[Comparison]]
 System = tuple[str, str]
 """Candidate and configuration."""
 Scores = dict[str, list[Score]]
@@ -29,7 +30,7 @@ NOT_WORSE = ("equal", "not told apart", "better")
 
 
 def contrasts(
-    scores: Sequence[Mapping[str, Any]], baselines: Sequence[Mapping[str, Any]], seed: int
+    scores: Iterable[Mapping[str, Any]], baselines: Iterable[Mapping[str, Any]], seed: int
 ) -> dict[Question, list[Comparison]]:
     """All comparisons from the lines of scores.jsonl and baselines.jsonl, adjusted after Holm
     within each question.
@@ -62,8 +63,8 @@ def by_system(scores: Iterable[Mapping[str, Any]]) -> dict[System, Scores]:
     """Lines of scores.jsonl by system, then by sample id."""
     rows: dict[System, Scores] = {}
     for score in scores:
-        of_system = rows.setdefault((score["candidate"], score["configuration"]), {})
-        of_system.setdefault(score["id"], []).append(score)
+        key = str(score.get("candidate")), str(score.get("configuration"))
+        rows.setdefault(key, {}).setdefault(str(score.get("id")), []).append(score)
     return rows
 
 
@@ -109,7 +110,7 @@ def _value(metric: Metric, scores: Scores) -> float | None:
     return sum(known) / len(known) if known else None
 
 
-def marks(found: Mapping[Question, Sequence[Comparison]]) -> dict[tuple[str, str], str]:
+def marks(found: Contrasts) -> dict[tuple[str, str], str]:
     """Marks by (system, metric): the verdict on the configuration that the row is compared with,
     and ★ for the best of a column and its equals.
     """
@@ -119,25 +120,37 @@ def marks(found: Mapping[Question, Sequence[Comparison]]) -> dict[tuple[str, str
     return marked | {key: marked.get(key, "") + BEST for key in best}
 
 
-def contrast_notes(
-    found: Mapping[Question, Sequence[Comparison]], baseline_notes: Sequence[str] = ()
-) -> list[str]:
-    """The legend of the marks, and whether each row beats the baselines."""
+def legend(found: Contrasts) -> list[str]:
+    """The meaning of the marks that a table has."""
     lines = []
     if found["configuration"]:
-        lines.append(
-            "Marks, paired by sample with the model's first configuration (enforced with free):"
-            f" {EXPLAINED}."
-        )
+        reference = "the model's first configuration (enforced with free)"
+        lines.append(f"Marks, paired by sample with {reference}: {EXPLAINED}.")
     if found["best"]:
-        lines.append(
-            f"{BEST}: the best of its column, or not shown to be worse (same tests, adjusted for"
-            " all models and metrics)."
-        )
+        tests = "same tests, adjusted for all models and metrics"
+        lines.append(f"{BEST}: the best of its column, or not shown to be worse ({tests}).")
+    return lines
+
+
+def baseline_sentences(found: Contrasts) -> dict[str, str]:
+    """By system: the baselines that it beats, and those that it is not shown to beat."""
     rows: dict[str, list[Comparison]] = {}
     for one in found["baseline"]:
         rows.setdefault(one.second, []).append(one)
-    return [*lines, *baseline_notes, *(_sentence(name, of_row) for name, of_row in rows.items())]
+    sentences = {}
+    for name, comparisons in rows.items():
+        beaten = _listed([one for one in comparisons if one.verdict == "better"])
+        others = _listed([one for one in comparisons if one.verdict != "better"])
+        parts = [f"beats {beaten}"] if beaten else []
+        parts += [f"is not shown to beat {others}"] if others else []
+        sentences[name] = f"{', but '.join(parts)}."
+    return sentences
+
+
+def contrast_notes(found: Contrasts, baseline_notes: Sequence[str] = ()) -> list[str]:
+    """The legend of the marks, and whether each row beats the baselines."""
+    beside = baseline_sentences(found).items()
+    return [*legend(found), *baseline_notes, *(f"{name} {text}" for name, text in beside)]
 
 
 def baseline_name(name: str) -> str:
@@ -145,20 +158,10 @@ def baseline_name(name: str) -> str:
     return name.removesuffix(" baseline")
 
 
-def _sentence(name: str, comparisons: Sequence[Comparison]) -> str:
-    """The baselines that a row beats, and those that it is not shown to beat."""
-    beaten = _listed([one for one in comparisons if one.verdict == "better"])
-    others = _listed([one for one in comparisons if one.verdict != "better"])
-    parts = [f"beats {beaten}"] if beaten else []
-    parts += [f"is not shown to beat {others}"] if others else []
-    return f"{name} {', but '.join(parts)}."
-
-
 def _listed(comparisons: Sequence[Comparison]) -> str:
     """Baselines with the metrics in brackets."""
     by_first: dict[str, list[str]] = {}
     for one in comparisons:
-        metric = one.paired.metric.replace("_", " ")
-        of_baseline = by_first.setdefault(baseline_name(one.first), [])
-        of_baseline.append(f"{metric}: p {p_text(one.p_adjusted)}")
+        text = f"{one.paired.metric.replace('_', ' ')}: p {p_text(one.p_adjusted)}"
+        by_first.setdefault(baseline_name(one.first), []).append(text)
     return " and ".join(f"the {name} ({', '.join(found)})" for name, found in by_first.items())

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,20 +12,19 @@ from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.runner import Progress, run_bench
 from planner_ft.benchmark.settings import BenchSettings
+from planner_ft.benchmark.toml_files import key_problems, read_toml
 from planner_ft.support.errors import GateError, PlannerError
-from planner_ft.support.files import read_text
 from planner_ft.vocabulary.plans import check_level
 
-REQUIRED = {"level": str, "candidate": str, "configuration": str, "thresholds": dict}
-OPTIONAL = {
-    "data": str,
-    "adapter": str,
-    "vocabulary": str,
-    "limit": int,
-    "max_new_tokens": int,
-    "latency_samples": int,
+REQUIRED: dict[str, type] = {
+    "level": str,
+    "candidate": str,
+    "configuration": str,
+    "thresholds": dict,
 }
-KEYS: dict[str, type] = {**REQUIRED, **OPTIONAL}
+NUMBERS = ("limit", "max_new_tokens", "latency_samples")
+TEXTS = ("data", "adapter", "vocabulary")
+KEYS = {**REQUIRED, **dict.fromkeys(TEXTS, str), **dict.fromkeys(NUMBERS, int)}
 
 
 @dataclass(frozen=True)
@@ -62,36 +60,24 @@ def load_gate(path: Path) -> Gate:
     """Read a gate file; `data`, `adapter` and a vocabulary's path are relative to it. Raises
     PlannerError that lists every mistake.
     """
-    try:
-        raw = tomllib.loads(read_text(path))
-    except tomllib.TOMLDecodeError as error:
-        raise PlannerError(f"{path}: not TOML: {error}") from None
-    problems = [f"{key} is missing" for key in REQUIRED if key not in raw]
-    for key, value in raw.items():
-        if key not in KEYS:
-            problems.append(f"unknown key {key!r} (there are {', '.join(KEYS)})")
-        elif type(value) is not KEYS[key]:
-            problems.append(f"{key} must be a {KEYS[key].__name__}")
-    if problems:
+    raw, here = read_toml(path), path.parent
+    if problems := key_problems(raw, KEYS, REQUIRED, {}):
         raise PlannerError(f"{path}: {'; '.join(problems)}")
     thresholds = tuple(_threshold(path, *item) for item in raw["thresholds"].items())
     if not thresholds:
-        raise PlannerError(
-            f"{path}: [thresholds] names no metric; write for example schema_valid = {{ min ="
-            " 0.98 }"
-        )
+        example = "write for example schema_valid = { min = 0.98 }"
+        raise PlannerError(f"{path}: [thresholds] names no metric; {example}")
     vocabulary = raw.get("vocabulary", "usv")
     needs_latency = any(threshold.metric == "latency_s" for threshold in thresholds)
+    given = {"latency_samples": 25 if needs_latency else 0}
     settings = BenchSettings(
         level=check_level(raw["level"]),
         candidates=(raw["candidate"],),
         configurations=(raw["configuration"],),
-        data=path.parent / raw["data"] if "data" in raw else None,
-        adapters=(str(path.parent / raw["adapter"]),) if "adapter" in raw else (),
-        vocabulary=str(path.parent / vocabulary) if vocabulary.endswith(".toml") else vocabulary,
-        limit=raw.get("limit"),
-        max_new_tokens=raw.get("max_new_tokens"),
-        latency_samples=raw.get("latency_samples", 25 if needs_latency else 0),
+        data=here / raw["data"] if "data" in raw else None,
+        adapters=(str(here / raw["adapter"]),) if "adapter" in raw else (),
+        vocabulary=str(here / vocabulary) if vocabulary.endswith(".toml") else vocabulary,
+        **given | {name: raw[name] for name in NUMBERS if name in raw},
     )
     return Gate(path, settings, thresholds)
 
@@ -121,12 +107,11 @@ def _threshold(path: Path, metric: str, bounds: Any) -> Threshold:
         raise PlannerError(f"{path}: unknown metric {metric!r}; there are {', '.join(METRIC)}")
     values = bounds if isinstance(bounds, dict) else {}
     if not values or values.keys() - {"min", "max"} or {*map(type, values.values())} - {int, float}:
-        raise PlannerError(
-            f"{path}: {metric} must be a table of numbers with min or max, for example {metric} ="
-            " { min = 0.98 }"
+        expected = (
+            f"must be a table of numbers with min or max, such as {metric} = {{ min = 0.98 }}"
         )
+        raise PlannerError(f"{path}: {metric} {expected}")
     if METRIC[metric].fraction and any(not 0 <= value <= 1 for value in values.values()):
-        raise PlannerError(
-            f"{path}: {metric} is a fraction between 0 and 1, as in results.json, not a percentage"
-        )
+        unit = "is a fraction between 0 and 1, as in results.json, not a percentage"
+        raise PlannerError(f"{path}: {metric} {unit}")
     return Threshold(metric, values.get("min"), values.get("max"))

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from planner_ft.benchmark import published
-from planner_ft.benchmark.catalogue import METRIC
-from planner_ft.benchmark.contrasts import contrast_notes, marks, system_key
+from planner_ft.benchmark.catalogue import METRIC, METRICS
+from planner_ft.benchmark.contrasts import contrast_notes, marks
 from planner_ft.benchmark.results import Results, Row, heading
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.support.tables import NOTHING, Cell, RowKind, Table, row
@@ -23,28 +23,32 @@ class Line(NamedTuple):
     metrics: Mapping[str, Estimate]
     marks: Mapping[str, str]
 
-    def cells(self, names: Sequence[str]) -> list[Cell]:
+    @property
+    def name(self) -> str:
+        baseline = self.kind == "baseline"
+        return self.model if baseline else f"{self.model}, {self.configuration}"
+
+    def figure(self, metric: str) -> Estimate:
+        return self.metrics.get(metric, Estimate(None))
+
+    def cells(self, names: Iterable[str]) -> list[Cell]:
+        theirs = self.kind == "published"
         return [
-            METRIC[name].cell(
-                self.metrics.get(name, Estimate(None)),
-                self.marks.get(name, ""),
-                published=self.kind == "published",
-            )
+            METRIC[name].cell(self.figure(name), self.marks.get(name, ""), published=theirs)
             for name in names
         ]
 
 
-def lines(results: Results) -> list[Line]:
+def lines(results: Results, *, beside: bool = True) -> list[Line]:
     """Measured rows, each candidate's followed by its published ones, then the baselines and the
-    other published rows.
+    other published rows; `beside` says whether there shall be published ones.
     """
     known = marks(results.contrasts)
-    theirs = _published(results)
+    theirs = _published(results) if beside else {}
     found: list[Line] = []
     for of_candidate in by_candidate(results.rows):
         for one in of_candidate:
-            key = system_key((one.system.candidate, one.system.configuration))
-            own = {metric: mark for (system, metric), mark in known.items() if system == key}
+            own = {metric: mark for (key, metric), mark in known.items() if key == one.key}
             label, name = one.system.label, heading(one.system.configuration)
             found.append(Line(label, name, one.n, "measured", one.metrics, own))
         system = of_candidate[0].system
@@ -69,7 +73,7 @@ def _published(results: Results) -> dict[str, list[Line]]:
         return {}
     ours = {one.system.configuration for one in results.rows}
     shown = [name for name in published.CONFIGURATIONS if name in ours]
-    found: dict[str, list[Line]] = {}
+    n, found = published.SAMPLES[results.level], dict[str, list[Line]]()
     for one in published.published_rows(results.level):
         for name in shown or published.CONFIGURATIONS:
             metrics = {
@@ -77,93 +81,90 @@ def _published(results: Results) -> dict[str, list[Line]]:
                 for (metric, configuration), value in one.figures.items()
                 if configuration == name
             }
-            n, label = published.SAMPLES[results.level], f"{one.model} (published)"
-            line = Line(label, heading(name), n, "published", metrics, {})
-            found.setdefault(one.model, []).append(line)
+            words = f"{one.model} (published)", heading(name)
+            found.setdefault(one.model, []).append(Line(*words, n, "published", metrics, {}))
     return found
 
 
-def metric_table(
-    name: str,
-    names: Sequence[str],
-    shown: Sequence[Line],
-    *,
-    headings: Sequence[str] = (),
-    corner: str = "Model",
-) -> Table:
+def known_metrics(names: Iterable[str], shown: Sequence[Line]) -> list[str]:
+    """Those of the metrics that any line has a figure for."""
+    return [name for name in names if any(one.figure(name).value is not None for one in shown)]
+
+
+def metric_table(names: Iterable[str], shown: Sequence[Line], corner: str = "Model") -> Table:
     """A row per line with these metrics; a metric that no line has a figure for is left out."""
-    known = [
-        (metric, headings[index] if headings else METRIC[metric].title)
-        for index, metric in enumerate(names)
-        if headings or any(has_figure(line, metric) for line in shown)
-    ]
-    metrics = [metric for metric, _title in known]
+    known = known_metrics(names, shown)
+    return _figures(shown, known, corner, ("Configuration", *(METRIC[one].title for one in known)))
+
+
+def figures_table(shown: Sequence[Line]) -> Table:
+    """Every metric under its name in results.json, as table.csv has them."""
+    return _figures(shown, METRICS, "model", ("configuration", *METRICS))
+
+
+def _figures(
+    shown: Sequence[Line], metrics: Sequence[str], corner: str, heads: Sequence[str]
+) -> Table:
     rows = tuple(
         row(line.model, line.configuration, str(line.n), *line.cells(metrics), kind=line.kind)
         for line in shown
     )
-    columns = ("configuration" if headings else "Configuration", "n", *(text for _m, text in known))
-    return Table(name, "", "", "model" if headings else corner, columns, rows, texts=1)
-
-
-def has_figure(line: Line, metric: str) -> bool:
-    return line.metrics.get(metric, Estimate(None)).value is not None
+    return Table(corner, "", "", corner, (heads[0], "n", *heads[1:]), rows, texts=1)
 
 
 def notes(results: Results) -> list[str]:
     """What a reader must know to read the tables rightly."""
+    return list(dict.fromkeys([*_about_data(results), *_about_rows(results.rows)]))
+
+
+def _about_data(results: Results) -> Iterator[str]:
     rows = results.rows
-    counted = "as hallucinated" if results.level == "mission" else "as not hallucinated"
-    found = [
+    yield (
         f"{results.level} level, n = {results.data['n']} samples of {results.data['path']}. In"
         " brackets: 95 % intervals (rates: Wilson, n being the effective number of samples where"
-        " phrasings of one family agree; means: bootstrap, whole families resampled).",
+        " phrasings of one family agree; means: bootstrap, whole families resampled)."
+    )
+    counted = "as hallucinated" if results.level == "mission" else "as not hallucinated"
+    yield (
         f"Hallucination counts an output that does not parse {counted}, as the published table of"
-        " this level does; table.md has both readings.",
-    ]
+        " this level does; table.md has both readings."
+    )
     if timed := max((one.latency_n for one in rows), default=0):
-        found.append(
-            f"Latency: one query at a time after warm-up, mean over {timed} samples on the machine"
-            " in results.json."
-        )
+        how = f"one query at a time after warm-up, mean over {timed} samples"
+        yield f"Latency: {how} on the machine in results.json."
     if shows_published(results):
-        source = published.source(results.level)
-        found.append(f"(published): figures of the {source}; not measured here.")
+        yield f"(published): figures of the {published.source(results.level)}; not measured here."
     if any(one.system.configuration.endswith("+grounded") for one in rows):
-        found.append(
+        yield (
             "+grounded decodes with the reader that groundedness is scored with: its share of"
             " values that somebody gave is 100 % by construction."
         )
-    found += contrast_notes(results.contrasts, results.baseline_notes)
+    yield from contrast_notes(results.contrasts, results.baseline_notes)
+
+
+def _about_rows(rows: Sequence[Row]) -> Iterator[str]:
     for system in {one.system.candidate: one.system for one in rows}.values():
         if system.pretrained:
-            found.append(
-                f"{system.label} was pretrained on synthetic plans of this vocabulary: its Base"
-                " figures are not those of a general model."
-            )
+            what = "pretrained on synthetic plans of this vocabulary"
+            general = "its Base figures are not those of a general model"
+            yield f"{system.label} was {what}: {general}."
         if system.is_standin:
-            found.append(
-                f"{system.label} is a tiny, randomly initialised model: its figures say nothing"
-                " about the real candidate."
-            )
+            why = "its figures say nothing about the real candidate"
+            yield f"{system.label} is a tiny, randomly initialised model: {why}."
     for one in rows:
-        cut, failed = (one.finish_reasons.get(reason) for reason in ("length", "error"))
+        empty = "count as empty outputs"
         if one.missing:
-            found.append(
-                f"{one.name}: {len(one.missing)} of {one.n} samples have no prediction and count as"
-                " empty outputs."
-            )
-        if cut:
-            found.append(f"{one.name}: {cut} of {one.n} outputs were cut at the token limit.")
-        if failed:
-            found.append(
-                f"{one.name}: {failed} of {one.n} samples failed and count as empty outputs (see"
-                " predictions.jsonl)."
-            )
-    return found
+            missing = f"{len(one.missing)} of {one.n} samples have no prediction"
+            yield f"{one.name}: {missing} and {empty}."
+        if cut := one.finish_reasons.get("length"):
+            yield f"{one.name}: {cut} of {one.n} outputs were cut at the token limit."
+        if failed := one.finish_reasons.get("error"):
+            where = f"{empty} (see predictions.jsonl)"
+            yield f"{one.name}: {failed} of {one.n} samples failed and {where}."
 
 
 def by_candidate(rows: Iterable[Row]) -> list[list[Row]]:
+    """Rows by candidate, in their order."""
     found: dict[str, list[Row]] = {}
     for one in rows:
         found.setdefault(one.system.candidate, []).append(one)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Hashable, Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 
 from planner_ft.benchmark.catalogue import Metric
 from planner_ft.benchmark.statistics import (
-    BLOCK,
     RESAMPLES,
     Estimate,
     Floats,
     cluster_sums,
     clustered_rate,
+    in_blocks,
     percentiles,
     resampled_sums,
 )
@@ -54,9 +54,6 @@ class Paired:
     difference: Estimate
     p: float | None = None
     p_mcnemar: float | None = None
-
-    def to_json(self) -> dict[str, Any]:
-        return asdict(self)
 
 
 def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired:
@@ -173,10 +170,7 @@ def swaps(sums: Floats, seed: int) -> float:
         return 1.0
     exact = count <= ENUMERATED
     swapped = _all_swaps(count) if exact else _random_swaps(count, seed)
-    gained = differing[:, 2:] - differing[:, :2]
-    rows = max(1, BLOCK // count)
-    starts = range(0, len(swapped), rows)
-    moved = np.concatenate([swapped[at : at + rows].astype(float) @ gained for at in starts])
+    moved = in_blocks(swapped, differing[:, 2:] - differing[:, :2])
     whole = sums.sum(0)
     one, other = _values(np.concatenate([whole[:2] + moved, whole[2:] - moved], axis=1))
     seen_one, seen_other = _values(whole)

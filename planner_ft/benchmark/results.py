@@ -1,17 +1,19 @@
-"""Results of a run: rows of metrics, made from answers and timed queries."""
+"""Results of a run: rows of metrics, made from answers and timed queries, or read from
+results.json.
+"""
 
 from __future__ import annotations
 
 import functools
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
-from typing import Any
+from dataclasses import asdict, dataclass, field, fields, replace
+from typing import Any, get_args
 
 from planner_ft.benchmark.baselines import make_baselines
 from planner_ft.benchmark.breakdown import Breakdown, breakdown
 from planner_ft.benchmark.changes import Change, changes
-from planner_ft.benchmark.contrasts import Question, contrasts
+from planner_ft.benchmark.contrasts import Contrasts, Question, contrasts, system_key
 from planner_ft.benchmark.costs import cost_figures
 from planner_ft.benchmark.samples import BenchData, Sample
 from planner_ft.benchmark.scoring import score_sample
@@ -21,6 +23,7 @@ from planner_ft.benchmark.verdicts import Comparison
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
+Record = dict[str, Any]
 Lines = Mapping[str, Mapping[str, Any]]
 """Lines of predictions.jsonl or latency.jsonl by sample id."""
 
@@ -70,9 +73,21 @@ class Row:
     @property
     def name(self) -> str:
         """Label and configuration, as tables name a row."""
-        return f"{self.system.label}, {heading(self.system.configuration)}"
+        label = self.system.label
+        return (
+            label if self.system.is_baseline else f"{label}, {heading(self.system.configuration)}"
+        )
 
-    def to_json(self) -> dict[str, Any]:
+    @property
+    def key(self) -> str:
+        """The row's name in comparisons."""
+        return system_key((self.system.candidate, self.system.configuration))
+
+    def figure(self, metric: str) -> Estimate:
+        """A metric, without a value where it was not measured."""
+        return self.metrics.get(metric, Estimate(None))
+
+    def to_json(self) -> Record:
         system = asdict(self.system)
         del system["repeat"]
         return {
@@ -90,26 +105,48 @@ class Row:
             **system,
         }
 
+    @classmethod
+    def from_json(cls, record: Record) -> Row:
+        """A row of results.json, also of an earlier version, which says less."""
+        rest = {"label": str(record.get("candidate")), **record}
+        own = {one.name: rest.pop(one.name) for one in fields(System) if one.name in rest}
+        own |= {name: str(own.get(name)) for name in ("candidate", "configuration", "label")}
+        figures = {name: Estimate(**one) for name, one in rest.pop("metrics", {}).items()}
+        known = {one.name for one in fields(cls)}
+        return cls(
+            System(**own),
+            rest.pop("n", 0),
+            figures,
+            rest.pop("failures", {}),
+            rest.pop("finish_reasons", {}),
+            tuple(rest.pop("missing", ())),
+            breakdown={name: one for name, one in rest.items() if name not in known},
+            **{name: one for name, one in rest.items() if name in known},
+        )
+
 
 @dataclass(frozen=True)
 class Results:
     """Everything that results.json holds. `data` is path, sha256 and n of the test data.
 
     `baselines` are the rows of systems without a model, made from `training` (path, sha256, n).
-    `baseline_scores` are the lines of baselines.jsonl, `baseline_notes` notes for the reader.
+    `scores` and `baseline_scores` are the lines of scores.jsonl and baselines.jsonl,
+    `baseline_notes` notes for the reader. `recorded` are the comparisons and groups of results that
+    were read from a file.
     """
 
     level: Level
-    data: dict[str, Any]
+    data: Record
     rows: tuple[Row, ...]
-    manifest: dict[str, Any] = field(default_factory=dict)
-    scores: tuple[dict[str, Any], ...] = ()
+    manifest: Record = field(default_factory=dict)
+    scores: tuple[Record, ...] = ()
     baselines: tuple[Row, ...] = ()
-    baseline_scores: tuple[dict[str, Any], ...] = ()
+    baseline_scores: tuple[Record, ...] = ()
     baseline_notes: tuple[str, ...] = ()
-    training: dict[str, Any] | None = None
+    training: Record | None = None
+    recorded: Record = field(default_factory=dict)
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> Record:
         return {
             "level": self.level,
             "data": self.data,
@@ -125,15 +162,40 @@ class Results:
             "manifest": self.manifest,
         }
 
+    @classmethod
+    def from_json(
+        cls, record: Record, scores: Sequence[Record] = (), baselines: Sequence[Record] = ()
+    ) -> Results:
+        """results.json with the lines of scores.jsonl and baselines.jsonl."""
+        ours, theirs = (
+            tuple(map(Row.from_json, record.get(part) or ())) for part in ("rows", "baselines")
+        )
+        known = {key: record[key] for key in ("comparisons", "groups") if record.get(key)}
+        return cls(
+            record["level"],
+            record["data"],
+            ours,
+            record.get("manifest") or {},
+            tuple(scores),
+            baselines=theirs,
+            baseline_scores=tuple(baselines),
+            training=record.get("training"),
+            recorded=known,
+        )
+
     @property
     def seed(self) -> int:
         return int(self.manifest.get("seed") or 0)
 
     @functools.cached_property
-    def contrasts(self) -> dict[Question, list[Comparison]]:
+    def contrasts(self) -> Contrasts:
         """Differences between configurations, models, and everything and the baselines, paired by
         sample.
         """
+        if known := self.recorded.get("comparisons"):
+            return {
+                key: [*map(Comparison.from_json, known.get(key, ()))] for key in get_args(Question)
+            }
         return contrasts(self.scores, self.baseline_scores, self.seed)
 
     @functools.cached_property
@@ -142,15 +204,14 @@ class Results:
         return changes(self.scores, self.seed)
 
     @property
-    def groups(self) -> list[dict[str, Any]]:
+    def groups(self) -> list[Record]:
         """Figures per group of the test data."""
-        return group_figures(self.scores)
+        return self.recorded.get("groups") or group_figures(self.scores)
 
     def row(self, candidate: str, configuration: str) -> Row:
         """The row of a candidate and configuration."""
-        wanted = candidate, configuration
-        systems = ((row.system.candidate, row.system.configuration) for row in self.rows)
-        return self.rows[list(systems).index(wanted)]
+        wanted = system_key((candidate, configuration))
+        return next(row for row in self.rows if row.key == wanted)
 
 
 @dataclass(frozen=True)
@@ -178,34 +239,30 @@ def assemble(
     measured: Sequence[Measured],
     *,
     seed: int,
-    manifest: dict[str, Any],
+    manifest: Record,
 ) -> Results:
     """Score every system on the samples of `data`, and the baselines; a sample without a prediction
     counts as an empty output. Repeats of a system make one row.
     """
-    rows: list[Row] = []
-    scores: list[dict[str, Any]] = []
-    families = {sample.id: sample.family for sample in data.samples}
+
+    def scored(system: System, answers: list[tuple[Lines, Lines]]) -> tuple[Row, list[Record]]:
+        return score_system(data.level, system, data.samples, answers, vocabulary, seed=seed)
+
+    rows, scores, families = [], [], {sample.id: sample.family for sample in data.samples}
     systems: dict[tuple[str, str], list[Measured]] = {}
     for entry in measured:
         systems.setdefault((entry.system.candidate, entry.system.configuration), []).append(entry)
     for entries in systems.values():
         first, answers = entries[0], [(entry.predictions, entry.timed) for entry in entries]
-        row, of_samples = score_system(
-            data.level, first.system, data.samples, answers, vocabulary, seed=seed
-        )
+        row, of_samples = scored(first.system, answers)
         timed = {sample: line for entry in entries for sample, line in entry.timed.items()}
         costs = cost_figures(timed, families, first.costs, first.planning, seed)
         rows.append(replace(row, costs=costs))
         scores += of_samples
-    baselines = make_baselines(data, vocabulary)
-    beside: list[Row] = []
-    beside_scores: list[dict[str, Any]] = []
+    baselines, beside, beside_scores = make_baselines(data, vocabulary), [], []
     for label, lines in baselines.answers.items():
         system = System(label, "baseline", label=f"{label} (baseline)", is_baseline=True)
-        row, of_samples = score_system(
-            data.level, system, data.samples, [(lines, {})], vocabulary, seed=seed
-        )
+        row, of_samples = scored(system, [(lines, {})])
         beside.append(row)
         beside_scores += [{**score, **lines[score["id"]]} for score in of_samples]
     return Results(
@@ -229,26 +286,26 @@ def score_system(
     vocabulary: Vocabulary,
     *,
     seed: int,
-) -> tuple[Row, list[dict[str, Any]]]:
+) -> tuple[Row, list[Record]]:
     """Score one system's (predictions, timed queries), both by sample id: one pair, or one per
     repeat. Returns its row and the scores per answer.
     """
+    asked = [(sample, *lines) for lines in answers for sample in samples]
     scores = [
         score_sample(level, sample, predictions.get(sample.id), vocabulary, timed.get(sample.id))
-        for predictions, timed in answers
-        for sample in samples
+        for sample, predictions, timed in asked
     ]
+    known = [lines.get(sample.id, {}).get("finish_reason") for sample, lines, _timed in asked]
+    reasons = Counter(str(reason) for reason in known if reason)
+    missing = dict.fromkeys(sample.id for sample, lines, _timed in asked if sample.id not in lines)
     several, n = len(answers) > 1, len(samples)
-    asked = [(sample.id, lines) for lines, _timed in answers for sample in samples]
-    reasons = Counter(str(lines.get(name, {}).get("finish_reason") or "") for name, lines in asked)
-    del reasons[""]
     row = Row(
         system=replace(system, repeat=None),
         n=n,
         metrics=summarise(scores, seed),
         failures=failure_counts(scores),
         finish_reasons=dict(sorted(reasons.items())),
-        missing=tuple(dict.fromkeys(name for name, lines in asked if name not in lines)),
+        missing=tuple(missing),
         latency_n=sum(score.values["latency_s"] is not None for score in scores),
         repeats=pass_figures(scores, seed) if several else None,
         breakdown=breakdown(scores),

@@ -7,27 +7,32 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from planner_ft.benchmark.metrics.abstention import right_refusal, wrong_refusal
-from planner_ft.benchmark.metrics.alignment import Alignment, align
-from planner_ft.benchmark.metrics.common_subsequence import common_subsequence
-from planner_ft.benchmark.metrics.counts import Counts
-from planner_ft.benchmark.metrics.edges import edge_f1
-from planner_ft.benchmark.metrics.edit_distance import edit_distance
-from planner_ft.benchmark.metrics.entries import Entry, plan_entries
-from planner_ft.benchmark.metrics.exact_sequence import flat_sequence, name_sequence
+from planner_ft.benchmark.metrics.alignment import Alignment, Entry, align, plan_entries
 from planner_ft.benchmark.metrics.executability import executable
-from planner_ft.benchmark.metrics.failures import failure_kind
-from planner_ft.benchmark.metrics.groundedness import groundedness
-from planner_ft.benchmark.metrics.hallucination import UNPARSED_COUNTS, hallucinated
-from planner_ft.benchmark.metrics.names import counts_by_role, multiset_counts, set_counts
+from planner_ft.benchmark.metrics.facts import KINDS, groundedness, slot_propagation
+from planner_ft.benchmark.metrics.failures import (
+    failure_kind,
+    invented_names,
+    refuses,
+    schema_valid,
+    strict_valid,
+    whole_plan_unordered,
+)
+from planner_ft.benchmark.metrics.names import (
+    Counts,
+    common_subsequence,
+    counts_by_role,
+    edge_f1,
+    edit_distance,
+    multiset_counts,
+    name_sequence,
+    set_counts,
+)
 from planner_ft.benchmark.metrics.parameters import (
     agreement_by_type,
     parameter_counts,
     right_entries,
 )
-from planner_ft.benchmark.metrics.slots import KINDS, slot_propagation
-from planner_ft.benchmark.metrics.validity import schema_valid, strict_valid
-from planner_ft.benchmark.metrics.whole_plan import whole_plan_unordered
 from planner_ft.benchmark.samples import Sample
 from planner_ft.facts import read_input
 from planner_ft.vocabulary import Vocabulary
@@ -39,6 +44,8 @@ Value = float | bool | None
 """A metric of one sample: None where the sample says nothing about it."""
 Values = dict[str, Value]
 Details = dict[str, Any]
+UNPARSED_COUNTS: dict[Level, bool] = {"mission": True, "task": False}
+"""Whether the published tables count an answer that does not parse as hallucinated."""
 
 
 @dataclass(frozen=True)
@@ -124,14 +131,13 @@ def score_sample(
     """
     prediction, timed = prediction or {}, timed or {}
     answer = Answer(level, sample, parse_output(prediction.get("output")).plan, vocabulary)
-    plan, expected, valid = answer.plan, answer.expected, answer.schema_valid
-    failure = failure_kind(level, plan, expected, vocabulary, valid=valid)
+    judged, valid = (level, answer.plan, answer.expected, vocabulary), answer.schema_valid
+    failure = failure_kind(*judged, valid=valid)
     logic, details = plan_logic(answer)
-    values = _published(answer) | _names(answer) | _order(answer) | _parameters(answer) | logic
+    values = _published(answer) | _names(answer) | _parameters(answer) | logic
     values |= {
         "whole_plan": failure is None,
-        "whole_plan_unordered": failure is None
-        or whole_plan_unordered(level, plan, expected, vocabulary, valid=valid),
+        "whole_plan_unordered": failure is None or whole_plan_unordered(*judged, valid=valid),
         "tokens": prediction.get("tokens"),
         "latency_s": timed.get("latency_s"),
         "forward_passes": timed.get("forward_passes"),
@@ -143,7 +149,7 @@ def score_sample(
 
 def _published(answer: Answer) -> Values:
     """Hallucination in both readings and validity, as the published tables have them."""
-    invented = hallucinated(answer.level, answer.plan, answer.vocabulary, unparsed=False)
+    invented = bool(invented_names(answer.level, answer.plan, answer.vocabulary))
     counted = invented or answer.plan is None
     return {
         "parsed": answer.plan is not None,
@@ -157,29 +163,26 @@ def _published(answer: Answer) -> Values:
 
 
 def _names(answer: Answer) -> Values:
-    """Names as a set (the published F1) and as a multiset; at task level also per role."""
+    """Names as a set (the published F1) and as a multiset, and their order; at task level also per
+    role, and the order of steps.
+    """
+    level, task_level = answer.level, answer.level == "task"
     names = [entry.name for entry in answer.given], [entry.name for entry in answer.wanted]
     values: Values = {}
     for prefix, counts in (("", set_counts(*names)), ("multiset_", multiset_counts(*names))):
         values[f"{prefix}f1"] = counts.f1
         values[f"{prefix}precision"] = counts.precision
         values[f"{prefix}recall"] = counts.recall
-    if answer.level == "task":
+    if task_level:
         by_role = counts_by_role(answer.given, answer.wanted)
         for role in ROLES:
             values |= _pooled(role, by_role.get(role, Counts(0, 0, 0)))
-    return values
-
-
-def _order(answer: Answer) -> Values:
-    """Order of the names; at task level also of the steps."""
-    level, plan, expected = answer.level, answer.plan or {}, answer.expected
-    flat = flat_sequence(level, plan), flat_sequence(level, expected)
-    steps = name_sequence(level, plan), name_sequence(level, expected)
-    return {
+    steps = [name_sequence(level, plan) for plan in (answer.plan or {}, answer.expected)]
+    flat = [[name for step in sequence for name in step] for sequence in steps]
+    return values | {
         "exact_sequence": answer.plan is not None and steps[0] == steps[1],
         "edit_distance": edit_distance(*flat),
-        "step_edit_distance": edit_distance(*steps) if level == "task" else None,
+        "step_edit_distance": edit_distance(*steps) if task_level else None,
         "lcs_f1": common_subsequence(*flat).f1,
         "edge_f1": edge_f1(*steps),
     }
@@ -216,7 +219,8 @@ def plan_logic(answer: Answer) -> tuple[Values, Details]:
     grounded = groundedness(level, answer.given, source, vocabulary)
     reached = slot_propagation(level, plan, answer.alignment, source, vocabulary)
     stop = executable(plan, answer.expected, vocabulary) if mission else None
-    stated = reached.stated.total()
+    stated, refused = reached.stated.total(), refuses(level, plan)
+    impossible = refuses(level, answer.expected)
     values: Values = {
         "executable": stop is None if mission else None,
         "grounded": plan is not None and not grounded.ungrounded,
@@ -226,28 +230,26 @@ def plan_logic(answer: Answer) -> tuple[Values, Details]:
         "slots_prompted": stated if mission else None,
         "slots_in_parameters_right": reached.in_parameters.total(),
         "slots_in_prompt_right": reached.in_prompt.total() if mission else None,
-        "right_refusal": right_refusal(level, plan, answer.expected),
-        "wrong_refusal": wrong_refusal(level, plan, answer.expected),
+        "right_refusal": refused if impossible else None,
+        "wrong_refusal": None if impossible else refused,
     }
-    details = {
+    ungrounded = [
+        {
+            "entry": given.entry,
+            "name": answer.given[given.entry].name,
+            "parameter": given.parameter.name,
+            "value": given.value,
+        }
+        for given in grounded.ungrounded
+    ]
+    parts = reached.stated, reached.in_parameters, reached.in_prompt if mission else None
+    slots = {
+        kind: [None if part is None else part[kind] for part in parts]
+        for kind in KINDS
+        if reached.stated[kind]
+    }
+    return values, {
         "stop": asdict(stop) if stop else None,
-        "ungrounded": [
-            {
-                "entry": given.entry,
-                "name": answer.given[given.entry].name,
-                "parameter": given.parameter.name,
-                "value": given.value,
-            }
-            for given in grounded.ungrounded
-        ],
-        "slots": {
-            kind: [
-                reached.stated[kind],
-                reached.in_parameters[kind],
-                reached.in_prompt[kind] if mission else None,
-            ]
-            for kind in KINDS
-            if reached.stated[kind]
-        },
+        "ungrounded": ungrounded,
+        "slots": slots,
     }
-    return values, details

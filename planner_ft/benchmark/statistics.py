@@ -74,16 +74,12 @@ def effective_size(counts: Sequence[tuple[int, int]]) -> float:
         return n / most
     if clusters < 3:
         return max(n / most, 1.0)
-    between = sum((hits - rate * size) ** 2 for hits, size in counts) * clusters / (clusters - 1)
-    effect = min(most, max(1.0, between / n / (rate * (1 - rate))))
-    return n / effect * (_student(n - 1) / _student(clusters - 1)) ** 2
-
-
-def _student(freedom: int) -> float:
-    """Student's quantile of (1 + CONFIDENCE) / 2."""
     from scipy.special import stdtrit
 
-    return float(stdtrit(freedom, (1 + CONFIDENCE) / 2))
+    between = sum((hits - rate * size) ** 2 for hits, size in counts) * clusters / (clusters - 1)
+    effect = min(most, max(1.0, between / n / (rate * (1 - rate))))
+    student, of_clusters = stdtrit([n - 1, clusters - 1], (1 + CONFIDENCE) / 2)
+    return float(n / effect * (student / of_clusters) ** 2)
 
 
 @functools.lru_cache(maxsize=16_384)
@@ -96,26 +92,18 @@ def _wilson(rate: float, n: float) -> Estimate:
 
 def quantile(values: Sequence[float], share: float) -> Estimate:
     """The smallest value that at least `share` of the values do not exceed, with a
-    distribution-free 95 % interval.
-
-    The bounds are order statistics (David and Nagaraja, Order Statistics, 2003, section 7.1): the
-    number of values below the true quantile is binomial. A bound that no order statistic can give
-    with that confidence is None.
+    distribution-free 95 % interval by order statistics (David and Nagaraja 2003, section 7.1). A
+    bound that no order statistic can give with that confidence is None.
     """
-    from scipy.special import bdtr
+    from scipy.stats import quantile_test
 
-    if not values:
+    if not len(values):
         return Estimate(None)
-    ordered, n, tail = sorted(values), len(values), (1 - CONFIDENCE) / 2
     # Rounding: 0.9 * 10 must give rank 9.
-    rank = max(1, math.ceil(round(n * share, 9)))
-    below = [count for count in range(1, n + 1) if bdtr(count - 1, n, share) <= tail]
-    above = [count for count in range(1, n + 1) if bdtr(count - 1, n, share) >= 1 - tail]
-    return Estimate(
-        ordered[rank - 1],
-        ordered[below[-1] - 1] if below else None,
-        ordered[above[0] - 1] if above else None,
-    )
+    rank = max(1, math.ceil(round(len(values) * share, 9)))
+    bounds = quantile_test(values, p=share).confidence_interval(CONFIDENCE)
+    low, high = (None if math.isnan(bound) else float(bound) for bound in bounds)
+    return Estimate(sorted(values)[rank - 1], low, high)
 
 
 def bootstrap_mean(values: Sequence[float], clusters: Sequence[Hashable], seed: int) -> Estimate:
@@ -134,37 +122,15 @@ def bootstrap_ratio(
     """sum(numerators) / sum(denominators) over samples, with its percentile bootstrap interval,
     whole clusters resampled together. Without a second cluster there is no interval.
     """
-    return bootstrap_ratios([(numerators, denominators)], clusters, seed)[0]
-
-
-def bootstrap_ratios(
-    ratios: Sequence[tuple[Sequence[float], Sequence[float]]],
-    clusters: Sequence[Hashable],
-    seed: int,
-) -> list[Estimate]:
-    """Several ratios of the same samples, each as bootstrap_ratio gives it; one pass over the
-    resamples serves them all.
-    """
-    if not ratios or not clusters:
-        return [Estimate(None)] * len(ratios)
-    columns = np.array([column for pair in ratios for column in pair], dtype=float).T
-    sums = cluster_sums(columns, clusters)
-    pairs = sums.sum(axis=0).reshape(-1, 2)
-    values = [float(top / below) if below else None for top, below in pairs]
-    if len(sums) < 2:
-        return [Estimate(value) for value in values]
-    totals = resampled_sums(sums, seed)
-    return [
-        _resampled_ratio(value, totals[:, 2 * index : 2 * index + 2])
-        for index, value in enumerate(values)
-    ]
-
-
-def _resampled_ratio(value: float | None, totals: Floats) -> Estimate:
-    if value is None:
+    if not sum(denominators):
         return Estimate(None)
-    totals = totals[totals[:, 1] > 0]
-    return Estimate(value, *percentiles(totals[:, 0] / totals[:, 1]))
+    sums = cluster_sums(np.array([numerators, denominators], dtype=float).T, clusters)
+    top, below = sums.sum(axis=0)
+    if len(sums) < 2:
+        return Estimate(float(top / below))
+    totals = resampled_sums(sums, seed)
+    known = totals[totals[:, 1] > 0]
+    return Estimate(float(top / below), *percentiles(known[:, 0] / known[:, 1]))
 
 
 def cluster_sums(
@@ -183,11 +149,14 @@ def resampled_sums(sums: Floats, seed: int) -> Floats:
     """The totals of RESAMPLES resamples of the clusters: (RESAMPLES, columns). The same seed draws
     the same clusters for every metric.
     """
-    drawn = _drawn(len(sums), seed)
+    return in_blocks(_drawn(len(sums), seed), sums)
+
+
+def in_blocks(weights: NDArray[np.int8], sums: Floats) -> Floats:
+    """weights @ sums, with a bounded part of `weights` as numbers of 8 bytes at a time."""
     rows = max(1, BLOCK // len(sums))
-    return np.concatenate(
-        [drawn[start : start + rows].astype(float) @ sums for start in range(0, RESAMPLES, rows)]
-    )
+    starts = range(0, len(weights), rows)
+    return np.concatenate([weights[at : at + rows].astype(float) @ sums for at in starts])
 
 
 @functools.lru_cache(maxsize=2)

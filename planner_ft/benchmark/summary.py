@@ -7,28 +7,28 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from planner_ft.benchmark.catalogue import CATALOGUE, METRIC, WORST_CASES, Metric
+from planner_ft.benchmark.catalogue import METRIC, Metric
 from planner_ft.benchmark.metrics.failures import FAILURES
-from planner_ft.benchmark.metrics.paraphrases import worst_cases
 from planner_ft.benchmark.scoring import SampleScore
 from planner_ft.benchmark.statistics import (
     Estimate,
     bootstrap_mean,
-    bootstrap_ratios,
+    bootstrap_ratio,
     clustered_rate,
 )
 
 Scores = Sequence[SampleScore]
+Term = tuple[float, float, str]
+"""Numerator, denominator and family."""
 
 
 def summarise(scores: Scores, seed: int) -> dict[str, Estimate]:
     """Every metric over the scored samples, 95 %, families counted as such: Wilson intervals for
     rates, bootstrap for the others.
     """
-    found = {metric.name: _rate(metric, scores) for metric in CATALOGUE if metric.kind == "rate"}
-    found |= _resampled([metric for metric in CATALOGUE if metric.kind != "rate"], scores, seed)
-    found |= _worst_figures(scores, seed)
-    return {name: found[name] for name in METRIC}
+    return {
+        name: _estimate(metric, _terms(metric, scores), seed) for name, metric in METRIC.items()
+    }
 
 
 def failure_counts(scores: Scores) -> dict[str, int]:
@@ -37,60 +37,51 @@ def failure_counts(scores: Scores) -> dict[str, int]:
     return {kind: counts[kind] for kind in FAILURES}
 
 
-def _rate(metric: Metric, scores: Scores) -> Estimate:
-    """A rate over those samples that have a value for it."""
-    known = [score for score in scores if score.values.get(metric.name) is not None]
-    hits = [bool(score.values[metric.name]) for score in known]
-    return clustered_rate(hits, [score.family for score in known])
+def _terms(metric: Metric, scores: Scores) -> list[Term]:
+    """The terms of the samples that have a value, or of phrasing families, each counting once."""
+    if metric.worst:
+        values = [float(score.values[metric.worst] or 0) for score in scores]
+        ids, families = [score.id for score in scores], [score.family for score in scores]
+        return [(one, 1.0, family) for family, one in worst_cases(values, ids, families).items()]
+    top, below = metric.over if metric.kind == "ratio" else (metric.name, "")
+    return [
+        (
+            float(score.values[top] or 0),
+            float(score.values[below] or 0) if below else 1.0,
+            score.family,
+        )
+        for score in scores
+        if score.values.get(below or top) is not None
+    ]
 
 
-def _worst_figures(scores: Scores, seed: int) -> dict[str, Estimate]:
-    """The metrics of phrasing families, each family counting once."""
-    ids, families = [score.id for score in scores], [score.family for score in scores]
-    found = {}
-    for metric, name in WORST_CASES.items():
-        worst = worst_cases([float(score.values[name] or 0) for score in scores], ids, families)
-        values, names = list(worst.values()), list(worst)
-        if metric.kind == "rate":
-            found[metric.name] = clustered_rate([value == 1 for value in values], names)
-        else:
-            found[metric.name] = _bounded(metric, bootstrap_mean(values, names, seed), names)
-    return found
-
-
-def _resampled(metrics: Sequence[Metric], scores: Scores, seed: int) -> dict[str, Estimate]:
-    """Means and ratios; those that the same samples have a value for are resampled together."""
-    together: dict[tuple[int, ...], list[Metric]] = defaultdict(list)
-    for metric in metrics:
-        key = metric.over[1] or metric.name
-        known = (at for at, score in enumerate(scores) if score.values.get(key) is not None)
-        together[tuple(known)].append(metric)
-    found: dict[str, Estimate] = {}
-    for indices, members in together.items():
-        some = [scores[index] for index in indices]
-        families = [score.family for score in some]
-        estimates = bootstrap_ratios([_terms(metric, some) for metric in members], families, seed)
-        for metric, estimate in zip(members, estimates, strict=True):
-            found[metric.name] = _bounded(metric, estimate, families)
-    return found
-
-
-def _terms(metric: Metric, scores: Scores) -> tuple[list[float], list[float]]:
-    """Numerators and denominators."""
-    top, below = metric.over if metric.kind == "ratio" else (metric.name, None)
-    return (
-        [float(score.values[top] or 0) for score in scores],
-        [float(score.values[below] or 0) if below else 1.0 for score in scores],
-    )
-
-
-def _bounded(metric: Metric, estimate: Estimate, families: Sequence[str]) -> Estimate:
+def _estimate(metric: Metric, terms: Sequence[Term], seed: int) -> Estimate:
     """Where every sample is all right, or none is, every resample is the same and the bootstrap
     knows no doubt: the interval is that of a rate.
     """
-    if not metric.fraction or estimate.value not in (0, 1):
-        return estimate
-    return clustered_rate([estimate.value == 1] * len(families), families)
+    if not terms:
+        return Estimate(None)
+    tops, belows, families = zip(*terms, strict=True)
+    if metric.kind == "rate":
+        return clustered_rate([top == 1 for top in tops], families)
+    estimate = bootstrap_ratio(tops, belows, families, seed)
+    if metric.fraction and estimate.value in (0, 1):
+        return clustered_rate([estimate.value == 1] * len(families), families)
+    return estimate
+
+
+def worst_cases(
+    values: Sequence[float], samples: Sequence[str], families: Sequence[str]
+) -> dict[str, float]:
+    """The smallest value of each family with at least two samples (ids); for truths, whether all
+    are true. Of a sample that was answered several times every answer counts.
+    """
+    members: dict[str, list[float]] = defaultdict(list)
+    ids: dict[str, set[str]] = defaultdict(set)
+    for value, sample, family in zip(values, samples, families, strict=True):
+        members[family].append(value)
+        ids[family].add(sample)
+    return {family: min(found) for family, found in members.items() if len(ids[family]) > 1}
 
 
 def group_figures(scores: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -103,15 +94,13 @@ def group_figures(scores: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
             key = score["candidate"], score["configuration"], score["group"]
             found.setdefault(key, []).append(score)
     lines = []
-    for (candidate, configuration, group), members in found.items():
+    for key, members in found.items():
         n = len(members)
         matched = sum(score["parameters_matched"] for score in members)
         right = sum(score["parameters_right"] for score in members)
         lines.append(
             {
-                "candidate": candidate,
-                "configuration": configuration,
-                "group": group,
+                **dict(zip(("candidate", "configuration", "group"), key, strict=True)),
                 "n": n,
                 "f1": sum(score["f1"] for score in members) / n,
                 "exact_sequence": sum(score["exact_sequence"] for score in members) / n,
@@ -151,11 +140,12 @@ def pass_figures(scores: Scores, seed: int) -> dict[str, Any]:
     counts = [(sum(right), len(right)) for right in attempts.values()]
     most = min((n for _right, n in counts), default=0)
 
-    def means(estimator: Callable[[int, int, int], float]) -> dict[str, Any]:
-        found = {}
-        for k in range(1, most + 1):
-            values = [estimator(right, n, k) for right, n in counts]
-            found[str(k)] = bootstrap_mean(values, families, seed).to_json()
-        return found
+    def mean(estimator: Callable[[int, int, int], float], k: int) -> dict[str, Any]:
+        values = [estimator(right, n, k) for right, n in counts]
+        return bootstrap_mean(values, families, seed).to_json()
 
-    return {"k": most, "all_of_k": means(all_of), "any_of_k": means(any_of)}
+    kinds = {"all_of_k": all_of, "any_of_k": any_of}
+    means = {
+        kind: {str(k): mean(one, k) for k in range(1, most + 1)} for kind, one in kinds.items()
+    }
+    return {"k": most, **means}

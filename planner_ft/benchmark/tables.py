@@ -1,4 +1,4 @@
-"""The tables of a run: table.md, table.csv, table.tex and the terminal.
+"""The tables of a run: table.md, table.csv and table.tex.
 
 Figures stand in the long form, a row per candidate and configuration. Tables with a column per
 system (figures per name, substitutions ...) are written for each candidate.
@@ -7,14 +7,21 @@ system (figures per name, substitutions ...) are written for each candidate.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from planner_ft.benchmark.catalogue import MAIN, METRIC, METRICS, RIGHT, SECTIONS
+from planner_ft.benchmark.catalogue import MAIN, METRIC, RIGHT, SECTIONS
 from planner_ft.benchmark.changes import Change
-from planner_ft.benchmark.contrasts import DECISIVE, baseline_name
+from planner_ft.benchmark.contrasts import DECISIVE, Contrasts, baseline_name
 from planner_ft.benchmark.costs import QUANTILES
-from planner_ft.benchmark.layout import by_candidate, lines, metric_table, notes, shows_published
+from planner_ft.benchmark.layout import (
+    by_candidate,
+    figures_table,
+    lines,
+    metric_table,
+    notes,
+    shows_published,
+)
 from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
 from planner_ft.benchmark.results import Results, Row
 from planner_ft.benchmark.verdicts import MARKS, Comparison, difference_cell, verdict
@@ -32,41 +39,55 @@ from planner_ft.support.tables import (
 )
 
 SHOWN_PAIRS, SHOWN_IDS, SHOWN_OTHERS = 15, 3, 10
+COUNTED = (
+    ("substitutions", ("expected", "predicted"), ("Expected", "predicted"), "(nothing)"),
+    ("stops", ("condition", "title"), ("Stops for want of", "at"), "(no plan)"),
+)
+"""Parts of a breakdown that count pairs: their keys, their headings, and the word for nothing."""
 Figures = Mapping[str, Any]
 
 
 def render_tables(results: Results) -> dict[str, str]:
     """The texts of table.md, table.csv and table.tex."""
-    below = notes(results)
+    shown, below = lines(results), notes(results)
     texts = [markdown_table(table) for table in tables(results)]
-    figures = metric_table("figures", METRICS, lines(results), headings=METRICS)
-    main = metric_table("main", MAIN, lines(results))
     return {
         "table.md": "\n".join([*texts, *(f"- {note}" for note in below)]) + "\n",
-        "table.csv": csv_table(figures),
-        "table.tex": latex_table(main) + "".join(f"% {note}\n" for note in below),
+        "table.csv": csv_table(figures_table(shown)),
+        "table.tex": latex_table(metric_table(MAIN, shown))
+        + "".join(f"% {note}\n" for note in below),
     }
 
 
 def tables(results: Results) -> list[Table]:
     """Every table of table.md: the published metrics first."""
-    ours = [line for line in lines(results) if line.kind != "published"]
-    found = [metric_table("main", MAIN, lines(results)), metric_table("right", RIGHT, ours)]
-    found.append(_failures(results))
+    shown = lines(results)
+    ours = [line for line in shown if line.kind != "published"]
+    first = [metric_table(MAIN, shown), metric_table(RIGHT, ours), _failures(results)]
+    return [*first, *detail_tables(results)]
+
+
+def detail_tables(results: Results) -> Iterator[Table]:
+    """The tables behind the first ones."""
+    ours = lines(results, beside=False)
     for title, names in SECTIONS:
-        table = metric_table(title, names, ours, corner=title)
-        found += [table] if len(table.columns) > 2 else []
+        table = metric_table(names, ours, corner=title)
+        if len(table.columns) > 2:
+            yield table
     for of_candidate in by_candidate(results.rows):
-        found += [table for part in PARTS for table in part(of_candidate)]
-    costs = {one.name: one.costs for one in results.rows if one.costs}
-    repeats = {one.name: one.repeats for one in results.rows if one.repeats}
-    found += [*cost_tables(costs), *_differences(results), *repeat_tables(repeats)]
-    return [*found, *change_tables(results.changes), *group_tables(results.groups)]
+        yield from names_tables(of_candidate)
+        yield from counted_tables(of_candidate)
+        yield from examples_tables(of_candidate)
+    yield from cost_tables({one.name: one.costs for one in results.rows if one.costs})
+    yield from difference_tables(results.contrasts)
+    yield from repeat_tables({one.name: one.repeats for one in results.rows if one.repeats})
+    yield from change_tables(results.changes)
+    yield from group_tables(results.groups)
 
 
 def _failures(results: Results) -> Table:
     rows = [
-        row(one.name, str(one.n), *(str(one.failures[kind]) for kind in FAILURES))
+        row(one.name, str(one.n), *(str(one.failures.get(kind, 0)) for kind in FAILURES))
         for one in results.rows
     ]
     if results.level == "mission" and shows_published(results):
@@ -90,25 +111,17 @@ def names_tables(rows: Sequence[Row]) -> Iterator[Table]:
         }
         ordered = sorted(support, key=lambda name: (-support[name], name))
         extra = [name for name in ordered if not support[name]][:SHOWN_OTHERS]
-        shown = [name for name in ordered if support[name]] + extra
-        body = [
-            row(
-                name,
-                str(support[name]),
-                *(_estimate(of_row.get(name, {}).get("f1")) for of_row in figures),
-            )
-            for name in shown
-        ]
-        if shown:
+        body = []
+        for name in [*(name for name in ordered if support[name]), *extra]:
+            cells = [_estimate(of_row.get(name, {}).get("f1")) for of_row in figures]
+            body.append(row(name, str(support[name]), *cells))
+        if body:
             yield _table(f"F1 per {key} ↑", ("expected", *(one.name for one in rows)), body)
 
 
 def counted_tables(rows: Sequence[Row]) -> Iterator[Table]:
     """The most frequent substitutions, and the conditions that stop mission plans."""
-    for part, keys, heads, nothing in (
-        ("substitutions", ("expected", "predicted"), ("Expected", "predicted"), "(nothing)"),
-        ("stops", ("condition", "title"), ("Stops for want of", "at"), "(no plan)"),
-    ):
+    for part, keys, heads, nothing in COUNTED:
         counts = [
             Counter({tuple(line[key] or "" for key in keys): line["n"] for line in found})
             for found in (one.breakdown.get(part, ()) for one in rows)
@@ -135,13 +148,6 @@ def examples_tables(rows: Sequence[Row]) -> Iterator[Table]:
         yield _table("Examples of wrong answers", [one.name for one in rows], body, texts=len(rows))
 
 
-PARTS: tuple[Callable[[Sequence[Row]], Iterator[Table]], ...] = (
-    names_tables,
-    counted_tables,
-    examples_tables,
-)
-
-
 def _estimate(found: Figures | None, scale: float = 1, decimals: int = 2) -> Cell:
     """A figure of results.json with its interval."""
     bounds = [(found or {}).get(name) for name in ("value", "low", "high")]
@@ -153,62 +159,49 @@ def cost_tables(known: Mapping[str, Figures]) -> Iterator[Table]:
     body = []
     for name, costs in known.items():
         latency, memory = costs.get("latency_s", {}), costs.get("peak_memory_bytes")
-        body.append(
-            row(
-                name,
-                str(costs.get("n", 0)),
-                *(_estimate(latency.get(quantile)) for quantile, _share in QUANTILES),
-                _estimate(costs.get("first_token_s"), decimals=3),
-                _estimate(costs.get("tokens_per_s"), decimals=0),
-                figure(costs.get("load_s"), decimals=1),
-                figure(costs.get("adapter_swap_s"), decimals=4),
-                NOTHING if memory is None else memory_size(memory),
-            )
-        )
+        cells = [
+            *(_estimate(latency.get(quantile)) for quantile, _share in QUANTILES),
+            _estimate(costs.get("first_token_s"), decimals=3),
+            _estimate(costs.get("tokens_per_s"), decimals=0),
+            figure(costs.get("load_s"), decimals=1),
+            figure(costs.get("adapter_swap_s"), decimals=4),
+        ]
+        size = NOTHING if memory is None else memory_size(memory)
+        body.append(row(name, str(costs.get("n", 0)), *cells, size))
     if body:
         heads = [f"Latency {name} (s)" for name, _share in QUANTILES]
         heads += ["First token (s)", "Tokens/s", "Load (s)", "Adapter switch (s)", "Peak memory"]
         yield _table("Cost", ("timed queries", *heads), body)
-    planning = {
-        name: {
-            entry["tasks"]: f"{entry['seconds']['value']:.2f} (n = {entry['n']})"
-            for entry in costs["planning"]
-        }
-        for name, costs in known.items()
-        if costs.get("planning")
-    }
+    planning: dict[tuple[str, str], Cell] = {}
+    for name, costs in known.items():
+        for entry in costs.get("planning", ()):
+            text = f"{entry['seconds']['value']:.2f} (n = {entry['n']})"
+            planning[name, str(entry["tasks"])] = Cell(text)
     if planning:
-        numbers = range(1, max(max(found, default=0) for found in planning.values()) + 1)
-        yield _table(
-            "Seconds to plan a mission of m tasks, both agents; m =",
-            map(str, numbers),
-            [
-                row(name, *(found.get(m, NOTHING) for m in numbers))
-                for name, found in planning.items()
-            ],
-        )
+        most = max(int(tasks) for _name, tasks in planning)
+        numbers = {str(tasks): str(tasks) for tasks in range(1, most + 1)}
+        corner = "Seconds to plan a mission of m tasks, both agents; m ="
+        yield _pivot(corner, planning, numbers)
 
 
-def _differences(results: Results) -> Iterator[Table]:
+def difference_tables(found: Contrasts) -> Iterator[Table]:
     """Differences between the configurations of a model, and of every row from the baselines."""
 
     def of_pair(one: Comparison) -> str:
         return f"{one.second} against {one.first}"
 
-    if found := results.contrasts["configuration"]:
-        metrics = list(dict.fromkeys(one.paired.metric for one in found))
-        columns = {metric: METRIC[metric].heading for metric in metrics}
-        by_metric = {(of_pair(one), one.paired.metric): one.difference() for one in found}
+    if ours := found["configuration"]:
+        columns = {one.paired.metric: METRIC[one.paired.metric].heading for one in ours}
+        by_metric = {(of_pair(one), one.paired.metric): one.difference() for one in ours}
         yield _pivot("Difference, paired by sample", by_metric, columns)
-    if found := results.contrasts["baseline"]:
-        baselines = dict.fromkeys(one.first for one in found)
+    if beside := found["baseline"]:
         columns = {
             f"{metric} {first}": f"{METRIC[metric].heading} against {baseline_name(first)}"
             for metric in DECISIVE
-            for first in baselines
+            for first in dict.fromkeys(one.first for one in beside)
         }
         cells = {
-            (one.second, f"{one.paired.metric} {one.first}"): one.difference() for one in found
+            (one.second, f"{one.paired.metric} {one.first}"): one.difference() for one in beside
         }
         yield _pivot("Against the baselines", cells, columns)
 
@@ -227,11 +220,8 @@ def repeat_tables(figures: Mapping[str, Figures]) -> Iterator[Table]:
     shown = {name: found for name, found in figures.items() if found.get("k", 0) > 1}
     if not shown:
         return
-    most = max(found["k"] for found in shown.values())
-    ks = sorted(
-        {2**power for power in range(10) if 2**power < most}
-        | {found["k"] for found in shown.values()}
-    )
+    last = {found["k"] for found in shown.values()}
+    ks = sorted({2**power for power in range(10) if 2**power < max(last)} | last)
     asked = [("all_of_k", k) for k in ks] + [("any_of_k", k) for k in ks if k > 1]
     body = [
         row(
@@ -275,16 +265,11 @@ def change_tables(changes: Sequence[Change]) -> Iterator[Table]:
 def group_tables(figures: Sequence[Figures]) -> Iterator[Table]:
     """One line per group of the data and system."""
     names = ("exact_sequence", "parameters", "whole_plan", "strict_valid")
-    body = [
-        row(
-            entry["group"],
-            f"{entry['candidate']}, {entry['configuration']}",
-            str(entry["n"]),
-            f"{entry['f1']:.2f}",
-            *(figure(entry[name], scale=100, decimals=0) for name in names),
-        )
-        for entry in sorted(figures, key=lambda entry: str(entry["group"]))
-    ]
+    body = []
+    for entry in sorted(figures, key=lambda entry: str(entry["group"])):
+        shares = [figure(entry[name], scale=100, decimals=0) for name in names]
+        system = f"{entry['candidate']}, {entry['configuration']}"
+        body.append(row(entry["group"], system, str(entry["n"]), f"{entry['f1']:.2f}", *shares))
     if body:
         heads = ("System", "n", "F1", *(METRIC[name].heading for name in names))
         yield _table("Group", heads, body, texts=1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from rich.console import Console
@@ -10,23 +10,9 @@ from rich.text import Text
 
 from planner_ft.benchmark import published
 from planner_ft.benchmark.catalogue import MAIN, METRIC, RIGHT
-from planner_ft.benchmark.layout import Line, has_figure, lines, notes
+from planner_ft.benchmark.layout import Line, known_metrics, lines, notes
 from planner_ft.benchmark.results import Results
 from planner_ft.support.tables import Cell, Table, TableRow, row, terminal_table
-
-SHORT = {
-    "hallucination": "halluc.\n% ↓",
-    "schema_valid": "schema\nvalid % ↑",
-    "strict_valid": "strictly\nvalid % ↑",
-    "latency_s": "latency\ns ↓",
-    "tokens": "tokens",
-    "exact_sequence": "exact\nsequence % ↑",
-    "parameters": "parameters\nright % ↑",
-    "whole_plan": "whole plan\nright % ↑",
-    "parsed": "parses\n% ↑",
-    "forward_passes": "forward\npasses ↓",
-}
-"""Headings in a terminal of 80 columns."""
 
 
 def print_results(results: Results, console: Console) -> None:
@@ -47,20 +33,18 @@ def print_results(results: Results, console: Console) -> None:
         console.print(Text(note, style="dim"))
 
 
-def _narrow(names: Sequence[str], shown: Sequence[Line]) -> Any:
+def _narrow(names: Iterable[str], shown: Sequence[Line]) -> Any:
     """A line per configuration below its model, intervals without decimals, for 80 columns."""
-    known = [name for name in names if any(has_figure(line, name) for line in shown)]
+    metrics = [METRIC[name] for name in known_metrics(names, shown)]
     rows: list[TableRow] = []
     for line in shown:
         if line.kind != "baseline" and line.model not in [one.heading for one in rows]:
             rows.append(row(line.model, kind="section"))
         label = line.model if line.kind == "baseline" else f"  {line.configuration}"
-        cells = [
-            _short(cell, METRIC[name].decimals if METRIC[name].scale == 1 else 0)
-            for name, cell in zip(known, line.cells(known), strict=True)
-        ]
-        rows.append(row(label, *cells, kind=line.kind))
-    heads = tuple(SHORT.get(name, METRIC[name].title) for name in known)
+        cells = zip(metrics, line.cells(one.name for one in metrics), strict=True)
+        short = [_short(cell, one.decimals if one.scale == 1 else 0) for one, cell in cells]
+        rows.append(row(label, *short, kind=line.kind))
+    heads = tuple(one.short or one.title for one in metrics)
     return terminal_table(Table("terminal", "", "", "model", heads, tuple(rows)))
 
 
@@ -75,7 +59,5 @@ def print_missing(results: Results, console: Console) -> None:
     """Name the samples without a prediction."""
     for one in results.rows:
         if one.missing:
-            text = (
-                f"{one.name}: no prediction for {', '.join(one.missing)}; counted as empty outputs"
-            )
-            console.print(Text(text), soft_wrap=True)
+            missing = f"no prediction for {', '.join(one.missing)}; counted as empty outputs"
+            console.print(Text(f"{one.name}: {missing}"), soft_wrap=True)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 from planner_ft.benchmark.catalogue import METRIC
@@ -14,11 +14,7 @@ from planner_ft.support.tables import NOTHING, Cell, figure
 Verdict = Literal["better", "worse", "higher", "lower", "equal", "not told apart", "not compared"]
 
 DEFAULT_METRICS = (
-    "f1",
-    "exact_sequence",
-    "parameters",
-    "whole_plan",
-    "hallucination",
+    *("f1", "exact_sequence", "parameters", "whole_plan", "hallucination"),
     "strict_valid",
 )
 SIGNIFICANCE = 0.05
@@ -58,9 +54,13 @@ class Comparison:
     def mark(self) -> str:
         return MARKS[self.verdict]
 
+    def difference(self) -> Cell:
+        """The difference with its interval and mark."""
+        return difference_cell(self.paired, self.mark)
+
     def to_json(self) -> dict[str, Any]:
         """As results.json and comparison.json have it."""
-        values = self.paired.to_json()
+        values = asdict(self.paired)
         return {
             "first": self.first,
             "second": self.second,
@@ -72,9 +72,13 @@ class Comparison:
             "verdict": self.verdict,
         }
 
-    def difference(self) -> Cell:
-        """The difference with its interval and mark."""
-        return difference_cell(self.paired, self.mark)
+    @classmethod
+    def from_json(cls, record: Mapping[str, Any]) -> Comparison:
+        """A comparison as `to_json` wrote it."""
+        values = {key: record[key] for key in ("metric", "n", "families", "p", "p_mcnemar")}
+        ends = {"first": record["first_value"], "second": record["second_value"]}
+        found = Paired(**values, **ends, difference=Estimate(**record["difference"]))
+        return cls(record["first"], record["second"], found, record["p_adjusted"])
 
 
 def verdict(paired: Paired, p_adjusted: float | None) -> Verdict:
@@ -98,9 +102,7 @@ def verdict(paired: Paired, p_adjusted: float | None) -> Verdict:
 def adjusted(found: Sequence[tuple[str, str, Paired]]) -> list[Comparison]:
     """Comparisons (first, second, figures) of one table, their p-values adjusted together."""
     ps = holm([one.p for _first, _second, one in found])
-    return [
-        Comparison(first, second, one, p) for (first, second, one), p in zip(found, ps, strict=True)
-    ]
+    return [Comparison(*one, p) for one, p in zip(found, ps, strict=True)]
 
 
 def p_text(p: float | None) -> str:
@@ -114,9 +116,3 @@ def difference_cell(paired: Paired, mark: str = "") -> Cell:
     decimals = 3 if metric.scale == 1 and metric.fraction else metric.decimals
     bounds = found.value, found.low, found.high
     return figure(*bounds, scale=metric.scale, decimals=decimals, mark=mark, sign=True)
-
-
-def signed(estimate: Estimate, scale: int = 1, decimals: int = 3) -> str:
-    """A difference with its sign and interval in one line."""
-    bounds = estimate.value, estimate.low, estimate.high
-    return figure(*bounds, scale=scale, decimals=decimals, sign=True).plain()

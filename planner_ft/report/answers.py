@@ -8,7 +8,7 @@ import json
 from collections.abc import Iterator
 from typing import Any
 
-from planner_ft.benchmark.metrics.entries import Entry, plan_entries
+from planner_ft.benchmark.metrics.alignment import Entry, plan_entries
 from planner_ft.report.differences import differences, entries_of
 from planner_ft.report.runs import Record, System, TestSet
 from planner_ft.vocabulary.outputs import parse_output

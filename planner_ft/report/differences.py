@@ -8,11 +8,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from planner_ft.benchmark.metrics.alignment import Alignment, Pair, align
-from planner_ft.benchmark.metrics.counts import Counts
-from planner_ft.benchmark.metrics.entries import Entry, plan_entries
-from planner_ft.benchmark.metrics.names import counts_by_name
-from planner_ft.benchmark.metrics.substitutions import substitutions
+from planner_ft.benchmark.metrics.alignment import (
+    Alignment,
+    Entry,
+    Pair,
+    align,
+    plan_entries,
+    substitutions,
+)
+from planner_ft.benchmark.metrics.names import Counts, counts_by_name
 from planner_ft.benchmark.metrics.values import known_parameters, values_agree
 from planner_ft.report.runs import System, TestSet
 from planner_ft.vocabulary import Vocabulary

@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from planner_ft.benchmark.costs import QUANTILES, quantile
+from planner_ft.benchmark.costs import QUANTILES
 from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
 from planner_ft.benchmark.results import heading
+from planner_ft.benchmark.statistics import quantile
 from planner_ft.report.charts import Bar, Bars, Chart, DotRow, Dots, Lines, Matrix, Point, Series
 from planner_ft.report.differences import Confusion, confusion
 from planner_ft.report.metrics import estimate, published_label, published_rows

@@ -6,8 +6,10 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics.abstention import right_refusal, wrong_refusal
-from planner_ft.benchmark.metrics.paraphrases import worst_cases
+from planner_ft.benchmark.samples import Sample
+from planner_ft.benchmark.scoring import score_sample
+from planner_ft.benchmark.summary import worst_cases
+from planner_ft.vocabulary import load_vocabulary
 
 SOME: dict[str, Any] = {"tasks": [{"title": "Transit", "parameters": {}}]}
 NONE: dict[str, Any] = {"tasks": [], "constraints": ["Nothing here can be done."]}
@@ -29,10 +31,9 @@ def test_refusals(
     plan: dict[str, Any] | None, expected: dict[str, Any], right: bool | None, wrong: bool | None
 ) -> None:
     """An output that does not parse refuses nothing."""
-    assert (right_refusal("mission", plan, expected), wrong_refusal("mission", plan, expected)) == (
-        right,
-        wrong,
-    )
+    sample = Sample("a", "a", {"id": "a", "prompt": "Go.", "expected": expected})
+    values = score_sample("mission", sample, {"output": plan}, load_vocabulary()).values
+    assert (values["right_refusal"], values["wrong_refusal"]) == (right, wrong)
 
 
 def test_the_worst_of_each_family_counts_and_families_of_one_do_not() -> None:

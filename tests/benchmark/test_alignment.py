@@ -7,9 +7,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics.alignment import Alignment, align
-from planner_ft.benchmark.metrics.entries import plan_entries
-from planner_ft.benchmark.metrics.substitutions import substitutions
+from planner_ft.benchmark.metrics.alignment import Alignment, align, plan_entries, substitutions
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import Level
 

@@ -11,11 +11,10 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.baselines import majority_plan, make_baselines
-from planner_ft.benchmark.compare import load_run
-from planner_ft.benchmark.folder import write_results
+from planner_ft.benchmark.baselines import Index, majority_plan, make_baselines
+from planner_ft.benchmark.compare import run_rows
+from planner_ft.benchmark.folder import read_results, write_results
 from planner_ft.benchmark.results import Results
-from planner_ft.benchmark.retrieval import Index
 from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data
 from planner_ft.benchmark.submission import score_predictions
 from planner_ft.vocabulary import load_vocabulary
@@ -227,7 +226,8 @@ def test_baselines_are_rows_of_their_own(results: Results, tmp_path: Path) -> No
         line["candidate"]
         for line in map(json.loads, (tmp_path / "out" / "baselines.jsonl").read_text().splitlines())
     } == {"majority plan", "nearest neighbour"}
-    assert [row.is_baseline for row in load_run(tmp_path / "out").rows] == [
+    read, _record = read_results(tmp_path / "out")
+    assert [row.is_baseline for row in run_rows(tmp_path / "out", read)] == [
         False,
         False,
         False,

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics.entries import plan_entries
-from planner_ft.benchmark.metrics.groundedness import Groundedness, groundedness
+from planner_ft.benchmark.metrics.alignment import plan_entries
+from planner_ft.benchmark.metrics.facts import Groundedness, groundedness
 from planner_ft.data.missions import sample_missions
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.facts import read_input

@@ -8,15 +8,21 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics.exact_sequence import exact_sequence
-from planner_ft.benchmark.metrics.failures import failure_kind
-from planner_ft.benchmark.metrics.hallucination import hallucinated
-from planner_ft.benchmark.metrics.names import set_f1
-from planner_ft.benchmark.metrics.parameters import parameter_agreement
-from planner_ft.benchmark.metrics.validity import schema_valid, strict_valid
+from planner_ft.benchmark.metrics.alignment import align, plan_entries
+from planner_ft.benchmark.metrics.failures import (
+    failure_kind,
+    invented_names,
+    schema_valid,
+    strict_valid,
+)
+from planner_ft.benchmark.metrics.names import exact_sequence, set_counts
+from planner_ft.benchmark.metrics.parameters import Agreement, right_entries
 from planner_ft.benchmark.metrics.values import values_agree
+from planner_ft.benchmark.samples import Sample
+from planner_ft.benchmark.scoring import score_sample
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.outputs import parse_output
+from planner_ft.vocabulary.plans import Level
 
 USV = load_vocabulary()
 
@@ -44,6 +50,11 @@ def step(
     }
 
 
+def parameter_agreement(level: Level, plan: Any, expected: Any) -> Agreement:
+    entries = plan_entries(level, expected), plan_entries(level, plan)
+    return right_entries(level, align(level, *entries, USV), USV)
+
+
 ORBIT = mission(
     ("SearchAndDetect", {"target_description": "green barrel"}),
     ("Transit", {"target_position": [-99, -99]}),
@@ -65,7 +76,7 @@ ORBIT = mission(
     ],
 )
 def test_set_f1(predicted: list[str], expected: list[str], value: float) -> None:
-    assert set_f1(predicted, expected) == pytest.approx(value)
+    assert set_counts(predicted, expected).f1 == pytest.approx(value)
 
 
 @pytest.mark.parametrize(
@@ -100,16 +111,17 @@ def test_white_space_around_an_object_and_objects_themselves_parse() -> None:
 
 def test_hallucination_in_both_readings() -> None:
     invented = mission(("Berthing", {}), ("Transit", {"target_position": [0, 0]}))
-    for unparsed in (True, False):
-        assert hallucinated("mission", None, USV, unparsed=unparsed) is unparsed
-        assert hallucinated("mission", invented, USV, unparsed=unparsed)
-        assert not hallucinated("mission", ORBIT, USV, unparsed=unparsed)
-    assert hallucinated(
-        "task",
-        {"skill_sequence": [step(("StationKeep", {}), perception=("SmellWater",))]},
-        USV,
-        unparsed=False,
-    )
+    sample = Sample("a", "a", {"id": "a", "prompt": "Go.", "expected": ORBIT})
+    for output, counted, named in (
+        ("no", True, False),
+        (invented, True, True),
+        (ORBIT, False, False),
+    ):
+        values = score_sample("mission", sample, {"output": output}, USV).values
+        assert values["hallucination"] == values["hallucination_with_unparsed"] == counted
+        assert values["hallucination_without_unparsed"] == named
+    smelt = {"skill_sequence": [step(("StationKeep", {}), perception=("SmellWater",))]}
+    assert invented_names("task", smelt, USV) == ["SmellWater"]
 
 
 def test_an_invented_name_is_schema_valid_but_not_strictly_valid() -> None:
@@ -204,25 +216,25 @@ def test_identifiers_may_be_numbers_and_polygons_turn() -> None:
 
 def test_parameters_match_entries_of_equal_name_best_first() -> None:
     swapped = {**ORBIT, "tasks": [ORBIT["tasks"][3], *ORBIT["tasks"][1:3], ORBIT["tasks"][0]]}
-    agreement = parameter_agreement("mission", swapped, ORBIT, USV)
+    agreement = parameter_agreement("mission", swapped, ORBIT)
     assert (agreement.right, agreement.matched) == (4, 4)
     changed = mission(
         ("Transit", {"target_position": [0, 0]}),
         ("PerformOrbit", {"center": [-99, -99], "radius": 30}),
         ("Diagnostics", {}),
     )
-    agreement = parameter_agreement("mission", changed, ORBIT, USV)
+    agreement = parameter_agreement("mission", changed, ORBIT)
     assert (agreement.right, agreement.matched) == (1, 2)
-    agreement = parameter_agreement("mission", None, ORBIT, USV)
+    agreement = parameter_agreement("mission", None, ORBIT)
     assert (agreement.right, agreement.matched) == (0, 0)
 
 
 def test_an_invented_parameter_is_wrong_and_an_unlabelled_one_is_not_compared() -> None:
     extra = mission(("PerformOrbit", {"center": [-99, -99], "radius": 20, "speed": 1}))
     stated = mission(("PerformOrbit", {"center": [-99, -99], "radius": 20}))
-    assert parameter_agreement("mission", extra, stated, USV).right == 0
+    assert parameter_agreement("mission", extra, stated).right == 0
     names_only = {"tasks": [{"title": "PerformOrbit"}]}
-    assert parameter_agreement("mission", extra, names_only, USV).matched == 0
+    assert parameter_agreement("mission", extra, names_only).matched == 0
     assert failure_kind("mission", extra, names_only, USV) is None
 
 
@@ -339,7 +351,7 @@ def test_metrics_survive_any_json() -> None:
         if isinstance(plan, dict):
             for level in ("mission", "task"):
                 assert failure_kind(level, plan, expected[level], USV) is not None
-                parameter_agreement(level, plan, expected[level], USV)
-                hallucinated(level, plan, USV, unparsed=False)
+                parameter_agreement(level, plan, expected[level])
+                invented_names(level, plan, USV)
                 strict_valid(level, plan, USV)
                 exact_sequence(level, plan, expected[level])

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import pytest
 
-from planner_ft.benchmark.metrics.common_subsequence import common_subsequence
-from planner_ft.benchmark.metrics.counts import Counts
-from planner_ft.benchmark.metrics.edges import edge_f1
-from planner_ft.benchmark.metrics.edit_distance import edit_distance
-from planner_ft.benchmark.metrics.entries import plan_entries
+from planner_ft.benchmark.metrics.alignment import plan_entries
+from planner_ft.benchmark.metrics.failures import whole_plan_unordered
 from planner_ft.benchmark.metrics.names import (
+    Counts,
+    common_subsequence,
     counts_by_name,
     counts_by_role,
+    edge_f1,
+    edit_distance,
     multiset_counts,
     set_counts,
 )
-from planner_ft.benchmark.metrics.whole_plan import whole_plan_unordered
 from planner_ft.vocabulary import load_vocabulary
 
 from .plans import mission, step, steps

@@ -6,9 +6,8 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics.alignment import align
-from planner_ft.benchmark.metrics.counts import Counts
-from planner_ft.benchmark.metrics.entries import plan_entries
+from planner_ft.benchmark.metrics.alignment import align, plan_entries
+from planner_ft.benchmark.metrics.names import Counts
 from planner_ft.benchmark.metrics.parameters import (
     ParameterCounts,
     agreement_by_type,

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.metrics.entries import plan_entries
+from planner_ft.benchmark.metrics.alignment import plan_entries
 from planner_ft.benchmark.results import Results, System, score_system
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.tables import tables

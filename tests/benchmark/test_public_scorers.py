@@ -12,10 +12,13 @@ from rapidfuzz.distance import LCSseq, Levenshtein
 from sklearn.metrics import f1_score, precision_recall_fscore_support
 from sklearn.preprocessing import MultiLabelBinarizer
 
-from planner_ft.benchmark.metrics.common_subsequence import common_subsequence
-from planner_ft.benchmark.metrics.counts import Counts
-from planner_ft.benchmark.metrics.edit_distance import edit_distance
-from planner_ft.benchmark.metrics.names import counts_by_name, set_counts, set_f1
+from planner_ft.benchmark.metrics.names import (
+    Counts,
+    common_subsequence,
+    counts_by_name,
+    edit_distance,
+    set_counts,
+)
 
 KNOWN = ["Transit", "Orbit", "Survey", "Search", "Report"]
 
@@ -45,7 +48,7 @@ def test_set_f1_is_the_samples_average_of_scikit_learn() -> None:
         binary.transform([pair[0] for pair in PAIRS]),
     )
     theirs = f1_score(expected, predicted, average="samples", zero_division=1)
-    assert np.mean([set_f1(*pair) for pair in PAIRS]) == pytest.approx(theirs)
+    assert np.mean([set_counts(*pair).f1 for pair in PAIRS]) == pytest.approx(theirs)
 
 
 def test_the_default_of_scikit_learn_gives_nothing_for_a_right_refusal() -> None:
@@ -55,7 +58,7 @@ def test_the_default_of_scikit_learn_gives_nothing_for_a_right_refusal() -> None
     binary = MultiLabelBinarizer(classes=KNOWN)
     both = binary.fit_transform([[], ["Transit"]])
     assert f1_score(both, both, average="samples", zero_division=0) == 0.5
-    assert np.mean([set_f1([], []), set_f1(["Transit"], ["Transit"])]) == 1
+    assert np.mean([set_counts([], []).f1, set_counts(["Transit"], ["Transit"]).f1]) == 1
 
 
 @pytest.mark.filterwarnings("ignore:unknown class")
@@ -72,7 +75,7 @@ def test_classes_fitted_on_the_expected_names_hide_invented_ones() -> None:
         == 1
     )
     assert np.mean(
-        [set_f1(["Transit", "Invented"], ["Transit"]), set_f1(["Orbit"], ["Orbit"])]
+        [set_counts(["Transit", "Invented"], ["Transit"]).f1, set_counts(["Orbit"], ["Orbit"]).f1]
     ) == pytest.approx((2 / 3 + 1) / 2)
 
 

@@ -12,10 +12,9 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics.alignment import align
-from planner_ft.benchmark.metrics.entries import plan_entries
+from planner_ft.benchmark.metrics.alignment import align, plan_entries
+from planner_ft.benchmark.metrics.facts import Reached, slot_propagation
 from planner_ft.benchmark.metrics.skill_slots import SkillSlots, skill_slots
-from planner_ft.benchmark.metrics.slots import Reached, slot_propagation
 from planner_ft.facts import read_input
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import Level

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics.entries import plan_entries
-from planner_ft.benchmark.metrics.groundedness import given_values
+from planner_ft.benchmark.metrics.alignment import plan_entries
+from planner_ft.benchmark.metrics.facts import given_values
 from planner_ft.data.missions import sample_missions
 from planner_ft.data.task.sampler import Split, sample_tasks
 from planner_ft.facts import SCORING, WAYPOINT, read_input

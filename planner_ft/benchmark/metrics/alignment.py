@@ -1,5 +1,5 @@
-"""Which predicted task or skill stands for which expected one: an optimal assignment over equal
-names (Kuhn 1955, as scipy's linear_sum_assignment computes it).
+"""The tasks or skills of plans in one row, and which predicted one stands for which expected one:
+an optimal assignment over equal names (Kuhn 1955, as scipy's linear_sum_assignment computes it).
 """
 
 from __future__ import annotations
@@ -9,19 +9,51 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.benchmark.metrics.entries import TASK, Entry
 from planner_ft.benchmark.metrics.values import agreeing_keys, parameters_agree
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import Level
+from planner_ft.vocabulary.plans import Level, list_key, step_skills
 
 Pair = tuple[int, int]
-Entries = tuple[Entry, ...]
-Company = Callable[[int, int], float]
+Substitution = tuple[str | None, str | None]
+"""(expected name, predicted name); None where nothing stands for it."""
 
+TASK = "task"
+"""The role of every entry of a mission plan."""
 LEADING = (TASK, "navigation")
 """Roles of entries that are paired first: one of them makes a step."""
 COMPANY, NEARNESS = 1e-2, 1e-4
 """Weights that decide between equals, over all pairs, beside 1 for a pair's parameters."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A named task or skill. `step` is the index of the task, or of the skill's step; `stated` says
+    whether the plan gives it parameters at all.
+    """
+
+    name: str
+    role: str
+    step: int
+    parameters: dict[str, Any]
+    stated: bool
+
+
+Entries = tuple[Entry, ...]
+
+
+def plan_entries(level: Level, plan: Any) -> Entries:
+    """The entries of any JSON value in order, without those that have no name."""
+    items = plan.get(list_key(level)) if isinstance(plan, dict) else None
+    key = "title" if level == "mission" else "name"
+    found = []
+    for step, item in enumerate(items if isinstance(items, list) else ()):
+        for role, owner in [(TASK, item)] if level == "mission" else step_skills(item):
+            name = owner.get(key) if isinstance(owner, dict) else None
+            if isinstance(name, str):
+                given = owner.get("parameters")
+                parameters = given if isinstance(given, dict) else {}
+                found.append(Entry(name, role, step, parameters, isinstance(given, dict)))
+    return tuple(found)
 
 
 @dataclass(frozen=True)
@@ -37,13 +69,19 @@ class Alignment:
 
     @property
     def missing(self) -> tuple[int, ...]:
-        paired = {expected for expected, _predicted in self.pairs}
-        return tuple(index for index in range(len(self.expected)) if index not in paired)
+        return self._alone(self.expected, 0)
 
     @property
     def extra(self) -> tuple[int, ...]:
-        paired = {predicted for _expected, predicted in self.pairs}
-        return tuple(index for index in range(len(self.predicted)) if index not in paired)
+        return self._alone(self.predicted, 1)
+
+    def _alone(self, entries: Entries, side: int) -> tuple[int, ...]:
+        paired = {pair[side] for pair in self.pairs}
+        return tuple(index for index in range(len(entries)) if index not in paired)
+
+    def matched(self) -> list[tuple[Entry, Entry]]:
+        """(expected, predicted) entries."""
+        return [(self.expected[ours], self.predicted[theirs]) for ours, theirs in self.pairs]
 
     def to_json(self) -> dict[str, list[Any]]:
         """Indices into the entries of the expected and the predicted plan (`plan_entries`)."""
@@ -66,6 +104,7 @@ def align(level: Level, expected: Entries, predicted: Entries, vocabulary: Vocab
     leading = {entry.name for entry in expected if entry.role in LEADING}
     others = {entry.name for entry in expected} - leading
     ours, theirs = _surroundings(expected), _surroundings(predicted)
+    size = max(len(expected), len(predicted))
 
     def beside(one: int, other: int) -> float:
         most = max(ours[one].total(), theirs[other].total(), 1)
@@ -74,10 +113,18 @@ def align(level: Level, expected: Entries, predicted: Entries, vocabulary: Vocab
     def in_step(one: int, other: int) -> float:
         return float((expected[one].step, predicted[other].step) in steps)
 
-    leads = _assigned(level, expected, predicted, leading, beside, vocabulary)
+    def paired(names: set[str], company: Callable[[int, int], float]) -> list[Pair]:
+        def weight(one: int, other: int) -> float:
+            near = 1 - ((one - other) / size) ** 2
+            likeness = _likeness(level, expected[one], predicted[other], size, vocabulary)
+            return likeness + (COMPANY * company(one, other) + NEARNESS * near) / size
+
+        return _assigned(_by_name(expected, names), _by_name(predicted, names), weight)
+
+    leads = paired(leading, beside)
     steps = {(expected[one].step, predicted[other].step) for one, other in leads}
-    rest = _assigned(level, expected, predicted, others, in_step, vocabulary)
-    return Alignment(expected, predicted, tuple(sorted([*leads, *rest])))
+    pairs = sorted([*leads, *paired(others, in_step)])
+    return Alignment(expected, predicted, tuple(pairs))
 
 
 def _surroundings(entries: Entries) -> list[Counter[str]]:
@@ -93,21 +140,10 @@ def _surroundings(entries: Entries) -> list[Counter[str]]:
 
 
 def _assigned(
-    level: Level,
-    expected: Entries,
-    predicted: Entries,
-    names: set[str],
-    company: Company,
-    vocabulary: Vocabulary,
+    ours: dict[str, list[int]], theirs: dict[str, list[int]], weight: Callable[[int, int], float]
 ) -> list[Pair]:
-    """The best pairs for each of these names."""
-    ours, theirs = _by_name(expected, names), _by_name(predicted, names)
-    size = max(len(expected), len(predicted))
-
-    def weight(one: int, other: int) -> float:
-        near = 1 - ((one - other) / size) ** 2
-        likeness = _likeness(level, expected[one], predicted[other], size, vocabulary)
-        return likeness + (COMPANY * company(one, other) + NEARNESS * near) / size
+    """The best pairs of each name."""
+    from scipy.optimize import linear_sum_assignment
 
     pairs: list[Pair] = []
     for name, rows in ours.items():
@@ -115,7 +151,8 @@ def _assigned(
         if len(rows) == len(columns) == 1:
             pairs.append((rows[0], columns[0]))
         elif columns:
-            best = _assignment([[weight(one, other) for other in columns] for one in rows])
+            weights = [[weight(one, other) for other in columns] for one in rows]
+            best = zip(*linear_sum_assignment(weights, maximize=True), strict=True)
             pairs += [(rows[row], columns[column]) for row, column in best]
     return pairs
 
@@ -135,19 +172,58 @@ def _likeness(level: Level, ours: Entry, theirs: Entry, size: int, vocabulary: V
     return share + 2 * size * right
 
 
-def _assignment(weights: Sequence[Sequence[float]]) -> list[Pair]:
-    """(row, column) pairs of the greatest sum."""
-    if len(weights) == 1:
-        return [(0, max(range(len(weights[0])), key=weights[0].__getitem__))]
-    from scipy.optimize import linear_sum_assignment
-
-    rows, columns = linear_sum_assignment(weights, maximize=True)
-    return list(zip(rows.tolist(), columns.tolist(), strict=True))
-
-
 def _by_name(entries: Entries, names: set[str]) -> dict[str, list[int]]:
     found: dict[str, list[int]] = defaultdict(list)
     for index, entry in enumerate(entries):
         if entry.name in names:
             found[entry.name].append(index)
+    return found
+
+
+def replaced(alignment: Alignment) -> dict[int, int]:
+    """Unaligned entries in pairs, by indices: a predicted one stands for an expected one of its
+    role that has the same aligned neighbours before and after, or one of them (a plan's beginning
+    and end count as neighbours).
+    """
+    expected, predicted = alignment.expected, alignment.predicted
+    ours = _neighbours(alignment.pairs, len(expected), 0)
+    theirs = _neighbours(alignment.pairs, len(predicted), 1)
+    found: dict[int, int] = {}
+    for shared in (2, 1):
+        for one in alignment.missing:
+            fitting = (
+                other
+                for other in alignment.extra
+                if other not in found.values()
+                and predicted[other].role == expected[one].role
+                and len(ours[one] & theirs[other]) == shared
+            )
+            if one not in found and (other := next(fitting, None)) is not None:
+                found[one] = other
+    return found
+
+
+def substitutions(alignment: Alignment) -> list[Substitution]:
+    """Names that stand for others. What has no counterpart was omitted (no predicted name) or added
+    (no expected one).
+    """
+    pairs = replaced(alignment)
+    given = [entry.name for entry in alignment.predicted]
+    named: list[Substitution] = [
+        (alignment.expected[one].name, given[pairs[one]] if one in pairs else None)
+        for one in alignment.missing
+    ]
+    added = [other for other in alignment.extra if other not in pairs.values()]
+    return named + [(None, given[other]) for other in added]
+
+
+def _neighbours(pairs: Sequence[Pair], size: int, side: int) -> list[set[tuple[str, int]]]:
+    """For each entry of one side, the numbers of the aligned pairs next to it, before and after."""
+    number = {pair[side]: index for index, pair in enumerate(pairs)}
+    found: list[set[tuple[str, int]]] = [set() for _ in range(size)]
+    for way, order in (("before", range(size)), ("after", range(size - 1, -1, -1))):
+        last = -1
+        for index in order:
+            found[index].add((way, last))
+            last = number.get(index, last)
     return found

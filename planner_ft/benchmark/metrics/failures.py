@@ -1,16 +1,19 @@
-"""The kind of failure of a wrong answer, as the published robustness analysis classified them."""
+"""Whether an answer is right as a whole, and the kind of failure of a wrong one, as the published
+robustness analysis classified them.
+"""
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
+from collections.abc import Sequence
+from itertools import groupby
 from typing import Any, Literal, get_args
 
-from planner_ft.benchmark.metrics.exact_sequence import exact_sequence
-from planner_ft.benchmark.metrics.hallucination import invented_names
-from planner_ft.benchmark.metrics.validity import schema_valid
-from planner_ft.benchmark.metrics.whole_plan import parameters_right
+from planner_ft.benchmark.metrics.alignment import Entry, align, plan_entries
+from planner_ft.benchmark.metrics.names import exact_sequence, name_sequence
+from planner_ft.benchmark.metrics.parameters import right_entries
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import Level, named_entries
+from planner_ft.vocabulary.plans import Level, list_key, named_entries, plan_names, plan_problems
 
 Failure = Literal[
     "prerequisite omission",
@@ -31,13 +34,41 @@ PUBLISHED: dict[Failure, int] = {
 }
 """Failures of the published mission agent in 25 answers; of the other kinds there was none."""
 
-Entry = tuple[str, dict[str, Any]]
+Plan = dict[str, Any]
+Step = tuple[Entry, ...]
+
+
+def schema_valid(level: Level, plan: Plan | None, vocabulary: Vocabulary) -> bool:
+    """Whether an answer parsed and has the structure of a plan of this level
+    (`schemas/LEVEL.schema.json`). The published definition: an invented name can be schema-valid.
+    """
+    return plan is not None and not plan_problems(level, plan, vocabulary, strict=False)
+
+
+def strict_valid(level: Level, plan: Plan | None, vocabulary: Vocabulary) -> bool:
+    """Whether an answer is schema-valid and every name, role, parameter name, type and range is of
+    the vocabulary (`schemas/LEVEL.strict.schema.json`).
+    """
+    return plan is not None and not plan_problems(level, plan, vocabulary, strict=True)
+
+
+def invented_names(level: Level, plan: Plan | None, vocabulary: Vocabulary) -> list[str]:
+    """Names of the plan that are not in the vocabulary, in order."""
+    known = vocabulary.task if level == "mission" else vocabulary.skill
+    return [name for name in plan_names(level, plan) if name not in known]
+
+
+def refuses(level: Level, plan: Plan | None) -> bool:
+    """Whether an answer is a plan without entries. An output that does not parse refuses nothing: a
+    model that breaks down is not praised for caution.
+    """
+    return plan is not None and plan.get(list_key(level)) == []
 
 
 def failure_kind(
     level: Level,
-    plan: dict[str, Any] | None,
-    expected: dict[str, Any],
+    plan: Plan | None,
+    expected: Plan,
     vocabulary: Vocabulary,
     *,
     valid: bool | None = None,
@@ -65,7 +96,7 @@ def failure_kind(
     if invented_names(level, plan, vocabulary):
         return "hallucination"
     if exact_sequence(level, plan, expected):
-        right = parameters_right(level, plan, expected, vocabulary)
+        right = _parameters_right(level, plan, expected, vocabulary)
         return None if right else "parameter propagation"
     predicted, wanted = list(named_entries(level, plan)), list(named_entries(level, expected))
     ours, theirs = (Counter(name for name, _ in entries) for entries in (predicted, wanted))
@@ -76,10 +107,11 @@ def failure_kind(
         if any(value == list(vocabulary.unresolved) for value in parameters.values())
     )
     if missing:
-        if level == "mission" and (
-            (vocabulary.locate in missing and unresolved)
-            or (not added and _goes_on(predicted, wanted))
-        ):
+        pairs = zip(predicted, wanted, strict=False)
+        # Something is planned after the first expected name that is missing.
+        goes_on = not added and any(one[0] != other[0] for one, other in pairs)
+        unlocated = vocabulary.locate in missing and bool(unresolved)
+        if level == "mission" and (unlocated or goes_on):
             return "prerequisite omission"
         return "substitution" if added else "omission"
     if added:
@@ -87,6 +119,58 @@ def failure_kind(
     return "wrong order"
 
 
-def _goes_on(predicted: list[Entry], wanted: list[Entry]) -> bool:
-    """Whether something is planned after the first expected name that is missing."""
-    return any(one[0] != other[0] for one, other in zip(predicted, wanted, strict=False))
+def whole_plan_unordered(
+    level: Level,
+    plan: Plan | None,
+    expected: Plan,
+    vocabulary: Vocabulary,
+    *,
+    valid: bool | None = None,
+) -> bool:
+    """Whether the answer has the right tasks, or steps, with the right parameters, in any order.
+
+    Skills that run in one step must stand in one step. An answer that is not schema-valid is never
+    right; `valid` says whether it is, where that is known.
+    """
+    if plan is None or not (schema_valid(level, plan, vocabulary) if valid is None else valid):
+        return False
+    if sorted(name_sequence(level, plan)) != sorted(name_sequence(level, expected)):
+        return False
+    from scipy.optimize import linear_sum_assignment
+
+    ours, theirs = (_alike(_steps(level, one)) for one in (expected, plan))
+    for names, steps in ours.items():
+        right = [
+            [_step_right(level, one, other, vocabulary) for other in theirs[names]] for one in steps
+        ]
+        pairs = zip(*linear_sum_assignment(right, maximize=True), strict=True)
+        if not all(right[row][column] for row, column in pairs):
+            return False
+    return True
+
+
+def _parameters_right(level: Level, plan: Plan, expected: Plan, vocabulary: Vocabulary) -> bool:
+    """Of two plans with the same sequence of names, whether the parameters are right task by task,
+    or step by step: the two targets of two Transits must not be swapped.
+    """
+    steps = zip(_steps(level, expected), _steps(level, plan), strict=True)
+    return all(_step_right(level, *pair, vocabulary) for pair in steps)
+
+
+def _step_right(level: Level, expected: Step, predicted: Step, vocabulary: Vocabulary) -> bool:
+    """Whether two steps with the same names have the same parameters."""
+    agreement = right_entries(level, align(level, expected, predicted, vocabulary), vocabulary)
+    return agreement.right == agreement.matched
+
+
+def _steps(level: Level, plan: Plan) -> list[Step]:
+    entries = plan_entries(level, plan)
+    return [tuple(group) for _step, group in groupby(entries, key=lambda entry: entry.step)]
+
+
+def _alike(steps: Sequence[Step]) -> dict[tuple[str, ...], list[Step]]:
+    """Steps by their names and roles."""
+    found: dict[tuple[str, ...], list[Step]] = defaultdict(list)
+    for step in steps:
+        found[tuple(sorted(f"{entry.role} {entry.name}" for entry in step))].append(step)
+    return found

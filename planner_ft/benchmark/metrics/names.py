@@ -1,26 +1,50 @@
-"""Names of tasks and skills as sets and as multisets: of a plan, per name and per role.
+"""Names of tasks and skills: as sets and multisets, per name and per role, and in their order.
 
 Every predicted name counts, also outside the vocabulary; an answer that does not parse has none.
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable
+from collections import Counter, defaultdict
+from collections.abc import Hashable, Iterable, Sequence
+from itertools import pairwise
+from typing import Any, NamedTuple
 
-from planner_ft.benchmark.metrics.counts import Counts
-from planner_ft.benchmark.metrics.entries import Entry
+from rapidfuzz.distance import LCSseq, Levenshtein
+
+from planner_ft.benchmark.metrics.alignment import Entry
+from planner_ft.vocabulary.plans import Level, list_key, plan_names, step_skills
 
 
-def set_counts(predicted: Iterable[str], expected: Iterable[str]) -> Counts:
-    """Distinct names."""
+class Counts(NamedTuple):
+    """How many of the `predicted` items were among the `expected` ones (`right`).
+
+    Where nothing is expected, only to predict nothing is right.
+    """
+
+    right: int
+    predicted: int
+    expected: int
+
+    @property
+    def precision(self) -> float:
+        return self.right / self.predicted if self.predicted else float(not self.expected)
+
+    @property
+    def recall(self) -> float:
+        return self.right / self.expected if self.expected else float(not self.predicted)
+
+    @property
+    def f1(self) -> float:
+        """Harmonic mean of precision and recall (van Rijsbergen 1979)."""
+        total = self.predicted + self.expected
+        return 2 * self.right / total if total else 1.0
+
+
+def set_counts(predicted: Iterable[Hashable], expected: Iterable[Hashable]) -> Counts:
+    """Distinct names, whose F1 is the published one: 1.0 when both are empty, 0.0 when one is."""
     ours, theirs = set(predicted), set(expected)
     return Counts(len(ours & theirs), len(ours), len(theirs))
-
-
-def set_f1(predicted: Iterable[str], expected: Iterable[str]) -> float:
-    """The published F1, over the sets of names: 1.0 when both are empty, 0.0 when one is."""
-    return set_counts(predicted, expected).f1
 
 
 def multiset_counts(predicted: Iterable[str], expected: Iterable[str]) -> Counts:
@@ -40,15 +64,63 @@ def counts_by_role(predicted: Iterable[Entry], expected: Iterable[Entry]) -> dic
     """Occurrences of names in each role that either plan has: a skill in another role than its own
     is wrong in both.
     """
-    ours, theirs = _names_by_role(predicted), _names_by_role(expected)
-    return {
-        role: multiset_counts(ours.get(role, ()), theirs.get(role, ()))
-        for role in {**theirs, **ours}
-    }
+    names: dict[str, tuple[list[str], list[str]]] = defaultdict(lambda: ([], []))
+    for side, entries in ((1, expected), (0, predicted)):
+        for entry in entries:
+            names[entry.role][side].append(entry.name)
+    return {role: multiset_counts(*both) for role, both in names.items()}
 
 
-def _names_by_role(entries: Iterable[Entry]) -> dict[str, list[str]]:
-    found: dict[str, list[str]] = {}
-    for entry in entries:
-        found.setdefault(entry.role, []).append(entry.name)
-    return found
+def name_sequence(level: Level, plan: dict[str, Any]) -> list[tuple[str, ...]]:
+    """The names in order: one title per task, or per step its skills with their roles, sorted, as
+    skills of one step run at the same time.
+    """
+    if level == "mission":
+        return [(title,) for title in plan_names(level, plan)]
+    steps = plan.get(list_key(level))
+    return [
+        tuple(sorted(f"{role} {skill.get('name')}" for role, skill in step_skills(step)))
+        for step in (steps if isinstance(steps, list) else ())
+    ]
+
+
+def exact_sequence(level: Level, plan: dict[str, Any] | None, expected: dict[str, Any]) -> bool:
+    """Whether an answer names the expected tasks, or steps with their skills, in the expected order
+    and nothing else; an answer that does not parse never does.
+    """
+    return plan is not None and name_sequence(level, plan) == name_sequence(level, expected)
+
+
+def edit_distance(predicted: Sequence[Hashable], expected: Sequence[Hashable]) -> float:
+    """Levenshtein distance (1966) over whole names or steps, over the longer length: 0.0 for equal
+    sequences, two empty ones included; 1.0 where nothing agrees, so also where one is empty.
+    """
+    return Levenshtein.normalized_distance(predicted, expected)
+
+
+def common_subsequence(predicted: Sequence[Hashable], expected: Sequence[Hashable]) -> Counts:
+    """Its length beside those of the two sequences; the F1 is ROUGE-L with beta 1 (Lin 2004) over
+    names instead of words.
+    """
+    return Counts(LCSseq.similarity(predicted, expected), len(predicted), len(expected))
+
+
+def edge_f1(predicted: Sequence[Hashable], expected: Sequence[Hashable]) -> float:
+    """F1 between the sets of edges of two sequences (TaskBench's edge F1, Shen et al. 2023).
+
+    A node is a name with the number of its occurrence; an edge leads from each node to the next.
+    Where neither sequence has two nodes: 1.0 for equal sequences, else 0.0.
+    """
+    ours, theirs = _edges(predicted), _edges(expected)
+    if not ours and not theirs:
+        return float(list(predicted) == list(expected))
+    return set_counts(ours, theirs).f1
+
+
+def _edges(sequence: Sequence[Hashable]) -> set[Hashable]:
+    seen: Counter[Hashable] = Counter()
+    nodes = []
+    for name in sequence:
+        seen[name] += 1
+        nodes.append((name, seen[name]))
+    return set(pairwise(nodes))

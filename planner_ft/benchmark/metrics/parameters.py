@@ -5,11 +5,10 @@ key-value pairs.
 from __future__ import annotations
 
 from collections import Counter
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from planner_ft.benchmark.metrics.alignment import Alignment, align
-from planner_ft.benchmark.metrics.counts import Counts
-from planner_ft.benchmark.metrics.entries import Entry, plan_entries
+from planner_ft.benchmark.metrics.alignment import Alignment
+from planner_ft.benchmark.metrics.names import Counts
 from planner_ft.benchmark.metrics.values import agreeing_keys, known_parameters, parameters_agree
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -35,24 +34,16 @@ class ParameterCounts(NamedTuple):
     values_overall: Counts
 
 
-def parameter_agreement(
-    level: Level, plan: dict[str, Any] | None, expected: dict[str, Any], vocabulary: Vocabulary
-) -> Agreement:
-    """Align the entries of two plans and count those with the expected parameters."""
-    entries = plan_entries(level, expected), plan_entries(level, plan)
-    return right_entries(level, align(level, *entries, vocabulary), vocabulary)
-
-
 def right_entries(level: Level, alignment: Alignment, vocabulary: Vocabulary) -> Agreement:
     """Aligned entries with the expected keys, every value agreeing in the form that the vehicle
     reads (`values_agree`). Expected entries without a `parameters` object are not compared.
     """
-    pairs = [(ours, theirs) for ours, theirs in _aligned(alignment) if ours.stated]
-    right = sum(
+    right = [
         parameters_agree(level, ours.name, theirs.parameters, ours.parameters, vocabulary)
-        for ours, theirs in pairs
-    )
-    return Agreement(right, len(pairs))
+        for ours, theirs in alignment.matched()
+        if ours.stated
+    ]
+    return Agreement(sum(right), len(right))
 
 
 def parameter_counts(level: Level, alignment: Alignment, vocabulary: Vocabulary) -> ParameterCounts:
@@ -62,15 +53,17 @@ def parameter_counts(level: Level, alignment: Alignment, vocabulary: Vocabulary)
     Where the expected plan has entries and states no parameters at all, nothing is compared.
     """
     expected, predicted = alignment.expected, alignment.predicted
-    keys = values = stated = given = 0
-    for ours, theirs in _aligned(alignment):
-        if ours.stated:
-            keys += len(ours.parameters.keys() & theirs.parameters.keys())
-            values += len(
-                agreeing_keys(level, ours.name, theirs.parameters, ours.parameters, vocabulary)
-            )
-            stated += len(ours.parameters)
-            given += len(theirs.parameters)
+    compared = [
+        (one.name, one.parameters, other.parameters)
+        for one, other in alignment.matched()
+        if one.stated
+    ]
+    keys = sum(len(ours.keys() & theirs.keys()) for _name, ours, theirs in compared)
+    values = sum(
+        len(agreeing_keys(level, name, theirs, ours, vocabulary)) for name, ours, theirs in compared
+    )
+    stated = sum(len(ours) for _name, ours, _theirs in compared)
+    given = sum(len(theirs) for _name, _ours, theirs in compared)
     labelled = not expected or any(entry.stated for entry in expected)
     missing = sum(len(expected[index].parameters) for index in alignment.missing)
     extra = sum(len(predicted[index].parameters) for index in alignment.extra) if labelled else 0
@@ -91,7 +84,7 @@ def agreement_by_type(
     """
     right: Counter[str] = Counter()
     stated: Counter[str] = Counter()
-    for ours, theirs in _aligned(alignment):
+    for ours, theirs in alignment.matched():
         known = known_parameters(level, ours.name, vocabulary)
         agreeing = agreeing_keys(level, ours.name, theirs.parameters, ours.parameters, vocabulary)
         for key in ours.parameters:
@@ -99,10 +92,3 @@ def agreement_by_type(
             stated[kind] += 1
             right[kind] += key in agreeing
     return {kind: (right[kind], count) for kind, count in stated.items()}
-
-
-def _aligned(alignment: Alignment) -> list[tuple[Entry, Entry]]:
-    """(expected, predicted) entries."""
-    return [
-        (alignment.expected[ours], alignment.predicted[theirs]) for ours, theirs in alignment.pairs
-    ]

@@ -17,12 +17,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.benchmark.metrics.alignment import align
-from planner_ft.benchmark.metrics.entries import plan_entries
-from planner_ft.benchmark.metrics.groundedness import Given, given_values
-from planner_ft.benchmark.metrics.slots import slot_kind, stated_slots
-from planner_ft.benchmark.metrics.values import is_number, normalised, tolerance, values_agree
-from planner_ft.facts import WAYPOINT, missing_words, read_input
+from planner_ft.benchmark.metrics.alignment import align, plan_entries
+from planner_ft.benchmark.metrics.facts import (
+    Given,
+    given_values,
+    listed,
+    slot_kind,
+    stated_slots,
+    text_said,
+)
+from planner_ft.benchmark.metrics.values import tolerance, values_agree
+from planner_ft.facts import WAYPOINT, is_number, read_input
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
 
 Point = Sequence[float]
@@ -53,80 +58,60 @@ def skill_slots(
     """Follow every slot of a mission record ({"prompt", "expected"}) into the skills of `planned`,
     the object of `plannerft plan --json`.
     """
-    expected, predicted = (
-        plan_entries("mission", record["expected"]),
-        plan_entries("mission", planned),
-    )
+    expected = plan_entries("mission", record["expected"])
+    predicted = plan_entries("mission", planned)
     partner = dict(align("mission", expected, predicted, vocabulary).pairs)
+    source = read_input({"prompt": record["prompt"]}, vocabulary)
     slots = SkillSlots(Counter(), Counter(), Counter(), Counter())
-    for slot in stated_slots(
-        "mission", expected, read_input({"prompt": record["prompt"]}, vocabulary), vocabulary
-    ):
+    for slot in stated_slots("mission", expected, source, vocabulary):
         kind, task = slot_kind(slot.parameter), vocabulary.task[expected[slot.entry].name]
         slots.stated[kind] += 1
-        if not can_carry(task, slot.parameter, vocabulary):
+        if not _can_carry(task, slot.parameter, vocabulary):
             continue
         slots.carried[kind] += 1
         if slot.entry in partner:
             steps = planned["tasks"][predicted[partner[slot.entry]].step].get("skill_sequence")
             slots.waiting[kind] += steps is None
-            slots.reached[kind] += skills_carry(slot, steps, vocabulary)
+            slots.reached[kind] += _carried(slot, steps, vocabulary)
     return slots
 
 
-def can_carry(task: Task, parameter: Parameter, vocabulary: Vocabulary) -> bool:
+def _can_carry(task: Task, parameter: Parameter, vocabulary: Vocabulary) -> bool:
     """Whether a skill that fits the task has a parameter of this kind, or moves, where the
     parameter is a place, a length or a bearing.
     """
     skills = [vocabulary.skill[name] for names in task.skills.values() for name in names]
-    moves, turns = (
-        any(skill.motion in motions for skill in skills)
-        for motions in (("goto",), ("turn_to", "turn_by"))
-    )
+    moves = any(skill.motion == "goto" for skill in skills)
     kind = slot_kind(parameter)
     if kind == "coordinates":
         return moves
     if kind == "numbers" and parameter.unit is None:
-        return turns
-    if moves and kind in ("lengths", "angles"):
-        return True
-    return any(
+        return any(skill.motion in ("turn_to", "turn_by") for skill in skills)
+    return (moves and kind in ("lengths", "angles")) or any(
         slot_kind(item) == kind and item.unit == parameter.unit
         for skill in skills
         for item in skill.parameters
     )
 
 
-def skills_carry(slot: Given, steps: Any, vocabulary: Vocabulary) -> bool:
+def _carried(slot: Given, steps: Any, vocabulary: Vocabulary) -> bool:
     """Whether a task's skill sequence carries a value out."""
     entries = plan_entries("task", {"skill_sequence": steps})
     values = list(given_values("task", entries, vocabulary))
-    kind, waypoints = (
-        slot_kind(slot.parameter),
-        [given.value for given in values if given.parameter is WAYPOINT],
-    )
+    waypoints = [given.value for given in values if given.parameter is WAYPOINT]
+    kind = slot_kind(slot.parameter)
     if kind == "names":
-        texts = [
-            str(text)
-            for given in values
-            if slot_kind(given.parameter) == "names"
-            for text in _listed(given.value)
-        ]
-        return all(
-            any(not missing_words(text, normalised(str(wanted)), misspelt=False) for text in texts)
-            for wanted in _listed(slot.value)
-        )
+        named = [one for one in values if slot_kind(one.parameter) == "names"]
+        texts = [str(text) for one in named for text in listed(one.value)]
+        wanted = listed(slot.value)
+        return all(any(text_said(text, one) for text in texts) for one in wanted)
     if kind == "coordinates":
-        spots = (
-            [*waypoints, *_middle(waypoints)]
-            if slot.parameter.type == "position"
-            else [given.value for given in values]
-        )
+        spots = [*waypoints, *_middle(waypoints)]
+        if slot.parameter.type != "position":
+            spots = [given.value for given in values]
         return any(values_agree(spot, slot.value, slot.parameter, vocabulary) for spot in spots)
-    if any(
-        given.parameter.unit == slot.parameter.unit and _near(given.value, slot.value)
-        for given in values
-    ):
+    alike = [one.value for one in values if one.parameter.unit == slot.parameter.unit]
+    if any(_near(value, slot.value) for value in alike):
         return True
     if kind == "numbers":
         often = Counter(entry.name for entry in entries if entry.role == "navigation")
@@ -165,7 +150,3 @@ def _middle(waypoints: Sequence[Point]) -> list[list[float]]:
 
 def _near(value: Any, wanted: float) -> bool:
     return is_number(value) and abs(value - wanted) <= max(tolerance(abs(wanted)), CLOSE)
-
-
-def _listed(value: Any) -> list[Any]:
-    return value if isinstance(value, list) else [value]

@@ -6,8 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from planner_ft.facts import is_number as is_number
-from planner_ft.facts import normalised as normalised
+from planner_ft.facts import is_number, is_place, normalised
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -55,14 +54,13 @@ def values_agree(
         given, stated = str(given), str(stated)
     if loose and parameter is not None and isinstance(given, str) and is_number(stated):
         given = _measured(given, parameter.unit)
-    if _is_position(given) and _is_position(stated):
-        return positions_agree(given, stated, vocabulary)
+    if is_place(given) and is_place(stated):
+        return _positions_agree(given, stated, vocabulary)
     if isinstance(stated, list):
-        same = isinstance(given, list) and len(given) == len(stated)
-        return same and all(
-            values_agree(ours, theirs, None, vocabulary)
-            for ours, theirs in zip(given, stated, strict=True)
-        )
+        if not isinstance(given, list) or len(given) != len(stated):
+            return False
+        pairs = zip(given, stated, strict=True)
+        return all(values_agree(ours, theirs, None, vocabulary) for ours, theirs in pairs)
     if is_number(stated):
         return is_number(given) and abs(given - stated) <= tolerance(abs(stated))
     if isinstance(stated, str):
@@ -70,10 +68,9 @@ def values_agree(
     return bool(type(given) is type(stated) and given == stated)
 
 
-def positions_agree(
+def _positions_agree(
     given: Sequence[float], stated: Sequence[float], vocabulary: Vocabulary
 ) -> bool:
-    """Whether two positions, in metres, are the same place."""
     unresolved = list(vocabulary.unresolved)
     if (list(given) == unresolved) != (list(stated) == unresolved):
         return False
@@ -95,11 +92,24 @@ def parameters_agree(
     level: Level, name: str, given: Parameters, stated: Parameters, vocabulary: Vocabulary
 ) -> bool:
     """Whether two parameter objects of a task or skill have the same keys with agreeing values."""
+    if given.keys() != stated.keys():
+        return False
+    return not changed_keys(level, name, given, stated, vocabulary)
+
+
+def changed_keys(
+    level: Level, name: str, given: Parameters, stated: Parameters, vocabulary: Vocabulary
+) -> tuple[str, ...]:
+    """Keys of either object whose values do not agree, and keys of one alone."""
     if given == stated:
-        return True
+        return ()
     known = known_parameters(level, name, vocabulary)
-    return given.keys() == stated.keys() and all(
-        values_agree(given[key], value, known.get(key), vocabulary) for key, value in stated.items()
+    return tuple(
+        key
+        for key in dict.fromkeys([*stated, *given])
+        if key not in given
+        or key not in stated
+        or not values_agree(given[key], stated[key], known.get(key), vocabulary)
     )
 
 
@@ -133,18 +143,12 @@ def _rings_agree(given: Any, stated: Any, vocabulary: Vocabulary) -> bool:
     given, stated = (
         ring[:-1] if len(ring) > 3 and ring[0] == ring[-1] else ring for ring in (given, stated)
     )
-    if len(given) != len(stated):
-        return False
     turns = (
         ring[start:] + ring[:start]
         for ring in (given, given[::-1])
         for start in range(max(len(ring), 1))
     )
     return any(values_agree(turn, stated, None, vocabulary) for turn in turns)
-
-
-def _is_position(value: Any) -> bool:
-    return isinstance(value, list) and len(value) == 2 and all(is_number(item) for item in value)
 
 
 def _are_texts(value: Any) -> bool:

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 import re
-import tomllib
-from dataclasses import dataclass
+from collections import Counter
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from planner_ft.benchmark.toml_files import key_problems, read_toml
 from planner_ft.candidates.registry import Quantization
 from planner_ft.decoding.configurations import parse_configuration
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_text
 from planner_ft.vocabulary.plans import LEVELS, Level
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
-REQUIRED = {
-    "suite": ("title", "candidates", "configurations", "parts"),
-    "part": ("name", "level", "data"),
-}
 COMMON: dict[str, type] = {"configurations": list, "latency_samples": int, "max_new_tokens": int}
 SUITE_KEYS: dict[str, type] = {
     "title": str,
@@ -40,7 +36,6 @@ PART_KEYS: dict[str, type] = {
     **COMMON,
 }
 LOWEST = {"limit": 1, "max_new_tokens": 1, "stall_minutes": 1}
-"""The smallest value of a number, else 0."""
 
 
 @dataclass(frozen=True)
@@ -78,60 +73,65 @@ class Suite:
     vocabulary: str = "usv"
     quantization: Quantization | None = None
     stall_minutes: int = 60
-    adapters: dict[str, dict[str, Path]] | None = None
+    adapters: dict[str, dict[str, Path]] = field(default_factory=dict)
 
 
 def load_suite(path: Path) -> Suite:
     """Read a suite file; the paths in it are relative to it. Raises PlannerError that lists every
     mistake.
     """
-    try:
-        raw = tomllib.loads(read_text(path))
-    except tomllib.TOMLDecodeError as error:
-        raise PlannerError(f"{path}: not TOML: {error}") from None
-    problems = _problems(raw, "suite", SUITE_KEYS)
+    raw, here = read_toml(path), path.parent
+    problems = _problems(raw, SUITE_KEYS, ("title", "candidates", "configurations", "parts"))
     if raw.get("quantization") not in (None, "nf4", "none"):
         problems.append("quantization must be nf4 or none")
-    names: list[Any] = []
-    for index, part in enumerate(_list(raw.get("parts"))):
-        where = f"parts[{index}]"
-        if not isinstance(part, dict):
-            problems.append(f"{where} must be a table")
-            continue
-        problems += [f"{where}: {text}" for text in _part_problems(part)]
-        if part.get("name") in names:
-            problems.append(f"two parts are named {part['name']}")
-        names.append(part.get("name"))
+    parts = _listed(raw, "parts")
+    for index, part in enumerate(parts):
+        found = _part_problems(part) if isinstance(part, dict) else ["must be a table"]
+        problems += [f"parts[{index}]: {text}" for text in found]
+    names = Counter(str(part.get("name")) for part in parts if isinstance(part, dict))
+    problems += [f"two parts are named {name}" for name, count in names.items() if count > 1]
     if problems:
         raise PlannerError(f"{path}: {'; '.join(problems)}")
-    return _suite(path, raw)
+    vocabulary = raw.get("vocabulary", "usv")
+    return Suite(
+        path,
+        raw["title"],
+        tuple(dict.fromkeys(raw["candidates"])),
+        tuple(
+            _part({key: raw[key] for key in COMMON if key in raw} | part, here) for part in parts
+        ),
+        vocabulary=str(here / vocabulary) if vocabulary.endswith(".toml") else vocabulary,
+        quantization=raw.get("quantization"),
+        stall_minutes=raw.get("stall_minutes", Suite.stall_minutes),
+        adapters={
+            candidate: {level: here / folder for level, folder in folders.items()}
+            for candidate, folders in raw.get("adapters", {}).items()
+        },
+    )
 
 
-def _problems(raw: dict[str, Any], kind: str, keys: dict[str, type]) -> list[str]:
-    problems = [f"{key} is missing" for key in REQUIRED[kind] if key not in raw]
-    for key, value in raw.items():
-        if key not in keys:
-            problems.append(f"unknown key {key!r} (there are {', '.join(keys)})")
-        elif type(value) is not keys[key]:
-            problems.append(f"{key} must be a {keys[key].__name__}")
-        elif type(value) is int and value < LOWEST.get(key, 0):
-            problems.append(f"{key} must be at least {LOWEST.get(key, 0)}")
-        elif value == []:
-            problems.append(f"{key} is empty")
+def _part(values: dict[str, Any], here: Path) -> Part:
+    names = dict.fromkeys(parse_configuration(text).name for text in values["configurations"])
+    return Part(**values | {"data": here / values["data"], "configurations": tuple(names)})
+
+
+def _problems(raw: dict[str, Any], types: dict[str, type], required: tuple[str, ...]) -> list[str]:
+    problems = key_problems(raw, types, required, LOWEST)
     for key in ("candidates", "configurations"):
-        texts = [value for value in _list(raw.get(key)) if isinstance(value, str)]
-        others = [value for value in _list(raw.get(key)) if not isinstance(value, str)]
-        problems += [f"{key}: {value!r} is no text" for value in others]
-        for text in texts if key == "configurations" else ():
-            try:
-                parse_configuration(text)
-            except PlannerError as error:
-                problems.append(str(error).removeprefix("--"))
+        for value in _listed(raw, key):
+            if not isinstance(value, str):
+                problems.append(f"{key}: {value!r} is no text")
+            elif key == "configurations":
+                try:
+                    parse_configuration(value)
+                except PlannerError as error:
+                    problems.append(str(error).removeprefix("--"))
     return problems
 
 
 def _part_problems(part: dict[str, Any]) -> list[str]:
-    problems, name, level = _problems(part, "part", PART_KEYS), part.get("name"), part.get("level")
+    problems = _problems(part, PART_KEYS, ("name", "level", "data"))
+    name, level = part.get("name"), part.get("level")
     if isinstance(name, str) and not NAME.fullmatch(name):
         problems.append(f"name {name!r} becomes a folder: letters, digits, - and _ alone")
     if isinstance(level, str) and level not in LEVELS:
@@ -141,30 +141,5 @@ def _part_problems(part: dict[str, Any]) -> list[str]:
     return problems
 
 
-def _list(value: Any) -> list[Any]:
-    return value if isinstance(value, list) else []
-
-
-def _suite(path: Path, raw: dict[str, Any]) -> Suite:
-    common = {key: raw[key] for key in COMMON if key in raw}
-    here = path.parent
-    parts = []
-    for own in raw["parts"]:
-        part = {**common, **own}
-        names = (parse_configuration(text).name for text in part.pop("configurations"))
-        part["data"] = here / part["data"]
-        parts.append(Part(**part, configurations=tuple(dict.fromkeys(names))))
-    vocabulary = raw.get("vocabulary", "usv")
-    return Suite(
-        path,
-        raw["title"],
-        tuple(dict.fromkeys(raw["candidates"])),
-        tuple(parts),
-        vocabulary=str(here / vocabulary) if vocabulary.endswith(".toml") else vocabulary,
-        quantization=raw.get("quantization"),
-        stall_minutes=raw.get("stall_minutes", Suite.stall_minutes),
-        adapters={
-            candidate: {level: here / folder for level, folder in folders.items()}
-            for candidate, folders in raw.get("adapters", {}).items()
-        },
-    )
+def _listed(raw: dict[str, Any], key: str) -> list[Any]:
+    return raw[key] if isinstance(raw.get(key), list) else []

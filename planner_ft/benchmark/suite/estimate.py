@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import Literal
@@ -28,15 +29,21 @@ class Work:
     count: int = 0
     parameters: int | None = None
 
+    def scale(self, measured: Work) -> float:
+        """The factor from the pace of another candidate to this one, in proportion to the sizes."""
+        if self.candidate == measured.candidate or not (self.parameters and measured.parameters):
+            return 1.0
+        return self.parameters / measured.parameters
+
 
 @dataclass
 class Pace:
-    """Seconds per query as they were measured, and seconds that a process took beside its queries
-    (loading, scoring).
+    """Seconds and queries as they were measured, and seconds that a process took beside its
+    queries (loading, scoring), by candidate.
     """
 
     measured: dict[Work, tuple[float, int]] = field(default_factory=dict)
-    overheads: dict[str, list[float]] = field(default_factory=dict)
+    overheads: dict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
 
     def add(self, work: Work, seconds: float) -> None:
         """Note that the queries of `work` took so long."""
@@ -46,20 +53,18 @@ class Pace:
 
     def add_overhead(self, candidate: str, seconds: float) -> None:
         """Note the seconds of one process beside its queries."""
-        self.overheads.setdefault(candidate, []).append(max(0.0, seconds))
+        self.overheads[candidate].append(max(0.0, seconds))
 
     def seconds_per_query(self, work: Work) -> float | None:
-        """The pace of the nearest queries that were measured; of another candidate, in proportion
-        to its size.
-        """
+        """The pace of the nearest queries that were measured."""
         for same in NEAREST:
-            found = [
-                _scaled(seconds / count, key, work)
+            rates = [
+                seconds / count * work.scale(key)
                 for key, (seconds, count) in self.measured.items()
                 if count and all(getattr(key, name) == getattr(work, name) for name in same)
             ]
-            if found:
-                return sum(found) / len(found)
+            if rates:
+                return sum(rates) / len(rates)
         return None
 
     def overhead(self, candidate: str) -> float:
@@ -73,17 +78,8 @@ def time_left(pace: Pace, work: Iterable[Work], processes: Iterable[str]) -> flo
     """Seconds for the queries that are left and the `processes` (by candidate) that are not begun;
     None while nothing was measured.
     """
-    total = sum(pace.overhead(candidate) for candidate in processes)
-    for part in work:
-        if part.count:
-            rate = pace.seconds_per_query(part)
-            if rate is None:
-                return None
-            total += rate * part.count
-    return total
-
-
-def _scaled(rate: float, measured: Work, wanted: Work) -> float:
-    if measured.candidate == wanted.candidate or not measured.parameters or not wanted.parameters:
-        return rate
-    return rate * wanted.parameters / measured.parameters
+    left = [(pace.seconds_per_query(part), part.count) for part in work if part.count]
+    queries = [rate * count for rate, count in left if rate is not None]
+    if len(queries) < len(left):
+        return None
+    return sum(queries) + sum(map(pace.overhead, processes))

@@ -4,42 +4,35 @@ the answers that are there, and one overview of all.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.catalogue import METRIC, METRICS
+from planner_ft.benchmark.layout import lines
 from planner_ft.benchmark.records import measured_in, read_run
-from planner_ft.benchmark.results import Measured, Results, Row, assemble, heading
-from planner_ft.benchmark.statistics import Estimate
+from planner_ft.benchmark.results import Measured, Results, assemble, heading
 from planner_ft.benchmark.suite.definition import Part, Suite
 from planner_ft.benchmark.suite.session import Report, Session, State, opened
 from planner_ft.benchmark.suite.units import Flags, Unit
-from planner_ft.benchmark.tables import render_tables
-from planner_ft.support.files import sha256_file, write_json, write_jsonl, write_text
+from planner_ft.support.files import read_text, write_json, write_text
 from planner_ft.support.manifest import build_manifest
-from planner_ft.support.tables import (
-    NOTHING,
-    Cell,
-    Table,
-    TableRow,
-    csv_text,
-    latex_table,
-    markdown_table,
-    row,
-)
+from planner_ft.support.tables import Table, TableRow, csv_text, latex_table, markdown_table, row
 
 __all__ = ["State", "run_suite"]
 
 FIGURES = ("f1", "whole_plan", "latency_s")
 """The metrics of the overview."""
 GROUPS = {False: "Published-size splits", True: "Reported apart: data beyond the published size"}
+HOW = (
+    "In brackets 95 % intervals. Every metric, published figures and notes: table.md in the"
+    " folder of each data set."
+)
 
 
-@dataclass(frozen=True)
-class Failed:
+class Failed(NamedTuple):
     """A candidate in a configuration that could not be measured, and why."""
 
     candidate: str
@@ -65,7 +58,7 @@ class PartResults:
             "level": self.part.level,
             "data": self.results.data,
             "rows": [one.to_json() for one in self.results.rows],
-            "failed": [asdict(one) for one in self.failed],
+            "failed": [one._asdict() for one in self.failed],
         }
 
 
@@ -86,7 +79,7 @@ def run_suite(
     with opened(suite, out, flags, report, resume=resume, overwrite=overwrite) as session:
         session.run()
         parts, manifest = combine(session)
-        write_suite(out, suite.title, parts, manifest)
+        _write(out, suite.title, parts, manifest)
     return parts
 
 
@@ -119,8 +112,10 @@ def _manifest(session: Session) -> dict[str, Any]:
         "limit": flags.limit,
         "processes": flags.processes,
     }
-    inputs: dict[str, Path | str] = {"suite": suite.path}
-    inputs |= {part.name: part.data for part in suite.parts}
+    inputs: dict[str, Path | str] = {
+        "suite": suite.path,
+        **{part.name: part.data for part in suite.parts},
+    }
     return build_manifest(
         "suite", seed=flags.seed, configuration=configuration, inputs=inputs, units=units
     )
@@ -145,7 +140,7 @@ def _part(session: Session, part: Part, manifest: dict[str, Any]) -> PartResults
     data, seed = units[0].data, units[0].flags.seed
     own = {
         **manifest,
-        "inputs": {"data": {"path": str(data.path), "sha256": sha256_file(data.path)}},
+        "inputs": {"data": {"path": str(data.path), "sha256": data.sha256}},
         "units": {unit.name: manifest["units"][unit.name] for unit in units},
     }
     results = Results(part.level, data.summary(), (), own)
@@ -161,35 +156,27 @@ def _measured(unit: Unit) -> dict[str, Measured]:
     known = {sample.id for sample in unit.data.samples}
     found = {}
     for entry in measured_in(unit.folder, read_run(unit.folder)):
-        lines = {key: line for key, line in entry.predictions.items() if key in known}
-        found[entry.system.configuration] = replace(entry, predictions=lines)
+        own = {key: line for key, line in entry.predictions.items() if key in known}
+        found[entry.system.configuration] = replace(entry, predictions=own)
     return found
 
 
-def write_suite(
-    out: Path, title: str, parts: Sequence[PartResults], manifest: dict[str, Any]
-) -> None:
+def _write(out: Path, title: str, parts: Sequence[PartResults], manifest: dict[str, Any]) -> None:
     """Write PART/ and the overview of all parts into `out`; results.json last, so that it is there
     only when all is.
     """
     for one in parts:
         where = out / one.part.name
         where.mkdir(parents=True, exist_ok=True)
-        write_jsonl(where / folder.SCORES, one.results.scores)
-        write_jsonl(where / folder.BASELINES, one.results.baseline_scores)
-        texts = render_tables(one.results) if one.results.rows else {}
+        folder.write_results(where, one.results, one.to_json())
         for name in folder.TABLES:
-            write_text(where / name, texts.get(name, "") + _not_measured(name, one))
-        write_json(where / folder.RESULTS, one.to_json() | one.results.to_json())
+            shown = read_text(where / name) if one.results.rows else ""
+            write_text(where / name, shown + _not_measured(name, one))
     ordered = sorted(parts, key=lambda one: one.part.apart)
     table, failed = _overview(ordered), _failed(ordered)
-    lines = [f"# {title}\n", markdown_table(table)]
-    lines += ["## Not measured\n", markdown_table(failed)] if failed.rows else []
-    lines.append(
-        "In brackets 95 % intervals. Every metric, published figures and notes: table.md in the"
-        " folder of each data set."
-    )
-    write_text(out / "table.md", "\n".join(lines) + "\n")
+    texts = [f"# {title}\n", markdown_table(table)]
+    texts += ["## Not measured\n", markdown_table(failed)] if failed.rows else []
+    write_text(out / "table.md", "\n".join([*texts, HOW]) + "\n")
     write_text(out / "table.csv", csv_text(_csv(parts)))
     absent = "".join(_not_measured("table.tex", one) for one in ordered)
     write_text(out / "table.tex", latex_table(table) + absent)
@@ -203,21 +190,14 @@ def _overview(parts: Sequence[PartResults]) -> Table:
     for one in parts:
         named = f"{one.part.name}: {one.part.level} level, n = {one.results.data['n']}"
         rows.append(row(f"{named} ({GROUPS[one.part.apart]})", kind="section"))
-        for found in one.results.rows:
-            name = heading(found.system.configuration)
-            rows.append(row(found.system.label, name, *_cells(found)))
-        for found in one.results.baselines:
-            rows.append(row(found.system.label, NOTHING, *_cells(found), kind="baseline"))
+        for found in lines(one.results, beside=False):
+            cells = [replace(cell, mark="") for cell in found.cells(FIGURES)]
+            rows.append(row(found.model, found.configuration, *cells, kind=found.kind))
         for entry in one.failed:
             blank = [""] * (len(FIGURES) - 1)
-            name = heading(entry.configuration)
-            rows.append(row(entry.label, name, "not measured", *blank))
+            rows.append(row(entry.label, heading(entry.configuration), "not measured", *blank))
     heads = ("Configuration", *(METRIC[name].title for name in FIGURES))
     return Table("overview", "", "", "Model", heads, tuple(rows), texts=1)
-
-
-def _cells(found: Row) -> list[Cell]:
-    return [METRIC[name].cell(found.metrics.get(name, Estimate(None))) for name in FIGURES]
 
 
 def _failed(parts: Sequence[PartResults]) -> Table:
@@ -235,33 +215,29 @@ def _not_measured(name: str, one: PartResults) -> str:
         return ""
     if name == "table.md":
         return f"\nNot measured:\n\n{markdown_table(_failed([one]))}"
-    lines = [(entry.label, heading(entry.configuration), entry.reason) for entry in one.failed]
+    missing = [(entry.label, heading(entry.configuration), entry.reason) for entry in one.failed]
     if name == "table.tex":
-        return "".join(f"% not measured: {', '.join(line[:2])}: {line[2]}\n" for line in lines)
+        return "".join(f"% not measured: {', '.join(line[:2])}: {line[2]}\n" for line in missing)
     n = one.results.data["n"]
-    return csv_text([(label, f"not measured: {why}", name, n) for label, name, why in lines])
+    return csv_text([(label, f"not measured: {why}", name, n) for label, name, why in missing])
 
 
-def _csv(parts: Sequence[PartResults]) -> list[list[Any]]:
+def _csv(parts: Sequence[PartResults]) -> Iterator[list[Any]]:
     """A line per data set, candidate and configuration with every metric; rates are fractions.
     Failed ones have a reason and no figures.
     """
     heads = ["data", "level", "apart", "n", "model", "candidate", "configuration", "status"]
     figures = [f"{name}{end}" for name in METRICS for end in ("", "_low", "_high")]
-    lines: list[list[Any]] = [[*heads, "reason", *figures]]
+    yield [*heads, "reason", *figures]
     for one in parts:
         common = [one.part.name, one.part.level, int(one.part.apart), one.results.data["n"]]
         for found in (*one.results.rows, *one.results.baselines):
             system = found.system
             status = "baseline" if system.is_baseline else "measured"
-            values = [
-                None if bound is None else f"{bound:.6g}"
-                for name in METRICS
-                for bound in asdict(found.metrics.get(name, Estimate(None))).values()
-            ]
+            bounds = [one for name in METRICS for one in found.figure(name).to_json().values()]
+            values = [None if bound is None else f"{bound:.6g}" for bound in bounds]
             named = [system.label, system.candidate, system.configuration, status, None]
-            lines.append([*common, *named, *values])
+            yield [*common, *named, *values]
         for entry in one.failed:
             named = [entry.label, entry.candidate, entry.configuration, "failed", entry.reason]
-            lines.append([*common, *named, *[None] * len(figures)])
-    return lines
+            yield [*common, *named, *[None] * len(figures)]

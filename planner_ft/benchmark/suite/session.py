@@ -135,11 +135,8 @@ class Session:
 
     def _state(self, index: int, unit: Unit, *, begun: bool) -> State:
         own = self._left(unit)
-        later = [
-            other
-            for other in self.units[index + 1 :]
-            if other.configurations and other.name not in self.skipped
-        ]
+        open_units = (other for other in self.units[index + 1 :] if other.configurations)
+        later = [other for other in open_units if other.name not in self.skipped]
         work = [*own, *(part for other in later for part in self._left(other))]
         starting = [other.candidate.name for other in ([] if begun else [unit]) + later]
         each = len(unit.data.samples) + unit.latency_samples
@@ -149,10 +146,8 @@ class Session:
         return State(index + 1, len(self.units), unit.name, done, total, left)
 
     def _left(self, unit: Unit) -> list[Work]:
-        totals: dict[Kind, int] = {
-            "answers": len(unit.data.samples),
-            "latency": unit.latency_samples,
-        }
+        samples, timed = len(unit.data.samples), unit.latency_samples
+        totals: dict[Kind, int] = {"answers": samples, "latency": timed}
         return [
             _work(unit, name, kind, max(0, total - self.counts[unit.name, name, kind]))
             for name in unit.configurations
@@ -197,12 +192,9 @@ def opened(
 def _record(suite: Suite, units: list[Unit], out: Path) -> None:
     """Write suite.json, and refuse data that changed since it was begun with."""
     path = out / SUITE
-    before: dict[str, str] = read_json(path)["data"] if path.is_file() else {}
-    data = {unit.part.name: unit.data.sha256 for unit in units}
+    data: dict[str, str] = read_json(path)["data"] if path.is_file() else {}
     for unit in units:
-        if before.get(unit.part.name, unit.data.sha256) != unit.data.sha256:
-            raise PlannerError(
-                f"{unit.part.data}: changed since {out} was begun; restore it, give --overwrite to"
-                " start anew, or another --out"
-            )
-    write_json(path, {"title": suite.title, "suite": str(suite.path), "data": {**before, **data}})
+        if data.setdefault(unit.part.name, unit.data.sha256) != unit.data.sha256:
+            way = "restore it, give --overwrite to start anew, or another --out"
+            raise PlannerError(f"{unit.part.data}: changed since {out} was begun; {way}")
+    write_json(path, {"title": suite.title, "suite": str(suite.path), "data": data})

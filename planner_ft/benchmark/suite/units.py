@@ -34,6 +34,10 @@ from planner_ft.vocabulary import Vocabulary
 UNIT, LOG = "unit.json", "log.txt"
 PATIENCE = 20.0
 """Seconds that an ended process has to go by itself."""
+LAUNCH = (
+    *("--num_machines", "1", "--mixed_precision", "no", "--dynamo_backend", "no"),
+    "--multi_gpu",
+)
 
 
 @dataclass(frozen=True)
@@ -72,8 +76,7 @@ class Unit:
     def latency_samples(self) -> int:
         """Samples whose queries are timed."""
         asked = (self.flags.latency_samples, self.part.latency_samples, 50)
-        first = next(value for value in asked if value is not None)
-        return min(first, len(self.data.samples))
+        return min(next(one for one in asked if one is not None), len(self.data.samples))
 
     def arguments(self) -> list[str]:
         """The arguments of `plannerft` that run this unit, also alone."""
@@ -85,7 +88,7 @@ class Unit:
             "data": self.part.data,
             "out": self.folder,
             "adapter": self.adapter,
-            "limit": _smaller(self.part.limit, self.flags.limit),
+            "limit": _limit(self.part, self.flags),
             "latency-samples": self.latency_samples,
             "max-new-tokens": self.part.max_new_tokens,
             "planning-samples": self.part.planning_samples,
@@ -126,31 +129,31 @@ def make_units(suite: Suite, vocabulary: Vocabulary, out: Path, flags: Flags) ->
     """Every candidate on every data set, a candidate's after one another. Raises PlannerError for
     problems that no run could start with.
     """
-    data = {}
-    for part in suite.parts:
-        limit = _smaller(part.limit, flags.limit)
-        data[part.name] = load_bench_data(part.data, part.level, vocabulary, limit)
-    here = suite.path.parent
-    candidates = {}
+    data = {
+        part.name: load_bench_data(part.data, part.level, vocabulary, _limit(part, flags))
+        for part in suite.parts
+    }
+    candidates: dict[str, Candidate] = {}
     for name in suite.candidates:
         # A folder relative to the suite file, else a name or a hub id.
-        candidate = resolve_candidate(str(here / name) if (here / name).is_dir() else name)
+        folder = suite.path.parent / name
+        candidate = resolve_candidate(str(folder) if folder.is_dir() else name)
         if candidate.slug in candidates:
-            raise PlannerError(
-                f"{suite.path}: two candidates are named {candidate.slug}; leave one out, or rename"
-                " its folder"
-            )
+            way = "leave one out, or rename its folder"
+            raise PlannerError(f"{suite.path}: two candidates are named {candidate.slug}; {way}")
         candidates[candidate.slug] = candidate
     units = []
     for slug, candidate in candidates.items():
         for part in suite.parts:
             adapter, failed = _adapter(suite, part, candidate, vocabulary)
             runs = tuple(name for name in part.configurations if name not in failed)
-            folder, samples = out / part.name / slug, data[part.name]
-            units.append(
-                Unit(suite, part, candidate, samples, folder, runs, failed, adapter, flags)
-            )
+            where, samples = out / part.name / slug, data[part.name]
+            units.append(Unit(suite, part, candidate, samples, where, runs, failed, adapter, flags))
     return units
+
+
+def _limit(part: Part, flags: Flags) -> int | None:
+    return min((one for one in (part.limit, flags.limit) if one is not None), default=None)
 
 
 def _adapter(
@@ -159,24 +162,20 @@ def _adapter(
     """The adapter of a candidate, if a configuration needs it, and why configurations cannot be
     run.
     """
+    needs = [name for name in part.configurations if parse_configuration(name).adapter]
+    concerned: list[str] = list(part.configurations)
     try:
         require_folder(candidate)
-    except PlannerError as error:
-        return None, dict.fromkeys(part.configurations, str(error))
-    needs = [name for name in part.configurations if parse_configuration(name).adapter]
-    if not needs:
-        return None, {}
-    given = (suite.adapters or {}).get(candidate.name, {}).get(part.level)
-    adapter = given or find_adapter(candidate, part.level) or adapter_folder(candidate, part.level)
-    try:
+        if not needs:
+            return None, {}
+        concerned = needs
+        given = suite.adapters.get(candidate.name, {}).get(part.level)
+        usual = adapter_folder(candidate, part.level)
+        adapter = given or find_adapter(candidate, part.level) or usual
         check_adapter(adapter, candidate, level=part.level, vocabulary=vocabulary)
     except PlannerError as error:
-        return None, dict.fromkeys(needs, str(error))
+        return None, dict.fromkeys(concerned, str(error))
     return adapter, {}
-
-
-def _smaller(first: int | None, second: int | None) -> int | None:
-    return min((value for value in (first, second) if value is not None), default=None)
 
 
 class Process:
@@ -233,17 +232,6 @@ class Process:
 
 def command(arguments: list[str], processes: int = 1) -> list[str]:
     """The command of a unit; with several processes, accelerate starts them."""
-    ours = ["-m", "planner_ft", *arguments]
-    if processes == 1:
-        return [sys.executable, *ours]
-    launch = [
-        "--num_machines",
-        "1",
-        "--mixed_precision",
-        "no",
-        "--dynamo_backend",
-        "no",
-        "--multi_gpu",
-    ]
-    shared = ["-m", "accelerate.commands.launch", "--num_processes", str(processes), *launch]
-    return [sys.executable, *shared, *ours]
+    launcher = ["-m", "accelerate.commands.launch", "--num_processes", str(processes), *LAUNCH]
+    shared = launcher if processes > 1 else []
+    return [sys.executable, *shared, "-m", "planner_ft", *arguments]

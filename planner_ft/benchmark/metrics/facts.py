@@ -1,0 +1,179 @@
+"""Facts of a command: values that nobody gave, and how far the stated ones come.
+
+A value is grounded when the command states it (at task level the task prompt or the task's
+parameters), in any unit and wording, when the vocabulary gives it (home, the unresolved location),
+or when it follows from what is stated by arithmetic (points a stated way off; at task level
+waypoints of a grid, a square or a ring, angles of equal turns). It need not be the right value: a
+value in the wrong place is grounded, too.
+
+A slot is a value of the expected plan that the command states: coordinates, a stand-off, a
+duration, a name. A fact that several tasks need is as many slots. A slot has reached the parameters
+when the task (or skill) that is aligned with the expected one has the value; the task prompt when
+that task's prompt says it, in any unit and wording; the skills, in the two-agent pipeline, when
+they carry it out (`skill_slots`).
+
+Values are judged by `planner_ft.facts`, which the decoding strength `grounded` holds answers to as
+well: the groundedness of `+grounded` configurations is 100 % by construction.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from planner_ft.benchmark.metrics.alignment import Alignment, Entry
+from planner_ft.benchmark.metrics.values import known_parameters, values_agree
+from planner_ft.facts import (
+    SCORING,
+    WAYPOINT,
+    Input,
+    is_number,
+    is_place,
+    missing_words,
+    normalised,
+    read,
+)
+from planner_ft.vocabulary import Parameter, Vocabulary
+from planner_ft.vocabulary.plans import Level
+
+KINDS = ("coordinates", "lengths", "durations", "speeds", "angles", "numbers", "names")
+BY_UNIT = {"m": "lengths", "s": "durations", "m/s": "speeds", "deg": "angles"}
+
+
+@dataclass(frozen=True)
+class Given:
+    """A value of an entry (its index) with the parameter that it is for."""
+
+    entry: int
+    parameter: Parameter
+    value: Any
+
+
+@dataclass(frozen=True)
+class Groundedness:
+    """Values of an answer that could be judged, and those of them that nobody gave."""
+
+    judged: int
+    ungrounded: tuple[Given, ...]
+
+
+@dataclass(frozen=True)
+class Reached:
+    """Per kind of slot, how many the input states and how many of them reached the parameters, and
+    the task prompt (mission level).
+    """
+
+    stated: Counter[str]
+    in_parameters: Counter[str]
+    in_prompt: Counter[str]
+
+
+def groundedness(
+    level: Level, entries: Sequence[Entry], source: Input, vocabulary: Vocabulary
+) -> Groundedness:
+    """Judge every value of a plan's entries; what cannot be judged, since the input cannot be read
+    with certainty, is left out.
+    """
+    judged, ungrounded, before = 0, [], list[tuple[float, float]]()
+    for given in given_values(level, entries, vocabulary):
+        verdict = source.evidence(given.value, given.parameter, SCORING, before).given
+        judged += verdict is not None
+        ungrounded += [given] if verdict is False else []
+        if given.parameter is WAYPOINT:
+            before.append((given.value[0], given.value[1]))
+    return Groundedness(judged, tuple(ungrounded))
+
+
+def given_values(level: Level, entries: Sequence[Entry], vocabulary: Vocabulary) -> Iterator[Given]:
+    """Every value of a plan. The coordinates of a destination are one; a parameter that the
+    vocabulary does not have is judged by its form.
+    """
+    for index, entry in enumerate(entries):
+        skill = vocabulary.skill.get(entry.name) if level == "task" else None
+        pair = [item.name for item in skill.coordinates] if skill else []
+        together = len(pair) == 2 and all(is_number(entry.parameters.get(name)) for name in pair)
+        if together:
+            yield Given(index, WAYPOINT, [entry.parameters[name] for name in pair])
+        known = known_parameters(level, entry.name, vocabulary)
+        for name, value in entry.parameters.items():
+            if not (together and name in pair):
+                yield Given(index, known.get(name) or _by_form(name, value), value)
+
+
+def _by_form(name: str, value: Any) -> Parameter:
+    """A parameter of the type that a value has."""
+    if is_number(value):
+        return Parameter(name, "number")
+    if isinstance(value, list):
+        return Parameter(name, "position" if is_place(value) else "texts")
+    return Parameter(name, "text")
+
+
+def slot_kind(parameter: Parameter) -> str:
+    """What a slot is, by the type and unit of its parameter."""
+    if parameter.type in ("position", "polygon"):
+        return "coordinates"
+    if parameter.type in ("number", "integer"):
+        return BY_UNIT.get(parameter.unit or "", "numbers")
+    return "names"
+
+
+def stated_slots(
+    level: Level, expected: Sequence[Entry], source: Input, vocabulary: Vocabulary
+) -> list[Given]:
+    """The values of an expected plan that the input states; home, the unresolved location and
+    derived waypoints are none.
+    """
+    return [
+        given
+        for given in given_values(level, expected, vocabulary)
+        if source.stated(given.value, given.parameter, SCORING).given
+    ]
+
+
+def slot_propagation(
+    level: Level, plan: Any, alignment: Alignment, source: Input, vocabulary: Vocabulary
+) -> Reached:
+    """Follow every slot of the expected plan into the answer; a slot of an expected entry without a
+    partner is lost.
+    """
+    partner = dict(alignment.pairs)
+    there = {
+        (given.entry, given.parameter.name): given.value
+        for given in given_values(level, alignment.predicted, vocabulary)
+    }
+    reached = Reached(Counter(), Counter(), Counter())
+    for slot in stated_slots(level, alignment.expected, source, vocabulary):
+        kind = slot_kind(slot.parameter)
+        reached.stated[kind] += 1
+        if slot.entry not in partner:
+            continue
+        place = partner[slot.entry], slot.parameter.name
+        reached.in_parameters[kind] += place in there and values_agree(
+            there[place], slot.value, slot.parameter, vocabulary, loose=True
+        )
+        if level == "mission":
+            prompt = plan["tasks"][alignment.predicted[place[0]].step].get("task_prompt")
+            reached.in_prompt[kind] += isinstance(prompt, str) and _says(prompt, slot)
+    return reached
+
+
+def _says(prompt: str, slot: Given) -> bool:
+    """Whether a task prompt states a value: a number in any unit and wording, coordinates as a
+    pair, every word of a text.
+    """
+    if slot_kind(slot.parameter) != "names":
+        return read(prompt).evidence(slot.value, slot.parameter, SCORING).given is True
+    return all(text_said(prompt, text) for text in listed(slot.value))
+
+
+def text_said(text: str, wanted: Any) -> bool:
+    """Whether a text has every word of another."""
+    return not missing_words(text, normalised(str(wanted)), misspelt=False)
+
+
+def listed(value: Any) -> list[Any]:
+    """A list as it is, and anything else as the one item of a list."""
+    return value if isinstance(value, list) else [value]
