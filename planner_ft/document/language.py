@@ -37,12 +37,21 @@ class Ask:
 
 
 @dataclass(frozen=True)
+class Data:
+    """Words for data, and the skills of which one gathers it (none: any that gathers)."""
+
+    said: re.Pattern[str]
+    skills: frozenset[str]
+
+
+@dataclass(frozen=True)
 class Language:
     """Patterns by name, words for tasks and sensors, and the questions per missing element."""
 
     words: dict[str, re.Pattern[str]]
     asks: tuple[Ask, ...]
     sensors: re.Pattern[str]
+    data: tuple[Data, ...]
     questions: dict[str, str]
 
 
@@ -61,7 +70,11 @@ def language(vocabulary: Vocabulary) -> Language:
     )
     words = {name: pattern(entry["words"]) for name, entry in english.items()}
     sensors = pattern(own.get("sensor", {}).get("words", ()))
-    return Language(words, tuple(asks), sensors, questions)
+    data = (
+        Data(pattern(entry["words"]), frozenset(entry.get("skills", ())))
+        for entry in own.get("data", ())
+    )
+    return Language(words, tuple(asks), sensors, tuple(data), questions)
 
 
 def pattern(phrases: Sequence[str]) -> re.Pattern[str]:
@@ -80,7 +93,9 @@ def _phrase(phrase: str) -> str:
 
 def _problems(own: dict[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
     asks, sensor = own.get("ask", []), own.get("sensor", {"words": ["any"]})
-    yield from (f"unknown key {key!r}" for key in own if key not in ("ask", "sensor", "hint"))
+    yield from (
+        f"unknown key {key!r}" for key in own if key not in ("ask", "sensor", "data", "hint")
+    )
     if not isinstance(sensor, dict) or not _are_words(sensor.get("words")):
         yield "[sensor] needs the list words"
     for entry in asks if isinstance(asks, list) else [asks]:
@@ -89,6 +104,20 @@ def _problems(own: dict[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
         else:
             unknown = [title for title in entry["tasks"] if title not in vocabulary.task]
             yield from (f"[[ask]] names {title!r}, which is no task" for title in unknown)
+    yield from _data_problems(own.get("data", []), vocabulary)
+
+
+def _data_problems(entries: Any, vocabulary: Vocabulary) -> Iterator[str]:
+    for entry in entries if isinstance(entries, list) else [entries]:
+        if not isinstance(entry, dict) or not _are_words(entry.get("words")):
+            yield "every [[data]] needs the list words"
+            continue
+        skills = entry.get("skills", ["any"])
+        if not _are_words(skills):
+            yield "[[data]]: skills must be a list of names"
+        elif "skills" in entry:
+            unknown = [name for name in skills if name not in vocabulary.skill]
+            yield from (f"[[data]] names {name!r}, which is no skill" for name in unknown)
 
 
 def _are_words(value: Any) -> bool:

@@ -39,7 +39,7 @@ def _lines(document: PlanDocument) -> Iterator[str]:
             *document.get("questions", ())
         ],
         'Open places (fill in with --locate "NAME=x,y")': places,
-        "Warnings": [warning["text"] for warning in document["warnings"]],
+        "Warnings": [one["text"] for one in document["warnings"] if one["kind"] != "value-asked"],
     }
     for heading, items in sections.items():
         yield from (f"{heading}:", *(f" - {item}" for item in items)) if items else ()

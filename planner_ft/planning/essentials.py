@@ -88,7 +88,10 @@ def with_essentials(
         ]
         if len(places) == 1:
             (index, own), values = places[0], {key: given.get(of) for key, of in takes.items()}
-            added += _completed(own, values, _mark(index, vocabulary.skill[name]))
+            mark = _mark(index, vocabulary.skill[name])
+            # A skill that was added is the vehicle's with its values.
+            taken = list(_completed(own, values, mark))
+            added += [] if mark in added else taken
     return completed, added
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from planner_ft.document.track import Track
 from planner_ft.document.warnings.command import command_warnings
+from planner_ft.document.warnings.data import data_warnings
 from planner_ft.document.warnings.limits import limit_warnings
 from planner_ft.document.warnings.route import order_warnings, range_warnings, space_warnings
 from planner_ft.document.warnings.values import value_warnings
@@ -28,6 +29,7 @@ def warnings(document: Mapping[str, Any], vocabulary: Vocabulary, path: Track) -
         *space_warnings(document, path, vocabulary),
         *range_warnings(document, path, vocabulary),
         *command_warnings(document, vocabulary),
+        *data_warnings(document, vocabulary),
         *value_warnings(document, vocabulary),
     ]
     # Two of one id say the same: the first stays.

@@ -11,7 +11,14 @@ SERIOUS = (
     *("invalid-answer", "structure-close", "limit-broken", "doubtful-origin"),
     *("unresolved-location", "value-asked", "used-before-found", "not-at-place"),
     *("position-missing", "outside-boundary", "outside-area", "out-of-reach", "over-endurance"),
-    *("missing-return", "not-planned", "value-not-said", "skill-value-not-said", "value-lost"),
+    *(
+        "missing-return",
+        "not-planned",
+        "data-not-planned",
+        "value-not-said",
+        "skill-value-not-said",
+        "value-lost",
+    ),
     *("stale-skills", "no-skills"),
 )
 """Kinds that a plan should not be approved with unread, the most serious first."""

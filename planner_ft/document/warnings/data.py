@@ -1,0 +1,52 @@
+"""Data that the command asks for and that no step of the plan gathers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from planner_ft.document.language import Data, language, read_clauses
+from planner_ft.document.warnings.warning import Warning, warning
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.essentials import essentials_of
+from planner_ft.vocabulary.plans import step_skills
+
+
+def data_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
+    """One per clause with words for sensors or data that reach no skill.
+
+    Data that is sent may have been gathered long ago, and is not asked for.
+    """
+    spoken, tasks = language(vocabulary), document["tasks"]
+    if not tasks:
+        return
+    gathering = _gathering(tasks, vocabulary)
+    waiting = [task["task_prompt"] for task in tasks if not task["skill_sequence"]]
+    for clause in read_clauses(document["command"], vocabulary):
+        sends = any(ask.sends and ask.said.search(clause.text) for ask in spoken.asks)
+        if clause.corrected or sends:
+            continue
+        lost = [data for data in spoken.data if not _gathered(data, gathering, waiting)]
+        spans = sorted(span for data in lost for span in clause.spans(data.said))
+        words = list(dict.fromkeys(document["command"][start:end] for start, end in spans))
+        if words:
+            quoted = ", ".join(f'"{one}"' for one in words)
+            text = f"The command speaks of {quoted}; no step of the plan gathers that."
+            yield warning("data-not-planned", text, about=" ".join(words).casefold())
+
+
+def _gathering(tasks: list[dict[str, Any]], vocabulary: Vocabulary) -> set[str]:
+    """The skills that gather something in the plan; of tasks that wait those that are essential."""
+    names = set()
+    for task in tasks:
+        for step in task["skill_sequence"] or ():
+            names |= {skill["name"] for role, skill in step_skills(step) if role == "perception"}
+        if not task["skill_sequence"]:
+            names |= essentials_of(task["title"], vocabulary).skills.keys()
+    return {name for name in names if vocabulary.skill[name].role == "perception"}
+
+
+def _gathered(data: Data, gathering: set[str], waiting: list[str]) -> bool:
+    """Whether a skill gathers the data, or a task that has no skills yet speaks of it."""
+    found = data.skills & gathering if data.skills else gathering
+    return bool(found) or any(data.said.search(prompt) for prompt in waiting)

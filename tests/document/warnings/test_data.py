@@ -1,0 +1,69 @@
+"""Data that the command asks for and no step gathers."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from planner_ft.document.language import language
+from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.definition import BUNDLED
+from tests.documents import USV, document, step, task
+
+
+def warned(command: str, *skills: str, prompt: str = "Go.", waits: bool = False) -> list[str]:
+    one: dict[str, Any] = step("GoToXY", {"x": 40, "y": 20})
+    one["perception_skills"] = [{"name": name, "parameters": {}} for name in skills]
+    steps = None if waits else [one]
+    made = document(
+        [task("Transit", {"target_position": [40, 20]}, steps, prompt)], command=command
+    )
+    return [item["text"] for item in made["warnings"] if item["kind"] == "data-not-planned"]
+
+
+def test_words_for_data_that_reach_no_skill_are_named_once_per_clause() -> None:
+    command = "Go to [40, 20] recording video, and log the depth."
+    assert warned(command) == [
+        'The command speaks of "recording", "video"; no step of the plan gathers that.',
+        'The command speaks of "depth"; no step of the plan gathers that.',
+    ]
+    assert len(warned(command, "SetStreamRecording")) == 1
+    assert warned(command, "SetStreamRecording", "GetSeabedDepth") == []
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "Go to [40, 20].",
+        "Go to [40, 20], no video.",
+        "Go to [40, 20] and send the thermal pictures home.",
+    ],
+)
+def test_what_is_ruled_out_or_sent_is_not_asked_for(command: str) -> None:
+    assert warned(command) == []
+
+
+def test_a_task_that_waits_counts_by_its_prompt() -> None:
+    command = "Go to [40, 20] and log the depth."
+    assert warned(command, prompt="Go to [40, 20]. Log the depth.", waits=True) == []
+    assert len(warned(command, waits=True)) == 1
+
+
+def test_any_skill_that_gathers_answers_to_data() -> None:
+    command = "Collect data at [40, 20]."
+    assert len(warned(command)) == 1 and warned(command, "GetGPSLocation") == []
+
+
+def test_an_unknown_skill_in_the_ontology_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text((BUNDLED / "inspection_drone.toml").read_text())
+    words = '[[data]]\nwords = ["depth"]\nskills = ["Dive"]\n[[data]]\nskills = ["TakePhoto"]\n'
+    (tmp_path / "mine.ontology.toml").write_text(words)
+    with pytest.raises(PlannerError) as error:
+        language(load_vocabulary(path))
+    assert "[[data]] names 'Dive', which is no skill" in str(error.value)
+    assert "every [[data]] needs the list words" in str(error.value)
+    assert len(language(USV).data) > 5
