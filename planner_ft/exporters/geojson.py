@@ -8,12 +8,11 @@ in local metres beside it (`local`).
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.document.track import Circle, Leg, Point
+from planner_ft.document.track import Leg, Point
 from planner_ft.exporters.formats import TABLES, Format, PlanExport, Written
 from planner_ft.support.files import indented_json
 from planner_ft.support.geodesy import Origin
@@ -47,6 +46,8 @@ class _Drawing:
 
     def features(self) -> Iterator[Feature]:
         """The plan, then its tasks with their waypoints, then the surroundings."""
+        import shapely
+
         track, area = self.plan.track, self.document["vehicle"]["area"]
         yield self._plan()
         for number, task in enumerate(self.document["tasks"], start=1):
@@ -64,7 +65,11 @@ class _Drawing:
         if area:
             yield self._feature("area", area, {}, ring=True)
         for circle in track.circles:
-            yield self._feature("stand-off", _corners(circle), asdict(circle), ring=True)
+            disc = shapely.Point(circle.center).buffer(
+                max(circle.radius, 0.001), quad_segs=CORNERS // 4
+            )
+            corners = disc.exterior.coords[:-1]
+            yield self._feature("stand-off", corners, asdict(circle), ring=True)
 
     def _plan(self) -> Feature:
         words: Feature = {"name": self.plan.name, "approval": self.plan.mark}
@@ -145,12 +150,6 @@ def _cut(shape: BaseGeometry) -> BaseGeometry:
         return translate(shape, -360 * round(shape.bounds[0] / 360))
     several = getattr(shapely, f"Multi{shape.geom_type}")
     return shapely.orient_polygons(parts[0] if len(parts) == 1 else several(parts))
-
-
-def _corners(circle: Circle) -> list[Point]:
-    (x, y), radius = circle.center, circle.radius
-    angles = [2 * math.pi * index / CORNERS for index in range(CORNERS)]
-    return [(x + radius * math.cos(angle), y + radius * math.sin(angle)) for angle in angles]
 
 
 FORMAT = Format("geojson", ".geojson", "GeoJSON for maps", needs_origin=True, write=write)

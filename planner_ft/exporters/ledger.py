@@ -144,13 +144,13 @@ def plan_items(document: dict[str, Any]) -> Iterator[Item]:
             for path, what in _step_items(step):
                 at = ("tasks", index, "skill_sequence", number, *path)
                 yield Item(at, task["id"], what, number + 1)
-    for key in ("assumptions", "constraints"):
-        yield from (Item(path, None, what) for path, what in _texts(document, key))
+    beside = [*_texts(document, "assumptions"), *_texts(document, "constraints")]
     for index, place in enumerate(document["open_places"]):
-        yield Item(("open_places", index), None, f"open place: {place['name']}")
+        beside.append((("open_places", index), f"open place: {place['name']}"))
     for name, position in document["located"].items():
-        yield Item(("located", name), None, f"located: {name} at {_words(position)}")
-    yield from (Item(path, None, what) for path, what in _texts(document, "problems"))
+        beside.append((("located", name), f"located: {name} at {_words(position)}"))
+    for path, what in [*beside, *_texts(document, "problems")]:
+        yield Item(path, None, what)
     for index, warning in enumerate(document["warnings"]):
         yield Item(("warnings", index), warning.get("task"), f"warning: {warning['text']}")
 
@@ -170,15 +170,19 @@ def _task_items(task: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:
 
 
 def _step_items(step: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:
-    beside = ("filter_skills", "perception_skills")
-    skills: list[tuple[Path, Any]] = [(("navigation_skill",), step["navigation_skill"])]
-    skills += [((key, index), skill) for key in beside for index, skill in enumerate(step[key])]
-    for at, skill in skills:
+    for at, skill in skills_of(step):
         yield (*at, "name"), str(skill["name"])
         for key, value in skill["parameters"].items():
             yield (*at, "parameters", key), f"{skill['name']} {key} = {_words(value)}"
     for key in LISTS:
         yield from _texts(step, key)
+
+
+def skills_of(step: Mapping[str, Any]) -> Iterator[tuple[Path, dict[str, Any]]]:
+    """The skills of a step with their places in it, the one that moves the vehicle first."""
+    yield ("navigation_skill",), step["navigation_skill"]
+    for key in ("filter_skills", "perception_skills"):
+        yield from (((key, index), skill) for index, skill in enumerate(step[key]))
 
 
 def _texts(owner: Mapping[str, Any], key: str) -> Iterator[tuple[Path, str]]:

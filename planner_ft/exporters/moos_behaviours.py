@@ -28,6 +28,7 @@ SLIP_RADIUS = 6.0  # metres from it within which it counts as passed once the di
 TURN_SPEED = 0.5  # metres per second: most hulls need water past the rudder to turn
 TURN_THRESHOLD = 5.0  # degrees from the heading at which a turn is complete
 LONGEST_TURN = 120.0  # seconds after which the helm goes on from a turn that is not complete
+ROUNDED = 1e-5  # share of a region's area by which corners rounded to millimetres may dent it
 DRAWN = 3600.0  # degrees of an arc that a plan's track holds
 TURN_FORM = TABLE["turn"].format(speed=number(TURN_SPEED), time=number(LONGEST_TURN))
 
@@ -147,7 +148,7 @@ def guard_form(kind: str, value: Any) -> tuple[bool, str]:
         return True, TABLE["clearance"]
     if not value:
         return False, TABLE["no_polygon"]
-    return (True, "") if _is_region(value) else (False, TABLE["not_convex"])
+    return (True, "") if _region(value) else (False, TABLE["not_convex"])
 
 
 def guards(filters: Iterable[tuple[int, str, Any]]) -> Iterator[list[str]]:
@@ -165,7 +166,7 @@ def guards(filters: Iterable[tuple[int, str, Any]]) -> Iterator[list[str]]:
         base = [("pwt", "500"), ("condition", "DEPLOY = true")]
         base.append(("condition", f"{STEP} = {first}" if first == last else span))
         if kind == "boundary":
-            behaviour, settings = "BHV_OpRegionV24", _settings(save_poly=points(_corners(value)))
+            behaviour, settings = "BHV_OpRegionV24", _settings(save_poly=points(_region(value)))
         else:
             times = {key: value * times for key, times in TABLE["avoidance"].items() if value}
             behaviour, updates = "BHV_AvoidObstacleV24", f"OBSTACLE_ALERT_{count}"
@@ -180,28 +181,15 @@ def _spans(numbers: Iterable[int]) -> Iterator[tuple[int, int]]:
         yield run[0], run[-1]
 
 
-def _is_region(polygon: Sequence[Sequence[float]]) -> bool:
-    """Whether the helm takes a polygon as a region and does not refuse the file: it has an area,
-    and turns one way alone, once around (a star goes along x and back more often).
+def _region(polygon: Sequence[Sequence[float]]) -> list[Point]:
+    """The corners of a convex polygon, the only one that the helm takes as a region: without
+    repeated ones and those on a side. None of another, for which it would refuse the file.
     """
-    corners = _corners(polygon)
-    turns = [_turn(corners, index) for index in range(len(corners))]
-    ahead = [corner > corners[index - 1] for index, corner in enumerate(corners)]
-    once = sum(one != ahead[index - 1] for index, one in enumerate(ahead)) == 2
-    return len(corners) > 2 and (min(turns) > 0 or max(turns) < 0) and once
+    import shapely
 
-
-def _corners(polygon: Sequence[Sequence[float]]) -> list[Point]:
-    """The corners as written, without repeated ones and those on a side: the helm refuses some."""
-    rounded = [(round(float(x), 3), round(float(y), 3)) for x, y in polygon]
-    distinct = [point for index, point in enumerate(rounded) if point != rounded[index - 1]]
-    distinct = distinct or rounded
-    return [corner for index, corner in enumerate(distinct) if _turn(distinct, index)]
-
-
-def _turn(corners: list[Point], index: int) -> float:
-    """Above 0 for a left turn at a corner, 0 within a square millimetre of straight on."""
-    around = (corners[(index + offset) % len(corners)] for offset in (-1, 0, 1))
-    (ax, ay), (bx, by), (cx, cy) = around
-    turn = (bx - ax) * (cy - by) - (by - ay) * (cx - bx)
-    return turn if abs(turn) > 1e-6 else 0.0
+    corners = [(round(float(x), 3), round(float(y), 3)) for x, y in polygon]
+    shape = shapely.Polygon(corners if len(corners) > 2 else None)
+    hull = shapely.orient_polygons(shape.convex_hull)
+    if not shape.is_valid or not shape.area or hull.area > shape.area * (1 + ROUNDED):
+        return []
+    return list(hull.exterior.coords)[:-1]
