@@ -55,13 +55,12 @@ def curated_splits(
     for split in SPLITS:
         splits[split], found = _read(source / f"{split}.jsonl", vocabulary)
         problems += found
+    lists = f"; plannerft validate --complete {source}/*.jsonl lists them"
+    if not problems and named == DEFAULT:
+        problems = [f"{source}: {problem}" for problem in coverage_problems(splits, vocabulary)]
+        lists = ""
     if problems:
-        more = (
-            f" (and {len(problems) - 1} more; plannerft validate --complete {source}/*.jsonl lists"
-            " them)"
-            if len(problems) > 1
-            else ""
-        )
+        more = f" (and {len(problems) - 1} more{lists})" if len(problems) > 1 else ""
         other = (
             f"; a set for the vocabulary {named} is needed: give its folder with --source, or"
             " --level task alone"
@@ -69,13 +68,6 @@ def curated_splits(
             else ""
         )
         raise PlannerError(f"{problems[0]}{more}{other}")
-    if named == DEFAULT:
-        lacking = coverage_problems(splits, vocabulary)
-        if lacking:
-            raise PlannerError(
-                f"{source}: {lacking[0]}"
-                + (f" (and {len(lacking) - 1} more)" if len(lacking) > 1 else "")
-            )
     for split, count in counts.items():
         if count is not None and count > len(splits[split]):
             raise PlannerError(

@@ -13,8 +13,8 @@ from planner_ft.data.card import dataset_card
 from planner_ft.data.curated import curated_splits, find_source
 from planner_ft.data.leakage import leakage_report
 from planner_ft.data.output import DataFolder, check_writable, write_folders
-from planner_ft.data.synthetic_set import FOLDER, synthetic_folder
-from planner_ft.data.task.sampler import Split, sample_tasks
+from planner_ft.data.synthetic_set import synthetic_folder
+from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.validation import canonical_record
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, indented_json, sha256_text
@@ -57,17 +57,12 @@ class GenerationSettings:
     def __post_init__(self) -> None:
         if self.level not in (*LEVELS, "all"):
             raise PlannerError(f"--level {self.level}: must be {', '.join(LEVELS)} or all")
-        for split in ("train", "validation", "test"):
-            count = getattr(self, split)
+        for flag in ("train", "validation", "test", "synthetic"):
+            count = getattr(self, flag)
             if count is not None and count < 1:
-                raise PlannerError(f"--{split} {count}: at least one record is needed")
-        if self.synthetic is not None and (self.synthetic < 1 or self.level == "task"):
-            wrong = (
-                "it belongs to the mission level"
-                if self.level == "task"
-                else "at least one record is needed"
-            )
-            raise PlannerError(f"--synthetic {self.synthetic}: {wrong}")
+                raise PlannerError(f"--{flag} {count}: at least one record is needed")
+        if self.synthetic and self.level == "task":
+            raise PlannerError(f"--synthetic {self.synthetic}: it belongs to the mission level")
         if self.seed < 0:
             raise PlannerError(f"--seed {self.seed}: must be 0 or more")
 
@@ -75,14 +70,10 @@ class GenerationSettings:
     def levels(self) -> tuple[Level, ...]:
         return tuple(level for level in LEVELS if self.level in (level, "all"))
 
-    def counts(self, level: Level) -> dict[Split, int | None]:
+    def counts(self, level: Level) -> dict[Any, int | None]:
         """Records asked for, by split; None where no flag says it."""
-        counts: dict[Split, int | None] = {
-            "train": self.train,
-            "validation": self.validation,
-            "test": self.test,
-        }
-        return {**counts, "test_unseen": self.test} if level == "task" else counts
+        asked = {"train": self.train, "validation": self.validation, "test": self.test}
+        return {**asked, "test_unseen": self.test} if level == "task" else asked
 
 
 @dataclass
@@ -112,31 +103,22 @@ def generate(
     """
     vocabulary = load_vocabulary(settings.vocabulary)
     check_writable(settings.out)
-    results, folders = [], []
+    made = []
     for level in settings.levels:
-        if level == "mission" and settings.synthetic and not _has_curated(settings):
-            continue
-        result, folder = _make(
-            level, settings, vocabulary, progress, messages if settings.chat else None
-        )
-        results.append(result)
-        folders.append(folder)
-    if settings.synthetic:
+        if level == "task" or not settings.synthetic or _has_curated(settings):
+            chat = messages if settings.chat else None
+            made.append(_make(level, settings, vocabulary, progress, chat))
+    if count := settings.synthetic:
         started = time.perf_counter()
-        folders.append(
-            synthetic_folder(settings.out, vocabulary, settings.seed, settings.synthetic, progress)
-        )
+        folder = synthetic_folder(settings.out, vocabulary, settings.seed, count, progress)
         seconds = {"sampling and validation": time.perf_counter() - started}
-        results.append(
-            Generated(
-                "mission", settings.out / FOLDER, {"train": settings.synthetic}, seconds=seconds
-            )
-        )
+        result = Generated("mission", folder.folder, {"train": count}, seconds=seconds)
+        made.append((result, folder))
     started = time.perf_counter()
-    for result, written in zip(
-        results, write_folders(folders, overwrite=settings.overwrite), strict=True
-    ):
-        result.written = written
+    written = write_folders([folder for _result, folder in made], overwrite=settings.overwrite)
+    results = [result for result, _folder in made]
+    for result, changed in zip(results, written, strict=True):
+        result.written = changed
     results[-1].seconds["writing"] = time.perf_counter() - started
     return results
 
@@ -183,18 +165,14 @@ def _make(
         "counts": result.counts,
         "vocabulary": vocabulary.name,
         "vocabulary_sha256": vocabulary.sha256,
+        "chat": messages is not None,
     }
     if level == "task":
         configuration["phrases_sha256"] = sha256_text(compact_json(vocabulary.phrases))
-    inputs: dict[str, Path | str] = (
-        {split: source / f"{split}.jsonl" for split in splits} if source else {}
-    )
-    manifest = build_manifest(
-        "data",
-        seed=seed,
-        configuration={**configuration, "chat": messages is not None},
-        inputs=inputs,
-    )
+    files: dict[str, Path | str] = {}
+    if source:
+        files = {split: source / f"{split}.jsonl" for split in splits}
+    manifest = build_manifest("data", seed=seed, configuration=configuration, inputs=files)
     return result, DataFolder(result.folder, texts, manifest, source)
 
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from random import Random
 from typing import Any, TypeVar
 
 from planner_ft.facts.geometry import Point, tidy
+from planner_ft.facts.lists import COMPASS as POINTS
 
 T = TypeVar("T")
 
@@ -17,75 +20,23 @@ def words(text: str) -> tuple[str, ...]:
     return tuple(text.split())
 
 
+_SAID: dict[str, dict[str, Any]] = tomllib.loads(
+    Path(__file__).with_suffix(".toml").read_text("utf-8")
+)
 ONES = words(
     "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen"
     " fifteen sixteen seventeen eighteen nineteen"
 )
 TENS = words("zero ten twenty thirty forty fifty sixty seventy eighty ninety")
-COMPASS = {
-    0: "north",
-    45: "north-east",
-    90: "east",
-    135: "south-east",
-    180: "south",
-    225: "south-west",
-    270: "west",
-    315: "north-west",
-}
-FINE_COMPASS = {
-    22.5: "north-north-east",
-    67.5: "east-north-east",
-    112.5: "east-south-east",
-    157.5: "south-south-east",
-    202.5: "south-south-west",
-    247.5: "west-south-west",
-    292.5: "west-north-west",
-    337.5: "north-north-west",
-}
-FRACTIONS: dict[int, tuple[str, ...]] = {
-    30: ("half a minute",),
-    45: ("three quarters of a minute", "forty-five seconds"),
-    60: ("a minute", "one minute", "a full minute"),
-    75: ("a minute and a quarter", "1 minute 15 seconds"),
-    90: (
-        *("a minute and a half", "one and a half minutes", "1 min 30 s", "1 minute 30 seconds"),
-        "one minute thirty",
-    ),
-    120: ("a couple of minutes", "two minutes"),
-    150: ("two and a half minutes", "2 min 30 s", "two minutes thirty"),
-    210: ("three and a half minutes", "3 min 30 s"),
-    270: ("four and a half minutes",),
-    900: ("a quarter of an hour",),
-    1800: ("half an hour", "a half hour"),
-    2700: ("three quarters of an hour",),
-    3600: ("an hour", "one hour", "a full hour"),
-    4500: ("an hour and a quarter",),
-    5400: ("an hour and a half", "one and a half hours"),
-    7200: ("two hours", "a couple of hours"),
-    9000: ("two and a half hours",),
-}
-KILOMETRES = {
-    250: ("a quarter of a kilometre",),
-    500: ("half a kilometre", "0.5 km"),
-    1000: ("a kilometre", "one kilometre", "1 km"),
-    1500: ("one and a half kilometres", "1.5 km", "a kilometre and a half"),
-    2000: ("two kilometres", "2 km"),
-    2500: ("two and a half kilometres", "2.5 km"),
-}
-CIRCLES = {
-    360: ("a full circle", "one full circle", "a complete circle", "a full orbit", "a full lap"),
-    180: ("a half circle", "half a circle", "half a lap", "a semicircle", "half an orbit"),
-    90: ("a quarter circle", "a quarter of a circle", "a quarter lap"),
-    270: ("three quarters of a circle", "three quarters of a lap"),
-    720: ("two full circles",),
-}
-WRITTEN = (
-    *("[{x}, {y}]",) * 10,
-    *("({x}, {y})",) * 4,
-    *("x={x}, y={y}", "x={x} y={y}", "x {x} y {y}", "x {x}, y {y}", "[{x},{y}]", "({x},{y})"),
-    *("x: {x}, y: {y}", "X{x} Y{y}", "{x}, {y}", "{x}/{y}", "{x} {y}", "({x} {y})"),
-)
+COMPASS = {45 * number: name for number, name in enumerate(POINTS[::2])}
+ENDINGS: dict[str, list[str]] = _SAID["endings"]
+WRITTEN = tuple(form for form, often in _SAID["written"].items() for _ in range(often))
 """Forms of a written position, the usual ones more often."""
+
+
+def _wordings(table: str, value: float) -> list[str]:
+    """Wordings of its own that the value has in numbers.toml."""
+    return list(_SAID[table].get(digits(value), ()))
 
 
 @dataclass(frozen=True)
@@ -163,8 +114,8 @@ def length(value: float, rng: Random) -> Value:
     if isinstance(value, int) and 0 < value <= 20 and rng.random() < 0.15:
         spelt = in_words(value)
     short = f"{spelt}-metre" if spelt != figure or rng.random() < 0.6 else f"{figure} m"
-    if value in KILOMETRES and rng.random() < 0.5:
-        return Value(value, pick(KILOMETRES[int(value)], rng), short)
+    if (own := _wordings("lengths", value)) and rng.random() < 0.5:
+        return Value(value, pick(own, rng), short)
     if value == 0.5 and rng.random() < 0.4:
         return Value(value, "half a metre", short)
     if value >= 1000 and value % 100 == 0 and rng.random() < 0.5:
@@ -176,8 +127,7 @@ def length(value: float, rng: Random) -> Value:
     elif roll < 0.58:
         text = f"{figure}m"
     else:
-        unit = "metre" if roll < 0.95 else "meter"
-        text = f"{count_text(value, rng)} {many(value, unit)}"
+        text = _some(value, "metre" if roll < 0.95 else "meter", rng)
     return Value(value, text, short)
 
 
@@ -193,40 +143,39 @@ def feet(rng: Random, low: float, high: float) -> Value | None:
 
 def duration(value: float, rng: Random) -> Value:
     """Seconds: "90 s", "two minutes", "half an hour", "1 h 20 min"; short: "90-second"."""
-    roll = rng.random()
-    size, unit = value, "second"
+    roll, size, unit = rng.random(), value, "second"
     if value and value % 60 == 0 and value < 7200 and roll < 0.5:
         size, unit = value // 60, "minute"
     spelt = 0 < size <= 20 and size == int(size) and rng.random() < 0.15
     short = f"{in_words(int(size)) if spelt else digits(size)}-{unit}"
-    if value in FRACTIONS and roll < 0.4:
-        return Value(value, pick(FRACTIONS[int(value)], rng), short)
-    return Value(value, _time(value, roll, rng), short)
+    own = _wordings("durations", value)
+    return Value(value, pick(own, rng) if own and roll < 0.4 else _time(value, roll, rng), short)
 
 
 def _time(value: float, roll: float, rng: Random) -> str:
-    """A duration that no fraction says."""
+    """A duration that has no wording of its own."""
     hours, minutes, seconds = int(value // 3600), int(value % 3600 // 60), value % 60
     if value and value % 3600 == 0 and roll < 0.75:
-        unit = "h" if rng.random() < 0.2 else many(hours, "hour")
-        return f"{hours if unit == 'h' else count_text(hours, rng)} {unit}"
+        return f"{hours} h" if rng.random() < 0.2 else _some(hours, "hour", rng)
     if hours and minutes and not seconds and roll < 0.5:
         form = pick(("{} h {} min", "{}h {}min", "{} hours {} minutes"), rng).format(hours, minutes)
         return form.replace("hours", "hour") if hours == 1 else form
     if value and not seconds and value < 7200 and roll < 0.75:
-        number = value // 60
         if rng.random() < 0.25:
-            return f"{digits(number)}{' ' if rng.random() < 0.8 else ''}min"
-        return f"{count_text(number, rng)} {many(number, 'minute')}"
+            return f"{digits(value // 60)}{' ' if rng.random() < 0.8 else ''}min"
+        return _some(value // 60, "minute", rng)
     if 60 < value < 900 and seconds and value % 15 == 0 and roll < 0.43:
-        first, second = (" min", " s") if rng.random() < 0.5 else (many(minutes, " minute"), "")
-        joint = " and" if second and rng.random() < 0.3 else ""
-        return f"{minutes}{first}{joint} {digits(seconds)}{second or ' seconds'}"
+        joint = pick((" min {} s", many(minutes, " minute") + " {} seconds"), rng)
+        return f"{minutes}{joint.format(digits(seconds))}"
     if value % 30 == 0 and 60 < value < 900 and roll < 0.5:
         return f"{digits(value / 60)} minutes"
     if rng.random() < 0.42:
         return f"{digits(value)}{pick((' s', ' s', ' s', 's', ' sec'), rng)}"
-    return f"{count_text(value, rng)} {many(value, 'second')}"
+    return _some(value, "second", rng)
+
+
+def _some(number: float, unit: str, rng: Random) -> str:
+    return f"{count_text(number, rng)} {many(number, unit)}"
 
 
 def bearing(value: float, rng: Random) -> Value:
@@ -234,7 +183,7 @@ def bearing(value: float, rng: Random) -> Value:
     roll = rng.random()
     figures = f"{int(value):03d}" if roll < 0.35 and isinstance(value, int) else digits(value)
     figures += " degrees" if 0.5 < roll < 0.8 else "°" if roll > 0.95 else ""
-    name = COMPASS.get(int(value) if value % 45 == 0 else -1) or FINE_COMPASS.get(value)
+    name = POINTS[int(value / 22.5)] if value % 22.5 == 0 else None
     if isinstance(value, int) and rng.random() < 0.03:
         return Value(value, f"{in_words(value)} degrees", figures, way=name)
     if name and rng.random() < 0.55:
@@ -246,16 +195,12 @@ def angle(value: float, rng: Random) -> Value:
     """A size in degrees without direction; short: "15-degree"; noun: "half a circle"."""
     text = f"{digits(value)}°"
     if rng.random() < 0.85:
-        text = f"{count_text(value, rng)} {many(value, 'degree')}"
+        text = _some(value, "degree", rng)
     short = f"{digits(value)}-degree"
     noun = pick((f"a {short} arc", f"an arc of {text}"), rng)
-    if value in CIRCLES and rng.random() < 0.85:
-        noun = pick(CIRCLES[int(value)], rng)
+    if (own := _wordings("circles", value)) and rng.random() < 0.85:
+        noun = pick(own, rng)
     return Value(value, text, short, noun)
-
-
-_RIGHT = ("to the right", "clockwise", "to starboard", "right")
-_LEFT = ("to the left", "anticlockwise", "to port", "left", "counter-clockwise")
 
 
 def rotation(value: float, rng: Random) -> Value:
@@ -264,7 +209,7 @@ def rotation(value: float, rng: Random) -> Value:
     """
     size = abs(value)
     unit = "°" if rng.random() < 0.1 else f" {many(size, 'degree')}"
-    way = pick(_RIGHT if value > 0 else _LEFT, rng)
+    way = pick(ENDINGS["right" if value > 0 else "left"], rng)
     sign = "-" if value < 0 else "+" if rng.random() < 0.3 else ""
     if value < 0 and rng.random() < 0.3:
         sign = "minus "
@@ -272,25 +217,12 @@ def rotation(value: float, rng: Random) -> Value:
     spoken = f"{count_text(size, rng)}{unit}" if unit != "°" else f"{digits(size)}°"
     full = signed if rng.random() < 0.12 else f"{spoken} {way}"
     by = f"{way} by {spoken}" if rng.random() < 0.6 else f"{way} {spoken}"
-    if size in CIRCLES and rng.random() < 0.6:
-        noun = CIRCLES[int(size)][0]
-    else:
-        noun = f"an arc of {spoken}" if rng.random() < 0.7 else f"a {digits(size)}-degree arc"
+    noun = f"an arc of {spoken}" if rng.random() < 0.7 else f"a {digits(size)}-degree arc"
+    if (own := _wordings("circles", size)) and rng.random() < 0.6:
+        noun = own[0]
     if value < 0 or rng.random() < 0.7:
         noun = f"{noun} to the {way}" if way in ("left", "right") else f"{noun} {way}"
     return Value(value, full, signed, noun, by)
-
-
-def temperature(value: float, rng: Random) -> Value:
-    """Degrees Celsius."""
-    return Value(
-        value, digits(value) + pick((" degrees", " °C", " degrees Celsius", " C", " degC"), rng)
-    )
-
-
-def percent(value: float, rng: Random) -> Value:
-    """A share."""
-    return Value(value, digits(value) + pick(("%", "%", " percent", " percent", " per cent"), rng))
 
 
 def speed(value: float, rng: Random) -> Value:
@@ -376,8 +308,6 @@ SENSES: dict[str, Callable[[float, Random], Value]] = {
     "bearing": bearing,
     "angle": angle,
     "rotation": rotation,
-    "temperature": temperature,
-    "percent": percent,
     "speed": speed,
 }
 
@@ -386,5 +316,7 @@ def say_number(value: float, sense: str | None, unit: str | None, rng: Random) -
     """The number said in the way of its sense, or plainly with its unit."""
     if sense in SENSES:
         return SENSES[sense](value, rng)
+    if sense in ENDINGS:
+        return Value(value, digits(value) + pick(ENDINGS[sense], rng))
     number = count_text(value, rng)
     return Value(value, number if unit in (None, "count") else f"{number} {unit}")

@@ -38,9 +38,7 @@ def write_folders(folders: Sequence[DataFolder], *, overwrite: bool) -> list[boo
     `overwrite` is not set.
     """
     pending = [_pending(folder) for folder in folders]
-    for folder, (texts, replaced) in zip(folders, pending, strict=True):
-        if replaced and folder.source is not None and _same_folder(folder.source, folder.folder):
-            _refuse_cut(folder, texts)
+    for folder, (_texts, replaced) in zip(folders, pending, strict=True):
         if replaced and not overwrite:
             raise PlannerError(
                 f"{folder.folder}: {replaced[0]} exists and is different; give another --out, or"
@@ -55,19 +53,24 @@ def write_folders(folders: Sequence[DataFolder], *, overwrite: bool) -> list[boo
 
 
 def _pending(folder: DataFolder) -> tuple[dict[str, str], list[str]]:
-    """Texts that must be written, and the names of those that replace others."""
-    in_place = folder.source is not None and _same_folder(folder.source, folder.folder)
+    """Texts that must be written, and the names of those that replace others. Raises PlannerError
+    where records of the curated source itself would be cut.
+    """
+    in_place = folder.source is not None and folder.source.resolve() == folder.folder.resolve()
     texts, replaced = {}, []
     for name, text in folder.texts.items():
-        path = folder.folder / name
-        present = _present(path)
-        if present == text or (
-            present is not None and in_place and _same_records(present, text, name)
-        ):
+        present = _present(folder.folder / name)
+        records = in_place and "/" not in name and name.endswith(".jsonl")
+        if present == text or (present and records and _canonical(present) == text):
             continue
         texts[name] = text
         if present is not None:
             replaced.append(name)
+            if records and present.count("\n") > text.count("\n"):
+                path = folder.folder / name
+                raise PlannerError(
+                    f"{path} is the curated source and would be cut; give another --out"
+                )
     if not texts and _present(folder.folder / MANIFEST) is None:
         texts[MANIFEST] = ""
     return texts, replaced
@@ -80,31 +83,10 @@ def _present(path: Path) -> str | None:
         raise PlannerError(f"{path}: cannot be read ({error.strerror})") from None
 
 
-def _same_folder(first: Path, second: Path) -> bool:
-    return first.resolve() == second.resolve()
-
-
-def _same_records(present: str, text: str, name: str) -> bool:
-    """Whether a curated file differs from its canonical text in white space alone."""
-    if "/" in name or not name.endswith(".jsonl"):
-        return False
-    return (
-        "".join(
-            f"{compact_json(json.loads(line))}\n" for line in present.split("\n") if line.strip()
-        )
-        == text
-    )
-
-
-def _refuse_cut(folder: DataFolder, texts: dict[str, str]) -> None:
-    for name, text in texts.items():
-        present = (
-            _present(folder.folder / name) if "/" not in name and name.endswith(".jsonl") else None
-        )
-        if present is not None and present.count("\n") > text.count("\n"):
-            raise PlannerError(
-                f"{folder.folder / name} is the curated source and would be cut; give another --out"
-            )
+def _canonical(text: str) -> str:
+    """The records of a curated file without white space that means nothing."""
+    lines = (line for line in text.split("\n") if line.strip())
+    return "".join(f"{compact_json(json.loads(line))}\n" for line in lines)
 
 
 def check_writable(folder: Path) -> None:

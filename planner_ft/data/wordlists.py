@@ -12,41 +12,33 @@ from __future__ import annotations
 
 import functools
 import itertools
+import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from random import Random
+from typing import Any
 
 from planner_ft.data.numbers import Value, pick, words
 from planner_ft.data.templates.render import bare as without_article
 
-ONSETS = words("b br c d dr f fl g gr h j k kl l m n p pr r s sk st t tr v w z th sch v")
-VOWELS = words("a e i o u a e i o ei au y oa ie")
-CODAS = words("n r l s t m d ck nd rk st x lm ff  ng rn")
-NAME_ENDINGS = ("", "", "a", "o", "en", "berg", "vik", "sund", "ton", "i", "ey", "holm")
-LETTERS = "ABCDEFGHJKLMNPRSTVWXZ"
-STEMS = words("run pass leg survey dive hull pier test log video scan site day mission base night")
-TAILS = words("north south east west a b am pm final raw left right upper close")
-FALLBACK: Mapping[str, Sequence[str]] = {
-    "thing": (
-        *("the {name}", "the {name} tower", "unit {code}", "the {name} panel", "{name} {n}"),
-        "the {name} gate",
-    ),
-    "things": ("boats", "people", "birds", "vehicles", "{name}s", "poles", "signs"),
-}
+_TABLE: dict[str, Any] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
+_PARTS = {name: words(text) for name, text in _TABLE.items() if isinstance(text, str)}
+LETTERS: str = _TABLE["letters"]
+FALLBACK: Mapping[str, Sequence[str]] = _TABLE["lists"]
 Weighted = tuple[Sequence[str], Sequence[float] | None]
 
 
 def pseudo_word(rng: Random) -> str:
     """A word that no dictionary has but anybody could say: "skarb"."""
     return "".join(
-        pick(ONSETS, rng) + pick(VOWELS, rng) + pick(CODAS, rng)
+        "".join(pick(_PARTS[part], rng) for part in ("onsets", "vowels", "codas"))
         for _ in range(1 if rng.random() < 0.5 else 2)
     )
 
 
 def made_up_name(rng: Random) -> str:
     """A pronounceable name that means nothing: "Skarberg", "Tolvik"."""
-    return (pseudo_word(rng) + pick(NAME_ENDINGS, rng)).capitalize()
+    return f"{pseudo_word(rng)}{pick(_TABLE['endings'], rng)}".capitalize()
 
 
 def made_up_code(rng: Random) -> str:
@@ -61,23 +53,14 @@ def made_up_code(rng: Random) -> str:
 
 def made_up_tag(rng: Random) -> str:
     """A file tag: "run_4", "skarberg-07", "dive12"."""
-    stem = made_up_name(rng).lower() if rng.random() < 0.45 else pick(STEMS, rng)
+    stem = made_up_name(rng).lower() if rng.random() < 0.45 else pick(_PARTS["stems"], rng)
     joint = pick(("_", "-", "", "_"), rng)
     roll = rng.random()
     if roll < 0.5:
         return f"{stem}{joint}{rng.randrange(1, 100)}"
     if roll < 0.75:
-        return f"{stem}{joint}{pick(TAILS, rng)}"
+        return f"{stem}{joint}{pick(_PARTS['tails'], rng)}"
     return made_up_code(rng) if roll < 0.85 else stem
-
-
-_ORDERS = words(
-    "inspect search survey scan dock berth home base north south east west port starboard"
-    " hold drift film test check track circ orbit level second left right hot therm temp"
-    " glare sonar depth sound report log record half quarter double single once round full"
-    " whole dead moving missing lost stray near far next last first"
-)
-"""Beginnings of words of orders, numbers and directions, which are no part of a name."""
 
 
 @functools.cache
@@ -85,7 +68,7 @@ def any_things() -> tuple[str, ...]:
     """The names of things, of three letters or more."""
     text = (Path(__file__).parent / "things.txt").read_text(encoding="utf-8")
     found = dict.fromkeys(word for word in text.split() if len(word) > 2 and word.isalpha())
-    return tuple(word for word in found if not word.startswith(_ORDERS))
+    return tuple(word for word in found if not word.startswith(_PARTS["orders"]))
 
 
 MADE_UP: dict[str, Callable[[Random], str]] = {
