@@ -11,6 +11,7 @@ import copy
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
+from planner_ft.planning.limits import forbidden_skills
 from planner_ft.vocabulary import Skill, Vocabulary
 from planner_ft.vocabulary.essentials import TaskEssentials, essentials_of
 from planner_ft.vocabulary.plans import canonical_parameters, step_skills
@@ -65,9 +66,11 @@ def with_essentials(
 ) -> tuple[list[Step], Added]:
     """The steps of a task with the skills that are essential to it, and what was added.
 
-    A skill that stands in one step alone takes values that it lacks from the task.
+    A skill that stands in one step alone takes values that it lacks from the task. What a limit in
+    the task prompt forbids is not added.
     """
     needed = essentials_of(task["title"], vocabulary)
+    forbidden = forbidden_skills(task.get("task_prompt", ""), vocabulary)
     completed, added = copy.deepcopy(list(steps)), Added()
     for index in _performing(needed, completed, vocabulary):
         for name, parameters in needed.skills.items():
@@ -75,7 +78,7 @@ def with_essentials(
             standing = [own for _role, own in step_skills(step) if own["name"] == name]
             if standing:
                 added += _completed(standing[0], parameters, _mark(index, skill))
-            elif skill.role != "navigation":
+            elif skill.role != "navigation" and name not in forbidden:
                 _add(step, skill, parameters)
                 added.append(_mark(index, skill))
     given = task["parameters"]

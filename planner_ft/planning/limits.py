@@ -46,5 +46,14 @@ def without_limits(prompt: str, vocabulary: Vocabulary) -> str:
     return " ".join(kept) or prompt
 
 
+def forbidden_skills(prompt: str, vocabulary: Vocabulary) -> set[str]:
+    """The skills that break a limit of a task prompt; near a thing only where the task names it."""
+    limits = load_limits(vocabulary)
+    asked = without_limits(prompt, vocabulary).casefold()
+    found = limits_in(SENTENCE.split(prompt), limits)
+    holding = [limit for limit in found if limit.values.get("object", "").casefold() in asked]
+    return {name for limit in holding for name in limits[limit.kind].forbids}
+
+
 def _same(one: Limit, other: Limit) -> bool:
     return (one.kind, one.values) == (other.kind, other.values)

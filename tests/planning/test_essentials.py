@@ -15,7 +15,7 @@ from tests.planning.conftest import SKILLS, Known, mission
 from tests.planning.conftest import task as proposed
 
 AT = [50, 30]
-GO = {"skill_sequence": [step("GoToXY", {"x": 60, "y": 30}), step("GoToXY", {"x": 60, "y": 40})]}
+GO = {"skill_sequence": [step("GoToXY", {"x": 40, "y": 20}), step("GoToXY", {"x": 50, "y": 20})]}
 SURVEY = mission(proposed("SurveyTarget", "Inspect the wreck at [50, 30].", target_position=AT))
 
 
@@ -88,6 +88,23 @@ def test_a_skill_of_the_model_keeps_its_values_and_takes_those_that_it_lacks() -
         {"title": "KeepStation", "parameters": {"duration": 90}}, [own], USV
     )
     assert completed[0]["navigation_skill"]["parameters"] == {"radius": 5, "time": 90}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "names"),
+    [
+        ("Inspect the wreck. Record nothing.", ["GetGPSLocation"]),
+        ("Inspect the wreck. Record nothing near the wreck.", ["GetGPSLocation"]),
+        (
+            "Inspect the wreck. Record nothing near the marina.",
+            ["SetStreamRecording", "GetGPSLocation"],
+        ),
+    ],
+)
+def test_what_a_limit_forbids_is_not_added(prompt: str, names: list[str]) -> None:
+    given = {"title": "SurveyTarget", "parameters": {}, "task_prompt": prompt}
+    completed, _added = with_essentials(given, GO["skill_sequence"][:1], USV)
+    assert [skill["name"] for skill in completed[0]["perception_skills"]] == names
 
 
 def test_another_vehicle_has_its_own() -> None:

@@ -11,6 +11,7 @@ from planner_ft.document.clearance import MOVING, close_legs, shown, way_off
 from planner_ft.document.limits import limits_of
 from planner_ft.document.track import Leg, Track
 from planner_ft.document.warnings.warning import Warning, named, warning
+from planner_ft.planning.limits import without_limits
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.limits import load_limits
 from planner_ft.vocabulary.plans import step_skills
@@ -115,7 +116,8 @@ def _recording(
     forbidden = load_limits(vocabulary)["no_recording"].forbids
     thing = limit["values"].get("object", "")
     for task in document["tasks"]:
-        if thing and thing.casefold() not in task["task_prompt"].casefold():
+        prompt = without_limits(task["task_prompt"], vocabulary)
+        if thing and thing.casefold() not in prompt.casefold():
             continue
         for step in task.get("skill_sequence") or ():
             for _role, skill in step_skills(step):
