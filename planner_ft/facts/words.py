@@ -62,6 +62,13 @@ def is_known(word: str) -> bool:
     return lowered in known or any(stem in known for stem in stems)
 
 
+def unknown_words(text: str) -> tuple[list[str], float]:
+    """The words of two letters and more that are not known, and their share of all such words."""
+    found = [word for word in words(text) if len(word) > 1 and not any(map(str.isdigit, word))]
+    unknown = [word for word in found if not all(map(is_known, _INNER.split(word)))]
+    return unknown, len(unknown) / max(len(found), 1)
+
+
 @functools.lru_cache(maxsize=8192)
 def corrections(word: str, most: int = 6) -> tuple[str, ...]:
     """Known words that `word` can be a misspelling or a shortening of, the nearest first; none for

@@ -1,4 +1,4 @@
-"""Instructions of the command that no task answers."""
+"""Instructions of the command that no task answers, and commands in unknown words."""
 
 from __future__ import annotations
 
@@ -7,14 +7,20 @@ from typing import Any
 
 from planner_ft.document.language import Clause, Language, language, read_clauses
 from planner_ft.document.warnings.warning import Warning, warning
+from planner_ft.facts import unknown_words
 from planner_ft.vocabulary import Vocabulary
 
+UNKNOWN = 0.6
+"""The share of unknown words from which a command may be in another language: of 1,000 commands in
+English, misspelt ones among them, three are above it.
+"""
 LONGEST = 60
 """Characters of the command that are quoted."""
 
 
 def command_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
-    """Instructions that nothing in the plan answers or declines."""
+    """Instructions that nothing in the plan answers or declines, behind doubts about the language."""
+    yield from _language_warning(document["command"])
     planned, spoken = {task["title"] for task in document["tasks"]}, language(vocabulary)
     texts = [*document.get("constraints", ()), *document.get("assumptions", ())]
     declined = " ".join(text for text in texts if spoken.words["declined"].search(text)).casefold()
@@ -24,6 +30,14 @@ def command_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Ite
                 quoted = _quoted(clause.text[start:])
                 text = f'The command asks: "{quoted}"; no task of the plan does that.'
                 yield warning("not-planned", text, about=words.casefold())
+
+
+def _language_warning(command: str) -> Iterator[Warning]:
+    unknown, share = unknown_words(command)
+    if share >= UNKNOWN:
+        listed = ", ".join(f'"{word}"' for word in unknown[:3])
+        text = f"Most words of the command are not known ({listed}): it is not English, or is"
+        yield warning("unknown-language", f"{text} misspelt, and the plan is what could be read.")
 
 
 def _unanswered(clause: Clause, planned: set[str], spoken: Language) -> Iterator[tuple[str, int]]:

@@ -8,18 +8,11 @@ from typing import Any
 Warning = dict[str, Any]
 """{"id", "kind", "task", "parameter", "text"}; edits elsewhere leave the id as it is."""
 SERIOUS = (
-    *("invalid-answer", "structure-close", "limit-broken", "doubtful-origin"),
+    *("invalid-answer", "structure-close", "limit-broken", "doubtful-origin", "unknown-language"),
     *("unresolved-location", "value-asked", "used-before-found", "not-at-place"),
     *("position-missing", "outside-boundary", "outside-area", "out-of-reach", "over-endurance"),
-    *(
-        "missing-return",
-        "not-planned",
-        "data-not-planned",
-        "value-not-said",
-        "skill-value-not-said",
-        "value-lost",
-    ),
-    *("stale-skills", "no-skills"),
+    *("missing-return", "not-planned", "data-not-planned", "value-not-said"),
+    *("skill-value-not-said", "value-lost", "stale-skills", "no-skills"),
 )
 """Kinds that a plan should not be approved with unread, the most serious first."""
 NOTES = ("empty-plan", "unread-command", "data-not-collected", "endurance-open", "ends-away")

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from planner_ft.document.language import language
+from planner_ft.document.warnings.command import command_warnings
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.definition import BUNDLED
@@ -67,3 +68,17 @@ def test_an_unknown_skill_in_the_ontology_is_named(tmp_path: Path) -> None:
     assert "[[data]] names 'Dive', which is no skill" in str(error.value)
     assert "every [[data]] needs the list words" in str(error.value)
     assert len(language(USV).data) > 5
+
+
+@pytest.mark.parametrize(
+    ("command", "warned"),
+    [
+        ("Fahre zur grünen Tonne und halte dort zehn Minuten die Position.", True),
+        ("Ve a [30, 10] y vuelve a casa.", True),
+        ("Go to the Kriegers Flak substation and hold for ten minutes.", False),
+        ("proceeed to [45, 15], hodl postion for thre minutes and retrun home", False),
+    ],
+)
+def test_a_command_in_unknown_words_is_told(command: str, *, warned: bool) -> None:
+    kinds = [item["kind"] for item in command_warnings({"command": command, "tasks": []}, USV)]
+    assert ("unknown-language" in kinds) is warned
