@@ -46,9 +46,9 @@ from planner_ft.facts.words import (
     edit_distance,
     is_known,
     missing_words,
-    unknown_words,
     normalised,
     phrases,
+    unknown_words,
     words,
 )
 
@@ -70,7 +70,6 @@ __all__ = [
     "is_number",
     "is_place",
     "missing_words",
-    "unknown_words",
     "near",
     "normalised",
     "phrases",
@@ -78,5 +77,6 @@ __all__ = [
     "read",
     "read_input",
     "same_place",
+    "unknown_words",
     "words",
 ]
