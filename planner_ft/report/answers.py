@@ -8,9 +8,10 @@ import json
 from collections.abc import Iterator
 from typing import Any
 
-from planner_ft.benchmark.metrics.alignment import Entry, plan_entries
-from planner_ft.report.differences import differences, entries_of
-from planner_ft.report.runs import Record, System, TestSet
+from planner_ft.benchmark.metrics.alignment import Entries, Entry, plan_entries
+from planner_ft.benchmark.results import Row
+from planner_ft.report.differences import differences
+from planner_ft.report.runs import TestSet
 from planner_ft.vocabulary.outputs import parse_output
 from planner_ft.vocabulary.plans import Level
 
@@ -32,64 +33,63 @@ def packed(value: Any) -> str:
     return base64.b64encode(compressed).decode("ascii")
 
 
-def sample_ids(tests: TestSet) -> list[str]:
-    """The samples in the order of the data, else of the scores."""
-    scored = dict.fromkeys(name for system in tests.systems for name in system.scores)
-    return list(tests.samples or scored)
-
-
 def index(tests: TestSet) -> dict[str, Any]:
     """The page filters by it: systems, outcomes, names, and per sample id, command, group, family
     and (outcome, F1, names) per system.
     """
     outcomes, names = {RIGHT: 0}, dict[str, int]()
 
-    def brief(system: System, sample: str) -> list[Any] | None:
-        score = system.scores.get(sample)
+    def brief(system: Row, sample: str) -> list[Any] | None:
+        score = tests.scores_of(system).get(sample)
         if score is None:
             return None
         outcome = outcomes.setdefault(str(score.get("failure") or RIGHT), len(outcomes))
-        entries = entries_of(tests, sample, system)
+        output = tests.answers.get(system.key, {}).get(sample, {}).get("output")
+        entries = plan_entries(tests.level, parse_output(output).plan)
         found = {names.setdefault(entry.name, len(names)) for entry in entries}
         f1 = score.get("f1")
         return [outcome, round(f1, 3) if isinstance(f1, int | float) else None, sorted(found)]
 
     rows = []
-    for name in sample_ids(tests):
+    for name in _sample_ids(tests):
         record = tests.samples.get(name, {})
-        scores = [system.scores[name] for system in tests.systems if name in system.scores]
+        scores = [of_system[name] for of_system in tests.scores.values() if name in of_system]
         group = record.get("group") or next((score.get("group") for score in scores), None)
-        words = [_command(tests.level, record), str(group or ""), str(record.get("family") or "")]
-        rows.append([name, *words, [brief(system, name) for system in tests.candidates]])
-    found: dict[str, Any] = {"title": tests.title, "level": tests.level}
-    found["systems"] = [system.name for system in tests.candidates]
+        command = str(record.get("prompt") or "")
+        if tests.level == "task" and record.get("task"):
+            command = f"{record['task']}: {command}"
+        briefs = [brief(system, name) for system in tests.results.rows]
+        rows.append([name, command, str(group or ""), str(record.get("family") or ""), briefs])
+    systems = [system.name for system in tests.results.rows]
+    found: dict[str, Any] = {"title": tests.title, "level": tests.level, "systems": systems}
     found |= {"outcomes": list(outcomes), "names": list(names)}
     return {**found, "samples": rows, "part": PART}
 
 
 def parts(tests: TestSet) -> Iterator[str]:
     """Parts of PART samples: [expected, [entries, differences, problem, output] per system]."""
-    ids = sample_ids(tests)
+    ids = _sample_ids(tests)
     for start in range(0, len(ids), PART):
         yield packed([_details(tests, name) for name in ids[start : start + PART]])
 
 
-def _command(level: Level, record: Record) -> str:
-    prompt = str(record.get("prompt") or "")
-    return f"{record['task']}: {prompt}" if level == "task" and record.get("task") else prompt
+def _sample_ids(tests: TestSet) -> list[str]:
+    """The samples in the order of the data, else of the scores."""
+    scored = dict.fromkeys(name for of_system in tests.scores.values() for name in of_system)
+    return list(tests.samples or scored)
 
 
 def _details(tests: TestSet, name: str) -> list[Any]:
-    record, expected = tests.samples.get(name, {}), entries_of(tests, name)
+    record = tests.samples.get(name, {})
+    plan = record.get("expected")
+    expected = plan_entries(tests.level, plan)
     given = {key: record[key] for key in ("task", "parameters") if key in record}
-    entries = [_shown(tests.level, record.get("expected"), entry) for entry in expected]
-    return [entries, [_answer(tests, system, name, expected) for system in tests.candidates], given]
+    answers = [_answer(tests, system, name, expected) for system in tests.results.rows]
+    return [[_shown(tests.level, plan, entry) for entry in expected], answers, given]
 
 
-def _answer(
-    tests: TestSet, system: System, name: str, expected: tuple[Entry, ...]
-) -> list[Any] | None:
-    answer = system.answers.get(name)
+def _answer(tests: TestSet, system: Row, name: str, expected: Entries) -> list[Any] | None:
+    answer = tests.answers.get(system.key, {}).get(name)
     if answer is None:
         return None
     output = answer.get("output")
@@ -101,7 +101,7 @@ def _answer(
         lines = differences(tests.level, expected, entries, tests.vocabulary)
     return [
         [_shown(tests.level, parsed.plan, entry) for entry in entries],
-        [[line.mark, line.expected, line.predicted, list(line.changed)] for line in lines],
+        lines,
         parsed.problem,
         raw if len(raw) <= LONGEST_OUTPUT else f"{raw[:LONGEST_OUTPUT]}… ({len(raw)} characters)",
     ]

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.results import heading
+from planner_ft.benchmark.catalogue import METRIC
+from planner_ft.benchmark.layout import Line, metric_table
+from planner_ft.benchmark.results import Row, heading
 from planner_ft.candidates.adapters import CONFIG, MANIFEST, WEIGHTS
-from planner_ft.report.contents import failure_words
-from planner_ft.report.metrics import column, estimate, main_columns, system_cells
-from planner_ft.report.runs import System, TestSet, key_of, load_test_sets, within
+from planner_ft.report.contents import MAIN, failure_words
+from planner_ft.report.runs import TestSet, load_test_sets, within
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, read_text, sha256_tree, write_text
-from planner_ft.support.tables import Table, TableRow, markdown_table
+from planner_ft.support.tables import markdown_table
 
 CARD = "README.md"
 START = "<!-- measured figures, written by plannerft report --card -->"
 END = "<!-- end of measured figures -->"
 TRAINING = "\n## Training\n"
 
-Measured = tuple[TestSet, System]
+Measured = tuple[TestSet, Row]
 
 
 def write_card(adapter: Path, runs: Sequence[Path]) -> int:
@@ -33,8 +35,8 @@ def write_card(adapter: Path, runs: Sequence[Path]) -> int:
         expected = f"{CARD} and {WEIGHTS} are expected"
         raise PlannerError(f"--card {adapter}: no adapter with a model card there ({expected})")
     digest = sha256_tree(adapter, (WEIGHTS, CONFIG))
-    every = [(tests, system) for tests in load_test_sets(runs) for system in tests.systems]
-    measured = [(tests, system) for tests, system in every if adapter_of(system) == digest]
+    every = [(tests, row) for tests in load_test_sets(runs) for row in tests.results.rows]
+    measured = [(tests, row) for tests, row in every if tests.adapters.get(row.key) == digest]
     if not measured:
         why = "no row of these runs was measured with this adapter"
         raise PlannerError(f"--card {adapter}: {why} (its weights have another digest)")
@@ -44,14 +46,6 @@ def write_card(adapter: Path, runs: Sequence[Path]) -> int:
     text, count = card_with(read_text(adapter / CARD), measured, model)
     write_text(adapter / CARD, text)
     return count
-
-
-def adapter_of(system: System) -> str | None:
-    """The digest of a row's adapter as the run recorded it; None for baselines and without one."""
-    for job in () if system.is_baseline else system.jobs.values():
-        if isinstance(job, dict) and key_of(job) == key_of(system.row):
-            return str(job["adapter"]) if job.get("adapter") else None
-    return None
 
 
 def card_with(text: str, measured: Sequence[Measured], model: str) -> tuple[str, int]:
@@ -64,13 +58,12 @@ def card_with(text: str, measured: Sequence[Measured], model: str) -> tuple[str,
     return str(card).rstrip("\n") + "\n", len(results)
 
 
-def eval_results(tests: TestSet, system: System) -> Iterator[Any]:
+def eval_results(tests: TestSet, system: Row) -> Iterator[Any]:
     """A row's figures as huggingface_hub.EvalResult: rates as shares, intervals as arguments."""
     from huggingface_hub import EvalResult
 
     vehicle = tests.vocabulary.name if tests.vocabulary else "unknown"
-    for name in system.row.get("metrics", {}):
-        figure = estimate(system, name)
+    for name, figure in system.metrics.items():
         interval = {"low": figure.low, "high": figure.high, "confidence": 0.95}
         if figure.value is not None:
             yield EvalResult(
@@ -81,42 +74,38 @@ def eval_results(tests: TestSet, system: System) -> Iterator[Any]:
                 dataset_revision=tests.sha256,
                 dataset_args={"samples": tests.n},
                 metric_type=name,
-                metric_name=column(name).heading.removesuffix(" (%)"),
+                metric_name=METRIC[name].heading.removesuffix(" (%)") if name in METRIC else name,
                 metric_value=figure.value,
-                metric_config=system.configuration,
+                metric_config=system.system.configuration,
                 metric_args=None if figure.low is None else interval,
                 verified=False,
             )
 
 
 def _section(measured: Sequence[Measured]) -> str:
-    tables = ["## Measured", ""]
-    sets = {tests.key: tests for tests, _system in reversed(measured)}
-    for key in dict.fromkeys(tests.key for tests, _system in measured):
-        systems = [system for tests, system in measured if tests.key == key]
-        shown = main_columns(systems)
-        rows = [
-            TableRow(heading(one.configuration), system_cells(one, shown, {})) for one in systems
-        ]
-        title, how = f"{sets[key].title}.", "In brackets 95 % intervals."
-        heads = tuple(one.title for one in shown)
-        table = Table(key, title, how, "Configuration", heads, tuple(rows))
-        tables += [
-            markdown_table(table),
-            *(f"- {text}" for text in _limits(sets[key], systems)),
-            "",
-        ]
-    return "\n".join(tables).rstrip("\n")
+    parts = ["## Measured"]
+    sets = {tests.key: tests for tests, _row in reversed(measured)}
+    for key in dict.fromkeys(tests.key for tests, _row in measured):
+        rows = [row for tests, row in measured if tests.key == key]
+        shown = []
+        for row in rows:
+            name = row.system.label, heading(row.system.configuration)
+            shown.append(Line(*name, row.n, "measured", row.metrics, {}))
+        how = "In brackets 95 % intervals."
+        table = replace(metric_table(MAIN, shown), title=f"{sets[key].title}.", caption=how)
+        limits = [f"- {text}" for text in _limits(sets[key], rows)]
+        parts += [markdown_table(table) + "\n".join(limits)]
+    return "\n\n".join(parts)
 
 
-def _limits(tests: TestSet, systems: Sequence[System]) -> Iterator[str]:
+def _limits(tests: TestSet, rows: Sequence[Row]) -> Iterator[str]:
     """The limits of the figures, and how the wrong answers were wrong."""
     data = f"{tests.n} samples of {Path(tests.path).name} (SHA-256 {tests.sha256[:12]}…)"
     yield f"{data}: a difference smaller than the intervals is not known."
-    for system in systems:
-        kinds = failure_words(system)
+    for row in rows:
+        kinds = failure_words(row)
         words = f"wrong answers by kind: {kinds}." if kinds else "no wrong answer."
-        yield f"{heading(system.configuration)}: {words}"
+        yield f"{heading(row.system.configuration)}: {words}"
 
 
 def _with_section(text: str, section: str) -> str:

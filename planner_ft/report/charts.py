@@ -1,123 +1,63 @@
-"""The content of figures, apart from how `pictures` draws it, and the same as tables."""
+"""The charts of a test set: tables of figures, and how they are drawn. Words in figures.toml."""
 
 from __future__ import annotations
 
+import tomllib
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
 
+import numpy as np
+
+from planner_ft.benchmark.costs import QUANTILES
+from planner_ft.benchmark.layout import lines
+from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
+from planner_ft.benchmark.results import Row
+from planner_ft.benchmark.statistics import quantile
+from planner_ft.report.runs import Record, TestSet
 from planner_ft.support.tables import NOTHING, Cell, Table, TableRow, row
+from planner_ft.vocabulary.plans import list_key
 
 HEATS = 6  # shades of a count, beside none
+WORDS: Record = tomllib.loads(Path(__file__).with_name("figures.toml").read_text("utf-8"))
+LEVELS: Record = WORDS["levels"]
+
+Kind = Literal["bars", "lines", "dots", "matrix"]
 
 
 @dataclass(frozen=True)
-class Bar:
-    """A figure with its interval; `second` is shown on an axis of its own. `muted` bars are there
-    for comparison. Bars of a `group` (a configuration) have a colour and are joined by a line.
+class Chart:
+    """A table whose cells hold numbers as (value, low, high), and how it is drawn.
+
+    bars: a row each, the first column from 0 to 1 and the second on an axis of its own, in the
+    colour of the row's group; rows that were not measured are pale. lines: a row per point, under
+    the line's name, with x, y and n. dots: a row each, a mark per column, and a note in the last
+    one. matrix: counts, None where a cell does not apply.
     """
 
-    label: str
-    value: float | None
-    low: float | None = None
+    kind: Kind
+    table: Table
+    axis: str = ""
+    groups: tuple[str, ...] = ()
     high: float | None = None
-    second: float | None = None
-    muted: bool = False
-    group: str = ""
-
-
-@dataclass(frozen=True)
-class _Named:
-    """A chart's file name, title, and caption."""
-
-    name: str
-    title: str
-    caption: str
-
-
-@dataclass(frozen=True)
-class Bars(_Named):
-    """Bars from 0 to 1, and lines beside them on an axis of their own."""
-
-    axis: str
-    second_axis: str
-    bars: tuple[Bar, ...]
 
     @property
-    def groups(self) -> list[str]:
-        """The groups in the order in which they first appear."""
-        return list(dict.fromkeys(bar.group for bar in self.bars))
-
-    def lines(self, group: str) -> list[list[int]]:
-        """Indices of a group's bars with a second figure, measured and compared ones apart."""
-        members = [index for index, bar in enumerate(self.bars) if bar.group == group]
-        found = [index for index in members if self.bars[index].second is not None]
-        runs = [[at for at in found if self.bars[at].muted == muted] for muted in (False, True)]
-        return [run for run in runs if run]
+    def name(self) -> str:
+        return self.table.name
 
 
-@dataclass(frozen=True)
-class Point:
-    """A point of a line with the interval of its y value."""
-
-    x: float
-    y: float
-    low: float | None = None
-    high: float | None = None
-    n: int = 1
+def charts(tests: TestSet) -> list[Chart]:
+    """The figures over all systems for which the runs hold something, in the order of the page."""
+    makers = (_f1, _failures, _stops, _latency, _planning, _latency_by_size)
+    return [chart for maker in makers if (chart := maker(tests)).table.rows]
 
 
-@dataclass(frozen=True)
-class Series:
-    """A line with its points in order of x."""
-
-    label: str
-    points: tuple[Point, ...]
-
-
-@dataclass(frozen=True)
-class Lines(_Named):
-    """Lines over whole numbers, y from 0."""
-
-    x_axis: str
-    y_axis: str
-    series: tuple[Series, ...]
-
-
-@dataclass(frozen=True)
-class DotRow:
-    """One value per mark; `note` is written behind."""
-
-    label: str
-    values: tuple[float | None, ...]
-    note: str = ""
-
-
-@dataclass(frozen=True)
-class Dots(_Named):
-    """Rows with several marks on one axis from 0 to `high` (None: the largest value)."""
-
-    axis: str
-    marks: tuple[str, ...]
-    rows: tuple[DotRow, ...]
-    note_heading: str = ""
-    high: float | None = None
-
-
-@dataclass(frozen=True)
-class Matrix(_Named):
-    """`counts[row][column]`, None where a cell does not apply; `corner` says what rows are."""
-
-    corner: str
-    rows: tuple[str, ...]
-    columns: tuple[str, ...]
-    counts: tuple[tuple[int | None, ...], ...]
-
-    @property
-    def largest(self) -> int:
-        """The largest count."""
-        return max((count or 0 for row in self.counts for count in row), default=0)
-
-
-Chart = Bars | Lines | Dots | Matrix
+def system_charts(tests: TestSet, system: Row) -> list[Chart]:
+    """The figures of one system: names one by one, and substitutions."""
+    found = [_names(tests, system), _substitutions(tests, system)]
+    return [chart for chart in found if chart.table.rows]
 
 
 def number(value: float | None) -> str:
@@ -131,38 +71,177 @@ def number(value: float | None) -> str:
     return f"{value:.3g}" if value else "0"
 
 
-def chart_table(chart: Chart) -> Table:
-    """The figures of a chart as a table; counts are shaded."""
-    if isinstance(chart, Matrix):
-        made = []
-        for name, counts in zip(chart.rows, chart.counts, strict=True):
-            cells = [_count(count, chart.largest or 1) for count in counts]
-            made.append(row(name, *cells, kind="published" if "(published" in name else "measured"))
-        words = chart.name, chart.title, chart.caption
-        return Table(*words, chart.corner, chart.columns, tuple(made))
-    heads: tuple[str, ...]
-    if isinstance(chart, Bars):
-        heads = ("System", chart.axis, "95 % interval", chart.second_axis)
-        rows = tuple(_bar_row(bar) for bar in chart.bars)
-    elif isinstance(chart, Dots):
-        heads = ("", *chart.marks, chart.note_heading or "samples")
-        rows = tuple(row(one.label, *map(number, one.values), one.note) for one in chart.rows)
-    else:
-        heads = ("Line", chart.x_axis, chart.y_axis, "samples")
-        rows = tuple(
-            row(series.label, number(point.x), number(point.y), str(point.n))
-            for series in chart.series
-            for point in series.points
-        )
-    return Table(f"{chart.name}-data", chart.title, "", heads[0], heads[1:], rows)
+def slug(name: str) -> str:
+    """A name for a file."""
+    kept = (letter if letter.isalnum() and letter.isascii() else " " for letter in name.lower())
+    return "-".join("".join(kept).split())
 
 
-def _bar_row(bar: Bar) -> TableRow:
-    interval = NOTHING if bar.low is None else f"[{number(bar.low)}, {number(bar.high)}]"
-    return row(bar.label, number(bar.value), interval, number(bar.second))
+def cell(value: float | None, low: float | None = None, high: float | None = None) -> Cell:
+    """A figure with its interval."""
+    interval = "" if low is None and high is None else f"[{number(low)}, {number(high)}]"
+    return Cell(number(value), interval, bounds=(value, low, high))
 
 
-def _count(count: int | None, largest: int) -> Cell:
-    if count is None:
-        return Cell(NOTHING)
-    return Cell(str(count), heat=-(-HEATS * count // largest), bounds=(count, None, None))
+def _table(
+    tests: TestSet, kind: str, heads: Sequence[str], rows: Sequence[TableRow], **values: object
+) -> Table:
+    """A chart's table under its words; that of one system ends with the system's slug."""
+    ending = f"-{slug(str(values['system']))}" if "system" in values else ""
+    words = LEVELS[tests.level] | {"n": tests.n, **values}
+    title, caption = (WORDS[kind][key].format(**words) for key in ("title", "caption"))
+    name = f"{tests.key}-{kind}{ending}"
+    return Table(name, title, caption, heads[0], tuple(heads[1:]), tuple(rows))
+
+
+def _f1(tests: TestSet) -> Chart:
+    """F1 and latency, published models and baselines beside."""
+    shown = lines(tests.results, beside=tests.beside)
+    rows = [
+        row(one.name, *(_estimate(one.figure(name)) for name in ("f1", "latency_s")), kind=one.kind)
+        for one in shown
+    ]
+    heads = ("System", "F1", "seconds per query")
+    groups = tuple(one.configuration for one in shown)
+    return Chart("bars", _table(tests, "f1", heads, rows), groups=groups)
+
+
+def _estimate(found: Any) -> Cell:
+    return cell(found.value, found.low, found.high)
+
+
+def _matrix(
+    tests: TestSet,
+    kind: str,
+    heads: Sequence[str],
+    counts: Mapping[str, Sequence[int | None]],
+    **values: object,
+) -> Chart:
+    """Rows of counts, shaded."""
+    largest = max((count or 0 for of_row in counts.values() for count in of_row), default=0) or 1
+
+    def shaded(count: int | None) -> Cell:
+        if count is None:
+            return Cell(NOTHING)
+        return Cell(str(count), heat=-(-HEATS * count // largest), bounds=(count, None, None))
+
+    rows = [
+        row(name, *map(shaded, of_row), kind="published" if "(published" in name else "measured")
+        for name, of_row in counts.items()
+    ]
+    return Chart("matrix", _table(tests, kind, heads, rows, **values))
+
+
+def _failures(tests: TestSet) -> Chart:
+    """Wrong answers by kind and system, and the published analysis of the published test set."""
+    found: dict[str, Mapping[str, int]] = {}
+    for system in tests.results.rows:
+        found |= {system.name: system.failures} if system.failures else {}
+    every = dict.fromkeys([*FAILURES, *(kind for counts in found.values() for kind in counts)])
+    if found and tests.level == "mission" and tests.shows_published:
+        counts = {str(kind): count for kind, count in PUBLISHED.items()}
+        found["Mission Agent (published, 25 answers)"] = counts
+    kinds = [kind for kind in every if any(counts.get(kind) for counts in found.values())]
+    kinds = kinds or list(every)
+    cells = {name: [counts.get(kind, 0) for kind in kinds] for name, counts in found.items()}
+    return _matrix(tests, "failures", ("System", *kinds), cells)
+
+
+def _stops(tests: TestSet) -> Chart:
+    """Where replayed plans stop, and for want of what."""
+    found: dict[str, Counter[str]] = {}
+    for system in tests.results.rows:
+        if isinstance(stops := system.breakdown.get("stops"), list):
+            found[system.name] = Counter({_stop(stop): stop["n"] for stop in stops})
+    total = sum(found.values(), Counter[str]())
+    cells = {
+        stop: [counts[stop] for counts in found.values()] for stop, _count in total.most_common()
+    }
+    return _matrix(tests, "stops", ("Missing", *found), cells)
+
+
+def _stop(stop: Record) -> str:
+    return f"{stop['condition']}, at {stop['title']}" if stop.get("title") else "no plan"
+
+
+def _seconds(scores: Mapping[str, Record]) -> dict[str, float]:
+    """Seconds of the timed queries by sample."""
+    timed = {name: score.get("latency_s") for name, score in scores.items()}
+    return {name: value for name, value in timed.items() if isinstance(value, int | float)}
+
+
+def _latency(tests: TestSet) -> Chart:
+    """Median, 90th and 99th percentile of timed queries."""
+    rows = []
+    for system in (*tests.results.rows, *tests.results.baselines):
+        if seconds := list(_seconds(tests.scores_of(system)).values()):
+            cells = (cell(quantile(seconds, share).value) for _name, share in QUANTILES)
+            rows.append(row(system.name, *cells, f"n = {len(seconds)}"))
+    heads = ("System", *(name for name, _share in QUANTILES), "samples")
+    return Chart("dots", _table(tests, "latency", heads, rows), "seconds")
+
+
+def _planning(tests: TestSet) -> Chart:
+    """Seconds to plan a mission of m tasks with both agents, where a run has timed it."""
+    rows = []
+    for system in tests.results.rows:
+        for entry in system.costs.get("planning") or []:
+            seconds = cell(*(entry["seconds"][key] for key in ("value", "low", "high")))
+            rows.append(row(system.name, cell(entry["tasks"]), seconds, str(entry["n"])))
+    heads = ("Line", "tasks in the plan", "seconds", "samples")
+    return Chart("lines", _table(tests, "planning", heads, rows))
+
+
+def _latency_by_size(tests: TestSet) -> Chart:
+    """Mean time of a query by the number of tasks (steps) of the expected plan."""
+    rows = []
+    for system in (*tests.results.rows, *tests.results.baselines):
+        timed: dict[int, list[float]] = {}
+        for name, seconds in _seconds(tests.scores_of(system)).items():
+            entries = tests.samples.get(name, {}).get("expected", {}).get(list_key(tests.level))
+            if isinstance(entries, list):
+                timed.setdefault(len(entries), []).append(seconds)
+        for size, values in sorted(timed.items()):
+            reach = (min(values), max(values)) if len(values) > 1 else ()
+            mean = cell(float(np.mean(values)), *reach)
+            rows.append(row(system.name, cell(size), mean, str(len(values))))
+    unit = LEVELS[tests.level]["unit"]
+    heads = ("Line", f"{unit} in the expected plan", "seconds", "samples")
+    return Chart("lines", _table(tests, "latency-by-size", heads, rows))
+
+
+def _names(tests: TestSet, system: Row) -> Chart:
+    """Precision and recall per task or skill, the most frequent first."""
+    found = system.breakdown.get("per_name") or []
+    rows = []
+    for line in sorted(found, key=lambda line: (-line["expected"], str(line["name"]))):
+        right, planned, expected = (line[key] for key in ("right", "predicted", "expected"))
+        shares = (cell(right / of if of else None) for of in (planned, expected))
+        rows.append(row(str(line["name"]), *shares, f"{right} / {planned} / {expected}"))
+    heads = ("Name", "precision", "recall", "right / planned / expected")
+    return Chart("dots", _table(tests, "names", heads, rows, system=system.name), "share", high=1.0)
+
+
+def _substitutions(tests: TestSet, system: Row) -> Chart:
+    """Names in the place of expected ones; omissions in the last column, additions last row."""
+    lines = system.breakdown.get("substitutions") or []
+    found = {(line["expected"], line["predicted"]): line["n"] for line in lines}
+    ours, theirs = (list(_by_frequency(found, side)) for side in (0, 1))
+    cells = {
+        one or "(added)": [
+            None if one is other is None else found.get((one, other), 0) for other in theirs
+        ]
+        for one in ours
+    }
+    heads = ("Expected", *(other or "(left out)" for other in theirs))
+    return _matrix(tests, "substitutions", heads, cells, system=system.name)
+
+
+def _by_frequency(
+    found: Mapping[tuple[str | None, str | None], int], side: int
+) -> Iterator[str | None]:
+    """Names of one side, the most frequent first, nothing last."""
+    totals: Counter[str | None] = Counter()
+    for pair, count in found.items():
+        totals[pair[side]] += count
+    yield from sorted(totals, key=lambda name: (name is None, -totals[name], name or ""))

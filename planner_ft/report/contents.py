@@ -2,38 +2,38 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, replace
 
+from planner_ft.benchmark.catalogue import METRIC, METRICS, RIGHT, SECTIONS
+from planner_ft.benchmark.contrasts import baseline_sentences, contrast_notes, legend
+from planner_ft.benchmark.layout import lines, metric_table
 from planner_ft.benchmark.layout import notes as table_notes
 from planner_ft.benchmark.results import Results, Row, heading
-from planner_ft.benchmark.results import System as RowSystem
-from planner_ft.report.charts import Chart
-from planner_ft.report.figures import charts, system_charts
-from planner_ft.report.metrics import cost_table, estimate, group_table, main_table, metric_tables
-from planner_ft.report.runs import Record, System, TestSet
-from planner_ft.report.significance import Significance, significance
-from planner_ft.support.tables import Table
+from planner_ft.benchmark.tables import cost_tables, detail_tables, group_tables
+from planner_ft.benchmark.verdicts import p_text
+from planner_ft.report.charts import Chart, charts, slug, system_charts
+from planner_ft.report.runs import Record, TestSet
+from planner_ft.support.tables import Cell, Table, row
 
-
-@dataclass(frozen=True)
-class Sentence:
-    """A sentence of the summary under the name of its subject."""
-
-    lead: str
-    text: str
+MAIN: tuple[str, ...] = ("f1", "whole_plan", "exact_sequence", "parameters", "hallucination")
+MAIN += ("schema_valid", "strict_valid", "latency_s", "tokens")
+"""The first table: the published five, and the metrics that show whether a plan is right."""
 
 
 @dataclass(frozen=True)
 class Section:
-    """Everything about one test set. `per_system` are charts of one system each."""
+    """Everything about one test set. `summary` are sentences under the names of their subjects,
+    `per_system` charts of one system each, `extra` the tables that stand open.
+    """
 
     tests: TestSet
-    summary: tuple[Sentence, ...]
+    summary: tuple[tuple[str, str], ...]
     main: Table
     legend: str
     extra: tuple[Table, ...]
-    differences: Table | None
+    differences: tuple[Table, ...]
     all_metrics: tuple[Table, ...]
     charts: tuple[Chart, ...]
     per_system: tuple[tuple[str, tuple[Chart, ...]], ...]
@@ -42,8 +42,7 @@ class Section:
     @property
     def tables(self) -> tuple[Table, ...]:
         """Every table, in the order of the page."""
-        differences = [self.differences] if self.differences else []
-        return (self.main, *self.extra, *differences, *self.all_metrics)
+        return (self.main, *self.extra, *self.differences, *self.all_metrics)
 
     @property
     def figures(self) -> tuple[Chart, ...]:
@@ -53,67 +52,95 @@ class Section:
 
 def section(tests: TestSet) -> Section:
     """The content of a test set's section."""
-    found = significance(tests)
-    of_systems = [(one.name, tuple(system_charts(tests, one))) for one in tests.candidates]
-    notes = [note for results in tests.results for note in table_notes(as_results(results))]
+    results, shown = tests.results, lines(tests.results, beside=tests.beside)
+    ours = [line for line in shown if line.kind != "published"]
+    of_systems = [(one.name, tuple(system_charts(tests, one))) for one in results.rows]
+    taken = Counter[str]()
+
+    def named(table: Table, name: str = "", title: str = "", caption: str = "") -> Table:
+        name = f"{tests.key}-{name or slug(table.corner)[:40]}"
+        taken[name] += 1
+        name += f"-{taken[name]}" if taken[name] > 1 else ""
+        words = title or table.corner, caption or table.caption
+        return replace(table, name=name, title=words[0], caption=words[1])
+
+    brackets = "In brackets 95 % intervals."
+    known = {name for _title, names in SECTIONS for name in names} | set(RIGHT)
+    rest = [("Whole plan", RIGHT), ("Output", [name for name in METRICS if name not in known])]
+    extra = [named(one, caption=brackets) for one in cost_tables(_costs(results))]
+    small = "Groups are small: they tell where to look, not which system is better."
+    extra += [named(one, "groups", "By group", small) for one in group_tables(results.groups)]
+    details = [metric_table(names, ours, corner=title) for title, names in rest]
+    shown_before = {table.corner for table in extra}
+    details += [one for one in detail_tables(results) if one.corner not in shown_before]
+    said = set(contrast_notes(results.contrasts))
+    notes = [note for note in table_notes(results) if note not in said]
     return Section(
         tests,
-        summary=tuple(_summary(tests, found)),
-        main=main_table(tests, found.marks),
-        legend=found.legend,
-        extra=tuple(table for table in (cost_table(tests), group_table(tests)) if table),
-        differences=found.table,
-        all_metrics=tuple(metric_tables(tests)),
+        summary=tuple(_summary(tests)),
+        main=named(metric_table(MAIN, shown), "main", "Systems", brackets),
+        legend=" ".join(legend(results.contrasts)),
+        extra=tuple(extra),
+        differences=tuple(
+            named(one, "differences", "Differences") for one in _differences(results)
+        ),
+        all_metrics=tuple(map(named, details)),
         charts=tuple(charts(tests)),
         per_system=tuple((name, of_system) for name, of_system in of_systems if of_system),
         notes=tuple(dict.fromkeys([*notes, *tests.notes])),
     )
 
 
-def _summary(tests: TestSet, found: Significance) -> Iterator[Sentence]:
-    for system in tests.candidates:
-        text = f"{_in_words(tests, system)} {found.sentences.get(system.name, '')}"
-        yield Sentence(f"{system.name}.", text.strip())
-    for entry in (entry for results in tests.results for entry in results.get("failed") or []):
+def _costs(results: Results) -> dict[str, Record]:
+    return {row.name: row.costs for row in results.rows if row.costs}
+
+
+def _summary(tests: TestSet) -> Iterator[tuple[str, str]]:
+    beaten = baseline_sentences(tests.results.contrasts)
+    for system in tests.results.rows:
+        compared = f"It {beaten[system.key]}" if system.key in beaten else ""
+        yield f"{system.name}.", f"{_in_words(system)} {compared}".strip()
+    for entry in (entry for run in tests.runs for entry in run.record.get("failed") or []):
         lead = f"{entry.get('label')}, {heading(str(entry.get('configuration')))}."
-        yield Sentence(lead, f"Not measured: {entry.get('reason')}.")
+        yield lead, f"Not measured: {entry.get('reason')}."
 
 
-def _in_words(tests: TestSet, system: System) -> str:
+def _in_words(system: Row) -> str:
     """How many plans are right, and why the others are not."""
-    whole, n = estimate(system, "whole_plan"), int(system.row.get("n", tests.n))
+    whole, n = system.figure("whole_plan"), system.n
     if whole.value is None:
         return f"{n} answers."
     span = ""
     if whole.low is not None and whole.high is not None:
         span = f", 95 % interval {100 * whole.low:.0f} to {100 * whole.high:.0f} %"
-    n *= max((len(lines) for lines in system.repeats.values()), default=1)
+    n *= (system.repeats or {}).get("k", 1)
     right = f"{round(whole.value * n)} of {n} plans are right in every name, order and value"
     text = f"{right} ({100 * whole.value:.0f} %{span})."
     kinds = failure_words(system)
     return f"{text} Wrong: {kinds}." if kinds else text
 
 
-def failure_words(system: System) -> str:
+def failure_words(system: Row) -> str:
     """Wrong answers by kind, the most frequent first: "wrong order 3, parameter propagation 1"."""
-    found = system.row.get("failures", {}).items()
-    order = sorted((-count, kind) for kind, count in found if count)
+    order = sorted((-count, kind) for kind, count in system.failures.items() if count)
     return ", ".join(f"{kind} {-count}" for count, kind in order)
 
 
-def as_results(record: Record) -> Results:
-    """results.json as an object, as far as the notes of tables need it."""
-    rows = tuple(_row(row) for row in record["rows"])
-    return Results(record["level"], record["data"], rows, record.get("manifest", {}))
-
-
-def _row(record: Record) -> Row:
-    known = {field.name for field in fields(RowSystem)}
-    named = {name: value for name, value in record.items() if name in known}
-    system = RowSystem(**{"label": str(record.get("candidate")), **named})
-    failures, reasons = record.get("failures", {}), record.get("finish_reasons", {})
-    missing, timed = tuple(record.get("missing", ())), record.get("latency_n", 0)
-    return Row(system, record.get("n", 0), {}, failures, reasons, missing, timed)
+def _differences(results: Results) -> Iterator[Table]:
+    rows = []
+    names = {one.key: one.name for one in (*results.rows, *results.baselines)}
+    for one in (one for found in results.contrasts.values() for one in found):
+        ends = [names.get(key) for key in (one.second, one.first)]
+        if one.paired.difference.value is not None and all(ends):
+            made, p = one.difference(), one.p_adjusted
+            cells = replace(made, mark=""), Cell(p_text(p), bounds=(p, None, None))
+            metric, verdict = METRIC[one.paired.metric].heading, f"{one.mark} {one.verdict}"
+            rows.append(row(" against ".join(map(str, ends)), metric, *cells, verdict.strip()))
+    caption = "First minus second, paired by sample, with its 95 % interval; p adjusted after Holm"
+    caption += " for each question."
+    if rows:
+        heads = ("Metric", "Difference", "p", "Verdict")
+        yield Table("", "", caption, "Systems", heads, tuple(rows), texts=1)
 
 
 def provenance(sets: Sequence[TestSet]) -> list[tuple[str, str]]:
@@ -121,8 +148,8 @@ def provenance(sets: Sequence[TestSet]) -> list[tuple[str, str]]:
     entries: list[tuple[str, str]] = []
     for tests in sets:
         entries.append((tests.title, f"{tests.path}, SHA-256 {tests.sha256}"))
-        for results in tests.results:
-            entries += _of_run(results.get("manifest", {}))
+        for run in tests.runs:
+            entries += _of_run(run.record.get("manifest", {}))
     return list(dict.fromkeys(entries))
 
 

@@ -13,10 +13,8 @@ from typing import TYPE_CHECKING, Any
 from markupsafe import Markup
 
 from planner_ft.report.answers import index, parts, script_json
-from planner_ft.report.charts import Chart, Matrix, chart_table
 from planner_ft.report.contents import Section
 from planner_ft.report.pictures import NARROW, WIDE, inline_svg
-from planner_ft.report.runs import TestSet
 from planner_ft.support.tables import Table
 
 if TYPE_CHECKING:
@@ -49,26 +47,16 @@ def _templates() -> Environment:
     blocks: Any = {"trim_blocks": True, "lstrip_blocks": True, "keep_trailing_newline": True}
     loader = PackageLoader("planner_ft.report")
     environment = Environment(loader=loader, autoescape=True, **blocks)
-    environment.filters |= {"breakable": _breakable, "chart_table": chart_table}
-    environment.filters |= {"drawing": _drawing, "data": _data}
-    environment.tests["matrix"] = lambda chart: isinstance(chart, Matrix)
+    environment.filters |= {
+        # Names in camel case may break where a capital stands.
+        "breakable": lambda label: Markup("<wbr>").join(CAMEL.split(label)),
+        "drawing": lambda chart, width: Markup(inline_svg(chart, width)),
+        "index": lambda tests: Markup(script_json(index(tests))),
+        "parts": lambda tests: map(Markup, parts(tests)),
+    }
     environment.globals.update(WIDE=WIDE, NARROW=NARROW)
     return environment
 
 
 def _hash(content: str) -> str:
     return f"'sha256-{base64.b64encode(hashlib.sha256(content.encode()).digest()).decode()}'"
-
-
-def _drawing(chart: Chart, width: int) -> Markup:
-    return Markup(inline_svg(chart, width))
-
-
-def _breakable(label: str) -> Markup:
-    """Names in camel case may break where a capital stands."""
-    return Markup("<wbr>").join(CAMEL.split(label))
-
-
-def _data(tests: TestSet) -> tuple[Markup, list[Markup]]:
-    """The samples for the script: an index, and details in parts."""
-    return Markup(script_json(index(tests))), [Markup(part) for part in parts(tests)]

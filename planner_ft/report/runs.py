@@ -3,88 +3,100 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.folder import BASELINES, PREDICTIONS, RESULTS, RUN, SCORES
+from planner_ft.benchmark.contrasts import by_system, system_key
+from planner_ft.benchmark.folder import PREDICTIONS, RESULTS, RUN, SCORES, read_results
+from planner_ft.benchmark.layout import shows_published
+from planner_ft.benchmark.results import Results, Row
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import iterate_jsonl, read_json, sha256_file
-from planner_ft.support.tables import RowKind
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
-from planner_ft.vocabulary.plans import Level, check_level
+from planner_ft.vocabulary.plans import Level
 
 Record = dict[str, Any]
-Key = tuple[str, str]
-"""Candidate and configuration."""
-Lines = dict[Key, dict[str, list[Record]]]
-"""Lines by system, then by sample: several where a sample was repeated."""
+Answers = dict[str, dict[str, Record]]
+"""The first answers by system ("candidate configuration"), then by sample."""
 DEEPEST = 3  # levels of folders below one: a suite has level, data set and candidate
 
 
 @dataclass(frozen=True)
-class System:
-    """One row of a run: a candidate in a configuration, with its scores and answers by sample id.
+class Run:
+    """A folder of results: `record` is results.json as it is, `adapters` are digests by system."""
 
-    `name` is its own alone; `alias` is the candidate, marked where several runs have the same row.
-    `repeats` has all scores, `answers` the first ones. `jobs` are the digests (of model, adapter,
-    data ...) that the answers depend on, by job name.
-    """
-
-    name: str
-    row: Record
-    repeats: dict[str, list[Record]] = field(default_factory=dict)
-    answers: dict[str, Record] = field(default_factory=dict)
-    jobs: dict[str, Any] = field(default_factory=dict)
-    alias: str = ""
-
-    @functools.cached_property
-    def scores(self) -> dict[str, Record]:
-        """The score of the first answer to each sample."""
-        return {name: lines[0] for name, lines in self.repeats.items()}
+    folder: Path
+    results: Results
+    record: Record
+    answers: Answers
+    adapters: dict[str, str]
+    notes: tuple[str, ...]
 
     @property
-    def is_baseline(self) -> bool:
-        """Whether it is no candidate but something that a candidate must beat."""
-        return bool(self.row.get("is_baseline"))
+    def vocabulary(self) -> str:
+        """The vocabulary's file where the run names one, else its name."""
+        named = within(self.record, "manifest", "configuration", "vocabulary", "name")
+        return str(within(_optional(self.folder / RUN), "settings", "vocabulary") or named or "")
 
-    @property
-    def kind(self) -> RowKind:
-        """The kind of its rows in tables."""
-        return "baseline" if self.is_baseline else "measured"
+    def renamed(self, names: Mapping[str, str]) -> Run:
+        """The run with an ending, by system, behind the names of candidates."""
 
-    @property
-    def configuration(self) -> str:
-        """Its configuration, such as lora+grounded."""
-        return str(self.row.get("configuration"))
+        def ending(line: Mapping[str, Any]) -> str:
+            return names.get(_key(line), "")
 
-    def metric(self, name: str) -> Record:
-        """Value and bounds of a metric, None where it was not measured."""
-        found = self.row.get("metrics", {}).get(name)
-        return found if isinstance(found, dict) else {"value": None, "low": None, "high": None}
+        def named(row: Row) -> Row:
+            system, more = row.system, names.get(row.key, "")
+            label, candidate = f"{system.label}{more}", f"{system.candidate}{more}"
+            return replace(row, system=replace(system, label=label, candidate=candidate))
+
+        rows = tuple(map(named, self.results.rows))
+        scores = tuple(
+            {**line, "candidate": f"{line['candidate']}{ending(line)}"}
+            for line in self.results.scores
+        )
+        new = {old.key: row.key for old, row in zip(self.results.rows, rows, strict=True)}
+        return replace(
+            self,
+            results=replace(self.results, rows=rows, scores=scores),
+            answers={new.get(key, key): lines for key, lines in self.answers.items()},
+            adapters={new.get(key, key): digest for key, digest in self.adapters.items()},
+        )
 
 
 @dataclass(frozen=True)
 class TestSet:
-    """Systems measured on the same data; `samples` is empty where the data is gone."""
+    """Systems measured on the same data, in the rows of `results`, each with a name of its own;
+    `samples` is empty where the data is gone.
+    """
 
     __test__ = False
 
-    level: Level
-    path: str
-    sha256: str
-    n: int
+    results: Results
+    runs: tuple[Run, ...]
     vocabulary: Vocabulary | None
-    systems: tuple[System, ...]
-    results: tuple[Record, ...]
     samples: dict[str, Record]
+    answers: Answers
+    adapters: dict[str, str]
     notes: tuple[str, ...]
 
     @property
-    def candidates(self) -> tuple[System, ...]:
-        """The systems without the baselines."""
-        return tuple(system for system in self.systems if not system.is_baseline)
+    def level(self) -> Level:
+        return self.results.level
+
+    @property
+    def path(self) -> str:
+        return str(self.results.data.get("path", ""))
+
+    @property
+    def sha256(self) -> str:
+        return str(self.results.data.get("sha256", ""))
+
+    @property
+    def n(self) -> int:
+        return int(self.results.data.get("n", 0))
 
     @property
     def title(self) -> str:
@@ -97,27 +109,27 @@ class TestSet:
         stem = "".join(letter if letter.isalnum() else "-" for letter in Path(self.path).stem)
         return f"{self.level}-{stem}-{self.sha256[:6]}"
 
-
-@dataclass(frozen=True)
-class _Run:
-    folder: Path
-    results: Record
-    scores: Lines
-    answers: Lines
-    notes: list[str]
+    @property
+    def beside(self) -> bool:
+        """Whether the data is the level's test split: published figures compare with no other."""
+        return Path(self.path).stem == "test"
 
     @property
-    def predictions(self) -> Record:
-        """Path and digest of the file that `plannerft score` read."""
-        return dict(within(self.results, "manifest", "inputs", "predictions"))
+    def shows_published(self) -> bool:
+        return self.beside and shows_published(self.results)
 
-    @property
-    def vocabulary(self) -> str:
-        """The vocabulary's file where the run names one, else its name."""
-        file = within(_optional(self.folder / RUN), "settings", "vocabulary")
-        return str(
-            file or within(self.results, "manifest", "configuration", "vocabulary", "name") or ""
-        )
+    @functools.cached_property
+    def scores(self) -> Answers:
+        """The score of the first answer to each sample, by system."""
+        every = by_system([*self.results.scores, *self.results.baseline_scores])
+        return {
+            system_key(system): {name: dict(found[0]) for name, found in of_system.items()}
+            for system, of_system in every.items()
+        }
+
+    def scores_of(self, system: Row) -> dict[str, Record]:
+        """A system's scores by sample."""
+        return self.scores.get(system.key, {})
 
 
 def within(record: Any, *keys: str) -> Any:
@@ -133,11 +145,11 @@ def load_test_sets(folders: Sequence[Path], data: Sequence[Path] = ()) -> list[T
     `data` are files to look for test data in beside the path that a run names; only one with the
     recorded SHA-256 is used. Raises PlannerError for a folder without results and damaged files.
     """
-    groups: dict[tuple[str, str, int, str], list[_Run]] = {}
+    groups: dict[tuple[str, str, int, str], list[Run]] = {}
     for run in map(_load, _run_folders(folders)):
-        found, level = run.results["data"], run.results["level"]
+        found = run.results.data
         # The same file with --limit is another test set: its figures are not of the same samples.
-        key = (level, found.get("sha256", ""), found.get("n", 0), run.vocabulary)
+        key = (run.results.level, found.get("sha256", ""), found.get("n", 0), run.vocabulary)
         groups.setdefault(key, []).append(run)
     return [_test_set(members, data) for members in groups.values()]
 
@@ -155,57 +167,56 @@ def _run_folders(folders: Sequence[Path]) -> list[Path]:
 
 def _below(folder: Path, depth: int) -> Iterator[Path]:
     """Folders of runs; the data sets of a suite in its own order."""
-    parts = _parts(folder / RESULTS)
-    if parts is None:
+    path = folder / RESULTS
+    results = read_json(path) if path.is_file() else {"parts": []}
+    parts = results.get("parts") if isinstance(results, dict) else None
+    if not isinstance(parts, list) or "rows" in results:
         yield folder
     elif depth and folder.is_dir():
-        children = [child for child in folder.iterdir() if child.is_dir()]
-        order = {name: number for number, name in enumerate(parts)}
+        order = {part.get("name"): number for number, part in enumerate(parts)}
+        children = [one for one in folder.iterdir() if one.is_dir() and not one.is_symlink()]
         for child in sorted(children, key=lambda one: (order.get(one.name, len(order)), one.name)):
-            if not child.is_symlink():
-                yield from _below(child, depth - 1)
+            yield from _below(child, depth - 1)
 
 
-def _parts(path: Path) -> list[str] | None:
-    """The data sets of a suite in its results.json, if any; None for the results of a run."""
-    results = read_json(path) if path.is_file() else {"parts": []}
-    if not isinstance(results, dict) or "rows" in results:
-        return None
-    parts = results.get("parts")
-    if not isinstance(parts, list):
-        return None
-    return [str(part.get("name")) for part in parts if isinstance(part, dict)]
-
-
-def _load(folder: Path) -> _Run:
-    results = read_json(folder / RESULTS)
-    fits = isinstance(results, dict) and isinstance(results.get("rows"), list)
-    if not fits or not isinstance(results.get("data"), dict):
-        expected = "an object with level, data and rows is expected"
-        raise PlannerError(f"{folder / RESULTS}: no results of a run ({expected})")
-    check_level(results.get("level", ""))
-    run = _Run(folder, results, {}, {}, [])
-    paths = [folder / name for name in (SCORES, BASELINES)]
-    run.scores.update(_lines([path for path in paths if path.is_file()]))
-    if not paths[0].is_file():
+def _load(folder: Path) -> Run:
+    results, record = read_results(folder)
+    notes = []
+    if not (folder / SCORES).is_file():
         what = "failures, confusions and single samples cannot be shown"
-        run.notes.append(f"{paths[0]} is not there: {what}.")
-    run.answers.update(_lines(_answer_files(run)))
-    return run
+        notes.append(f"{folder / SCORES} is not there: {what}.")
+    scored = within(record, "manifest", "inputs", "predictions")
+    answers: Answers = {}
+    for path in _answer_files(folder, scored, notes):
+        for line in _records(path):
+            answers.setdefault(_key(line), {}).setdefault(str(line.get("id")), line)
+    # Answers without candidate or configuration are those of a run's only row.
+    nameless = [key for key in answers if "None" in key.split()]
+    if len(nameless) == len(results.rows) == 1:
+        answers[results.rows[0].key] = answers[nameless[0]]
+    jobs: Record = dict(within(record, "manifest", "jobs") or {})
+    made = [] if jobs else [folder / RUN]
+    # Predictions that were scored again lie beside the run that made them.
+    made += [Path(scored["path"]).parent / RUN] if scored.get("path") else []
+    for path in [*made, *sorted(folder.glob(f"*/{RUN}"))]:
+        jobs |= _optional(path).get("jobs", {})
+    used = [job for job in jobs.values() if isinstance(job, dict) and job.get("adapter")]
+    adapters = {_key(job): str(job["adapter"]) for job in reversed(used)}
+    return Run(folder, results, record, answers, adapters, tuple(notes))
 
 
-def _answer_files(run: _Run) -> list[Path]:
+def _answer_files(folder: Path, scored: Record, notes: list[str]) -> list[Path]:
     """The predictions of a run, of a suite's candidates, or the scored file if it is unchanged."""
-    own, named = run.folder / PREDICTIONS, run.predictions
-    paths = [own] if own.is_file() else sorted(run.folder.glob(f"*/{PREDICTIONS}"))
-    if not paths and named.get("path"):
-        own = Path(named["path"])
+    own = folder / PREDICTIONS
+    paths = [own] if own.is_file() else sorted(folder.glob(f"*/{PREDICTIONS}"))
+    if not paths and scored.get("path"):
+        own = Path(scored["path"])
         paths = [own] if own.is_file() else []
-        if paths and sha256_file(own) != named.get("sha256"):
-            run.notes.append(f"{own} has changed since it was scored: answers are not shown.")
+        if paths and sha256_file(own) != scored.get("sha256"):
+            notes.append(f"{own} has changed since it was scored: answers are not shown.")
             return []
     if not paths:
-        run.notes.append(f"{own} is not there: answers are not shown.")
+        notes.append(f"{own} is not there: answers are not shown.")
     return paths
 
 
@@ -216,18 +227,9 @@ def _records(path: Path) -> Iterator[Record]:
         yield value
 
 
-def _lines(paths: Iterable[Path]) -> Lines:
-    found: Lines = {}
-    for path in paths:
-        for line in _records(path):
-            of_system = found.setdefault(key_of(line), {})
-            of_system.setdefault(str(line.get("id")), []).append(line)
-    return found
-
-
-def key_of(line: Record) -> Key:
-    """The system of a row, a score or an answer."""
-    return str(line.get("candidate")), str(line.get("configuration"))
+def _key(line: Mapping[str, Any]) -> str:
+    """The system of a score, an answer or a job."""
+    return system_key((str(line.get("candidate")), str(line.get("configuration"))))
 
 
 def _optional(path: Path) -> Record:
@@ -235,18 +237,37 @@ def _optional(path: Path) -> Record:
     return found
 
 
-def _test_set(runs: list[_Run], data: Sequence[Path]) -> TestSet:
-    first = runs[0].results
-    found, notes = first["data"], [note for run in runs for note in run.notes]
-    path, sha256 = str(found.get("path", "")), str(found.get("sha256", ""))
-    samples = _samples([Path(path), *data], sha256, notes)
-    systems = tuple(_systems(runs))
-    scored = {name for system in systems for name in system.scores}
+def _test_set(runs: list[Run], data: Sequence[Path]) -> TestSet:
+    names = Counter(row.key for run in runs for row in run.results.rows)
+    folders = [run.folder for run in runs]
+    endings = [f" ({_tail(folder, folders)})" for folder in folders]
+    apart = [
+        run.renamed({key: ending for key, count in names.items() if count > 1})
+        for run, ending in zip(runs, endings, strict=True)
+    ]
+    results = runs[0].results if len(runs) == 1 else _merged([run.results for run in apart])
+    notes = [note for run in runs for note in run.notes]
+    found, vocabulary = results.data, _vocabulary(runs[0].vocabulary, notes)
+    samples = _samples([Path(found.get("path", "")), *data], found.get("sha256", ""), notes)
+    scored = {str(line.get("id")) for line in (*results.scores, *results.baseline_scores)}
     samples = {name: record for name, record in samples.items() if not scored or name in scored}
-    vocabulary = _vocabulary(runs[0].vocabulary, notes)
-    results = tuple(run.results for run in runs)
-    count, said = int(found.get("n", 0)), tuple(dict.fromkeys(notes))
-    return TestSet(first["level"], path, sha256, count, vocabulary, systems, results, samples, said)
+    answers = {key: lines for run in apart for key, lines in run.answers.items()}
+    adapters = {key: digest for run in apart for key, digest in run.adapters.items()}
+    said = tuple(dict.fromkeys(notes))
+    return TestSet(results, tuple(runs), vocabulary, samples, answers, adapters, said)
+
+
+def _merged(every: list[Results]) -> Results:
+    """The rows of several runs, baselines once."""
+    beside = next((results for results in every if results.baselines), every[0])
+    return replace(
+        every[0],
+        rows=tuple(row for results in every for row in results.rows),
+        scores=tuple(line for results in every for line in results.scores),
+        baselines=beside.baselines,
+        baseline_scores=beside.baseline_scores,
+        recorded={},
+    )
 
 
 def _samples(paths: Sequence[Path], sha256: str, notes: list[str]) -> dict[str, Record]:
@@ -267,48 +288,6 @@ def _vocabulary(name: str, notes: list[str]) -> Vocabulary | None:
         what = "plans are compared without its parameter types"
         notes.append(f"The vocabulary {name or '(not named)'} is not there: {what}.")
         return None
-
-
-def _systems(runs: list[_Run]) -> Iterator[System]:
-    """The rows of all runs, baselines once and last."""
-    folders = [run.folder for run in runs]
-    rows = [(run, row) for run in runs for row in run.results["rows"]]
-    labels = [_label(row) for _run, row in rows]
-    beside = [(run, row) for run in reversed(runs) for row in run.results.get("baselines", [])]
-    baselines = {_label(row): (run, row) for run, row in beside}
-    for run, row in [*rows, *reversed(baselines.values())]:
-        key, label = key_of(row), _label(row)
-        place = f" ({_tail(run.folder, folders)})" if labels.count(label) > 1 else ""
-        answers = run.answers.get(key) or _nameless(run)
-        first = {name: lines[0] for name, lines in answers.items()}
-        known = row, run.scores.get(key, {}), first, _jobs(run)
-        yield System(f"{label}{place}", *known, f"{key[0]}{place}")
-
-
-def _jobs(run: _Run) -> dict[str, Any]:
-    """The jobs of the manifest, or of the run that made predictions which were scored again."""
-    found: dict[str, Any] = dict(within(run.results, "manifest", "jobs") or {})
-    paths = [] if found else [run.folder / RUN]
-    paths += sorted(run.folder.glob(f"*/{RUN}"))
-    if run.predictions.get("path"):
-        paths.append(Path(run.predictions["path"]).parent / RUN)
-    for path in paths:
-        found |= _optional(path).get("jobs", {})
-    return found
-
-
-def _label(row: Record) -> str:
-    from planner_ft.benchmark.results import heading
-
-    label, configuration = str(row.get("label") or row.get("candidate")), key_of(row)[1]
-    plain = row.get("is_baseline") or configuration == "submitted"
-    return label if plain else f"{label}, {heading(configuration)}"
-
-
-def _nameless(run: _Run) -> dict[str, list[Record]]:
-    """Answers without candidate or configuration are those of a run's only row."""
-    rest = [lines for key, lines in run.answers.items() if "None" in key]
-    return rest[0] if len(run.results["rows"]) == len(rest) == 1 else {}
 
 
 def _tail(folder: Path, others: list[Path]) -> str:

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Literal, cast, get_args
 
-from planner_ft.report.charts import Matrix, chart_table
 from planner_ft.report.contents import Section, provenance, section
 from planner_ft.report.page import page
 from planner_ft.report.runs import load_test_sets
@@ -86,7 +85,7 @@ def _remove_former(out: Path) -> None:
 
 def _tables(sections: Sequence[Section], out: Path) -> Iterator[Path]:
     for one in sections:
-        counted = [chart_table(chart) for chart in one.figures if isinstance(chart, Matrix)]
+        counted = [chart.table for chart in one.figures if chart.kind == "matrix"]
         for table in [*one.tables, *counted]:
             for suffix, writer in WRITERS.items():
                 path = out / TABLES / f"{table.name}.{suffix}"

@@ -7,45 +7,51 @@ from io import BytesIO
 
 import pytest
 
-from planner_ft.report.charts import Bar, Bars, Chart, DotRow, Dots, Lines, Matrix, Point, Series
-from planner_ft.report.pictures import NARROW, WIDE, inline_svg, picture
+from planner_ft.report.charts import Chart, cell
+from planner_ft.report.pictures import NARROW, PALETTE, WIDE, inline_svg, picture
+from planner_ft.support.tables import Cell, Table, TableRow, row
 
 HOSTILE = "<b> $x_1$ & " + 60 * "long "
-CHARTS: list[Chart] = [
-    Bars(
+
+
+def table(name: str, columns: tuple[str, ...], *rows: TableRow) -> Table:
+    return Table(name, name.capitalize(), "", "", columns, rows)
+
+
+CHARTS = [
+    Chart(
         "bars",
-        "Bars",
-        "",
-        "F1",
-        "seconds",
-        (
-            Bar("one", 0.5, 0.4, 0.6, 1.5, group="Base"),
-            Bar(HOSTILE, None),
-            Bar("three", 1, second=2, muted=True, group="Base"),
+        table(
+            "bars",
+            ("F1", "seconds"),
+            row("one", cell(0.5, 0.4, 0.6), cell(1.5)),
+            row(HOSTILE, cell(None), cell(None)),
+            row("three", cell(1), cell(2), kind="baseline"),
         ),
+        groups=("Base", "", "Base"),
     ),
-    Lines(
+    Chart(
         "lines",
-        "Lines",
-        "",
-        "tasks",
-        "seconds",
-        (
-            Series("one", (Point(1, 0.5, 0.4, 0.7, 3), Point(4, 1.5))),
-            Series(HOSTILE, (Point(2, 0),)),
+        table(
+            "lines",
+            ("tasks", "seconds", "samples"),
+            row("one", cell(1), cell(0.5, 0.4, 0.7), "3"),
+            row("one", cell(4), cell(1.5), "1"),
+            row(HOSTILE, cell(2), cell(0), "1"),
         ),
     ),
-    Dots(
+    Chart(
         "dots",
-        "Dots",
-        "",
+        table(
+            "dots",
+            ("precision", "recall", "right"),
+            row("one", cell(0.5), cell(None), "1 / 2"),
+            row(HOSTILE, cell(1), cell(1), ""),
+        ),
         "share",
-        ("precision", "recall"),
-        (DotRow("one", (0.5, None), "1 / 2"), DotRow(HOSTILE, (1.0, 1.0))),
-        "right",
-        1.0,
+        high=1.0,
     ),
-    Matrix("matrix", "Matrix", "", "Expected", ("one", HOSTILE), ("two",), ((3,), (None,))),
+    Chart("matrix", table("matrix", ("two",), row("one", cell(3)), row(HOSTILE, Cell("–")))),
 ]
 
 
@@ -63,7 +69,7 @@ def test_a_chart_is_a_png_and_an_svg_whose_letters_stay_text(chart: Chart) -> No
         )
     ]
     assert "one" in texts
-    assert chart.title in texts
+    assert chart.table.title in texts
     assert any(text.startswith("<b> $x_1$ & long") for text in texts)
 
 
@@ -77,21 +83,27 @@ def test_a_drawing_in_the_page_has_its_width_and_no_style_of_its_own(
     chart: Chart, width: int
 ) -> None:
     root = ElementTree.fromstring(inline_svg(chart, width))
-    assert (root.tag, root.get("width"), root.get("aria-label")) == ("svg", str(width), chart.title)
+    assert (root.tag, root.get("width"), root.get("aria-label")) == (
+        "svg",
+        str(width),
+        chart.table.title,
+    )
     nodes = list(root.iter())
     assert not [node for node in nodes if node.get("style") or node.tag in ("style", "metadata")]
-    assert any("-s0" in node.get("class", "") for node in nodes)
+    assert any(node.get("fill") == PALETTE[0] for node in nodes)
     ids = {node.get("id") for node in nodes if node.get("id")}
     assert {node.get("href") for node in nodes if node.get("href")} <= {f"#{one}" for one in ids}
-    assert all(one and one.startswith(f"{chart.name}-{width}-") for one in ids)
+    other = ElementTree.fromstring(inline_svg(chart, WIDE + NARROW - width))
+    assert not ids & {node.get("id") for node in other.iter()}
 
 
 def test_bars_in_the_page_are_as_long_as_their_values() -> None:
-    chart = Bars("n", "t", "c", "F1", "s", (Bar("one", 0.25), Bar("two", 0.5)))
+    values = [row(name, cell(value), cell(None)) for name, value in (("one", 0.25), ("two", 0.5))]
+    chart = Chart("bars", table("n", ("F1", "s"), *values), groups=("", ""))
     root = ElementTree.fromstring(inline_svg(chart, WIDE))
     ends = []
     for node in root.iter("path"):
-        if node.get("class") == "fill-s0":
+        if node.get("fill") == PALETTE[0]:
             numbers = [float(part) for part in node.get("d", "").split() if part[0].isdigit()]
             ends.append(max(numbers[::2]) - min(numbers[::2]))
     assert ends[1] == pytest.approx(2 * ends[0], rel=1e-4)

@@ -17,12 +17,10 @@ from tests.report.conftest import ANSWERS, EXPECTED, write_data, write_run
 
 def test_a_run_is_read_with_its_answers_and_commands(run: Path) -> None:
     (tests,) = load_test_sets([run])
-    assert [system.name for system in tests.systems if not system.is_baseline] == [
-        "good, Base",
-        "hostile, Base",
-    ]
+    assert [system.name for system in tests.results.rows] == ["good, Base", "hostile, Base"]
     assert list(tests.samples) == list(EXPECTED)
-    assert set(tests.systems[0].answers) == set(EXPECTED) == set(tests.systems[0].scores)
+    first = tests.results.rows[0]
+    assert set(tests.answers[first.key]) == set(EXPECTED) == set(tests.scores_of(first))
     assert not [note for note in tests.notes if "not shown" in note]
 
 
@@ -31,10 +29,10 @@ def test_runs_on_the_same_data_share_a_section_and_are_told_apart(
 ) -> None:
     other = make_run("again", {"good": ANSWERS["good"]})
     (tests,) = load_test_sets([run, other])
-    assert [system.name for system in tests.systems if not system.is_baseline] == [
-        "good, Base (run)",
+    assert [system.name for system in tests.results.rows] == [
+        "good (run), Base",
         "hostile, Base",
-        "good, Base (again)",
+        "good (again), Base",
     ]
 
 
@@ -102,7 +100,7 @@ def test_no_run_and_damaged_runs_are_refused_in_one_sentence(run: Path, tmp_path
     with pytest.raises(PlannerError, match=r"scores\.jsonl:\d+: not JSON"):
         load_test_sets([run])
     (run / "results.json").write_text("[]")
-    with pytest.raises(PlannerError, match="no results of a run"):
+    with pytest.raises(PlannerError, match="is no result of"):
         load_test_sets([run])
 
 
@@ -139,8 +137,8 @@ def test_a_suite_is_a_section_for_each_data_set_and_names_who_failed(
     )
     (suite / "results.json").write_text(json.dumps({"title": "A suite", "parts": []}))
     sets = load_test_sets([suite])
-    assert [len(tests.candidates) for tests in sets] == [2, 0]
-    assert set(sets[0].systems[0].answers) == set(EXPECTED)
+    assert [len(tests.results.rows) for tests in sets] == [2, 0]
+    assert set(sets[0].answers["good base"]) == set(EXPECTED)
     write_report([suite], tmp_path / "report", pictures="none")
     page = (tmp_path / "report" / "report.html").read_text()
     assert page.count("Big, LoRA.") == 2
