@@ -31,6 +31,8 @@ def write_card(adapter: Path, runs: Sequence[Path]) -> int:
 
     Raises PlannerError when the folder has no card, or no run measured these very weights.
     """
+    from huggingface_hub import ModelCard
+
     if not (adapter / CARD).is_file() or not (adapter / WEIGHTS).is_file():
         expected = f"{CARD} and {WEIGHTS} are expected"
         raise PlannerError(f"--card {adapter}: no adapter with a model card there ({expected})")
@@ -43,27 +45,20 @@ def write_card(adapter: Path, runs: Sequence[Path]) -> int:
     manifest = read_json(adapter / MANIFEST) if (adapter / MANIFEST).is_file() else {}
     base, level = within(manifest, "base", "name"), manifest.get("level")
     model = f"{base} {level} adapter" if base and level else adapter.resolve().name
-    text, count = card_with(read_text(adapter / CARD), measured, model)
-    write_text(adapter / CARD, text)
-    return count
-
-
-def card_with(text: str, measured: Sequence[Measured], model: str) -> tuple[str, int]:
-    """A card with its model-index and section of figures replaced, and the number of figures."""
-    from huggingface_hub import ModelCard
-
-    card = ModelCard(_with_section(text, _section(measured)), ignore_metadata_errors=True)
-    results = [result for tests, system in measured for result in eval_results(tests, system)]
+    text = _with_section(read_text(adapter / CARD), _section(measured))
+    card = ModelCard(text, ignore_metadata_errors=True)
+    results = [result for tests, row in measured for result in _eval_results(tests, row)]
     card.data.model_name, card.data.eval_results = model, results
-    return str(card).rstrip("\n") + "\n", len(results)
+    write_text(adapter / CARD, str(card).rstrip("\n") + "\n")
+    return len(results)
 
 
-def eval_results(tests: TestSet, system: Row) -> Iterator[Any]:
+def _eval_results(tests: TestSet, row: Row) -> Iterator[Any]:
     """A row's figures as huggingface_hub.EvalResult: rates as shares, intervals as arguments."""
     from huggingface_hub import EvalResult
 
     vehicle = tests.vocabulary.name if tests.vocabulary else "unknown"
-    for name, figure in system.metrics.items():
+    for name, figure in row.metrics.items():
         interval = {"low": figure.low, "high": figure.high, "confidence": 0.95}
         if figure.value is not None:
             yield EvalResult(
@@ -76,7 +71,7 @@ def eval_results(tests: TestSet, system: Row) -> Iterator[Any]:
                 metric_type=name,
                 metric_name=METRIC[name].heading.removesuffix(" (%)") if name in METRIC else name,
                 metric_value=figure.value,
-                metric_config=system.system.configuration,
+                metric_config=row.system.configuration,
                 metric_args=None if figure.low is None else interval,
                 verified=False,
             )

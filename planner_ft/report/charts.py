@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import tomllib
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from planner_ft.benchmark.costs import QUANTILES
-from planner_ft.benchmark.layout import lines
+from planner_ft.benchmark.layout import lines, shows_published
 from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
 from planner_ft.benchmark.results import Row
 from planner_ft.benchmark.statistics import quantile
@@ -20,6 +20,7 @@ from planner_ft.report.runs import Record, TestSet
 from planner_ft.support.tables import NOTHING, Cell, Table, TableRow, row
 from planner_ft.vocabulary.plans import list_key
 
+F1 = ("f1", "latency_s")
 HEATS = 6  # shades of a count, beside none
 WORDS: Record = tomllib.loads(Path(__file__).with_name("figures.toml").read_text("utf-8"))
 LEVELS: Record = WORDS["levels"]
@@ -98,16 +99,12 @@ def _f1(tests: TestSet) -> Chart:
     """F1 and latency, published models and baselines beside."""
     shown = lines(tests.results, beside=tests.beside)
     rows = [
-        row(one.name, *(_estimate(one.figure(name)) for name in ("f1", "latency_s")), kind=one.kind)
+        row(one.name, *(cell(*astuple(one.figure(key))) for key in F1), kind=one.kind)
         for one in shown
     ]
     heads = ("System", "F1", "seconds per query")
     groups = tuple(one.configuration for one in shown)
     return Chart("bars", _table(tests, "f1", heads, rows), groups=groups)
-
-
-def _estimate(found: Any) -> Cell:
-    return cell(found.value, found.low, found.high)
 
 
 def _matrix(
@@ -138,7 +135,7 @@ def _failures(tests: TestSet) -> Chart:
     for system in tests.results.rows:
         found |= {system.name: system.failures} if system.failures else {}
     every = dict.fromkeys([*FAILURES, *(kind for counts in found.values() for kind in counts)])
-    if found and tests.level == "mission" and tests.shows_published:
+    if found and tests.level == "mission" and tests.beside and shows_published(tests.results):
         counts = {str(kind): count for kind, count in PUBLISHED.items()}
         found["Mission Agent (published, 25 answers)"] = counts
     kinds = [kind for kind in every if any(counts.get(kind) for counts in found.values())]
@@ -226,7 +223,7 @@ def _substitutions(tests: TestSet, system: Row) -> Chart:
     """Names in the place of expected ones; omissions in the last column, additions last row."""
     lines = system.breakdown.get("substitutions") or []
     found = {(line["expected"], line["predicted"]): line["n"] for line in lines}
-    ours, theirs = (list(_by_frequency(found, side)) for side in (0, 1))
+    ours, theirs = (_by_frequency(lines, key) for key in ("expected", "predicted"))
     cells = {
         one or "(added)": [
             None if one is other is None else found.get((one, other), 0) for other in theirs
@@ -237,11 +234,9 @@ def _substitutions(tests: TestSet, system: Row) -> Chart:
     return _matrix(tests, "substitutions", heads, cells, system=system.name)
 
 
-def _by_frequency(
-    found: Mapping[tuple[str | None, str | None], int], side: int
-) -> Iterator[str | None]:
+def _by_frequency(lines: Sequence[Record], key: str) -> list[str | None]:
     """Names of one side, the most frequent first, nothing last."""
     totals: Counter[str | None] = Counter()
-    for pair, count in found.items():
-        totals[pair[side]] += count
-    yield from sorted(totals, key=lambda name: (name is None, -totals[name], name or ""))
+    for line in lines:
+        totals[line[key]] += line["n"]
+    return sorted(totals, key=lambda name: (name is None, -totals[name], name or ""))

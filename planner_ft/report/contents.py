@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from planner_ft.benchmark.catalogue import METRIC, METRICS, RIGHT, SECTIONS
@@ -14,7 +14,7 @@ from planner_ft.benchmark.results import Results, Row, heading
 from planner_ft.benchmark.tables import cost_tables, detail_tables, group_tables
 from planner_ft.benchmark.verdicts import p_text
 from planner_ft.report.charts import Chart, charts, slug, system_charts
-from planner_ft.report.runs import Record, TestSet
+from planner_ft.report.runs import TestSet
 from planner_ft.support.tables import Cell, Table, row
 
 MAIN: tuple[str, ...] = ("f1", "whole_plan", "exact_sequence", "parameters", "hallucination")
@@ -64,10 +64,11 @@ def section(tests: TestSet) -> Section:
         words = title or table.corner, caption or table.caption
         return replace(table, name=name, title=words[0], caption=words[1])
 
+    costs = {one.name: one.costs for one in results.rows if one.costs}
     brackets = "In brackets 95 % intervals."
     known = {name for _title, names in SECTIONS for name in names} | set(RIGHT)
     rest = [("Whole plan", RIGHT), ("Output", [name for name in METRICS if name not in known])]
-    extra = [named(one, caption=brackets) for one in cost_tables(_costs(results))]
+    extra = [named(one, caption=brackets) for one in cost_tables(costs)]
     small = "Groups are small: they tell where to look, not which system is better."
     extra += [named(one, "groups", "By group", small) for one in group_tables(results.groups)]
     details = [metric_table(names, ours, corner=title) for title, names in rest]
@@ -91,10 +92,6 @@ def section(tests: TestSet) -> Section:
     )
 
 
-def _costs(results: Results) -> dict[str, Record]:
-    return {row.name: row.costs for row in results.rows if row.costs}
-
-
 def _summary(tests: TestSet) -> Iterator[tuple[str, str]]:
     beaten = baseline_sentences(tests.results.contrasts)
     for system in tests.results.rows:
@@ -115,9 +112,9 @@ def _in_words(system: Row) -> str:
         span = f", 95 % interval {100 * whole.low:.0f} to {100 * whole.high:.0f} %"
     n *= (system.repeats or {}).get("k", 1)
     right = f"{round(whole.value * n)} of {n} plans are right in every name, order and value"
-    text = f"{right} ({100 * whole.value:.0f} %{span})."
     kinds = failure_words(system)
-    return f"{text} Wrong: {kinds}." if kinds else text
+    wrong = f" Wrong: {kinds}." if kinds else ""
+    return f"{right} ({100 * whole.value:.0f} %{span}).{wrong}"
 
 
 def failure_words(system: Row) -> str:
@@ -141,29 +138,3 @@ def _differences(results: Results) -> Iterator[Table]:
     if rows:
         heads = ("Metric", "Difference", "p", "Verdict")
         yield Table("", "", caption, "Systems", heads, tuple(rows), texts=1)
-
-
-def provenance(sets: Sequence[TestSet]) -> list[tuple[str, str]]:
-    """What the runs depended on, in words."""
-    entries: list[tuple[str, str]] = []
-    for tests in sets:
-        entries.append((tests.title, f"{tests.path}, SHA-256 {tests.sha256}"))
-        for run in tests.runs:
-            entries += _of_run(run.record.get("manifest", {}))
-    return list(dict.fromkeys(entries))
-
-
-def _of_run(manifest: Record) -> list[tuple[str, str]]:
-    def listed(key: str) -> str:
-        return ", ".join(f"{name} {value}" for name, value in manifest.get(key, {}).items())
-
-    commit = str(manifest.get("commit") or "unknown")
-    commit += " with local changes" if manifest.get("dirty") else ""
-    keys = (("Command", "command"), ("Made", "created"), ("Seed", "seed"))
-    entries = [(name, str(manifest.get(key, ""))) for name, key in keys]
-    entries.append(("planner_ft", f"{manifest.get('planner_ft', '')}, commit {commit}"))
-    entries += [("Versions", listed("versions")), ("Hardware", listed("hardware"))]
-    for name, job in manifest.get("jobs", {}).items():
-        if isinstance(job, dict) and job.get("adapter"):
-            entries.append((f"Adapter of {name}", f"SHA-256 {job['adapter']}"))
-    return [(name, value) for name, value in entries if value]

@@ -24,14 +24,14 @@ ASSETS = Path(__file__).parent / "assets"
 CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z][a-z])")
 
 
-def page(sections: Sequence[Section], title: str, provenance: Sequence[tuple[str, str]]) -> str:
+def page(sections: Sequence[Section], title: str) -> str:
     """The whole document; its policy allows this style sheet and this script, and no loading."""
     style, script = ((ASSETS / f"report.{kind}").read_text("utf-8") for kind in ("css", "js"))
     policy = f"default-src 'none'; style-src {_hash(style)}; script-src {_hash(script)};"
     policy += " base-uri 'none'; form-action 'none'"
     trusted = {"style": Markup(style), "script": Markup(script)}
-    words = {"title": title, "provenance": provenance, "policy": policy}
-    return _templates().get_template("page.html.j2").render(sections=sections, **words, **trusted)
+    template = _templates().get_template("page.html.j2")
+    return template.render(sections=sections, title=title, policy=policy, **trusted)
 
 
 def html_table(table: Table) -> str:

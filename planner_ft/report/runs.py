@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,7 +10,6 @@ from typing import Any
 
 from planner_ft.benchmark.contrasts import by_system, system_key
 from planner_ft.benchmark.folder import PREDICTIONS, RESULTS, RUN, SCORES, read_results
-from planner_ft.benchmark.layout import shows_published
 from planner_ft.benchmark.results import Results, Row
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import iterate_jsonl, read_json, sha256_file
@@ -41,29 +39,22 @@ class Run:
         named = within(self.record, "manifest", "configuration", "vocabulary", "name")
         return str(within(_optional(self.folder / RUN), "settings", "vocabulary") or named or "")
 
-    def renamed(self, names: Mapping[str, str]) -> Run:
-        """The run with an ending, by system, behind the names of candidates."""
-
-        def ending(line: Mapping[str, Any]) -> str:
-            return names.get(_key(line), "")
+    def renamed(self, ending: str) -> Run:
+        """The run with an ending behind the names of its candidates."""
 
         def named(row: Row) -> Row:
-            system, more = row.system, names.get(row.key, "")
-            label, candidate = f"{system.label}{more}", f"{system.candidate}{more}"
-            return replace(row, system=replace(system, label=label, candidate=candidate))
+            label, candidate = row.system.label + ending, row.system.candidate + ending
+            return replace(row, system=replace(row.system, label=label, candidate=candidate))
 
-        rows = tuple(map(named, self.results.rows))
-        scores = tuple(
-            {**line, "candidate": f"{line['candidate']}{ending(line)}"}
-            for line in self.results.scores
-        )
-        new = {old.key: row.key for old, row in zip(self.results.rows, rows, strict=True)}
-        return replace(
-            self,
-            results=replace(self.results, rows=rows, scores=scores),
-            answers={new.get(key, key): lines for key, lines in self.answers.items()},
-            adapters={new.get(key, key): digest for key, digest in self.adapters.items()},
-        )
+        def of_systems(values: dict[str, Any]) -> dict[str, Any]:
+            parts = ((*key.rpartition(" ")[::2], value) for key, value in values.items())
+            return {f"{name}{ending} {configuration}": one for name, configuration, one in parts}
+
+        every = self.results.scores
+        scores = tuple({**line, "candidate": f"{line['candidate']}{ending}"} for line in every)
+        results = replace(self.results, rows=tuple(map(named, self.results.rows)), scores=scores)
+        answers, adapters = of_systems(self.answers), of_systems(self.adapters)
+        return replace(self, results=results, answers=answers, adapters=adapters)
 
 
 @dataclass(frozen=True)
@@ -74,6 +65,10 @@ class TestSet:
 
     __test__ = False
 
+    level: Level
+    path: str
+    sha256: str
+    n: int
     results: Results
     runs: tuple[Run, ...]
     vocabulary: Vocabulary | None
@@ -81,22 +76,6 @@ class TestSet:
     answers: Answers
     adapters: dict[str, str]
     notes: tuple[str, ...]
-
-    @property
-    def level(self) -> Level:
-        return self.results.level
-
-    @property
-    def path(self) -> str:
-        return str(self.results.data.get("path", ""))
-
-    @property
-    def sha256(self) -> str:
-        return str(self.results.data.get("sha256", ""))
-
-    @property
-    def n(self) -> int:
-        return int(self.results.data.get("n", 0))
 
     @property
     def title(self) -> str:
@@ -113,10 +92,6 @@ class TestSet:
     def beside(self) -> bool:
         """Whether the data is the level's test split: published figures compare with no other."""
         return Path(self.path).stem == "test"
-
-    @property
-    def shows_published(self) -> bool:
-        return self.beside and shows_published(self.results)
 
     @functools.cached_property
     def scores(self) -> Answers:
@@ -145,24 +120,17 @@ def load_test_sets(folders: Sequence[Path], data: Sequence[Path] = ()) -> list[T
     `data` are files to look for test data in beside the path that a run names; only one with the
     recorded SHA-256 is used. Raises PlannerError for a folder without results and damaged files.
     """
+    found = {folder: list(_below(folder, DEEPEST)) for folder in folders}
+    for folder in (folder for folder, below in found.items() if not below):
+        way = "give the folder of a finished `plannerft bench` or of `plannerft score --out`"
+        raise PlannerError(f"{folder}: no {RESULTS} in it or below it; {way}")
     groups: dict[tuple[str, str, int, str], list[Run]] = {}
-    for run in map(_load, _run_folders(folders)):
-        found = run.results.data
+    for run in map(_load, dict.fromkeys(one for below in found.values() for one in below)):
+        about = run.results.data
         # The same file with --limit is another test set: its figures are not of the same samples.
-        key = (run.results.level, found.get("sha256", ""), found.get("n", 0), run.vocabulary)
+        key = (run.results.level, about.get("sha256", ""), about.get("n", 0), run.vocabulary)
         groups.setdefault(key, []).append(run)
     return [_test_set(members, data) for members in groups.values()]
-
-
-def _run_folders(folders: Sequence[Path]) -> list[Path]:
-    found: list[Path] = []
-    for folder in folders:
-        below = list(_below(folder, DEEPEST))
-        if not below:
-            way = "give the folder of a finished `plannerft bench` or of `plannerft score --out`"
-            raise PlannerError(f"{folder}: no {RESULTS} in it or below it; {way}")
-        found += below
-    return list(dict.fromkeys(found))
 
 
 def _below(folder: Path, depth: int) -> Iterator[Path]:
@@ -238,35 +206,28 @@ def _optional(path: Path) -> Record:
 
 
 def _test_set(runs: list[Run], data: Sequence[Path]) -> TestSet:
-    names = Counter(row.key for run in runs for row in run.results.rows)
-    folders = [run.folder for run in runs]
-    endings = [f" ({_tail(folder, folders)})" for folder in folders]
-    apart = [
-        run.renamed({key: ending for key, count in names.items() if count > 1})
-        for run, ending in zip(runs, endings, strict=True)
-    ]
-    results = runs[0].results if len(runs) == 1 else _merged([run.results for run in apart])
+    names = [row.key for run in runs for row in run.results.rows]
+    if len(set(names)) < len(names):
+        short = len({run.folder.name for run in runs}) == len(runs)
+        runs = [run.renamed(f" ({run.folder.name if short else run.folder})") for run in runs]
+    results = runs[0].results
+    if len(runs) > 1:  # baselines once
+        beside = next((run.results for run in runs if run.results.baselines), results)
+        rows = tuple(row for run in runs for row in run.results.rows)
+        scores = tuple(line for run in runs for line in run.results.scores)
+        theirs = (beside.baselines, beside.baseline_scores)
+        results = Results(results.level, results.data, rows, results.manifest, scores, *theirs)
     notes = [note for run in runs for note in run.notes]
-    found, vocabulary = results.data, _vocabulary(runs[0].vocabulary, notes)
-    samples = _samples([Path(found.get("path", "")), *data], found.get("sha256", ""), notes)
+    about, vocabulary = results.data, _vocabulary(runs[0].vocabulary, notes)
+    path, sha256 = str(about.get("path", "")), str(about.get("sha256", ""))
+    samples = _samples([Path(path), *data], sha256, notes)
     scored = {str(line.get("id")) for line in (*results.scores, *results.baseline_scores)}
-    samples = {name: record for name, record in samples.items() if not scored or name in scored}
-    answers = {key: lines for run in apart for key, lines in run.answers.items()}
-    adapters = {key: digest for run in apart for key, digest in run.adapters.items()}
-    said = tuple(dict.fromkeys(notes))
-    return TestSet(results, tuple(runs), vocabulary, samples, answers, adapters, said)
-
-
-def _merged(every: list[Results]) -> Results:
-    """The rows of several runs, baselines once."""
-    beside = next((results for results in every if results.baselines), every[0])
-    return replace(
-        every[0],
-        rows=tuple(row for results in every for row in results.rows),
-        scores=tuple(line for results in every for line in results.scores),
-        baselines=beside.baselines,
-        baseline_scores=beside.baseline_scores,
-        recorded={},
+    return TestSet(
+        *(results.level, path, sha256, int(about.get("n", 0)), results, tuple(runs), vocabulary),
+        samples={name: one for name, one in samples.items() if not scored or name in scored},
+        answers={key: lines for run in runs for key, lines in run.answers.items()},
+        adapters={key: digest for run in runs for key, digest in run.adapters.items()},
+        notes=tuple(dict.fromkeys(notes)),
     )
 
 
@@ -288,12 +249,3 @@ def _vocabulary(name: str, notes: list[str]) -> Vocabulary | None:
         what = "plans are compared without its parameter types"
         notes.append(f"The vocabulary {name or '(not named)'} is not there: {what}.")
         return None
-
-
-def _tail(folder: Path, others: list[Path]) -> str:
-    """The last parts of a path that tell it from the others."""
-    for count in range(1, len(folder.parts) + 1):
-        tail = folder.parts[-count:]
-        if sum(other.parts[-count:] == tail for other in others) == 1:
-            return "/".join(tail)
-    return str(folder)

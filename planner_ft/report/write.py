@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Literal, cast, get_args
 
-from planner_ft.report.contents import Section, provenance, section
+from planner_ft.report.contents import Section, section
 from planner_ft.report.page import page
 from planner_ft.report.runs import load_test_sets
 from planner_ft.support.errors import PlannerError
@@ -35,15 +35,20 @@ def write_report(
     them, those over all systems, or none. Raises PlannerError where a run cannot be read, or where
     a report is there already and `overwrite` is not given.
     """
-    check_out(out, overwrite)
-    sets = load_test_sets(runs, data)
-    sections = [section(tests) for tests in sets]
+    if out.exists() and not out.is_dir():
+        raise PlannerError(f"--out {out}: is a file; give a folder")
+    if (out / PAGE).exists() and not overwrite:
+        way = "give --overwrite or another --out"
+        raise PlannerError(f"{out / PAGE}: a report is there already; {way}")
+    sections = [section(tests) for tests in load_test_sets(runs, data)]
     names = dict.fromkeys(run.resolve().name for run in runs)
     shown = title or f"Benchmark report: {', '.join(names)}"
-    _remove_former(out)
+    for path in (path for name in (FIGURES, TABLES) for path in (out / name).glob("*")):
+        if WRITTEN.fullmatch(path.name):  # the folders may hold files of the user's
+            path.unlink()
     written = [*_tables(sections, out), *_figures(sections, out, pictures), out / PAGE]
     # Last: where the page is, all of the report is.
-    write_text(out / PAGE, page(sections, shown, provenance(sets)))
+    write_text(out / PAGE, page(sections, shown))
     return written
 
 
@@ -64,23 +69,6 @@ def check_pictures(name: str) -> Pictures:
         *names, last = get_args(Pictures)
         raise PlannerError(f"--pictures {name}: must be {', '.join(names)} or {last}")
     return cast(Pictures, name)
-
-
-def check_out(out: Path, overwrite: bool) -> None:
-    """Raise PlannerError when a report is there already, or `out` is a file."""
-    if out.exists() and not out.is_dir():
-        raise PlannerError(f"--out {out}: is a file; give a folder")
-    if (out / PAGE).exists() and not overwrite:
-        way = "give --overwrite or another --out"
-        raise PlannerError(f"{out / PAGE}: a report is there already; {way}")
-
-
-def _remove_former(out: Path) -> None:
-    """Remove what an earlier report wrote: the folders may hold files of the user's."""
-    for name in (FIGURES, TABLES):
-        for path in (out / name).glob("*"):
-            if WRITTEN.fullmatch(path.name):
-                path.unlink()
 
 
 def _tables(sections: Sequence[Section], out: Path) -> Iterator[Path]:
