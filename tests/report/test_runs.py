@@ -31,7 +31,7 @@ def test_runs_on_the_same_data_share_a_section_and_are_told_apart(
     (tests,) = load_test_sets([run, other])
     assert [system.name for system in tests.results.rows] == [
         "good (run), Base",
-        "hostile, Base",
+        "hostile (run), Base",
         "good (again), Base",
     ]
 
