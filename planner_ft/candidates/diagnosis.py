@@ -22,7 +22,7 @@ from planner_ft.candidates.loading import (
     resolve_device,
 )
 from planner_ft.candidates.location import MODELS_VARIABLE, check_folder, hub_cache
-from planner_ft.candidates.memory import GIB, memory_summary
+from planner_ft.candidates.memory import GIB, device_memory, memory_summary
 from planner_ft.candidates.packing import set_packing
 from planner_ft.candidates.registry import Candidate, all_candidates
 from planner_ft.support.errors import PlannerError
@@ -37,19 +37,20 @@ if TYPE_CHECKING:
 FIELDS = ("name", "repo", "parameters", "chat", "licence", "gated", "vocabulary")
 LITTLE_DISK_GIB = 5
 VARIABLES = (
-    "HF_HUB_OFFLINE TRANSFORMERS_OFFLINE HF_HOME HF_HUB_CACHE CUDA_VISIBLE_DEVICES"
-    f" {MODELS_VARIABLE} PYTORCH_CUDA_ALLOC_CONF OMP_NUM_THREADS TOKENIZERS_PARALLELISM"
-).split()
+    *("HF_HUB_OFFLINE", "TRANSFORMERS_OFFLINE", "HF_HOME", "HF_HUB_CACHE", MODELS_VARIABLE),
+    *("CUDA_VISIBLE_DEVICES", "PYTORCH_CUDA_ALLOC_CONF", "OMP_NUM_THREADS"),
+    "TOKENIZERS_PARALLELISM",
+)
 """Environment variables that change what the program does. None of them holds a secret."""
-
 SIZE = 256
 WEIGHT_ERROR = 0.15
 """NF4 of normal weights is off by 0.09 (relative norm, measured); more means a broken kernel."""
 GRADIENT_ERROR = 0.02
 """Against the same layer dequantised; bfloat16 arithmetic accounts for 0.004."""
+Found = dict[str, Any]
 
 
-def describe(candidate: Candidate) -> dict[str, Any]:
+def describe(candidate: Candidate) -> Found:
     """One row of `plannerft candidates` as JSON values.
 
     `memory` is in GiB, None where the dimensions are unknown. `here` is true when the files are
@@ -79,24 +80,8 @@ def describe(candidate: Candidate) -> dict[str, Any]:
 class Diagnosis:
     """Findings by section (JSON values), and warnings, one sentence each."""
 
-    sections: dict[str, dict[str, Any]]
+    sections: dict[str, Found]
     warnings: list[str]
-
-
-@dataclass(frozen=True)
-class FourBitProbe:
-    """A 4-bit layer tried on a device. Errors are relative norms; `problem` is None if all is well.
-
-    `packs`: layers pack for decoding (AVX512-BF16 CPUs).
-    """
-
-    device: str
-    dtype: str
-    weight_error: float | None = None
-    gradient_error: float | None = None
-    packs: bool = False
-    seconds: float = 0.0
-    problem: str | None = None
 
 
 def diagnose() -> Diagnosis:
@@ -128,7 +113,7 @@ def _private(value: Any) -> Any:
     return value
 
 
-def _installation() -> dict[str, Any]:
+def _installation() -> Found:
     commit = source_commit()
     changed = ", with uncommitted changes" if commit["dirty"] else ""
     return {
@@ -139,7 +124,7 @@ def _installation() -> dict[str, Any]:
     }
 
 
-def _libraries(warnings: list[str]) -> dict[str, Any]:
+def _libraries(warnings: list[str]) -> Found:
     versions = library_versions()
     missing = [name for name, version in versions.items() if version is None]
     if missing:
@@ -152,7 +137,7 @@ def _libraries(warnings: list[str]) -> dict[str, Any]:
     return dict(versions)
 
 
-def _machine() -> dict[str, Any]:
+def _machine() -> Found:
     import psutil
 
     found, memory = hardware(), psutil.virtual_memory()
@@ -170,11 +155,11 @@ def _machine() -> dict[str, Any]:
     }
 
 
-def _devices(warnings: list[str]) -> dict[str, Any]:
+def _devices(warnings: list[str]) -> Found:
     import torch
 
     chosen = resolve_device("auto")
-    found: dict[str, Any] = {
+    found: Found = {
         "torch": torch.__version__,
         "cuda build": torch.version.cuda,
         "threads": torch.get_num_threads(),
@@ -183,7 +168,7 @@ def _devices(warnings: list[str]) -> dict[str, Any]:
     }
     for index in range(torch.cuda.device_count()):
         device = torch.cuda.get_device_properties(index)
-        free, total = (size / GIB for size in torch.cuda.mem_get_info(index))
+        free, total = (size / GIB for size in device_memory(torch.device("cuda", index)))
         capability = f"{device.name}, capability {device.major}.{device.minor}"
         found[f"cuda:{index}"] = f"{capability}, {free:.1f} of {total:.1f} GiB free"
     driver = shutil.which("nvidia-smi") or Path("/proc/driver/nvidia").exists()
@@ -195,38 +180,47 @@ def _devices(warnings: list[str]) -> dict[str, Any]:
     return found
 
 
-def _four_bit(warnings: list[str]) -> dict[str, Any]:
+def _four_bit(warnings: list[str]) -> Found:
     import torch
 
-    found: dict[str, Any] = {}
-    for device in ["cpu", *(f"cuda:{index}" for index in range(torch.cuda.device_count()))]:
-        probe = probe_four_bit(device)
-        rounded = ((k, round(v, 4) if isinstance(v, float) else v) for k, v in vars(probe).items())
-        found[device] = dict(rounded)
-        if probe.problem:
-            warnings.append(
-                f"4-bit layers do not work on {device} ({probe.problem}); use --quantization none"
-                " there, or another version of bitsandbytes"
-            )
+    devices = ["cpu", *(f"cuda:{index}" for index in range(torch.cuda.device_count()))]
+    found = {device: probe_four_bit(device) for device in devices}
+    warnings += [
+        f"4-bit layers do not work on {device} ({probe['problem']}); use --quantization none there,"
+        " or another version of bitsandbytes"
+        for device, probe in found.items()
+        if probe["problem"]
+    ]
     return found
 
 
-def probe_four_bit(device: str = "auto") -> FourBitProbe:
-    """Quantise a layer to NF4, multiply with it and take a gradient through it."""
+def probe_four_bit(device: str = "auto") -> Found:
+    """Quantise a layer to NF4, multiply with it and take a gradient through it.
+
+    Errors are relative norms; `packs`: layers pack for decoding (AVX512-BF16 CPUs); `problem` is
+    None if all is well.
+    """
     target = resolve_device(device)
     dtype = compute_dtype(target)
-    names = (str(target), str(dtype).removeprefix("torch."))
-    begun = time.perf_counter()
+    begun, problem = time.perf_counter(), None
+    weight, gradient, packs = None, None, False
     try:
         quiet_libraries()
         weight, gradient, packs = _try_layer(target, dtype)
+        if not (weight < WEIGHT_ERROR and gradient < GRADIENT_ERROR):
+            errors = f"error {weight:.3f} of the product, {gradient:.3f} of the gradient"
+            problem = f"wrong results: {errors}"
     except Exception as error:  # anything that goes wrong in a native library is the finding
         problem = f"{type(error).__name__}: {error}".splitlines()[0][:300]
-        return FourBitProbe(*names, problem=problem)
-    right = weight < WEIGHT_ERROR and gradient < GRADIENT_ERROR
-    wrong = f"wrong results: error {weight:.3f} of the product, {gradient:.3f} of the gradient"
-    seconds = time.perf_counter() - begun
-    return FourBitProbe(*names, weight, gradient, packs, seconds, None if right else wrong)
+    return {
+        "device": str(target),
+        "dtype": str(dtype).removeprefix("torch."),
+        "weight_error": weight,
+        "gradient_error": gradient,
+        "packs": packs,
+        "seconds": round(time.perf_counter() - begun, 4),
+        "problem": problem,
+    }
 
 
 def _try_layer(device: torch.device, dtype: torch.dtype) -> tuple[float, float, bool]:
@@ -237,7 +231,7 @@ def _try_layer(device: torch.device, dtype: torch.dtype) -> tuple[float, float, 
 
     def relative(value: torch.Tensor, reference: torch.Tensor) -> float:
         norm = torch.linalg.vector_norm
-        return float(norm(value - reference) / norm(reference))
+        return round(float(norm(value - reference) / norm(reference)), 4)
 
     generator = torch.Generator().manual_seed(0)
     weight = torch.randn(SIZE, SIZE, generator=generator) / SIZE**0.5
@@ -255,7 +249,7 @@ def _try_layer(device: torch.device, dtype: torch.dtype) -> tuple[float, float, 
     return relative(product.detach().float(), exact), relative(gradient.float(), expected), packs
 
 
-def _disk(warnings: list[str]) -> dict[str, Any]:
+def _disk(warnings: list[str]) -> Found:
     temporary = Path(tempfile.gettempdir())
     places = {"working folder": Path.cwd(), "hub cache": hub_cache(), "temporary": temporary}
     found = {}
@@ -268,7 +262,7 @@ def _disk(warnings: list[str]) -> dict[str, Any]:
     return found
 
 
-def _vocabulary(warnings: list[str]) -> dict[str, Any]:
+def _vocabulary(warnings: list[str]) -> Found:
     vocabulary = load_vocabulary()
     schemas = Path(planner_ft.__file__).resolve().parent.parent / "schemas"
     state = "not in this installation"
@@ -287,7 +281,7 @@ def _vocabulary(warnings: list[str]) -> dict[str, Any]:
     }
 
 
-def _candidates(warnings: list[str]) -> dict[str, Any]:
+def _candidates(warnings: list[str]) -> Found:
     found = {}
     for row in map(describe, all_candidates()):
         found[row["row"]] = f"{row['source']}: {row['folder']}" if row["folder"] else "not here"

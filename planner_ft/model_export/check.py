@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.data.curated import find_source
-from planner_ft.prompts import render_prompt
+from planner_ft.prompts.render import ends_of_answers, render_prompt
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import Vocabulary
@@ -73,30 +73,28 @@ class Answers:
     def __init__(
         self,
         level: Level,
+        vocabulary: Vocabulary,
         records: Records,
         tokenizer: Any,
-        vocabulary: Vocabulary,
-        *,
         with_vocabulary: bool,
     ) -> None:
         from planner_ft.decoding.generate import Query
 
-        self.level, self.tokenizer, self.queries = level, tokenizer, list[Query]()
+        self.level, self.tokenizer = level, tokenizer
         known: dict[str, Any] = {"vocabulary": vocabulary, "with_vocabulary": with_vocabulary}
-        for record in records:
-            ids = render_prompt(level, record, tokenizer, **known)
-            self.queries.append(Query(level, record, tuple(ids)))
+        self.queries = [
+            Query(level, record, tuple(render_prompt(level, record, tokenizer, **known)))
+            for record in records
+        ]
 
     def of(self, model: Any) -> list[tuple[int, ...]]:
         """The ids of the model's answers."""
         from planner_ft.decoding.configurations import MAX_NEW_TOKENS, Limits
-        from planner_ft.decoding.engine import end_ids
         from planner_ft.decoding.generate import generate
         from planner_ft.decoding.passes import ModelDecoder
 
-        ends = end_ids(self.tokenizer, model.generation_config.eos_token_id)
-        pad = int(self.tokenizer.pad_token_id)
-        limits = Limits(ends, pad, MAX_NEW_TOKENS[self.level])
+        ends = ends_of_answers(self.tokenizer, model.generation_config.eos_token_id)
+        limits = Limits(tuple(ends), int(self.tokenizer.pad_token_id), MAX_NEW_TOKENS[self.level])
         answers = generate(ModelDecoder(model, limits.pad_id), self.queries, limits, batch_size=1)
         return [answer.ids for answer in answers]
 
@@ -110,21 +108,20 @@ class Answers:
                 for query, ids in zip(self.queries, answers, strict=True)
             ]
 
-
-def agreement(
-    answers: Answers, expected: Sequence[tuple[int, ...]], logits: Sequence[Any], model: Any
-) -> Agreement:
-    """Compare a model with another's answers and logits. Raises PlannerError when one differs."""
-    found = answers.of(model)
-    pairs = zip(logits, answers.logits(model, expected), strict=True)
-    largest = max(float((one - other).abs().max()) for one, other in pairs)
-    same = sum(one == other for one, other in zip(expected, found, strict=True))
-    count = len(expected)
-    if same < count:
-        what = (
-            f"{count - same} of {count} answers differ between the adapter and the merged weights"
-        )
-        way = "give other commands with --check-data, or serve base and adapter as they are"
-        logits_by = f"(logits by up to {largest:.3g}), so nothing was written"
-        raise PlannerError(f"{what} {logits_by}; {way}")
-    return Agreement(count, same, largest)
+    def agreement(
+        self, expected: Sequence[tuple[int, ...]], logits: Sequence[Any], model: Any
+    ) -> Agreement:
+        """Compare a model with another's answers and logits. Raises PlannerError when one
+        differs.
+        """
+        pairs = zip(logits, self.logits(model, expected), strict=True)
+        largest = max(float((one - other).abs().max()) for one, other in pairs)
+        same = sum(one == two for one, two in zip(expected, self.of(model), strict=True))
+        count = len(expected)
+        if same < count:
+            raise PlannerError(
+                f"{count - same} of {count} answers differ between the adapter and the merged"
+                f" weights (logits by up to {largest:.3g}), so nothing was written; give other"
+                " commands with --check-data, or serve base and adapter as they are"
+            )
+        return Agreement(count, same, largest)

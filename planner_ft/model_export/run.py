@@ -42,36 +42,18 @@ class Exported:
     check: checks.Agreement
 
 
-@dataclass(frozen=True)
-class _Work:
-    """Everything that an export depends on, checked."""
-
-    settings: ExportSettings
-    say: Say
-    candidate: Candidate
-    level: Level
-    adapter: Path | None
-    vocabulary: Vocabulary
-    records: list[Record]
-
-    @property
-    def with_vocabulary(self) -> bool:
-        return self.adapter is None and not self.candidate.knows(self.vocabulary)
-
-
 def export(settings: ExportSettings, say: Say = lambda _line: None) -> Exported:
     """Write a candidate, with its adapter folded in, as a model folder and a GGUF file; nothing is
     written when its answers change. Raises PlannerError.
     """
-    work = _prepared(settings, say)
+    work = _Work(settings, say)
     out = settings.out.resolve()
     temporary = out.with_name(f".{out.name}.{secrets.token_hex(4)}.tmp")
-    started = time.time()
     try:
         temporary.mkdir(parents=True)
-        check = _write_model(work, temporary)
-        gguf = _write_gguf(work, temporary) if settings.gguf else None
-        _write_record(work, temporary, check, gguf, round(time.time() - started, 1))
+        check = work.write_model(temporary)
+        gguf = work.write_gguf(temporary) if settings.gguf else None
+        work.write_record(temporary, check, gguf)
         if out.exists():  # an earlier export is removed only now
             shutil.rmtree(out)
         temporary.replace(out)
@@ -84,23 +66,94 @@ def export(settings: ExportSettings, say: Say = lambda _line: None) -> Exported:
     return Exported(settings.out, settings.out / gguf["file"] if gguf else None, check)
 
 
-def _prepared(settings: ExportSettings, say: Say) -> _Work:
-    """Everything that can be checked before a model is loaded."""
-    level, named = settings.named_adapter
-    vocabulary = load_vocabulary(settings.vocabulary)
-    candidate = resolve_candidate(settings.candidate)
-    folder = require_folder(candidate)
-    adapter = None
-    if settings.merge:
-        found = named or adapters.find_adapter(candidate, level, vocabulary)
-        adapter = found or adapters.adapter_folder(candidate, level)
-        adapters.check_adapter(adapter, candidate, level=level, vocabulary=vocabulary)
-    if settings.gguf:
-        import_gguf()
-        check_architecture(folder)
-    _check_out(settings)
-    records = checks.check_records(level, vocabulary, settings.checks, settings.data)
-    return _Work(settings, say, candidate, level, adapter, vocabulary, records)
+class _Work:
+    """An export; all that can be checked before a model is loaded is checked when it is made."""
+
+    def __init__(self, settings: ExportSettings, say: Say) -> None:
+        self.settings, self.say, self.begun = settings, say, time.time()
+        self.level, named = settings.named_adapter
+        self.vocabulary = load_vocabulary(settings.vocabulary)
+        self.candidate = resolve_candidate(settings.candidate)
+        folder = require_folder(self.candidate)
+        self.adapter = None
+        if settings.merge:
+            self.adapter = named or _own_adapter(self.candidate, self.level, self.vocabulary)
+            known: Record = {"level": self.level, "vocabulary": self.vocabulary}
+            adapters.check_adapter(self.adapter, self.candidate, **known)
+        if settings.gguf:
+            import_gguf()
+            check_architecture(folder)
+        _check_out(settings)
+        self.with_vocabulary = not (self.adapter or self.candidate.knows(self.vocabulary))
+        counted = settings.checks, settings.data
+        self.records = checks.check_records(self.level, self.vocabulary, *counted)
+
+    def write_model(self, folder: Path) -> checks.Agreement:
+        """The transformers folder, read back and compared."""
+        candidate, adapter, count = self.candidate, self.adapter, len(self.records)
+        known, apart = (self.level, self.vocabulary), self.with_vocabulary
+        answers = checks.Answers(*known, self.records, load_tokenizer(candidate), apart)
+        self.say(f"loading {candidate.name}{f' with {adapter}' if adapter else ''} in float32")
+        model = load_full(candidate, adapter, *known)
+        self.say(f"answering {count} commands before")
+        before = answers.of(model)
+        logits = answers.logits(model, before)
+        save_full(merged(model), candidate, None if apart else self.vocabulary, folder)
+        del model
+        self.say(f"answering {count} commands after")
+        return answers.agreement(before, logits, load_full(resolve_candidate(folder), None, *known))
+
+    def write_gguf(self, folder: Path) -> Record:
+        """The GGUF file; returns its entry in the manifest."""
+        exported, outtype = resolve_candidate(folder), self.settings.outtype
+        path = folder / f"{self.settings.out.resolve().name}-{outtype}.gguf"
+        assert exported.dimensions is not None  # check_architecture has read them
+        table = token_table(folder / "tokenizer.json", exported.dimensions.vocabulary)
+        texts: dict[str, None] = {}
+        for record in checks.token_records(self.level, self.vocabulary, self.records):
+            known = self.level, record, self.vocabulary
+            shown = prompt_messages(*known, with_vocabulary=self.with_vocabulary)
+            texts |= dict.fromkeys(message["content"] for message in shown)
+        count = check_ids(folder / "tokenizer.json", table, texts)
+        self.say(f"writing {path.name} (split {table.split}: same ids for {count} texts)")
+        if table.long_words:
+            found = f"{table.long_words} tokens are longer than 32 bytes"
+            dropped = "llama-cpp-python drops them from answers, llama.cpp's own llama-server"
+            self.say(f"{found}: {dropped} does not")
+        write_gguf(folder, path, table, load_tokenizer(exported), self.candidate.name, outtype)
+        entry: Record = {"file": path.name, "sha256": sha256_file(path), "outtype": outtype}
+        entry |= {"split": table.split, "user_defined": sorted(table.added.values())}
+        return {**entry, "texts_with_same_ids": count, "tokens_over_32_bytes": table.long_words}
+
+    def write_record(self, folder: Path, check: checks.Agreement, gguf: Record | None) -> None:
+        """Manifest and model card."""
+        settings, adapter = self.settings, None
+        if self.adapter:
+            file = self.adapter / MANIFEST
+            trained = read_json(file).get("configuration", {}) if file.is_file() else {}
+            digest = sha256_tree(self.adapter, (adapters.WEIGHTS, adapters.CONFIG))
+            adapter = {"sha256": digest, "trained_on": trained.get("quantization")}
+        keys = ("checks", "merge", "gguf", "outtype")
+        manifest = build_manifest(
+            KIND,
+            seed=checks.SEED,
+            configuration={key: getattr(settings, key) for key in keys},
+            inputs={"data": settings.data} if settings.data else {},
+            **adapters.adapter_record(self.candidate, self.level, self.vocabulary),
+            licence=self.candidate.licence,
+            adapter=adapter,
+            weights_sha256=weights_sha256(folder),
+            check=check.to_json(),
+            gguf=gguf,
+            seconds=round(time.time() - self.begun, 1),
+        )
+        write_json(folder / MANIFEST, manifest)
+        write_text(folder / "README.md", model_card(manifest))
+
+
+def _own_adapter(candidate: Candidate, level: Level, vocabulary: Vocabulary) -> Path:
+    found = adapters.find_adapter(candidate, level, vocabulary)
+    return found or adapters.adapter_folder(candidate, level)
 
 
 def _check_out(settings: ExportSettings) -> None:
@@ -113,74 +166,6 @@ def _check_out(settings: ExportSettings) -> None:
     if not settings.overwrite:
         way = "give --overwrite to replace it, or another folder"
         raise PlannerError(f"--out {out}: holds an exported model; {way}")
-
-
-def _write_model(work: _Work, folder: Path) -> checks.Agreement:
-    """The transformers folder, read back and compared."""
-    candidate, adapter, records = work.candidate, work.adapter, work.records
-    known, apart = (work.level, work.vocabulary), work.with_vocabulary
-    tokenizer = load_tokenizer(candidate)
-    answers = checks.Answers(work.level, records, tokenizer, work.vocabulary, with_vocabulary=apart)
-    work.say(f"loading {candidate.name}{f' with {adapter}' if adapter else ''} in float32")
-    model = load_full(candidate, adapter, *known)
-    work.say(f"answering {len(records)} commands before")
-    before = answers.of(model)
-    logits = answers.logits(model, before)
-    save_full(merged(model), candidate, None if apart else work.vocabulary, folder)
-    del model
-    work.say(f"answering {len(records)} commands after")
-    written = load_full(resolve_candidate(folder), None, *known)
-    return checks.agreement(answers, before, logits, written)
-
-
-def _write_gguf(work: _Work, folder: Path) -> Record:
-    """The GGUF file; returns its entry in the manifest."""
-    exported, outtype = resolve_candidate(folder), work.settings.outtype
-    path = folder / f"{work.settings.out.resolve().name}-{outtype}.gguf"
-    assert exported.dimensions is not None  # check_architecture has read them
-    table = token_table(folder / "tokenizer.json", exported.dimensions.vocabulary)
-    level, vocabulary, texts = work.level, work.vocabulary, dict[str, None]()
-    for record in checks.token_records(level, vocabulary, work.records):
-        shown = prompt_messages(level, record, vocabulary, with_vocabulary=work.with_vocabulary)
-        texts |= dict.fromkeys(message["content"] for message in shown)
-    count = check_ids(folder / "tokenizer.json", table, texts)
-    work.say(f"writing {path.name} (split {table.split}: same ids for {count} texts)")
-    if table.long_words:
-        found = f"{table.long_words} tokens are longer than 32 bytes"
-        dropped = "llama-cpp-python drops them from answers, llama.cpp's own llama-server does not"
-        work.say(f"{found}: {dropped}")
-    write_gguf(folder, path, table, load_tokenizer(exported), work.candidate.name, outtype)
-    entry: Record = {"file": path.name, "sha256": sha256_file(path), "outtype": outtype}
-    entry |= {"split": table.split, "user_defined": sorted(table.added.values())}
-    return {**entry, "texts_with_same_ids": count, "tokens_over_32_bytes": table.long_words}
-
-
-def _write_record(
-    work: _Work, folder: Path, check: checks.Agreement, gguf: Record | None, seconds: float
-) -> None:
-    """Manifest and model card."""
-    settings, adapter = work.settings, None
-    if work.adapter:
-        file = work.adapter / MANIFEST
-        trained = read_json(file).get("configuration", {}) if file.is_file() else {}
-        digest = sha256_tree(work.adapter, (adapters.WEIGHTS, adapters.CONFIG))
-        adapter = {"sha256": digest, "trained_on": trained.get("quantization")}
-    keys = ("checks", "merge", "gguf", "outtype")
-    manifest = build_manifest(
-        KIND,
-        seed=checks.SEED,
-        configuration={key: getattr(settings, key) for key in keys},
-        inputs={"data": settings.data} if settings.data else {},
-        **adapters.adapter_record(work.candidate, work.level, work.vocabulary),
-        licence=work.candidate.licence,
-        adapter=adapter,
-        weights_sha256=weights_sha256(folder),
-        check=check.to_json(),
-        gguf=gguf,
-        seconds=seconds,
-    )
-    write_json(folder / MANIFEST, manifest)
-    write_text(folder / "README.md", model_card(manifest))
 
 
 def model_card(manifest: Record) -> str:
