@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -26,8 +26,6 @@ RUN = (
 """Options that say what is run; a suite or gate file says it itself."""
 SERVER = ("endpoint", "model", "api_key_env", "concurrency", "timeout", "retries")
 OUTPUT = "give --overwrite or another --out"
-SHARED = "With --suite: processes that share each run, started by accelerate."
-PROCESSES = typer.Option(help=SHARED, min=1)
 
 
 @command
@@ -59,7 +57,7 @@ def bench(
     timeout: float | None = None,
     retries: int | None = None,
     suite: Path | None = None,
-    processes: Annotated[int, PROCESSES] = 1,
+    processes: int = 1,
     gate: Path | None = None,
     field: bool = False,
     cases: list[Path] | None = None,
@@ -107,19 +105,20 @@ def score(
     from planner_ft.vocabulary import load_vocabulary
     from planner_ft.vocabulary.plans import check_level
 
-    if out is not None:
-        folder.check_folder(out, () if overwrite else folder.SCORED, OUTPUT)
-    if run is not None and predictions is None and level is None:
-        results = score_run(run, data, seed=seed)
-    elif level is not None and predictions is not None and run is None:
-        checked, definition = check_level(level), load_vocabulary(vocabulary)
-        samples = load_bench_data(data or default_data(checked), checked, definition, limit)
-        results = score_predictions(predictions, samples, definition, seed=seed, name=name)
-    else:
-        needed = "either --level and --predictions, or --run alone"
-        raise PlannerError(f"score needs {needed}; try: plannerft score --run eval/runs/mission")
-    if out is not None:
-        folder.write_results(out, results)
+    with alone(out, "--out", "a benchmark"):
+        if out is not None:
+            folder.check_folder(out, () if overwrite else folder.SCORED, OUTPUT)
+        if run is not None and predictions is None and level is None:
+            results = score_run(run, data, seed=seed)
+        elif level is not None and predictions is not None and run is None:
+            checked, definition = check_level(level), load_vocabulary(vocabulary)
+            samples = load_bench_data(data or default_data(checked), checked, definition, limit)
+            results = score_predictions(predictions, samples, definition, seed=seed, name=name)
+        else:
+            ways = "score needs either --level and --predictions, or --run alone"
+            raise PlannerError(f"{ways}; try: plannerft score --run eval/runs/mission")
+        if out is not None:
+            folder.write_results(out, results)
     _show(results, out)
 
 

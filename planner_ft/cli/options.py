@@ -13,6 +13,8 @@ import typer
 
 Command = TypeVar("Command", bound=Callable[..., None])
 ABOUT, ARGUMENTS = "about", "arguments"
+LEAST = {"seed": 0, "processes": 1}
+"""The smallest values of numbers, checked before a command begins."""
 
 
 class Help(NamedTuple):
@@ -72,7 +74,13 @@ def _described(item: inspect.Parameter, help: Help) -> Any:
     names = (f"--{item.name.replace('_', '-')}",) if item.annotation is bool else ()
     return Annotated[
         item.annotation,
-        typer.Option(*names, help=help.text, show_default=help.default, rich_help_panel=help.panel),
+        typer.Option(
+            *names,
+            help=help.text,
+            show_default=help.default,
+            rich_help_panel=help.panel,
+            min=LEAST.get(item.name),
+        ),
     ]
 
 

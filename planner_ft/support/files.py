@@ -55,11 +55,14 @@ def nearest_folder(path: Path) -> Path:
 
 
 @contextlib.contextmanager
-def alone(folder: Path, flag: str, work: str) -> Iterator[None]:
-    """Refuse a second `work` ("a training") in `folder` beside the block.
+def alone(folder: Path | None, flag: str, work: str) -> Iterator[None]:
+    """Refuse a second `work` ("a training") in `folder`, if any, beside the block.
 
     The lock lies beside the folder, and a dead process holds none. Raises PlannerError.
     """
+    if folder is None:
+        yield
+        return
     from filelock import FileLock, Timeout  # 40 ms
 
     folder, existing = folder.absolute(), nearest_folder(folder)
@@ -80,10 +83,11 @@ def alone(folder: Path, flag: str, work: str) -> Iterator[None]:
                 Path(lock.lock_file).unlink()
         lock.release()
         with contextlib.suppress(OSError):  # work that was refused leaves no empty folders
-            for empty in folder.parents:
+            for empty in (folder, *folder.parents):
                 if empty == existing:
                     break
-                empty.rmdir()
+                if empty.exists():
+                    empty.rmdir()
 
 
 def write_text(path: Path | str, text: str) -> None:

@@ -31,6 +31,7 @@ def test_a_second_one_is_refused_and_leaves_nothing(tmp_path: Path) -> None:
 def test_files_of_the_run_stay(tmp_path: Path) -> None:
     with alone(tmp_path / "a" / "b", "--out", "x"):
         (tmp_path / "a" / "b").mkdir()
+        (tmp_path / "a" / "b" / "result").write_text("1")
     assert [path.name for path in (tmp_path / "a").iterdir()] == ["b"]
 
 

@@ -1,0 +1,121 @@
+"""A hundred bad inputs: exit status 2, one sentence without a traceback, and nothing half-written."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from planner_ft.cli import main
+
+COMMANDS = """
+bench --level mission --candidates embedded --seed -1 --out OUT
+bench --level mission --candidates embedded --limit 0 --out OUT
+bench --level mission --candidates embedded --limit -3 --out OUT
+bench --level mission --candidates embedded --batch-size 0 --out OUT
+bench --level mission --candidates embedded --batch-size x --out OUT
+bench --level mission --candidates embedded --max-new-tokens 0 --out OUT
+bench --level mission --candidates embedded --latency-samples -1 --out OUT
+bench --level mission --candidates embedded --planning-samples -1 --out OUT
+bench --level mission --candidates embedded --repeats 0 --out OUT
+bench --level mission --candidates embedded --temperature -1 --out OUT
+bench --level mission --candidates embedded --temperature nan --out OUT
+bench --level mission --candidates embedded --top-p 2 --out OUT
+bench --level mission --candidates embedded --device tpu --out OUT
+bench --level mission --candidates embedded --quantization int8 --out OUT
+bench --level mission --candidates embedded --configurations foo --out OUT
+bench --level mission --candidates nobody --out OUT
+bench --level mission --candidates embedded --data /nowhere.jsonl --out OUT
+bench --level mission --candidates embedded --adapter /nowhere --configurations lora --out OUT
+bench --level boat --candidates embedded --out OUT
+bench --level mission --candidates , --out OUT
+bench --level mission --candidates embedded --vocabulary nobody --out OUT
+bench --level mission --endpoint nonsense --model x --out OUT
+bench --level mission --endpoint http://127.0.0.1:1 --model x --timeout -1 --out OUT
+bench --level mission --endpoint http://127.0.0.1:1 --model x --retries -1 --out OUT
+bench --level mission --endpoint http://127.0.0.1:1 --model x --concurrency 0 --out OUT
+bench --suite /nowhere.toml --out OUT
+bench --gate /nowhere.toml --out OUT
+bench --suite eval/suites/ci.toml --processes 0 --out OUT
+bench --suite eval/suites/ci.toml --seed -1 --out OUT
+score --level mission --predictions /nowhere --out OUT
+score --run /nowhere --out OUT
+score --run /nowhere --seed -1 --out OUT
+score --out OUT
+compare /nowhere
+compare /nowhere --seed -1
+compare /nowhere --metric foo
+report /nowhere
+report /nowhere --pictures foo --out OUT
+gen-data --seed -1 --out OUT
+gen-data --train -1 --level task --out OUT
+gen-data --train 0 --level task --out OUT
+gen-data --synthetic -1 --out OUT
+gen-data --level boat --out OUT
+gen-data --vocabulary nobody --out OUT
+gen-data --source /nowhere --level mission --out OUT
+validate /nowhere
+validate README.md --level boat
+vocabulary --name nobody
+train --level mission --candidate embedded --rank 0 --output OUT
+train --level mission --candidate embedded --seed -1 --output OUT
+train --level mission --candidate embedded --max-samples 0 --output OUT
+train --level mission --candidate embedded --augment -1 --output OUT
+train --level mission --candidate embedded --threads 0 --output OUT
+train --level mission --candidate embedded --checkpoint-steps 0 --output OUT
+train --level mission --candidate embedded --log-every 0 --output OUT
+train --level mission --candidate embedded --warmup 2 --output OUT
+train --level mission --candidate embedded --learning-rate nan --output OUT
+train --level mission --candidate embedded --train-file /nowhere --output OUT
+train --level mission --candidate embedded --corrections /nowhere --output OUT
+train --level mission --candidate embedded --preview-id nobody --output OUT
+train --recipe nobody
+train --level mission --candidate embedded --report-to fax --output OUT
+plan x --candidate nobody
+plan x --vocabulary nobody
+plan x --device tpu
+plan x --quantization int8
+plan x --configuration foo
+plan x --vehicle /nowhere
+plan x --locate foo
+plan x --mission-adapter /nowhere
+review /nowhere
+review
+review /nowhere --web --port -1
+review --web --port 99999
+review --web --host nowhere.invalid
+review --harvest --out OUT
+review /nowhere --approve
+verify /nowhere
+verify
+verify --log /nowhere
+export /nowhere --format qgc
+export
+export --candidate embedded
+export --candidate embedded --out OUT --checks 0
+export --candidate embedded --out OUT --outtype f8
+export --candidate embedded --out OUT --level boat
+export --candidate nobody --out OUT
+export --candidate embedded --out OUT --merge --adapter /nowhere
+export --candidate embedded --out OUT --check-data /nowhere
+candidates nobody
+"""
+
+
+@pytest.mark.parametrize("command", COMMANDS.strip().splitlines())
+def test_it_is_refused_with_a_sentence(
+    command: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """OUT stands for a folder that does not exist."""
+    words = command.replace("OUT", str(tmp_path / "out")).split()
+    monkeypatch.setattr(sys, "argv", ["plannerft", *words])
+    with pytest.raises(SystemExit) as stop:
+        main()
+    said = capsys.readouterr().err
+    assert stop.value.code == 2, said
+    assert "Traceback" not in said and said.strip()
+    assert list(tmp_path.iterdir()) == []
