@@ -102,6 +102,7 @@ def run_bench(
         folder.clear(out)
         remove_parts(out)
     with (
+        _nothing_left(out),
         RecordLog(out / folder.PREDICTIONS) as predictions,
         RecordLog(out / folder.LATENCY) as latencies,
     ):
@@ -122,6 +123,20 @@ def run_bench(
         results = _results(plan, predictions, latencies, took)
         folder.write_results(out, results)
     return results
+
+
+@contextlib.contextmanager
+def _nothing_left(out: Path) -> Iterator[None]:
+    """Remove the files of a run that failed before its first answer, such as in loading: the next
+    one would take them for results.
+    """
+    try:
+        yield
+    except Exception:
+        answers = out / folder.PREDICTIONS
+        if not (answers.exists() and answers.stat().st_size):
+            folder.clear(out)
+        raise
 
 
 def help_bench(settings: BenchSettings, ranks: Ranks) -> None:

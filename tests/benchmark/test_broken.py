@@ -9,6 +9,7 @@ import multiprocessing
 import os
 import random
 import resource
+import shutil
 import signal
 import time
 from collections import Counter
@@ -130,6 +131,21 @@ def test_a_run_that_is_killed_at_random_points_loses_nothing_and_pays_nothing_tw
     run_bench(settings(resume=True))
     assert records(tmp_path / "out") == records(tmp_path / "whole")
     assert figures(tmp_path / "out") == figures(tmp_path / "whole")
+
+
+def test_a_model_that_cannot_be_loaded_leaves_nothing_for_the_next_run(
+    settings: Any, models: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    broken = tmp_path / "models" / NAME
+    shutil.copytree(models / NAME, broken)
+    config = json.loads((broken / "config.json").read_text())
+    (broken / "config.json").write_text(json.dumps(config | {"hidden_size": 128}))
+    with monkeypatch.context() as patch:
+        patch.setenv("PLANNERFT_MODELS", str(tmp_path / "models"))
+        with pytest.raises(PlannerError, match="the model cannot be loaded"):
+            run_bench(settings())
+    assert list((tmp_path / "out").iterdir()) == []
+    run_bench(settings())
 
 
 def test_a_disk_that_is_full_in_the_middle_of_an_answer(settings: Any, tmp_path: Path) -> None:

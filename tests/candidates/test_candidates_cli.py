@@ -11,7 +11,7 @@ import typer
 from typer.testing import CliRunner
 
 from planner_ft.candidates import diagnosis
-from planner_ft.candidates.diagnosis import FourBitProbe, probe_four_bit
+from planner_ft.candidates.diagnosis import probe_four_bit
 from planner_ft.cli.candidates import candidates, doctor
 
 
@@ -92,7 +92,7 @@ def test_doctor_lists_what_is_wrong_and_hides_the_home_folder(
     monkeypatch.setenv("HF_HOME", str(Path.home() / "models"))
     monkeypatch.setattr(
         "planner_ft.candidates.diagnosis.probe_four_bit",
-        lambda device: FourBitProbe(device, "float32", problem="no kernel"),
+        lambda device: {"device": device, "problem": "no kernel"},
     )
     monkeypatch.setattr(diagnosis, "LITTLE_DISK_GIB", 1e9)
     report = run("doctor")
@@ -104,17 +104,17 @@ def test_doctor_lists_what_is_wrong_and_hides_the_home_folder(
 def test_a_broken_kernel_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
     import bitsandbytes
 
-    assert probe_four_bit("cpu").problem is None
+    assert probe_four_bit("cpu")["problem"] is None
     original = bitsandbytes.matmul_4bit
     monkeypatch.setattr(
         bitsandbytes,
         "matmul_4bit",
         lambda *arguments, **options: 1.5 * original(*arguments, **options),
     )
-    assert "wrong results" in str(probe_four_bit("cpu").problem)
+    assert "wrong results" in str(probe_four_bit("cpu")["problem"])
 
     def fail(*_: object, **__: object) -> None:
         raise RuntimeError("no kernel\nat all")
 
     monkeypatch.setattr(bitsandbytes, "matmul_4bit", fail)
-    assert probe_four_bit("cpu").problem == "RuntimeError: no kernel"
+    assert probe_four_bit("cpu")["problem"] == "RuntimeError: no kernel"
