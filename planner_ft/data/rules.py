@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.facts import WAYPOINT, missing_words, read, read_input, words
+from planner_ft.facts import WAYPOINT, Input, missing_words, read, read_input, words
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import read_positions
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
@@ -54,7 +54,7 @@ DOCKING = "approach"
 
 @dataclass(frozen=True)
 class Step:
-    """A task of the plan with what the definition says about it."""
+    """A task of the plan with what the definition says about it, and its valid parameters."""
 
     index: int
     task: Task
@@ -65,18 +65,54 @@ class Step:
         name = self.task.position_parameter
         return self.parameters.get(name) if name else None
 
+    def first(self, kind: str) -> str | None:
+        """The value of the first parameter of this type."""
+        names = (item.name for item in self.task.parameters if item.type == kind)
+        return next((str(self.parameters[name]) for name in names if name in self.parameters), None)
+
     def __str__(self) -> str:
         return f"tasks[{self.index}] {self.task.title}"
 
 
-@dataclass(frozen=True)
-class Command:
-    """What a plan answers: the words and the tags, either of which may be missing."""
+def rule_problems(
+    plan: Any, vocabulary: Vocabulary, prompt: str | None = None, tags: list[str] | None = None
+) -> list[str]:
+    """What breaks a labelling rule in a mission plan; names that are not in the vocabulary and
+    values that are none of their parameter are passed over: plan_problems reports them.
+    """
+    return list(_Rules(plan, vocabulary, prompt, tags).problems())
 
-    prompt: str | None = None
-    tags: frozenset[str] | None = None
 
-    def allows(self, tag: str, said: re.Pattern[str]) -> bool:
+class _Rules:
+    """The rules for one plan; the command's words and the record's tags may be missing."""
+
+    def __init__(
+        self, plan: Any, vocabulary: Vocabulary, prompt: str | None, tags: list[str] | None
+    ) -> None:
+        self.vocabulary, self.prompt, self.tags = vocabulary, prompt, tags
+        self.unresolved, self.home = list(vocabulary.unresolved), list(vocabulary.home)
+        tasks = plan.get("tasks") if isinstance(plan, dict) else None
+        self.steps = []
+        for index, entry in enumerate(tasks if isinstance(tasks, list) else []):
+            task = vocabulary.task.get(str(entry.get("title"))) if isinstance(entry, dict) else None
+            if task:
+                given = entry.get("parameters")
+                sound = {
+                    name: value
+                    for name, value in (given.items() if isinstance(given, dict) else ())
+                    if name in task.by_name and value_problem(value, task.by_name[name]) is None
+                }
+                self.steps.append(Step(index, task, sound))
+
+    def problems(self) -> Iterator[str]:
+        """Everything that breaks a rule."""
+        yield from self._searches()
+        yield from self._movements()
+        yield from self._returns()
+        if self.prompt is not None:
+            yield from self._values(self.prompt)
+
+    def _allows(self, tag: str, said: re.Pattern[str]) -> bool:
         """Whether an exception holds: by its tag, or by the command's words where the record has no
         tags; without both it may.
         """
@@ -84,254 +120,161 @@ class Command:
             return tag in self.tags
         return self.prompt is None or said.search(self.prompt) is not None
 
+    def _is(self, step: Step, title: str | None) -> bool:
+        return step.task.title == title
 
-def rule_problems(
-    plan: Any, vocabulary: Vocabulary, prompt: str | None = None, tags: list[str] | None = None
-) -> list[str]:
-    """What breaks a labelling rule in a mission plan; names that are not in the vocabulary are
-    passed over.
-    """
-    tasks = plan.get("tasks") if isinstance(plan, dict) else None
-    steps = [
-        Step(
-            index,
-            vocabulary.task[entry["title"]],
-            _sound_parameters(entry.get("parameters", {}), vocabulary.task[entry["title"]]),
-        )
-        for index, entry in enumerate(tasks if isinstance(tasks, list) else [])
-        if isinstance(entry, dict)
-        and isinstance(entry.get("title"), str)
-        and entry["title"] in vocabulary.task
-    ]
-    command = Command(prompt, None if tags is None else frozenset(tags))
-    problems = [
-        *_search_problems(steps, vocabulary, command),
-        *_movement_problems(steps, vocabulary, command),
-        *_return_problems(steps, vocabulary, command),
-    ]
-    if prompt is not None:
-        problems += _value_problems(steps, vocabulary, command)
-    return problems
+    # ------------------------------------------------------------ searching
 
+    def _searches(self) -> Iterator[str]:
+        locate = self.vocabulary.locate
+        searched: dict[str, Step] = {}
+        for number, step in enumerate(self.steps):
+            unresolved = step.place == self.unresolved
+            if self._is(step, locate):
+                target = step.first("text") or ""
+                if target.lower() in searched:
+                    yield (
+                        f"{step}: {target!r} was searched by {searched[target.lower()]} already;"
+                        " one search per structure"
+                    )
+                searched[target.lower()] = step
+                yield from self._needless_search(step, target, self.steps[number + 1 :])
+            elif unresolved and not searched and step.task.pattern != DOCKING:
+                yield f"{step}: the place is unresolved and no {locate} comes before it"
+            if unresolved and step.first("id") is not None:
+                place = step.task.position_parameter
+                yield f"{step}: an identifier needs no place; leave out {place}"
 
-def _sound_parameters(parameters: Any, task: Task) -> dict[str, Any]:
-    """Parameters that are valid by themselves; what is wrong with the others is reported by
-    plan_problems.
-    """
-    if not isinstance(parameters, dict):
-        return {}
-    return {
-        name: value
-        for name, value in parameters.items()
-        if name in task.by_name and value_problem(value, task.by_name[name]) is None
-    }
-
-
-# ---------------------------------------------------------------- searching
-
-
-def _search_problems(steps: list[Step], vocabulary: Vocabulary, command: Command) -> Iterator[str]:
-    unresolved = list(vocabulary.unresolved)
-    searched: dict[str, Step] = {}
-    for number, step in enumerate(steps):
-        if step.task.title == vocabulary.locate:
-            target = next(
-                (
-                    str(step.parameters[item.name])
-                    for item in step.task.parameters
-                    if item.type == "text" and item.name in step.parameters
-                ),
-                "",
+    def _needless_search(self, step: Step, target: str, following: list[Step]) -> Iterator[str]:
+        if self._allows("rule.search-on-request", SEARCH_WORDS):
+            return
+        locate = self.vocabulary.locate
+        used = itertools.takewhile(lambda later: not self._is(later, locate), following)
+        if not any(later.place == self.unresolved for later in used):
+            yield (
+                f"{step}: nothing unresolved follows and the command asks for no search (tag"
+                " rule.search-on-request)"
             )
-            if target.lower() in searched:
+        if self.prompt and target and _has_coordinates(self.prompt, target):
+            yield f"{step}: the command gives coordinates for {target!r}, so it is not searched"
+
+    # ------------------------------------------------------------ getting there
+
+    def _movements(self) -> Iterator[str]:
+        locate, transit = self.vocabulary.locate, self.vocabulary.transit
+        progress, left = START, False
+        for step, following in itertools.zip_longest(self.steps, self.steps[1:]):
+            task = step.task
+            here = None if progress.here is None else list(progress.here)
+            if self._is(step, transit):
+                # Two places that are not known yet look the same.
+                unsure = step.place == self.unresolved and len(progress.searched) > 1
+                yield from self._transit(step, following, None if unsure else here, left)
+            elif not progress.offers(task):
                 yield (
-                    f"{step}: {target!r} was searched by {searched[target.lower()]} already; one"
-                    " search per structure"
+                    f"{step}: {locate} does not arrive; {transit} to {self.unresolved} comes"
+                    " before this task"
                 )
-            searched[target.lower()] = step
-            yield from _needless_search(step, target, steps[number + 1 :], vocabulary, command)
-        elif step.place == unresolved and not searched and step.task.pattern != DOCKING:
-            yield f"{step}: the place is unresolved and no {vocabulary.locate} comes before it"
-        if step.place == unresolved and any(
-            item.type == "id" and item.name in step.parameters for item in step.task.parameters
-        ):
-            yield f"{step}: an identifier needs no place; leave out {step.task.position_parameter}"
+            elif task.arrival == "transit" and (
+                left and not self._allows("rule.no-transit", STAY_WORDS)
+            ):
+                yield (
+                    f"{step}: the task before does not end at its place, so {transit} comes"
+                    " before this task (or tag rule.no-transit)"
+                )
+            elif task.arrival == "transit" and step.place not in (None, here):
+                yield (f"{step}: performed at {step.place}, but no {transit} there comes before it")
+            progress = progress.after(task, step.parameters, self.vocabulary)
+            if self._is(step, locate) or step.place is not None:
+                left = task.leaves and not self._is(step, locate)
+
+    def _transit(
+        self, step: Step, following: Step | None, here: list[float] | None, left: bool
+    ) -> Iterator[str]:
+        if step.place is None:
+            return
+        if step.place == here and not left:
+            yield f"{step}: the vehicle is at {step.place} already"
+        if following is None or following.place != step.place:
+            return
+        by_itself = following.task.arrival == "self" and following.task.title != step.task.title
+        if by_itself and not self._allows("rule.explicit-go", GO_WORDS):
+            yield (
+                f"{step}: {following.task.title} goes to {step.place} by itself; needed only where"
+                " the command says to go there (tag rule.explicit-go)"
+            )
+
+    def _returns(self) -> Iterator[str]:
+        transit = self.vocabulary.transit
+        returns = [
+            number
+            for number, step in enumerate(self.steps)
+            if self._is(step, transit) and step.place == self.home
+        ]
+        docks = any(step.task.pattern == DOCKING for step in self.steps)
+        if "rule.return" in (self.tags or ()) and not returns and not docks:
+            yield f"the tag rule.return needs a {transit} to {self.home} or a docking"
+        named = self.prompt is not None and read(self.prompt).evidence(self.home, WAYPOINT).given
+        if named or not returns:
+            return
+        last, *after = self.steps[returns[-1] :]
+        if after and after[0].task.pattern == DOCKING:
+            yield f"{last}: a return that ends in {after[0].task.title} is that task alone"
+        for step in after:
+            if step.task.arrival != "none" and step.task.pattern != DOCKING:
+                yield f"{step}: comes after the return home, which is the last {transit}"
+
+    # ------------------------------------------------------------ values
+
+    def _values(self, prompt: str) -> Iterator[str]:
+        source = read_input({"prompt": prompt}, self.vocabulary)
+        misspelt = self.tags is None or "param.spelling" in self.tags
+        for step in self.steps:
+            for name, value in step.parameters.items():
+                parameter = step.task.by_name[name]
+                found = unstated(value, parameter, source, prompt, "the command", misspelt=misspelt)
+                yield from (f"{step}, {name}: {problem}" for problem in found)
+            if {"width", "length"} <= step.parameters.keys() and not NAMED_SIDES.search(prompt):
+                yield from _order_problems(step, prompt)
 
 
-def _needless_search(
-    step: Step, target: str, following: list[Step], vocabulary: Vocabulary, command: Command
+def unstated(
+    value: Any, parameter: Parameter, source: Input, said: str, where: str, *, misspelt: bool = True
 ) -> Iterator[str]:
-    used = []
-    for later in following:
-        if later.task.title == vocabulary.locate:
-            break
-        used.append(later)
-    asked = command.allows("rule.search-on-request", SEARCH_WORDS)
-    if not asked and not any(later.place == list(vocabulary.unresolved) for later in used):
-        yield (
-            f"{step}: nothing unresolved follows and the command asks for no search (tag"
-            " rule.search-on-request)"
-        )
-    if not asked and command.prompt and target and _has_coordinates(command.prompt, target):
-        yield f"{step}: the command gives coordinates for {target!r}, so it is not searched"
+    """Why a value does not come from what was said."""
+    if parameter.type in ("number", "integer"):
+        # Turning left is a negative angle, and is said without the sign.
+        if [source.evidence(number, parameter).given for number in (value, -value)] == [False] * 2:
+            unit = f" {parameter.unit}" if parameter.unit else ""
+            yield f"{value!r}{unit} does not follow from {where}"
+    elif parameter.type == "position":
+        if source.evidence(value, parameter).given is False:
+            yield f"the coordinates {value!r} are not in {where}"
+    elif parameter.type in ("text", "id", "texts"):
+        for text in value if isinstance(value, list) else [str(value)]:
+            if missing := missing_words(said, text, misspelt=misspelt):
+                hint = "" if misspelt else " (spelling put right needs the tag param.spelling)"
+                yield f"{', '.join(map(repr, missing))} of {text!r} not in {where}{hint}"
+            if words(text)[:1] in (["the"], ["a"], ["an"]):
+                yield f"{text!r} begins with an article"
+            if text != text.strip() or text[-1:] in ".,;:!?":
+                yield f"{text!r} ends or begins with a blank or punctuation"
 
 
 def _has_coordinates(prompt: str, target: str) -> bool:
     place = prompt.lower().find(target.lower())
-    if place < 0:
-        return False
     end = place + len(target)
-    pairs = [
-        place.start
-        for place in read_positions(prompt)
-        if not AREA.search(prompt[place.start : place.end])
-    ]
-    return any(start >= end and PLACED.fullmatch(prompt[end:start]) is not None for start in pairs)
-
-
-# ---------------------------------------------------------------- getting there
-
-
-def _movement_problems(
-    steps: list[Step], vocabulary: Vocabulary, command: Command
-) -> Iterator[str]:
-    unresolved = list(vocabulary.unresolved)
-    progress, left = START, False
-    for number, step in enumerate(steps):
-        task, following = step.task, steps[number + 1] if number + 1 < len(steps) else None
-        here = None if progress.here is None else list(progress.here)
-        if task.title == vocabulary.transit:
-            # Two places that are not known yet look the same.
-            unsure = step.place == unresolved and len(progress.searched) > 1
-            yield from _transit_problems(
-                step, following, None if unsure else here, left, vocabulary, command
-            )
-        elif not progress.offers(task):
-            yield (
-                f"{step}: {vocabulary.locate} does not arrive; {vocabulary.transit} to {unresolved}"
-                " comes before this task"
-            )
-        elif (
-            task.arrival == "transit" and left and not command.allows("rule.no-transit", STAY_WORDS)
-        ):
-            yield (
-                f"{step}: the task before does not end at its place, so {vocabulary.transit} comes"
-                " before this task (or tag rule.no-transit)"
-            )
-        elif task.arrival == "transit" and step.place is not None and step.place != here:
-            yield (
-                f"{step}: performed at {step.place}, but no {vocabulary.transit} there comes"
-                " before it"
-            )
-        progress = progress.after(task, step.parameters, vocabulary)
-        if task.title == vocabulary.locate or step.place is not None:
-            left = task.leaves and task.title != vocabulary.locate
-
-
-def _transit_problems(
-    step: Step,
-    following: Step | None,
-    here: list[float] | None,
-    left: bool,
-    vocabulary: Vocabulary,
-    command: Command,
-) -> Iterator[str]:
-    if step.place is None:
-        return
-    if step.place == here and not left:
-        yield f"{step}: the vehicle is at {step.place} already"
-    if (
-        following is None
-        or following.place != step.place
-        or following.task.title == vocabulary.transit
-    ):
-        return
-    if following.task.arrival == "self" and not command.allows("rule.explicit-go", GO_WORDS):
-        yield (
-            f"{step}: {following.task.title} goes to {step.place} by itself; needed only where the"
-            " command says to go there (tag rule.explicit-go)"
-        )
-
-
-def _return_problems(steps: list[Step], vocabulary: Vocabulary, command: Command) -> Iterator[str]:
-    home = list(vocabulary.home)
-    ends = [
-        step
-        for step in steps
-        if step.task.pattern == DOCKING
-        or (step.task.title == vocabulary.transit and step.place == home)
-    ]
-    if command.tags is not None and "rule.return" in command.tags and not ends:
-        yield f"the tag rule.return needs a {vocabulary.transit} to {home} or a docking"
-    if command.prompt is not None and read(command.prompt).evidence(home, WAYPOINT).given:
-        return
-    returns = [
-        number
-        for number, step in enumerate(steps)
-        if step.task.title == vocabulary.transit and step.place == home
-    ]
-    if not returns:
-        return
-    after = steps[returns[-1] + 1 :]
-    if after and after[0].task.pattern == DOCKING:
-        yield (
-            f"{steps[returns[-1]]}: a return that ends in {after[0].task.title} is that task alone"
-        )
-    for step in after:
-        if step.task.arrival != "none" and step.task.pattern != DOCKING:
-            yield f"{step}: comes after the return home, which is the last {vocabulary.transit}"
-
-
-# ---------------------------------------------------------------- values
-
-
-def _value_problems(steps: list[Step], vocabulary: Vocabulary, command: Command) -> Iterator[str]:
-    for step in steps:
-        for name, value in step.parameters.items():
-            yield from (
-                f"{step}, {name}: {problem}"
-                for problem in _value_problem(value, step.task.by_name[name], vocabulary, command)
-            )
-        yield from _order_problems(step, str(command.prompt))
-
-
-def _value_problem(
-    value: Any, parameter: Parameter, vocabulary: Vocabulary, command: Command
-) -> Iterator[str]:
-    prompt = str(command.prompt)
-    if parameter.type in ("number", "integer", "position"):
-        if read_input({"prompt": prompt}, vocabulary).evidence(value, parameter).given is False:
-            unit = f" {parameter.unit}" if parameter.unit else ""
-            yield (
-                f"the coordinates {value!r} are not in the command"
-                if parameter.type == "position"
-                else f"{value!r}{unit} does not follow from the command"
-            )
-    elif parameter.type in ("text", "id", "texts"):
-        for text in value if isinstance(value, list) else [str(value)]:
-            yield from _text_problem(text, prompt, command.tags)
-
-
-def _text_problem(text: str, prompt: str, tags: frozenset[str] | None) -> Iterator[str]:
-    missing = missing_words(prompt, text, misspelt=tags is None or "param.spelling" in tags)
-    if missing:
-        yield (
-            f"{', '.join(map(repr, missing))} of {text!r} not in the command (spelling put right"
-            " needs the tag param.spelling)"
-        )
-    if words(text)[:1] in (["the"], ["a"], ["an"]):
-        yield f"{text!r} begins with an article"
-    if text != text.strip() or text[-1:] in ".,;:!?":
-        yield f"{text!r} ends or begins with a blank or punctuation"
+    return place >= 0 and any(
+        found.start >= end and PLACED.fullmatch(prompt[end : found.start])
+        for found in read_positions(prompt)
+        if not AREA.search(prompt[found.start : found.end])
+    )
 
 
 def _order_problems(step: Step, prompt: str) -> Iterator[str]:
     """ "80 by 50" is width by length unless the command names which is which."""
-    if not {"width", "length"} <= set(step.parameters) or NAMED_SIDES.search(prompt):
-        return
     width, length = step.parameters["width"], step.parameters["length"]
-    numbers = read_numbers(prompt)
-    for first, second in itertools.pairwise(numbers):
+    for first, second in itertools.pairwise(read_numbers(prompt)):
         between = prompt[first.end : second.start].strip().lower()
         if (
             between in ("by", "x", "×", "times", "on")

@@ -250,7 +250,7 @@ def test_task_values_come_from_the_prompt_or_the_parameters(tmp_path: Path) -> N
         }
 
     assert problems(tmp_path, task(120)) == problems(tmp_path, task(45)) == []
-    assert any("60 s follows neither" in text for text in problems(tmp_path, task(60)))
+    assert any("60 s does not follow from" in text for text in problems(tmp_path, task(60)))
     assert any(
         "parameters.duration" in text
         for text in problems(tmp_path, task(120, parameters={"duration": "long"}))
