@@ -10,6 +10,7 @@ from planner_ft.document.warnings.command import command_warnings
 from planner_ft.document.warnings.data import data_warnings
 from planner_ft.document.warnings.limits import limit_warnings
 from planner_ft.document.warnings.route import order_warnings, range_warnings, space_warnings
+from planner_ft.document.warnings.said import said_warnings
 from planner_ft.document.warnings.values import value_warnings
 from planner_ft.document.warnings.warning import KINDS, NOTES, SERIOUS, Warning, named, warning
 from planner_ft.planning.frame import doubt, origin_of
@@ -30,6 +31,7 @@ def warnings(document: Mapping[str, Any], vocabulary: Vocabulary, path: Track) -
         *range_warnings(document, path, vocabulary),
         *command_warnings(document, vocabulary),
         *data_warnings(document, vocabulary),
+        *said_warnings(document, vocabulary),
         *value_warnings(document, vocabulary),
     ]
     # Two of one id say the same: the first stays.

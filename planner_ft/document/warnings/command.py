@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from planner_ft.document.language import Clause, Language, language, read_clauses
-from planner_ft.document.warnings.warning import Warning, warning
+from planner_ft.document.warnings.warning import Warning, quoted, warning
 from planner_ft.facts import unknown_words
 from planner_ft.vocabulary import Vocabulary
 
@@ -14,8 +14,6 @@ UNKNOWN = 0.6
 """The share of unknown words from which a command may be in another language: of 1,000 commands in
 English, misspelt ones among them, three are above it.
 """
-LONGEST = 60
-"""Characters of the command that are quoted."""
 
 
 def command_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
@@ -27,8 +25,8 @@ def command_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Ite
     for clause in read_clauses(document["command"], vocabulary):
         for words, start in _unanswered(clause, planned, spoken):
             if words.casefold() not in declined:
-                quoted = _quoted(clause.text[start:])
-                text = f'The command asks: "{quoted}"; no task of the plan does that.'
+                asked = quoted(clause.text[start:])
+                text = f'The command asks: "{asked}"; no task of the plan does that.'
                 yield warning("not-planned", text, about=words.casefold())
 
 
@@ -55,8 +53,3 @@ def _unanswered(clause: Clause, planned: set[str], spoken: Language) -> Iterator
     # A plan without tasks says itself why.
     if planned and impossible and clause.wants(clause.start):
         yield impossible[0], 0
-
-
-def _quoted(words: str) -> str:
-    text = " ".join(words.split())
-    return text if len(text) <= LONGEST else f"{text[:LONGEST].rsplit(' ', 1)[0]} ..."

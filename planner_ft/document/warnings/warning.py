@@ -8,7 +8,8 @@ from typing import Any
 Warning = dict[str, Any]
 """{"id", "kind", "task", "parameter", "text"}; edits elsewhere leave the id as it is."""
 SERIOUS = (
-    *("invalid-answer", "structure-close", "limit-broken", "doubtful-origin", "unknown-language"),
+    *("invalid-answer", "structure-close", "limit-broken", "limit-lost", "contradiction"),
+    *("doubtful-origin", "unknown-language", "repeat-lost"),
     *("unresolved-location", "value-asked", "used-before-found", "not-at-place"),
     *("position-missing", "outside-boundary", "outside-area", "out-of-reach", "over-endurance"),
     *("missing-return", "not-planned", "data-not-planned", "value-not-said"),
@@ -17,6 +18,8 @@ SERIOUS = (
 """Kinds that a plan should not be approved with unread, the most serious first."""
 NOTES = ("empty-plan", "unread-command", "data-not-collected", "endurance-open", "ends-away")
 """Kinds that also right plans have: what is unusual, or not known."""
+LONGEST = 60
+"""Characters of the command that are quoted."""
 KINDS = (*SERIOUS, *NOTES)
 
 
@@ -36,6 +39,12 @@ def warning(
         "parameter": parameter,
         "text": text[:1].upper() + text[1:],
     }
+
+
+def quoted(words: str) -> str:
+    """Words of the command on one line, not too many."""
+    text = " ".join(words.split())
+    return text if len(text) <= LONGEST else f"{text[:LONGEST].rsplit(' ', 1)[0]} ..."
 
 
 def named(task: Mapping[str, Any]) -> str:

@@ -1,0 +1,64 @@
+"""What the command says and the plan lacks: limits, rows of positions, repeats, contradictions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from ...documents import document, step, task
+
+HOME = {"target_position": [0, 0]}
+FENCE = "The vehicle stays inside [0, 0], [200, 0], [200, 200], [0, 200]."
+
+
+def to(x: float, y: float) -> dict[str, Any]:
+    return task("Transit", {"target_position": [x, y]}, [step("GoToXY", {"x": x, "y": y})])
+
+
+def hold(seconds: float) -> dict[str, Any]:
+    return task("KeepStation", {"duration": seconds}, [step("StationKeep", {"time": seconds})])
+
+
+def orbit(arc: float) -> dict[str, Any]:
+    return task("PerformOrbit", {"center": [60, 60], "radius": 20, "arc": arc}, None)
+
+
+def kinds(command: str, *tasks: dict[str, Any], limits: tuple[str, ...] = ()) -> set[str]:
+    plan = document([*tasks], command=command, constraints=limits)
+    wanted = ("limit-lost", "value-lost", "repeat-lost", "contradiction")
+    return {one["kind"] for one in plan["warnings"]} & {*wanted}
+
+
+AREA = "Go to 100,50 but never leave the area 0,0 200,0 200,200 0,200, then come home."
+PLATFORM = "Go to [100, 0] and do not go closer than 70 m to the platform at 260,80."
+AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
+
+
+@pytest.mark.parametrize(
+    ("command", "tasks", "limits", "lost"),
+    [
+        (AREA, [to(100, 50), to(0, 0)], (), "limit-lost"),
+        (AREA, [to(100, 50), to(0, 0)], (FENCE,), None),
+        (AREA, [to(100, 50), to(0, 200), to(200, 0), to(0, 0)], (), "limit-lost"),
+        (PLATFORM, [to(100, 0)], (), "limit-lost"),
+        (PLATFORM, [to(100, 0)], (AWAY,), None),
+        (PLATFORM, [to(100, 0)], ("Take care near the platform at 70 m.",), "limit-lost"),
+        ("Go to [9, 9] and be back within 20 minutes.", [to(9, 9), hold(1200)], (), "limit-lost"),
+        ("Hold here for at most 10 minutes.", [hold(600)], (), None),
+        ("Stay away from the wreck at 9,9.", [to(9, 9)], (), "limit-lost"),
+        ("Go to 100,20 and 140,60 and 20,90.", [to(100, 20), to(140, 60), to(20, 90)], (), None),
+        ("Go to 100,20 and 140,60 and 20,90.", [to(100, 20), to(140, 60)], (), "value-lost"),
+        ("Patrol between 9,0 and 9,200.", [to(9, 0)], (), "value-lost"),
+        ("Go round the mast at 60,60 three times at 20 m.", [orbit(360)], (), "repeat-lost"),
+        ("Go round the mast at 60,60 three times at 20 m.", [orbit(1080)], (), None),
+        ("Circle the mast at 60,60 twice at 20 m.", [orbit(720)], (), None),
+        ("Run from 1,0 to 9,0 two times.", [to(1, 0), to(9, 0), to(1, 0), to(9, 0)], (), None),
+        ("Come home, but do not come home.", [to(0, 0)], (), "contradiction"),
+        ("Do not stop at 9,9, and come home.", [to(0, 0)], (), None),
+    ],
+)
+def test_what_is_lost_is_told(
+    command: str, tasks: list[dict[str, Any]], limits: tuple[str, ...], lost: str | None
+) -> None:
+    assert kinds(command, *tasks, limits=limits) == ({lost} if lost else set())
