@@ -72,8 +72,14 @@ def bench(
     if field:
         from planner_ft.cli.field import check_flags, run_field
 
-        check_flags(named | served | ({"resume": True} if resume else {}))
+        check_flags(named | served | ({"resume": True} if resume else {}), "--field")
         run_field(cases or [], out or Path("eval/runs/field"), named, device, overwrite=overwrite)
+    elif level == "both":
+        from planner_ft.cli.field import check_flags, run_both
+
+        given_flags = named | served | ({"resume": True} if resume else {})
+        check_flags(given_flags, "--level both", "level", "data")
+        run_both(data, out or Path("eval/runs/both"), named, device, overwrite=overwrite)
     elif suite is not None:
         _check_file_alone("suite", suite, named | served, ("limit", "latency_samples"))
         flags = generation | named | {"processes": processes}

@@ -1,11 +1,11 @@
-"""`plannerft bench --field`."""
+"""`plannerft bench --field` and `--level both`: commands planned with both agents."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import typer
 
@@ -16,50 +16,139 @@ from planner_ft.support.errors import PlannerError
 if TYPE_CHECKING:
     from planner_ft.benchmark.field.cases import Case
     from planner_ft.benchmark.field.checks import Outcome
-    from planner_ft.benchmark.field.run import FieldRow
     from planner_ft.document.vehicle import Vehicle
     from planner_ft.planning import Planner
     from planner_ft.planning.settings import PlanSettings
+    from planner_ft.support.tables import Table
+    from planner_ft.vocabulary import Vocabulary
+
+Row = TypeVar("Row")
+Name = tuple[str, str]
+"""A candidate and its configuration."""
 
 FLAGS = ("candidates", "configurations", "vocabulary", "quantization", "limit")
-"""Options of `bench` that say what of field cases is run."""
+"""Options of `bench` that say what of whole plans is run."""
+PLACE = (100.0, 50.0)
+"""Metres: where --level both takes a place to be that is open; the next ones lie further east."""
 
 
-def check_flags(named: dict[str, Any]) -> None:
-    """Raise PlannerError for options that field cases do not have."""
-    if extra := [name for name in named if name not in FLAGS]:
-        raise PlannerError(f"--field plans whole commands; leave out {typed(extra)}")
+def check_flags(named: dict[str, Any], flag: str, *also: str) -> None:
+    """Raise PlannerError for options that whole plans do not have."""
+    if extra := [name for name in named if name not in (*FLAGS, *also)]:
+        raise PlannerError(f"{flag} plans whole commands; leave out {typed(extra)}")
 
 
 def run_field(
     files: Sequence[Path], out: Path, named: dict[str, Any], device: str, *, overwrite: bool
 ) -> None:
     """Run the cases in every configuration of every candidate; print the table, write results."""
-    from rich.console import Console
-
     from planner_ft.benchmark.field.cases import case_files, load_cases
-    from planner_ft.benchmark.field.run import check_out, field_table, write_field
-    from planner_ft.support.manifest import build_manifest
-    from planner_ft.support.tables import terminal_table
+    from planner_ft.benchmark.field.run import FILES, FieldRow, field_table, judge, write_field
     from planner_ft.vocabulary import load_vocabulary
 
     vocabulary = load_vocabulary(named.get("vocabulary", "usv"))
     paths = case_files(files)
     cases = load_cases(paths, vocabulary)[: named.get("limit")]
-    check_out(out, overwrite=overwrite)
-    rows, agents = [], {}
+
+    def made(planner: Planner, name: Name, progress: Report) -> FieldRow:
+        label, plan = " ".join(name), _Plan(planner, _vehicle(planner))
+        return FieldRow(*name, judge(cases, plan, vocabulary, progress, label))
+
+    _check_out(out, FILES, overwrite=overwrite)
+    rows, manifest = _rows("field", named, vocabulary, device, paths, made)
+    write_field(out, rows, manifest)
+    _show(field_table(rows), out, FILES)
+
+
+def run_both(
+    data: Path | None, out: Path, named: dict[str, Any], device: str, *, overwrite: bool
+) -> None:
+    """Score what commands demand end to end, in every configuration of every candidate."""
+    from planner_ft.benchmark import demands
+    from planner_ft.vocabulary import load_vocabulary
+
+    vocabulary = load_vocabulary(named.get("vocabulary", "usv"))
+    path = data or demands.DEFAULT
+    records = demands.load_demands(path, vocabulary)[: named.get("limit")]
+
+    def made(planner: Planner, name: Name, progress: Report) -> demands.DemandRow:
+        def report(done: int, total: int) -> None:
+            progress(" ".join(name), done, total)
+
+        judged, warned = demands.judge_demands(records, _everywhere(planner), report)
+        return demands.DemandRow(*name, judged, len(records), warned)
+
+    _check_out(out, demands.FILES, overwrite=overwrite)
+    rows, manifest = _rows("both", named, vocabulary, device, [path], made)
+    demands.write_demands(out, rows, manifest)
+    _show(demands.demand_table(rows), out, demands.FILES)
+
+
+def _everywhere(planner: Planner) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:
+    """Plans a record, open places being somewhere."""
+    from planner_ft.document import build
+
+    vehicle = _vehicle(planner)
+
+    def plan(record: Mapping[str, Any]) -> Mapping[str, Any]:
+        places = {name: (x, y) for name, (x, y) in record.get("locate", {}).items()}
+        planned = planner.plan(record["prompt"], places)
+        east, north = PLACE
+        for number, place in enumerate(planned.open_places):
+            places[place.name] = (east * (number + 1), north)
+        if planned.open_places:
+            planned = planner.plan(record["prompt"], places)
+        return build(planned, planner.vocabulary, vehicle)
+
+    return plan
+
+
+def _check_out(out: Path, names: Sequence[str], *, overwrite: bool) -> None:
+    from planner_ft.benchmark.folder import check_folder
+
+    check_folder(out, () if overwrite else names, "give --overwrite or another --out")
+
+
+def _vehicle(planner: Planner) -> Vehicle:
+    from planner_ft.document.vehicle import load_vehicle
+
+    return load_vehicle(None, planner.vocabulary)
+
+
+def _rows(
+    kind: str,
+    named: dict[str, Any],
+    vocabulary: Vocabulary,
+    device: str,
+    files: Sequence[Path],
+    made: Callable[[Planner, Name, Report], Row],
+) -> tuple[list[Row], dict[str, Any]]:
+    """A row for each configuration of each candidate, and the manifest of all."""
+    from planner_ft.planning import Planner
+    from planner_ft.support.manifest import build_manifest
+
+    rows: list[Row] = []
+    used: dict[str, Any] = {}
     with interruptible() as progress:
         for settings in _settings(named, vocabulary.source, device):
-            made, agents_used = _row(settings, cases, progress)
-            rows.append(made)
-            agents[made.name] = agents_used
+            with Planner(settings) as planner:
+                agents = planner.agents.agents
+                name = settings.candidate, agents["mission"].configuration.name
+                rows.append(made(planner, name, progress))
+                used[" ".join(name)] = {of: one.record() for of, one in agents.items()}
     definition = {"name": vocabulary.name, "sha256": vocabulary.sha256}
-    ran = {"cases": len(cases), "vocabulary": definition}
-    inputs: dict[str, Path | str] = {str(path): path for path in paths}
-    manifest = build_manifest("field", seed=None, configuration=ran, inputs=inputs, agents=agents)
-    write_field(out, rows, manifest)
-    Console().print(terminal_table(field_table(rows)))
-    typer.echo(f"\n{out}/: results.json, plans.jsonl, table.md (with the cases that failed)")
+    ran = {"limit": named.get("limit"), "vocabulary": definition}
+    inputs: dict[str, Path | str] = {str(path): path for path in files}
+    return rows, build_manifest(kind, seed=None, configuration=ran, inputs=inputs, agents=used)
+
+
+def _show(table: Table, out: Path, files: Sequence[str]) -> None:
+    from rich.console import Console
+
+    from planner_ft.support.tables import terminal_table
+
+    Console().print(terminal_table(table))
+    typer.echo(f"\n{out}/: {', '.join(files)}")
 
 
 def _settings(named: dict[str, Any], vocabulary: str, device: str) -> list[PlanSettings]:
@@ -78,24 +167,6 @@ def _settings(named: dict[str, Any], vocabulary: str, device: str) -> list[PlanS
         for candidate in _names(named.get("candidates", "embedded"))
         for configuration in _names(named.get("configurations")) or [""]
     ]
-
-
-def _row(
-    settings: PlanSettings, cases: Sequence[Case], progress: Report
-) -> tuple[FieldRow, dict[str, Any]]:
-    """The cases in one configuration, and what its agents depended on."""
-    from planner_ft.benchmark.field.run import FieldRow, judge
-    from planner_ft.document.vehicle import load_vehicle
-    from planner_ft.planning import Planner
-
-    with Planner(settings) as planner:
-        plan = _Plan(planner, load_vehicle(None, planner.vocabulary))
-        agents = planner.agents.agents
-        name, configuration = settings.candidate, agents["mission"].configuration.name
-        judged = judge(cases, plan, planner.vocabulary, progress, f"{name} {configuration}")
-        return FieldRow(name, configuration, judged), {
-            of: one.record() for of, one in agents.items()
-        }
 
 
 def _names(text: str | None) -> list[str]:

@@ -9,7 +9,7 @@ from typing import Any
 
 from planner_ft.benchmark.field.cases import Case
 from planner_ft.benchmark.field.checks import Outcome, passes
-from planner_ft.benchmark.folder import RESULTS, check_folder
+from planner_ft.benchmark.folder import RESULTS
 from planner_ft.benchmark.statistics import wilson
 from planner_ft.support.files import write_json, write_jsonl, write_text
 from planner_ft.support.tables import Table, TableRow, figure, markdown_table, row
@@ -129,11 +129,6 @@ def failures(rows: Iterable[FieldRow]) -> list[str]:
         for one in row_.judged
         if one.failed
     ]
-
-
-def check_out(folder: Path, *, overwrite: bool) -> None:
-    """Raise PlannerError for a folder that cannot be written or has results already."""
-    check_folder(folder, () if overwrite else FILES, "give --overwrite or another --out")
 
 
 def write_field(folder: Path, rows: Sequence[FieldRow], manifest: dict[str, Any]) -> None:
