@@ -46,7 +46,8 @@ def turned(said: Sequence[float], counts: Iterable[int]) -> Iterator[float]:
 @dataclass(frozen=True)
 class Ground:
     """What waypoints are derived from: known places, centres of shapes (those that are the `corners`
-    of areas among them), lengths, bearings, numbers of lanes or points.
+    of areas among them), lengths, bearings, numbers of lanes or points; `spacing` is that of all
+    lanes where the task has one.
     """
 
     places: tuple[Point, ...]
@@ -56,6 +57,7 @@ class Ground:
     counts: tuple[int, ...]
     sizes: tuple[tuple[float, float], ...]
     corners: bool = False
+    spacing: float | None = None
 
     def leads_to(self, point: Point, before: Iterable[Point] = ()) -> bool:
         """Whether a waypoint is a known place, a point of a line, a grid, a square or a ring, or a
@@ -77,8 +79,8 @@ class Ground:
                 return True
         return any(
             _on_grid(point[0] - x, point[1] - y, width, length, spacing)
-            for x, y, width, length in self._areas
-            for spacing in self._spacings(width, length)
+            for x, y, width, length in self.areas
+            for spacing in self.spacings(width, length)
         )
 
     def is_way_off(self, point: Point, base: Point) -> bool:
@@ -110,12 +112,12 @@ class Ground:
         ]
 
     @functools.cached_property
-    def _areas(self) -> list[tuple[float, float, float, float]]:
+    def areas(self) -> list[tuple[float, float, float, float]]:
         """Middle, width and length of every area that can be meant."""
         found = []
         signs = [(0, 0), *(itertools.product((1, -1), repeat=2) if self.corners else ())]
         for (x, y), (width, length), (right, up) in itertools.product(
-            self.centres, self.sizes, signs
+            self.places, self.sizes, signs
         ):
             found.append((x + right * width / 2, y + up * length / 2, width, length))
         for one, other in itertools.combinations(self.centres, 2):
@@ -123,8 +125,12 @@ class Ground:
             found.append((*middle, abs(one[0] - other[0]), abs(one[1] - other[1])))
         return [area for area in dict.fromkeys(found) if area[2] and area[3]]
 
-    def _spacings(self, width: float, length: float) -> set[float]:
-        return {*self.lengths, *(side / (n - 1) for n in self.counts for side in (width, length))}
+    def spacings(self, width: float, length: float) -> tuple[float, ...]:
+        """Distances between the lanes of an area."""
+        if self.spacing:
+            return (self.spacing,)
+        shares = (side / (count - 1) for count in self.counts for side in (width, length))
+        return tuple(dict.fromkeys((*self.lengths, *shares)))
 
 
 def _divides(point: Point, start: Point, end: Point, counts: Iterable[int]) -> bool:

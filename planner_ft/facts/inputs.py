@@ -103,14 +103,22 @@ class Input:
         angles = (*facts.bearings, *facts.numbers("deg"))
         bearings = {number.value % 360 for number in angles} | set(self._own("deg"))
         centres = tuple(place for place in places if place != home or place in self._places)
+        # An area is the task's own where no other lengths are stated.
+        own = lengths <= set(self._own("m")) and self.parameters
+        width, length, spacing = (
+            value if own and is_number(value := self.parameters.get(name)) else None
+            for name in ("width", "length", "spacing")
+        )
+        sizes = ((width, length),) if width and length else ()
         return derived.Ground(
             tuple(places),
             centres or (home,),
             tuple(sorted(lengths)),
             tuple(sorted(bearings)),
             tuple(sorted(derived.sector_counts((*facts.counts, *self._own(None))))),
-            self._sizes(lengths),
+            sizes or tuple(itertools.product(sorted(lengths), sorted(lengths))),
             "corner" in facts.text.lower(),
+            spacing if sizes else None,
         )
 
     # ------------------------------------------------------------ places
@@ -193,13 +201,6 @@ class Input:
         """What the text multiplies by: "twice", "half"."""
         said = set(words(self.facts.text))
         return tuple({factor for word, factor in MULTIPLES.items() if word in said})
-
-    def _sizes(self, lengths: set[float]) -> tuple[tuple[float, float], ...]:
-        """Width and length of areas: the task's own where no other lengths are stated."""
-        own = [self.parameters.get(name) for name in ("width", "length")]
-        if all(map(is_number, own)) and lengths <= set(self._own("m")):
-            return ((own[0], own[1]),)  # type: ignore[return-value]
-        return tuple(itertools.product(sorted(lengths), sorted(lengths)))
 
     def _own(self, unit: str | None) -> Iterator[float]:
         """The numbers in a unit among the task's parameters."""

@@ -83,10 +83,9 @@ class Answer:
         """Tokens that probably follow, since their text must; empty where there is a choice. The
         state is unchanged.
         """
-        text = b"" if self._matcher is None or self._hurried else self._matcher.compute_ff_bytes()
-        if not text:
+        if self._matcher is None or self._hurried:
             return []
-        return self._tokens.spelt(self._ids, bytes(text))[: self._left - self._reserve - 1]
+        return self._tokens.spelt(self._ids, self._matcher)[: self._left - self._reserve - 1]
 
     def ends_text(self) -> int | None:
         """The token that ends the text that is being written; None where none may."""

@@ -124,34 +124,51 @@ class Tokens:
         """What a token adds to the answer."""
         return self.text_of([token])
 
-    def spelt(self, before: list[int], text: bytes) -> list[int]:
-        """The tokens that a text which must follow is spelt with behind the tokens `before`; none
-        where those are not spelt as the tokenizer would.
+    def spelt(self, before: list[int], matcher: LLMatcher) -> list[int]:
+        """The tokens that a text which must follow is probably spelt with behind the tokens
+        `before`, up to where a longer one may take in all that is left and go on behind it: a
+        tokenizer may join several members of an object.
+        """
+        text = bytes(matcher.compute_ff_bytes())
+        ids, place = self._spelling(before, text), 0
+        for count, token in enumerate(ids):
+            following = ([*ids[:count], longer] for longer in self._longer(text[place:]))
+            if any(matcher.validate_tokens(tokens) == count + 1 for tokens in following):
+                return ids[:count]
+            place += len(self.bytes_of(token))
+        return ids
+
+    def growing(self, before: list[int], matcher: LLMatcher) -> list[int]:
+        """The tokens that can follow `before` where a text must follow and longer tokens take it in
+        whole: these, and the first that it is spelt with alone.
+
+        The engine allows a single token there, the first of its own spelling. Empty where there are
+        no longer ones.
+        """
+        text = bytes(matcher.compute_ff_bytes())
+        longer = [one for one in self._longer(text) if matcher.validate_tokens([one]) == 1]
+        return [*longer, *self._spelling(before, text)[:1]] if longer else []
+
+    def _spelling(self, before: list[int], text: bytes) -> list[int]:
+        """The tokens of a text behind the tokens `before`; none where those are not spelt as the
+        tokenizer would.
 
         The engine spells it as if it stood alone. A tokenizer that joins `,"sp` and `eed":` would
         be given tokens there that no training text has.
         """
-        for context in (before[-CONTEXT:], before):
+        for context in (before[-CONTEXT:], before) if text else ():
             ids = self.engine.tokenize_bytes(self.text_of(context) + text)
             if ids[: len(context)] == context:
                 return ids[len(context) :]
         return []
 
-    def growing(self, before: list[int], matcher: LLMatcher) -> list[int]:
-        """The tokens that can follow `before` where a text must follow and longer tokens take it in
-        whole (a tokenizer may join several members of an object): these, and the first that it is
-        spelt with alone.
-
-        The engine allows a single token there, the first of its own spelling. Empty where there are
-        no longer ones.
-        """
-        text, (known, longest) = bytes(matcher.compute_ff_bytes()), self._by_bytes
+    def _longer(self, text: bytes) -> list[int]:
+        """The tokens that begin with a text and go on."""
+        known, longest = self._by_bytes
         if not LEAST_GROWN <= len(text) < longest:
             return []
         behind = itertools.islice(self._sorted, bisect_right(self._sorted, text), None)
-        begun = itertools.takewhile(lambda other: other.startswith(text), behind)
-        longer = [known[other] for other in begun if matcher.validate_tokens([known[other]]) == 1]
-        return [*longer, *self.spelt(before, text)[:1]] if longer else []
+        return [known[one] for one in itertools.takewhile(lambda one: one.startswith(text), behind)]
 
     @functools.cached_property
     def _sorted(self) -> list[bytes]:

@@ -30,7 +30,6 @@ BEGUN = 3
 """Waypoints in a row that begin a path: two can look like the beginning of many."""
 SHAPED = {"lawnmower": "sizes and lane spacing", "square": "radius"}
 """Patterns of tasks that are about one path of a shape, with what it follows from."""
-LENGTHS = ("radius", "distance", "length", "width", "spacing", "max_dist")
 GRID = re.compile(r"\b(?:grid|lawn-?mow|lanes?|lines?|legs|runs|transect|strip|pass|row|box)", re.I)
 
 
@@ -90,15 +89,6 @@ class Waypoints:
         begun = self._begun(before) if self.whole else []
         return bool(begun) and all(self.begun <= done < len(path) - more for path, done in begun)
 
-    @functools.cached_property
-    def derived(self) -> frozenset[Point]:
-        """Every waypoint that follows from the facts, whatever stands before it."""
-        away = (
-            g.offset(*facts)
-            for facts in itertools.product(self.places, self.bearings, self.lengths)
-        )
-        return frozenset(itertools.chain(self.places, away, *self.paths))
-
     def _begun(self, before: Path) -> list[tuple[Path, int]]:
         """The paths of which the last waypoints are the beginning, with how many: those with the
         most.
@@ -132,15 +122,16 @@ def read_waypoints(record: dict[str, Any], vocabulary: Vocabulary) -> Waypoints 
     ground = source.ground
     if ground is None:
         return "The geometry of the command is not certain; the waypoints are the model's."
-    said = {number.value for number in source.facts.numbers("m")}
-    shapes = _Shapes(ground, source.facts.text, source.parameters, said)
-    paths = tuple(dict.fromkeys(itertools.islice(shapes.paths(pattern), MOST_PATHS)))
+    grid = pattern == "lawnmower" or GRID.search(source.facts.text)
+    found = itertools.chain(_grids(ground) if grid else (), _rings(ground))
+    paths = tuple(dict.fromkeys(itertools.islice(found, MOST_PATHS)))
     if pattern in SHAPED and not paths:
         return (
             f"The command states no {SHAPED[pattern]} for {title}; its waypoints are the model's."
         )
     places = tuple(place for place in ground.places if place != vocabulary.unresolved)
     begun = 2 if pattern in SHAPED else BEGUN
+    said = {number.value for number in source.facts.numbers("m")}
     sizes = {source.parameters.get(name) for name in ("width", "length", "spacing")}
     # A bare number may say how many lanes are meant: "the first three".
     bare = set(source.facts.counts) - said - sizes - {axis for place in places for axis in place}
@@ -148,79 +139,30 @@ def read_waypoints(record: dict[str, Any], vocabulary: Vocabulary) -> Waypoints 
     return Waypoints(places, ground.lengths, ground.bearings, paths, begun, whole=whole)
 
 
-@dataclass(frozen=True)
-class _Shapes:
-    """What paths are made of; `said` are the lengths of the prompt."""
+def _grids(ground: Ground) -> Iterator[Path]:
+    """The lanes of every area, from any corner and in both directions."""
+    axes: tuple[g.Axis, ...] = ("y", "x")
+    for x, y, width, length in ground.areas:
+        for spacing, axis in itertools.product(ground.spacings(width, length), axes):
+            lanes = g.lane_count(width if axis == "y" else length, spacing) if spacing > 0 else None
+            if lanes is not None and 2 <= lanes <= MOST_WAYPOINTS // 2:
+                for corner in g.CORNERS:
+                    yield tuple(g.lawnmower((x, y), width, length, spacing, corner, axis))
 
-    ground: Ground
-    text: str
-    parameters: dict[str, Any]
-    said: set[float]
 
-    def paths(self, pattern: str) -> Iterator[Path]:
-        """Every path that the facts can mean in a task of this pattern."""
-        if pattern == "lawnmower" or GRID.search(self.text):
-            yield from self._grids()
-        for centre, radius in itertools.product(self.ground.places, self.ground.lengths):
-            yield from self._rings(centre, radius)
-
-    def _grids(self) -> Iterator[Path]:
-        for centre, sizes in itertools.product(self.ground.places, dict.fromkeys(self._sizes())):
-            yield from _lanes(centre, *sizes)
-            if "corner" in self.text.lower():
-                for x, y in itertools.product((1, -1), repeat=2):
-                    width, length, _spacing = sizes
-                    middle = g.point(centre[0] + x * width / 2, centre[1] + y * length / 2)
-                    yield from _lanes(middle, *sizes)
-        for one, other in itertools.combinations(self.ground.centres, 2):
-            width, length = abs(one[0] - other[0]), abs(one[1] - other[1])
-            middle = g.point((one[0] + other[0]) / 2, (one[1] + other[1]) / 2)
-            spacings = [
-                size / (count - 1) for count in self.ground.counts for size in (width, length)
-            ]
-            for spacing in (*spacings, *self.ground.lengths) if width and length else ():
-                yield from _lanes(middle, width, length, spacing)
-
-    def _sizes(self) -> Iterator[tuple[float, float, float]]:
-        """Width, length and lane spacing: the task's own; else any three lengths, or two and a
-        number of lanes.
-        """
-        given = [self.parameters.get(name) for name in ("width", "length", "spacing")]
-        own = [value for value in given if isinstance(value, int | float)]
-        if len(own) == len(given):
-            yield own[0], own[1], own[2]
-            if not self.said - set(own):
-                return
-        for width, length in itertools.product(self.ground.lengths, repeat=2):
-            shares = [
-                size / (count - 1) for count in self.ground.counts for size in (width, length)
-            ]
-            for spacing in (*self.ground.lengths, *shares):
-                if spacing <= max(width, length):
-                    yield width, length, spacing
-
-    def _rings(self, centre: Point, radius: float) -> Iterator[Path]:
-        """Squares, their corners or mid-sides alone, and points evenly round a circle; each also
-        closed.
-        """
+def _rings(ground: Ground) -> Iterator[Path]:
+    """Squares, their corners or mid-sides alone, and points evenly round a circle; each also
+    closed.
+    """
+    ways, counts = (False, True), [count for count in ground.counts if count >= 3]
+    for centre, radius in itertools.product(ground.places, ground.lengths):
         rings = []
-        for start, clockwise in itertools.product(g.SQUARE_STARTS, (False, True)):
+        for start, clockwise in itertools.product(g.SQUARE_STARTS, ways):
             square = g.survey_square(centre, radius, start, clockwise=clockwise)
             rings += [square, square[::2]]
-        for count, clockwise in itertools.product(self.ground.counts, (False, True)):
-            for bearing in dict.fromkeys((*self.ground.bearings, 0, 90)) if count >= 3 else ():
-                rings.append(g.circle(centre, radius, count, bearing, clockwise=clockwise))
+        bearings = dict.fromkeys((*ground.bearings, 0, 90))
+        for count, clockwise, bearing in itertools.product(counts, ways, bearings):
+            rings.append(g.circle(centre, radius, count, bearing, clockwise=clockwise))
         for ring in rings:
             yield tuple(ring)
             yield (*ring, ring[0])
-
-
-def _lanes(centre: Point, width: float, length: float, spacing: float) -> Iterator[Path]:
-    axes: tuple[g.Axis, ...] = ("y", "x")
-    for axis in axes:
-        across = width if axis == "y" else length
-        lanes = g.lane_count(across, spacing) if spacing > 0 else None
-        if lanes is None or not 2 <= lanes <= MOST_WAYPOINTS // 2:
-            continue
-        for corner in g.CORNERS:
-            yield tuple(g.lawnmower(centre, width, length, spacing, corner, axis))
