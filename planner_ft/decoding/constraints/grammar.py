@@ -272,6 +272,12 @@ def body(grammar: Grammar, owner: Task | Skill, logic: Logic) -> str | None:
     return grammar.rule(f"{opens} {parameters} {closes}")
 
 
+def possible(owner: Task | Skill, logic: Logic) -> bool:
+    """Whether the parameters of a task or skill can be written."""
+    needy = owner.require_any or any(logic.needs(item, owner) for item in owner.parameters)
+    return not needy or _parameters(Grammar(), owner, logic) is not None
+
+
 def _parameters(grammar: Grammar, owner: Task | Skill, logic: Logic) -> str | None:
     """The rule of an owner's parameters behind their opening brace, up to the closing one; None
     where none can be written.

@@ -55,6 +55,7 @@ class Spans:
         self._pieces: list[Piece] = []
         said = {word.lower() for text in texts for word in _PIECE.findall(text)}
         self._loose = not said.isdisjoint(ELLIPSES)
+        self._latest: tuple[Grammar | None, str | None] = None, None
         for text in texts:
             self._read(text)
 
@@ -69,6 +70,12 @@ class Spans:
         alone = (form for piece in self._pieces if piece.ends for form in piece.forms)
         if without and not any(form.lower() not in barred for form in alone):
             return None
+        if self._latest[0] is not grammar:
+            self._latest = grammar, self._span(grammar)
+        span = self._latest[1]
+        return grammar.terminal(f"{span}{none_of_texts(without)}") if span and without else span
+
+    def _span(self, grammar: Grammar) -> str | None:
         starts = self._chain(grammar, 0)
         if len(self._pieces) > BLOCK:
             starts |= self._chain(grammar, BLOCK // 2)
@@ -76,8 +83,7 @@ class Spans:
             return None
         marks, one = literal('"'), grammar.terminal(" | ".join(sorted(starts)))
         more = f'(" " {one})?' if self._loose else ""
-        span = grammar.terminal(f"{marks} {one} {more} {marks}")
-        return grammar.terminal(f"{span}{none_of_texts(without)}") if without else span
+        return grammar.terminal(f"{marks} {one} {more} {marks}")
 
     def _chain(self, grammar: Grammar, offset: int) -> set[str]:
         """The terminals of the spans from each word on, cut at every BLOCK words from `offset`."""

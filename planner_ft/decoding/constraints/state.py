@@ -27,6 +27,7 @@ from planner_ft.decoding.constraints.grammar import (
     body,
     mission_closes,
     mission_opens,
+    possible,
     prefix_free,
     written,
 )
@@ -116,11 +117,11 @@ class MissionScript:
         """The titles that may follow; with their tasks where a title can be the beginning of
         another.
         """
-        known, grammar, logic = self.vocabulary.tasks, Grammar(), self._logic
+        known, logic = self.vocabulary.tasks, self._logic
         offered = [
             task
             for task in known
-            if (not self.logical or self.progress.offers(task)) and body(grammar, task, logic)
+            if (not self.logical or self.progress.offers(task)) and possible(task, logic)
         ]
         # A vocabulary can be such that nothing fits; the schema alone holds then.
         offered = offered or list(known)

@@ -26,6 +26,7 @@ from planner_ft.decoding.constraints.grammar import (
     corners,
     key,
     one_of,
+    possible,
     prefix_free,
     sequence_opens,
     step_tail,
@@ -207,7 +208,7 @@ class TaskScript:
         used = self._used(skill)
         if self.logical and used and not (all(used) and len(used) < MOST_ALIKE):
             return False
-        return body(Grammar(), skill, self._logic(skill)) is not None
+        return possible(skill, self._logic(skill))
 
     def _used(self, skill: Skill) -> list[Mapping[str, Any]]:
         return [parameters for other, parameters in self.beside if other == skill]
