@@ -22,6 +22,7 @@ from planner_ft.vocabulary.plans import Level, list_key, plan_names, step_skills
 Records = Sequence[Mapping[str, Any]]
 Splits = Mapping[str, Records]
 SIZES = ((1_000, "n<1K"), (10_000, "1K<n<10K"), (100_000, "10K<n<100K"), (1_000_000, "100K<n<1M"))
+SCORES = ("f1", "sequence", "plan")
 QUANTILES = (0, 50, 90, 100)
 OVERLAP = ("split", "other", "exact", "near", "exact_masked", "near_masked", "families")
 
@@ -40,18 +41,31 @@ def dataset_card(
         undefined=jinja2.StrictUndefined, keep_trailing_newline=True, autoescape=False
     )
     template = environment.from_string(Path(__file__).with_name("card.md.j2").read_text("utf-8"))
-    named = vocabulary.task if level == "mission" else vocabulary.skill
-    inputs = [
-        [str(record["task"]) for record in records if "task" in record]
-        for records in splits.values()
-    ]
-    tags = [
-        [tag for record in records for tag in record.get("tags", ())] for records in splits.values()
-    ]
-    pairs = {split: set(_pairs(level, records)) for split, records in splits.items()}
     total = sum(map(len, splits.values()))
+    every: dict[str, dict[str, Any]] = {
+        split: {
+            "names": [name for record in records for name in plan_names(level, record["expected"])],
+            "inputs": [record["task"] for record in records if "task" in record],
+            "tags": [tag for record in records for tag in record.get("tags", ())],
+            "pairs": set(_pairs(level, records)),
+        }
+        for split, records in splits.items()
+    }
+
+    def counts(names: Iterable[str], of: str) -> Iterator[list[Any]]:
+        """Each name with how often it was found in each split."""
+        found = [Counter(figures[of]) for figures in every.values()]
+        return ([f"`{name}`", *(counter[name] for counter in found)] for name in names)
+
+    known = every["train"]["pairs"] if "train" in every else set()
     figures = {split: diversity(records) for split, records in splits.items() if records}
-    plans = [_names(level, records) for records in splits.values()]
+    tagged = any(of_split["tags"] for of_split in every.values())
+    baselines = [
+        [one["split"], *(f"{100 * one[key]:.1f} %" for key in SCORES), one["similarity"]]
+        for one in leakage["baseline"]
+    ]
+    alone = len(vocabulary.skills_in_role("navigation"))
+    beside = len(vocabulary.skills) - alone
     return template.render(
         table=table,
         level=level,
@@ -63,15 +77,16 @@ def dataset_card(
         size=next((name for limit, name in SIZES if total < limit), "n>1M"),
         splits=list(splits),
         counts=[[split, len(records)] for split, records in splits.items()],
-        names=_occurrences(named, plans),
-        inputs=_occurrences(vocabulary.task, inputs) if level == "task" else [],
-        possible_pairs=_possible_pairs(vocabulary),
+        names=counts(vocabulary.task if level == "mission" else vocabulary.skill, "names"),
+        inputs=list(counts(vocabulary.task, "inputs")) if level == "task" else [],
+        # Skills that can run at the same time: navigation with others, and others.
+        possible_pairs=alone * beside + beside * (beside - 1) // 2,
         pairs=[
-            [split, len(found), len(found - pairs.get("train", set()))]
-            for split, found in pairs.items()
+            [split, len(one["pairs"]), len(one["pairs"] - known)] for split, one in every.items()
         ],
         tags=[
-            [f"`{tag}`", TAGS[tag], *counts] for (tag, *counts) in _counted(TAGS, tags) if any(tags)
+            [tag, TAGS[tag[1:-1]], *found]
+            for tag, *found in (counts(TAGS, "tags") if tagged else ())
         ],
         lengths=_lengths(level, splits),
         diverse_splits=list(figures),
@@ -81,14 +96,7 @@ def dataset_card(
         ],
         near=leakage["method"]["near"],
         overlaps=[[item[key] for key in OVERLAP] for item in leakage["overlaps"]],
-        baselines=[
-            [
-                item["split"],
-                *(f"{100 * item[key]:.1f} %" for key in ("f1", "sequence", "plan")),
-                item["similarity"],
-            ]
-            for item in leakage["baseline"]
-        ],
+        baselines=baselines,
         memory=[split for split, found in leakage["memory_test"].items() if found],
     )
 
@@ -97,22 +105,6 @@ def table(header: Sequence[Any], rows: Iterable[Sequence[Any]]) -> str:
     """A Markdown table."""
     lines = [header, ["---"] * len(header), *rows]
     return "".join(f"| {' | '.join(str(cell) for cell in line)} |\n" for line in lines)
-
-
-def _counted(names: Iterable[str], found: Sequence[Sequence[str]]) -> Iterator[list[Any]]:
-    """Each name with how often it was found in each split."""
-    counts = [Counter(of_split) for of_split in found]
-    for name in names:
-        yield [name, *(count[name] for count in counts)]
-
-
-def _occurrences(names: Iterable[str], found: Sequence[Sequence[str]]) -> list[list[Any]]:
-    return [[f"`{name}`", *counts] for name, *counts in _counted(names, found)]
-
-
-def _names(level: Level, records: Records) -> list[str]:
-    """The task titles, or skill names, of the expected plans."""
-    return [name for record in records for name in plan_names(level, record["expected"])]
 
 
 def _pairs(level: Level, records: Records) -> Iterator[tuple[str, str]]:
@@ -128,16 +120,7 @@ def _pairs(level: Level, records: Records) -> Iterator[tuple[str, str]]:
             yield from itertools.combinations(names, 2)
 
 
-def _possible_pairs(vocabulary: Vocabulary) -> int:
-    """Skill pairs that can run at the same time: navigation with others, and others among
-    themselves.
-    """
-    alone = len(vocabulary.skills_in_role("navigation"))
-    beside = len(vocabulary.skills) - alone
-    return alone * beside + beside * (beside - 1) // 2
-
-
-def _lengths(level: Level, splits: Splits) -> list[list[Any]]:
+def _lengths(level: Level, splits: Splits) -> Iterator[list[Any]]:
     """[measure, split, minimum, median, 90th percentile, maximum]."""
     measures: dict[str, Callable[[Mapping[str, Any]], int]] = {
         "words in the prompt": lambda record: len(words(record["prompt"])),
@@ -146,16 +129,11 @@ def _lengths(level: Level, splits: Splits) -> list[list[Any]]:
         ),
         "characters in the plan": lambda record: len(compact_json(record["expected"])),
     }
-    return [
-        [
-            name,
-            split,
-            *map(round, np.percentile([measure(record) for record in records], QUANTILES)),
-        ]
-        for name, measure in measures.items()
-        for split, records in splits.items()
-        if records
-    ]
+    for name, measure in measures.items():
+        for split, records in splits.items():
+            if records:
+                found = np.percentile([measure(record) for record in records], QUANTILES)
+                yield [name, split, *map(round, found)]
 
 
 def diversity(records: Records) -> dict[str, float]:

@@ -18,8 +18,9 @@ from typing import Any, Literal, get_args
 
 from planner_ft.data.noise import noisy
 from planner_ft.data.numbers import pick
-from planner_ft.data.task.compose import Misfit, Prompt, aside, opened
+from planner_ft.data.task.compose import Misfit, Prompt
 from planner_ft.data.task.context import Context
+from planner_ft.data.task.frames import aside, opened
 from planner_ft.data.task.phrasebook import phrasebook
 from planner_ft.data.task.prompts.binding import binding, titles
 from planner_ft.data.task.prompts.draw import draw_template

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from planner_ft.data.task.compose import Movement, Scopes
+from planner_ft.data.task.frames import Scopes
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.templates.render import joined
 from planner_ft.vocabulary.definition import load_vocabulary
@@ -24,8 +24,7 @@ def records():
 
 def scope_words(count, chosen, *, numbered=False):
     """Every wording found for the steps `chosen` of so many movements of one step each."""
-    movements = [Movement("hold", None)] * count
-    scopes = Scopes(movements, random.Random(5), numbered=numbered)
+    scopes = Scopes(count, "step", random.Random(5), numbered=numbered)
     return {scopes.words(frozenset(chosen)) for _ in range(600)}
 
 
