@@ -32,12 +32,8 @@ from planner_ft.support.files import sha256_text, sha256_tree
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 
 TOKENIZER_FILES = (
-    "tokenizer*",
-    "chat_template*",
-    "vocab.json",
-    "merges.txt",
-    "special_tokens_map.json",
-    "generation_config.json",
+    *("tokenizer*", "chat_template*", "vocab.json", "merges.txt"),
+    *("special_tokens_map.json", "generation_config.json"),
 )
 SERVER_SEED = 0
 """Sent to servers with temperature 0, for those that break ties by chance."""
@@ -78,22 +74,19 @@ class Job:
         """The job once for every repeat, each with its own random numbers and its own key; the job
         itself where decoding is greedy.
         """
-        if settings.temperature == 0:
+        temperature, top_p, seed = settings.temperature, settings.top_p, settings.seed
+        if temperature == 0:
             return [self]
-        jobs = []
-        for repeat in range(1, settings.repeats + 1):
-            drawn = {
-                "temperature": settings.temperature,
-                "top-p": settings.top_p,
-                "seed": settings.seed,
-                "repeat": repeat,
-            }
-            sampling = Sampling(settings.temperature, settings.top_p, settings.seed, repeat)
-            system = replace(self.system, repeat=repeat)
-            jobs.append(
-                replace(self, sampling=sampling, parts={**self.parts, **drawn}, system=system)
+        drawn = {"temperature": temperature, "top-p": top_p, "seed": seed}
+        return [
+            replace(
+                self,
+                sampling=Sampling(temperature, top_p, seed, repeat),
+                parts={**self.parts, **drawn, "repeat": repeat},
+                system=replace(self.system, repeat=repeat),
             )
-        return jobs
+            for repeat in range(1, settings.repeats + 1)
+        ]
 
 
 @dataclass(frozen=True)
@@ -160,10 +153,8 @@ def _candidates(settings: BenchSettings) -> list[Candidate]:
     for text in settings.candidates:
         candidate = resolve_candidate(text)
         if found.setdefault(candidate.name, candidate).folder != candidate.folder:
-            raise PlannerError(
-                f"--candidates: two different folders are named {candidate.name}; rename one of"
-                " them"
-            )
+            problem = f"two different folders are named {candidate.name}; rename one of them"
+            raise PlannerError(f"--candidates: {problem}")
         require_folder(candidate)
     return list(found.values())
 
@@ -182,23 +173,17 @@ def _adapters(settings: BenchSettings, candidates: list[Candidate]) -> dict[str,
         ]
         if not matching and len(candidates) > 1:
             names = ", ".join(candidate.name for candidate in candidates)
-            raise PlannerError(
-                f"--adapter {text}: with several candidates give NAME=DIR for each; the candidates"
-                f" are {names}"
-            )
+            way = "with several candidates give NAME=DIR for each"
+            raise PlannerError(f"--adapter {text}: {way}; the candidates are {names}")
         target = matching[0] if matching else candidates[0].name
         if target in chosen:
-            raise PlannerError(
-                f"--adapter {text}: {target} has the adapter {chosen[target]} already; give one per"
-                " candidate"
-            )
+            problem = f"{target} has the adapter {chosen[target]} already; give one per candidate"
+            raise PlannerError(f"--adapter {text}: {problem}")
         chosen[target] = Path(folder if matching else text)
     level = settings.level
     return {
-        candidate.name: chosen.get(candidate.name)
-        or find_adapter(candidate, level)
-        or adapter_folder(candidate, level)
-        for candidate in candidates
+        one.name: chosen.get(one.name) or find_adapter(one, level) or adapter_folder(one, level)
+        for one in candidates
     }
 
 
@@ -246,11 +231,12 @@ def _job(
 def _check_servable(configurations: list[Configuration]) -> None:
     for configuration in configurations:
         if configuration.strength not in ("free", "schema"):
-            raise PlannerError(
-                f"--configurations {configuration.name}: {configuration.strength} needs our own"
-                " decoding; with --endpoint there are base, lora (a fine-tuned model, told no"
-                " vocabulary), base+schema and lora+schema"
+            problem = f"{configuration.strength} needs our own decoding"
+            known = (
+                "base, lora (a fine-tuned model, told no vocabulary), base+schema and lora+schema"
             )
+            way = f"with --endpoint there are {known}"
+            raise PlannerError(f"--configurations {configuration.name}: {problem}; {way}")
 
 
 def _served_job(

@@ -63,12 +63,10 @@ class RecordLog:
         for number, record, problem in iterate_jsonl(path):
             if not problem and not _is_record(record):
                 problem = "no record of a run (key and id are expected)"
-            if problem:
+            if problem or record is None:
                 self.close()
-                raise PlannerError(
-                    f"{path}:{number}: {problem}; remove the line, or start with --overwrite"
-                )
-            assert record is not None
+                way = "remove the line, or start with --overwrite"
+                raise PlannerError(f"{path}:{number}: {problem}; {way}")
             self.records[record["key"], record["id"]] = record
 
     def of_key(self, key: str) -> dict[str, Line]:
@@ -83,10 +81,9 @@ class RecordLog:
             while line:
                 line = line[self.stream.write(line) :]
         except OSError as error:
-            raise PlannerError(
-                f"{self.path}: cannot be written ({error.strerror}); free some space and run the"
-                " command again with --resume"
-            ) from error
+            way = "free some space and run the command again with --resume"
+            problem = f"cannot be written ({error.strerror}); {way}"
+            raise PlannerError(f"{self.path}: {problem}") from error
 
     def close(self) -> None:
         self.stream.close()
@@ -197,21 +194,15 @@ def read_run(folder: Path) -> RunRecord:
     """Read run.json. Raises PlannerError when there is none, or an earlier version wrote less."""
     path = folder / RUN
     if not path.is_file():
-        raise PlannerError(
-            f"{folder}: no {RUN}, so no run of `plannerft bench`; for other predictions give"
-            " --predictions FILE"
-        )
+        other = "for other predictions give --predictions FILE"
+        raise PlannerError(f"{folder}: no {RUN}, so no run of `plannerft bench`; {other}")
     record = read_json(path)
     names = [field.name for field in fields(RunRecord)]
-    whole = isinstance(record, dict) and all(isinstance(record.get(n), dict) for n in names)
-    if not whole:
-        raise PlannerError(
-            f"{path}: does not say what was run; score its answers with --predictions"
-            f" {folder / PREDICTIONS}"
-        )
-    values = {name: record[name] for name in names}
+    if not isinstance(record, dict) or not all(isinstance(record.get(n), dict) for n in names):
+        way = f"score its answers with --predictions {folder / PREDICTIONS}"
+        raise PlannerError(f"{path}: does not say what was run; {way}")
     systems = {name: System(**system) for name, system in record["systems"].items()}
-    return RunRecord(**{**values, "systems": systems})
+    return RunRecord(**{name: record[name] for name in names} | {"systems": systems})
 
 
 def measured_in(folder: Path, record: RunRecord) -> list[Measured]:
@@ -244,9 +235,8 @@ def _check_jobs(plan: Plan, path: Path, recorded: dict[str, dict[str, Any]]) -> 
     wanted += [(job.name, recorded.get(job.name, job.parts), job.parts) for job in plan.jobs]
     for name, before, now in wanted:
         if changed := [part for part in now if before.get(part) != now[part]]:
-            raise PlannerError(
-                f"{path}: {name} was begun with another {' and another '.join(changed)}; {OTHER}"
-            )
+            what = " and another ".join(changed)
+            raise PlannerError(f"{path}: {name} was begun with another {what}; {OTHER}")
 
 
 def _check_predictions(plan: Plan, predictions: RecordLog) -> None:
@@ -256,7 +246,5 @@ def _check_predictions(plan: Plan, predictions: RecordLog) -> None:
     for record in predictions.records.values():
         name = str(record.get("candidate")), str(record.get("configuration"))
         if record["key"] not in keys.get(name, {record["key"]}):
-            raise PlannerError(
-                f"{predictions.path}: holds answers of {' '.join(name)} that are not of this run;"
-                " give --overwrite or another --out"
-            )
+            what = f"holds answers of {' '.join(name)} that are not of this run"
+            raise PlannerError(f"{predictions.path}: {what}; give --overwrite or another --out")

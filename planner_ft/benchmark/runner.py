@@ -27,7 +27,7 @@ from planner_ft.benchmark.records import (
 from planner_ft.benchmark.results import Results, assemble
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
-from planner_ft.benchmark.sources import Answered, AnswerSource, Timed, open_source
+from planner_ft.benchmark.sources import AnswerSource, Fields, open_source
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary.outputs import parse_output
 
@@ -62,23 +62,21 @@ class _Run:
 
     def answer(self, job: Job, samples: list[Sample], source: AnswerSource) -> None:
         """Record answers as they come."""
-        total = len(self.plan.data.samples)
-        label, done = f"{job.name}: answers", total - len(samples)
-        self.progress(label, done, total)
-        for index, answer in source.answers(job, samples):
+        label, total = f"{job.name}: answers", len(self.plan.data.samples)
+        before = total - len(samples)
+        self.progress(label, before, total)
+        for done, (index, answer) in enumerate(source.answers(job, samples), before + 1):
             self.predictions.append(_prediction(job, samples[index], answer))
-            done += 1
             self.progress(label, done, total)
 
     def time(
         self, job: Job, samples: list[Sample], total: int, source: AnswerSource, log: RecordLog
     ) -> None:
         """Time queries one at a time."""
-        label, done = f"{job.name}: latency", total - len(samples)
-        for index, timed in source.latencies(job, samples) if samples else ():
-            log.append(_timed(job, samples[index], timed))
-            done += 1
-            self.progress(label, done, total)
+        found = source.latencies(job, samples) if samples else ()
+        for done, (index, timed) in enumerate(found, total - len(samples) + 1):
+            log.append({"id": samples[index].id, **job.named(), **timed, "key": job.key})
+            self.progress(f"{job.name}: latency", done, total)
 
 
 def run_bench(
@@ -187,36 +185,15 @@ def _without(samples: Sequence[Sample], done: Mapping[str, Line]) -> list[Sample
     return [sample for sample in samples if sample.id not in done]
 
 
-def _prediction(job: Job, sample: Sample, answer: Answered) -> Line:
-    parsed = parse_output(answer.output)
+def _prediction(job: Job, sample: Sample, answer: Fields) -> Line:
+    parsed = parse_output(answer["output"])
     return {
         "id": sample.id,
         **job.named(),
-        "output": answer.output,
+        **answer,
         "parsed": parsed.plan,
-        "tokens": answer.tokens,
-        "forward_passes": answer.forward_passes,
-        "time_s": round(answer.seconds, 4),
-        "finish_reason": answer.finish_reason,
-        "error": answer.error or parsed.problem,
-        "prompt_tokens": answer.prompt_tokens,
+        "error": answer["error"] or parsed.problem,
         "standin": job.candidate.is_standin,
-        **answer.more,
-        "key": job.key,
-    }
-
-
-def _timed(job: Job, sample: Sample, timed: Timed) -> Line:
-    first = (
-        {"first_token_s": round(timed.first_token_s, 6)} if timed.first_token_s is not None else {}
-    )
-    return {
-        "id": sample.id,
-        **job.named(),
-        "latency_s": round(timed.seconds, 6),
-        "tokens": timed.tokens,
-        "forward_passes": timed.forward_passes,
-        **first,
         "key": job.key,
     }
 
@@ -225,11 +202,7 @@ def _results(
     plan: Plan, predictions: RecordLog, latencies: RecordLog, run: dict[str, Any]
 ) -> Results:
     settings, costs = plan.settings, read_run(plan.settings.folder).costs
-    sampled = {
-        "temperature": settings.temperature,
-        "top_p": settings.top_p,
-        "repeats": settings.repeats,
-    }
+    sampled = {name: getattr(settings, name) for name in ("temperature", "top_p", "repeats")}
     configuration = {
         "level": settings.level,
         "vocabulary": {"name": plan.vocabulary.name, "sha256": plan.vocabulary.sha256},
@@ -249,16 +222,10 @@ def _results(
         costs=costs,
         run=run,
     )
-    found = [
-        measured(
-            settings.folder,
-            costs,
-            job.system,
-            predictions.of_key(job.key),
-            latencies.of_key(job.key),
-        )
-        for job in plan.jobs
-    ]
+    found = []
+    for job in plan.jobs:
+        answers, timed = predictions.of_key(job.key), latencies.of_key(job.key)
+        found.append(measured(settings.folder, costs, job.system, answers, timed))
     return assemble(plan.data, plan.vocabulary, found, seed=settings.seed, manifest=manifest)
 
 

@@ -118,20 +118,17 @@ def _problems(record: Any, level: Level, vocabulary: Vocabulary) -> Iterator[str
             yield f"expected.{key}[{index}] has no {field}"
         elif not all(isinstance(item.get("parameters", {}), dict) for item in items):
             yield f"expected.{key}[{index}]: parameters is no object"
+    known = vocabulary.task if mission else vocabulary.skill
     for name in plan_names(level, expected):
-        if name not in (vocabulary.task if mission else vocabulary.skill):
-            yield (
-                f"expected names {name!r}, which is not in the vocabulary {vocabulary.name};"
-                " correct it or give --vocabulary"
-            )
+        if name not in known:
+            where = f"is not in the vocabulary {vocabulary.name}; correct it or give --vocabulary"
+            yield f"expected names {name!r}, which {where}"
 
 
 def default_data(level: Level) -> Path:
     """The test split that `plannerft gen-data` writes. Raises PlannerError when it is not there."""
     path = Path("data") / level / "test.jsonl"
     if not path.is_file():
-        raise PlannerError(
-            f"{path}: no such file; write it with `plannerft gen-data --level {level}`, or give"
-            " --data"
-        )
+        way = f"write it with `plannerft gen-data --level {level}`, or give --data"
+        raise PlannerError(f"{path}: no such file; {way}")
     return path

@@ -44,6 +44,7 @@ Value = float | bool | None
 """A metric of one sample: None where the sample says nothing about it."""
 Values = dict[str, Value]
 Details = dict[str, Any]
+UNPARSED = "(does not parse)"
 UNPARSED_COUNTS: dict[Level, bool] = {"mission": True, "task": False}
 """Whether the published tables count an answer that does not parse as hallucinated."""
 
@@ -164,10 +165,14 @@ def _published(answer: Answer) -> Values:
 
 def _names(answer: Answer) -> Values:
     """Names as a set (the published F1) and as a multiset, and their order; at task level also per
-    role, and the order of steps.
+    role, and the order of steps. Where nothing is expected, an answer that does not parse is not
+    taken for one that names nothing.
     """
     level, task_level = answer.level, answer.level == "task"
     names = [entry.name for entry in answer.given], [entry.name for entry in answer.wanted]
+    steps = [name_sequence(level, plan) for plan in (answer.plan or {}, answer.expected)]
+    if answer.plan is None and not answer.wanted:
+        names, steps[0] = ([UNPARSED], []), [(UNPARSED,)]
     values: Values = {}
     for prefix, counts in (("", set_counts(*names)), ("multiset_", multiset_counts(*names))):
         values[f"{prefix}f1"] = counts.f1
@@ -177,7 +182,6 @@ def _names(answer: Answer) -> Values:
         by_role = counts_by_role(answer.given, answer.wanted)
         for role in ROLES:
             values |= _pooled(role, by_role.get(role, Counts(0, 0, 0)))
-    steps = [name_sequence(level, plan) for plan in (answer.plan or {}, answer.expected)]
     flat = [[name for step in sequence for name in step] for sequence in steps]
     return values | {
         "exact_sequence": answer.plan is not None and steps[0] == steps[1],

@@ -17,13 +17,19 @@ CHAT = "/chat/completions"
 ROOT = "give the API's root, such as http://127.0.0.1:8000/v1"
 
 
-def _out_of_range(bounds: dict[str, tuple[float, float, float]]) -> list[str]:
+def out_of_range(**bounds: tuple[float, float, float]) -> list[str]:
     """Problems of settings by flag: (value, lowest, highest)."""
     return [
-        f"--{flag} {value}: must be between {low} and {high}"
+        f"--{flag.replace('_', '-')} {value}: must be between {low} and {high}"
         for flag, (value, low, high) in bounds.items()
         if not low <= value <= high
     ]
+
+
+def check_seed(seed: int) -> None:
+    """Raise PlannerError for a seed that no generator of random numbers takes."""
+    if seed < 0:
+        raise PlannerError(f"--seed {seed}: must be 0 or more")
 
 
 @dataclass(frozen=True)
@@ -47,12 +53,10 @@ class EndpointSettings:
         named = self.model.strip()
         problems = [] if named else ["--model: give the name by which the server knows the model"]
         problems += _url_problems(self.url)
-        problems += _out_of_range(
-            {
-                "concurrency": (self.concurrency, 1, 256),
-                "timeout": (self.timeout, 0.1, 86400),
-                "retries": (self.retries, 0, 100),
-            }
+        problems += out_of_range(
+            concurrency=(self.concurrency, 1, 256),
+            timeout=(self.timeout, 0.1, 86400),
+            retries=(self.retries, 0, 100),
         )
         if problems:
             raise PlannerError("; ".join(problems))
@@ -74,16 +78,11 @@ class EndpointSettings:
         if self.api_key_env is None:
             return None
         key = os.environ.get(self.api_key_env, "").strip()
-        if not key or not key.isascii() or not key.isprintable():
-            problem = (
-                "holds characters that no key has"
-                if key
-                else "this environment variable is not set"
-            )
-            raise PlannerError(
-                f"--api-key-env {self.api_key_env}: {problem}; export the server's key in it"
-            )
-        return key
+        if key and key.isascii() and key.isprintable():
+            return key
+        wrong, unset = "holds characters that no key has", "this environment variable is not set"
+        problem = f"{wrong if key else unset}; export the server's key in it"
+        raise PlannerError(f"--api-key-env {self.api_key_env}: {problem}")
 
 
 def _url_problems(url: str) -> list[str]:
@@ -94,10 +93,9 @@ def _url_problems(url: str) -> list[str]:
     except ValueError:
         return [f"--endpoint: no URL; {ROOT}"]
     if parts.username or parts.password or parts.query or parts.fragment:
-        return [
-            "--endpoint: give the URL without user, password or query (it is written into"
-            " manifests), and a key with --api-key-env"
-        ]
+        why = "it is written into manifests"
+        alone = f"give the URL without user, password or query ({why})"
+        return [f"--endpoint: {alone}, and a key with --api-key-env"]
     if parts.scheme not in ("http", "https") or not parts.hostname or not port_is_number:
         return [f"--endpoint {url}: no http URL; {ROOT}"]
     return []
@@ -138,50 +136,33 @@ class BenchSettings:
     endpoint: EndpointSettings | None = None
 
     def __post_init__(self) -> None:
-        problems = []
-        if not self.candidates:
-            problems.append("--candidates: name at least one; `plannerft candidates` lists them")
-        if not self.configurations:
-            problems.append("--configurations: name at least one")
-        if self.quantization not in (None, "nf4", "none"):
-            problems.append(f"--quantization {self.quantization}: must be nf4 or none")
-        problems += _out_of_range(
-            {
-                "batch-size": (1 if self.batch_size is None else self.batch_size, 1, 1024),
-                "max-new-tokens": (self.token_limit, 1, LONGEST),
-                "latency-samples": (self.latency_samples, 0, 10**9),
-                "planning-samples": (self.planning_samples, 0, 1000),
-                "repeats": (self.repeats, 1, 1000),
-            }
+        check_seed(self.seed)
+        problems = out_of_range(
+            batch_size=(1 if self.batch_size is None else self.batch_size, 1, 1024),
+            max_new_tokens=(self.token_limit, 1, LONGEST),
+            latency_samples=(self.latency_samples, 0, 10**9),
+            planning_samples=(self.planning_samples, 0, 1000),
+            repeats=(self.repeats, 1, 1000),
         )
-        problems += self._sampling_problems()
-        if self.resume and self.overwrite:
-            problems.append(
-                "--resume keeps former predictions and --overwrite removes them: give one of them"
-            )
-        if self.planning_samples and (self.level != "mission" or self.endpoint or self.temperature):
-            problems.append(
-                "--planning-samples times both agents from the mission level on, here and greedily:"
-                " leave it out"
-            )
-        given = {
+        problems += [text for text, holds in self._problems().items() if holds]
+        if problems:
+            raise PlannerError("; ".join(problems))
+
+    def _problems(self) -> dict[str, bool]:
+        """Sentences about what does not go together, and whether that is so."""
+        greedy, again = self.temperature == 0, "give --temperature, for example 0.7"
+        plans_here = self.level == "mission" and not self.endpoint and greedy
+        loaded = {
             "--adapter": self.adapters,
             "--quantization": self.quantization,
             "--device": self.device != "auto",
         }
-        if self.endpoint and any(given.values()):
-            flags = ", ".join(flag for flag, value in given.items() if value)
-            problems.append(
-                f"{flags}: these go with models that are loaded here; leave them out when you give"
-                " --endpoint"
-            )
-        if problems:
-            raise PlannerError("; ".join(problems))
-
-    def _sampling_problems(self) -> list[str]:
-        greedy = self.temperature == 0
-        again = "give --temperature, for example 0.7"
-        problems = {
+        flags = ", ".join(flag for flag, given in loaded.items() if given)
+        return {
+            "--candidates: name at least one; `plannerft candidates` lists them": not self.candidates,
+            "--configurations: name at least one": not self.configurations,
+            f"--quantization {self.quantization}: must be nf4 or none": self.quantization
+            not in (None, "nf4", "none"),
             f"--temperature {self.temperature:g}: must be between 0 (greedy) and 10": not 0
             <= self.temperature
             <= 10,
@@ -190,8 +171,14 @@ class BenchSettings:
             and self.repeats > 1,
             f"--top-p {self.top_p:g}: greedy decoding samples nothing; {again}": greedy
             and self.top_p != 1,
+            "--resume keeps former predictions and --overwrite removes them: give one of them": (
+                self.resume and self.overwrite
+            ),
+            "--planning-samples times both agents from the mission level on, here and greedily:"
+            " leave it out": bool(self.planning_samples) and not plans_here,
+            f"{flags}: these go with models that are loaded here; leave them out when you give"
+            " --endpoint": bool(self.endpoint and flags),
         }
-        return [text for text, holds in problems.items() if holds]
 
     @property
     def token_limit(self) -> int:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +11,7 @@ from planner_ft.benchmark.folder import LATENCY, PREDICTIONS
 from planner_ft.benchmark.records import measured_in, read_run
 from planner_ft.benchmark.results import Measured, Results, System, assemble
 from planner_ft.benchmark.samples import BenchData, joined, load_bench_data
+from planner_ft.benchmark.settings import check_seed
 from planner_ft.candidates import all_candidates
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import iterate_jsonl
@@ -17,6 +20,7 @@ from planner_ft.vocabulary import Vocabulary, load_vocabulary
 
 CONFIGURATION = "submitted"
 """Configuration of predictions that name none."""
+COUNTS = ("tokens", "latency_s", "forward_passes")
 
 Key = tuple[str, str, int | None]
 """Candidate, configuration and repeat."""
@@ -34,18 +38,17 @@ def score_predictions(
     without `candidate`. For the predictions.jsonl of a run, its latency.jsonl is read, too. Raises
     PlannerError that names the lines of malformed, double and unknown predictions.
     """
+    check_seed(seed)
     found, timed = [], _timed(path)
     for key, lines in _read(path, data.ids, name or path.stem).items():
         own = {sample: line for sample, line in lines.items() if _is_timed(line)}
         system = _system(key, lines, vocabulary)
         found.append(Measured(system, lines, {**timed.get(key, {}), **own}))
+    named = {"name": vocabulary.name, "sha256": vocabulary.sha256}
     manifest = build_manifest(
         "score",
         seed=seed,
-        configuration={
-            "level": data.level,
-            "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
-        },
+        configuration={"level": data.level, "vocabulary": named},
         inputs={"predictions": path, "data": data.path},
     )
     return assemble(data, vocabulary, found, seed=seed, manifest=manifest)
@@ -58,21 +61,20 @@ def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None =
     `data_path` says where the data lies now if it was moved. Raises PlannerError when it is not the
     same data.
     """
+    check_seed(seed or 0)
     record = read_run(folder)
     settings = record.settings
     vocabulary = load_vocabulary(settings["vocabulary"])
     path = data_path or settings["data"]
     data = load_bench_data(path, settings["level"], vocabulary, settings["limit"])
     if data.sha256 != settings["data_sha256"]:
-        raise PlannerError(
-            f"{data.path}: is not the data that {folder} was run on; give that file with --data"
-        )
+        problem = f"is not the data that {folder} was run on; give that file with --data"
+        raise PlannerError(f"{data.path}: {problem}")
     for name, parts in record.jobs.items():
         if parts.get("vocabulary") != vocabulary.sha256:
-            raise PlannerError(
-                f"{folder}: {name} was run with another version of the vocabulary"
-                f" {vocabulary.name}; restore it to score the run again"
-            )
+            problem = f"was run with another version of the vocabulary {vocabulary.name}"
+            way = "restore it to score the run again"
+            raise PlannerError(f"{folder}: {name} {problem}; {way}")
     seed = settings["seed"] if seed is None else seed
     named = {"name": vocabulary.name, "sha256": vocabulary.sha256}
     manifest = build_manifest(
@@ -93,27 +95,22 @@ def _read(path: Path, known: frozenset[str], name: str) -> dict[Key, Lines]:
     problems: list[str] = []
     line: Any
     for number, line, problem in iterate_jsonl(path):
-        problem = problem or _problem(line, known)
-        if problem is None:
-            candidate = str(line.get("candidate") or name)
-            configuration = str(line.get("configuration") or CONFIGURATION)
-            key = candidate, configuration, line.get("repeat")
-            if before := numbers.get((key, line["id"])):
-                problem = (
-                    f"id {line['id']!r} has a prediction on line {before} already (further answers"
-                    " to a sample need a number as repeat)"
-                )
-            else:
-                numbers[key, line["id"]] = number
-                groups.setdefault(key, {})[line["id"]] = line
-        if problem is not None:
+        if problem := problem or next(_problems(line, known), None):
             problems.append(f"{path}:{number}: {problem}")
+            continue
+        candidate = str(line.get("candidate") or name)
+        key = candidate, str(line.get("configuration") or CONFIGURATION), line.get("repeat")
+        if before := numbers.get((key, line["id"])):
+            way = "further answers to a sample need a number as repeat"
+            double = f"id {line['id']!r} has a prediction on line {before} already ({way})"
+            problems.append(f"{path}:{number}: {double}")
+        numbers.setdefault((key, line["id"]), number)
+        groups.setdefault(key, {})[line["id"]] = line
     if problems:
         raise PlannerError(joined(problems))
     if not groups:
-        raise PlannerError(
-            f"{path}: holds no predictions; one JSON object per line with id and output is expected"
-        )
+        expected = "one JSON object per line with id and output is expected"
+        raise PlannerError(f"{path}: holds no predictions; {expected}")
     return groups
 
 
@@ -147,20 +144,27 @@ def _timed(path: Path) -> dict[Key, Lines]:
 
 
 def _is_timed(line: dict[str, Any]) -> bool:
-    return isinstance(line.get("latency_s"), int | float)
+    return line.get("latency_s") is not None and _is_count(line["latency_s"])
 
 
-def _problem(line: Any, known: frozenset[str]) -> str | None:
+def _is_count(value: Any) -> bool:
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    return number and 0 <= value < math.inf
+
+
+def _problems(line: Any, known: frozenset[str]) -> Iterator[str]:
+    """Reasons why a line is no prediction."""
     if not isinstance(line, dict):
-        return f"a JSON object is expected, not {type(line).__name__}"
+        yield f"a JSON object is expected, not {type(line).__name__}"
+        return
     if not isinstance(line.get("id"), str):
-        return "id is missing or no text"
+        yield "id is missing or no text"
+    elif line["id"] not in known:
+        yield f"id {line['id']!r} is not in the test data"
     if "output" not in line or not isinstance(line["output"], str | dict | None):
-        return "output is missing, or neither text nor object nor null"
-    if line["id"] not in known:
-        return f"id {line['id']!r} is not in the test data"
-    if line.get("tokens") is not None and not isinstance(line["tokens"], int | float):
-        return "tokens is no number"
+        yield "output is missing, or neither text nor object nor null"
+    for name in COUNTS:
+        if line.get(name) is not None and not _is_count(line[name]):
+            yield f"{name} is no number from 0"
     if "repeat" in line and (type(line["repeat"]) is not int or line["repeat"] < 1):
-        return "repeat must be a whole number from 1"
-    return None
+        yield "repeat must be a whole number from 1"

@@ -130,9 +130,14 @@ def _line(cells: Iterable[str]) -> str:
     return "| " + " | ".join(cells) + " |"
 
 
+def printable(text: str) -> str:
+    """A text of somebody else's on one line, without characters that a terminal would obey."""
+    return " ".join("".join(one if one.isprintable() else " " for one in text).split())
+
+
 def _md(text: str) -> str:
     """A text on one line that cannot end its cell."""
-    text = " ".join(text.split())
+    text = printable(text)
     shown = text if len(text) <= LONGEST_CELL else f"{text[:LONGEST_CELL]}…"
     return shown.replace("|", "\\|")
 

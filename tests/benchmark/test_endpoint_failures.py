@@ -198,6 +198,33 @@ def test_a_server_that_fails_for_good_is_one_sentence_and_what_came_is_kept(
     assert len(server.requests) - before == COUNT - len(kept)
 
 
+def test_a_server_cannot_write_on_the_terminal(server: ChatServer, run: Any) -> None:
+    server.act = lambda handler, body: _status(400, "no\x1b[2J\x00\nway")(handler, body)
+    status, said, _kept = run()
+    assert status == 2 and "HTTP 400: no [2J way" in said
+    assert "\x1b[2J" not in said and "\x00" not in said
+
+
+def test_an_answer_without_content_is_said_to_be_one(
+    server: ChatServer, run: Any, tmp_path: Path
+) -> None:
+    def silent(handler: Handler, body: Body) -> bool:
+        if asked(body) != "go to 3 3":
+            return False
+        value = completion("")
+        value["choices"][0]["message"]["content"] = None
+        handler.send(200, value)
+        return True
+
+    server.act = silent
+    status, said, kept = run()
+    assert (status, len(kept)) == (0, COUNT), said
+    text = (tmp_path / "out" / "predictions.jsonl").read_text()
+    (line,) = [one for one in map(json.loads, text.splitlines()) if one["id"] == "m3"]
+    assert (line["finish_reason"], line["error"]) == ("error", "the server sent no content")
+    assert "1 of 6 samples failed" in (tmp_path / "out" / "table.md").read_text()
+
+
 def test_a_server_that_is_not_there(run: Any) -> None:
     with chat_server() as gone:
         url = gone.url

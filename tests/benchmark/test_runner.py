@@ -603,6 +603,7 @@ def test_the_command_prints_the_table(tmp_path: Path, data: Path) -> None:
             r"--configurations lora\+x",
         ),
         (("--level", "mission", "--candidates", NAME, "--batch-size", "0"), "--batch-size 0"),
+        (("--level", "mission", "--candidates", NAME, "--seed", "-1"), "--seed -1"),
         (
             ("--level", "mission", "--candidates", NAME, "--max-new-tokens", "99999"),
             "--max-new-tokens 99999",
@@ -641,6 +642,14 @@ def test_bad_flags_are_one_sentence(
     assert isinstance(result.exception, PlannerError)
     with pytest.raises(PlannerError, match=problem):
         raise result.exception
+
+
+def test_a_limit_that_a_later_configuration_cannot_keep_is_refused_before_the_first(
+    settings: Any, tmp_path: Path, work: dict[str, int]
+) -> None:
+    with pytest.raises(PlannerError, match="--max-new-tokens 6: at strength schema"):
+        run_bench(settings(configurations=("base", "base+schema"), adapters=()))
+    assert work["rows"] == 0
 
 
 def test_a_read_only_or_impossible_output_folder_is_one_sentence(

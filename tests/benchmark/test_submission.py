@@ -194,8 +194,8 @@ def test_missing_predictions_count_as_empty_outputs_and_are_named(
     (row,) = results(tmp_path / "out")["rows"]
     assert row["missing"] == ["s3", "s4"]
     assert row["n"] == 4
-    # Nothing is expected of s3, and an empty output names nothing.
-    assert row["metrics"]["f1"]["value"] == 2 / 4
+    # Nothing is expected of s3, and yet no answer is no right refusal.
+    assert row["metrics"]["f1"]["value"] == 1 / 4
     assert row["metrics"]["schema_valid"]["value"] == 1 / 4
     assert row["metrics"]["hallucination"]["value"] == 3 / 4
     assert row["metrics"]["hallucination_without_unparsed"]["value"] == 0
@@ -214,7 +214,10 @@ def test_missing_predictions_count_as_empty_outputs_and_are_named(
         ([{"id": "s1", "output": 3}], "mine.jsonl:1: output is missing, or neither"),
         (["s1"], "mine.jsonl:1: a JSON object is expected"),
         ([], "holds no predictions"),
-        ([{"id": "s1", "output": "", "tokens": "many"}], "tokens is no number"),
+        ([{"id": "s1", "output": "", "tokens": "many"}], "tokens is no number from 0"),
+        ([{"id": "s1", "output": "", "tokens": -5}], "tokens is no number from 0"),
+        ([{"id": "s1", "output": "", "tokens": True}], "tokens is no number from 0"),
+        ([{"id": "s1", "output": "", "latency_s": "fast"}], "latency_s is no number from 0"),
     ],
 )
 def test_bad_predictions_are_named_by_line(
@@ -222,6 +225,22 @@ def test_bad_predictions_are_named_by_line(
 ) -> None:
     with pytest.raises(PlannerError, match=problem):
         run("--predictions", predictions(tmp_path, *lines), "--data", data)
+
+
+def test_rubbish_is_no_refusal_and_a_number_is_an_invented_name(tmp_path: Path, data: Path) -> None:
+    answers = {"s3": "I cannot do that.", "s1": {**plan(), "tasks": [{"title": 5}]}}
+    lines = [{"id": name, "output": output} for name, output in answers.items()]
+    run("--predictions", predictions(tmp_path, *lines), "--data", data, "--out", tmp_path / "out")
+    text = (tmp_path / "out" / "scores.jsonl").read_text()
+    scores = {line["id"]: line for line in map(json.loads, text.splitlines())}
+    names = ("f1", "multiset_f1", "lcs_f1", "edge_f1", "right_refusal", "exact_sequence")
+    assert [scores["s3"][name] for name in names] == [0, 0, 0, 0, False, False]
+    assert scores["s1"]["hallucination_without_unparsed"] and scores["s1"]["precision"] == 0
+
+
+def test_a_seed_that_no_generator_takes_is_refused_first(tmp_path: Path, data: Path) -> None:
+    with pytest.raises(PlannerError, match="--seed -1: must be 0 or more"):
+        run("--predictions", tmp_path / "none.jsonl", "--data", data, "--seed", "-1")
 
 
 def test_the_same_id_may_stand_once_per_candidate_and_configuration(

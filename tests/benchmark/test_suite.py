@@ -14,6 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import typer
+from typer.testing import CliRunner
 
 from planner_ft.benchmark.suite import session as session_module
 from planner_ft.benchmark.suite import units as process_module
@@ -21,7 +23,9 @@ from planner_ft.benchmark.suite.definition import load_suite
 from planner_ft.benchmark.suite.run import combine, run_suite
 from planner_ft.benchmark.suite.session import State, opened
 from planner_ft.benchmark.suite.units import Flags, Process
+from planner_ft.cli.bench import bench
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import alone
 
 FIRST, SECOND = "Llama-3.2-1B", "Qwen2.5-3B"
 RIGHT = json.dumps(
@@ -341,22 +345,24 @@ def test_data_that_changed_since_the_start_is_refused(go: Any, runs: Runs, tmp_p
     assert [row["n"] for row in csv_rows(tmp_path / "out" / "table.csv")] == ["3", "3", "4", "4"]
 
 
-def test_a_folder_is_not_overwritten_and_not_shared(
-    go: Any, runs: Runs, suite_file: Path, tmp_path: Path
-) -> None:
+def test_a_folder_is_not_overwritten(go: Any, runs: Runs) -> None:
     go()
     with pytest.raises(PlannerError, match=r"--resume .* --overwrite"):
         go()
-    with (
-        opened(load_suite(suite_file), tmp_path / "out", Flags(), lambda _state: None, resume=True),
-        pytest.raises(PlannerError, match="another suite is running"),
-    ):
-        go(resume=True)
+
+
+def test_two_suites_do_not_share_a_folder(suite_file: Path, tmp_path: Path) -> None:
+    app, out = typer.Typer(), tmp_path / "out"
+    app.command()(bench)
+    with alone(out, "--out", "a suite"):
+        done = CliRunner().invoke(app, ["--suite", str(suite_file), "--out", str(out)])
+    assert isinstance(done.exception, PlannerError)
+    assert "a suite runs there" in str(done.exception)
 
 
 def test_what_is_not_run_yet_is_said(suite_file: Path, runs: Runs, tmp_path: Path) -> None:
-    with opened(load_suite(suite_file), tmp_path / "out", Flags(), lambda _state: None) as session:
-        parts, _manifest = combine(session)
+    session = opened(load_suite(suite_file), tmp_path / "out", Flags(), lambda _state: None)
+    parts, _manifest = combine(session)
     assert {entry.reason for part in parts for entry in part.failed} == {"not run yet"}
 
 

@@ -49,6 +49,8 @@ def plan_entries(level: Level, plan: Any) -> Entries:
     for step, item in enumerate(items if isinstance(items, list) else ()):
         for role, owner in [(TASK, item)] if level == "mission" else step_skills(item):
             name = owner.get(key) if isinstance(owner, dict) else None
+            if isinstance(name, int | float):
+                name = str(name)  # no name of any vocabulary, and yet one that was given
             if isinstance(name, str):
                 given = owner.get("parameters")
                 parameters = given if isinstance(given, dict) else {}

@@ -13,7 +13,7 @@ from planner_ft.benchmark.metrics.alignment import Entry, align, plan_entries
 from planner_ft.benchmark.metrics.names import exact_sequence, name_sequence
 from planner_ft.benchmark.metrics.parameters import right_entries
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import Level, list_key, named_entries, plan_names, plan_problems
+from planner_ft.vocabulary.plans import Level, list_key, named_entries, plan_problems
 
 Failure = Literal[
     "prerequisite omission",
@@ -55,7 +55,7 @@ def strict_valid(level: Level, plan: Plan | None, vocabulary: Vocabulary) -> boo
 def invented_names(level: Level, plan: Plan | None, vocabulary: Vocabulary) -> list[str]:
     """Names of the plan that are not in the vocabulary, in order."""
     known = vocabulary.task if level == "mission" else vocabulary.skill
-    return [name for name in plan_names(level, plan) if name not in known]
+    return [entry.name for entry in plan_entries(level, plan) if entry.name not in known]
 
 
 def refuses(level: Level, plan: Plan | None) -> bool:

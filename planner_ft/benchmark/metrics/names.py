@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 from rapidfuzz.distance import LCSseq, Levenshtein
 
-from planner_ft.benchmark.metrics.alignment import Entry
-from planner_ft.vocabulary.plans import Level, list_key, plan_names, step_skills
+from planner_ft.benchmark.metrics.alignment import Entry, plan_entries
+from planner_ft.vocabulary.plans import Level, list_key, step_skills
 
 
 class Counts(NamedTuple):
@@ -76,7 +76,7 @@ def name_sequence(level: Level, plan: dict[str, Any]) -> list[tuple[str, ...]]:
     skills of one step run at the same time.
     """
     if level == "mission":
-        return [(title,) for title in plan_names(level, plan)]
+        return [(entry.name,) for entry in plan_entries(level, plan)]
     steps = plan.get(list_key(level))
     return [
         tuple(sorted(f"{role} {skill.get('name')}" for role, skill in step_skills(step)))

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from planner_ft.benchmark.settings import CHAT, ROOT, EndpointSettings
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.tables import printable
 
 if TYPE_CHECKING:
     import httpx2
@@ -62,7 +63,7 @@ class Passing(Exception):
 @dataclass(frozen=True)
 class Reply:
     """An answer. `seconds` is the time from the question to its end, `first_token_s` to the first
-    text (streams alone).
+    text (streams alone); `problem` says why there is no text.
     """
 
     text: str
@@ -72,6 +73,7 @@ class Reply:
     prompt_tokens: int | None = None
     first_token_s: float | None = None
     attempts: int = 1
+    problem: str | None = None
 
 
 class ChatClient:
@@ -111,10 +113,9 @@ class ChatClient:
             except Passing as problem:
                 if attempt > retries or self._pause(attempt, problem.wait):
                     times = f" ({attempt} times in a row)" if attempt > 1 else ""
-                    raise PlannerError(
-                        f"{self.settings.root}: the server {self._without_key(str(problem))}{times};"
-                        f" look after the server and go on: {KEPT}"
-                    ) from None
+                    said = f"the server {self._without_key(str(problem))}{times}"
+                    way = f"look after the server and go on: {KEPT}"
+                    raise PlannerError(f"{self.settings.root}: {said}; {way}") from None
             attempt += 1
 
     def complete_all(
@@ -126,40 +127,42 @@ class ChatClient:
         yielded if they succeed, and then the first exception is raised. The threads are daemons, so
         that a program can end while a server hangs.
         """
-        waiting = iter(list(enumerate(items)))
-        done: queue.SimpleQueue[tuple[int, Result | None, BaseException | None]]
-        done, taking = queue.SimpleQueue(), threading.Lock()
+        waiting: queue.SimpleQueue[tuple[int, Item]] = queue.SimpleQueue()
+        done: queue.SimpleQueue[tuple[int, Any, BaseException | None] | None] = queue.SimpleQueue()
+        for pair in enumerate(items):
+            waiting.put(pair)
 
         def work() -> None:
-            while True:
-                with taking:
-                    index, item = next(waiting, (-1, None))
-                if index < 0 or item is None or self.stopped.is_set():
+            while not self.stopped.is_set():
+                try:
+                    index, item = waiting.get_nowait()
+                except queue.Empty:
                     break
                 try:
                     done.put((index, function(item), None))
                 except BaseException as error:
                     self.stop()
                     done.put((index, None, error))
-            done.put((-1, None, None))
+            done.put(None)
 
         running = min(self.settings.concurrency, len(items))
         for _ in range(running):
             threading.Thread(target=work, daemon=True).start()
-        failure: BaseException | None = None
+        failures = []
         try:
             while running:
-                index, result, error = done.get()
-                failure = failure or error
-                if index < 0:
+                found = done.get()
+                if found is None:
                     running -= 1
-                elif error is None:
-                    yield index, result  # type: ignore[misc]  # no error, so a result
+                elif found[2] is None:
+                    yield found[0], found[1]
+                else:
+                    failures.append(found[2])
         except BaseException:
             self.stop()
             raise
-        if failure is not None:
-            raise failure
+        if failures:
+            raise failures[0]
 
     def models(self) -> list[dict[str, Any]] | None:
         """The models that the server says it serves (GET /models), None where it does not say."""
@@ -206,7 +209,7 @@ class ChatClient:
 
     def _refusal(self, response: httpx2.Response, body: bytes) -> Exception:
         """The meaning of a status other than 200."""
-        status, root = response.status_code, self.settings.root
+        status, root, model = response.status_code, self.settings.root, self.settings.model
         message = self._without_key(_excerpt(body))
         answer = f"HTTP {status}: {message}"
         if status in PASSING or status >= 500:
@@ -215,19 +218,15 @@ class ChatClient:
             return Unanswerable(answer)
         problem = f"the server does not take our request ({answer}); {KEPT}"
         if status in (401, 403):
-            key = (
-                f"the key in {self.settings.api_key_env}" if self.key else "requests without a key"
-            )
-            valid = "name the variable of a valid key with --api-key-env"
-            problem = f"the server refuses {key} ({answer}); {valid}"
+            named = f"the key in {self.settings.api_key_env}"
+            refused = named if self.key else "requests without a key"
+            way = "name the variable of a valid key with --api-key-env"
+            problem = f"the server refuses {refused} ({answer}); {way}"
         elif status == 404:
-            names = ", ".join(str(one.get("id")) for one in (self.models() or [])[:5])
-            hint = (
-                f"it serves {names}"
-                if names
-                else "check --endpoint (often it ends with /v1) and --model"
-            )
-            problem = f"no chat API or no model {self.settings.model} there ({answer}); {hint}"
+            names = ", ".join(printable(str(one.get("id"))) for one in (self.models() or [])[:5])
+            hint = "check --endpoint (often it ends with /v1) and --model"
+            hint = f"it serves {names}" if names else hint
+            problem = f"no chat API or no model {model} there ({answer}); {hint}"
         return Rejected(f"{root}: {problem}", status)
 
     def _without_key(self, text: str) -> str:
@@ -239,10 +238,8 @@ class ChatClient:
         thread's question has failed for good.
         """
         if asked is not None and asked > LONGEST_WAIT:
-            root = self.settings.root
-            raise PlannerError(
-                f"{root}: the server asks to wait for {asked:.0f} s; go on then: {KEPT}"
-            )
+            wait = f"the server asks to wait for {asked:.0f} s"
+            raise PlannerError(f"{self.settings.root}: {wait}; go on then: {KEPT}")
         backoff = min(LONGEST_PAUSE, FIRST_PAUSE * 2 ** (attempt - 1))
         return self.stopped.wait(asked if asked is not None else backoff * random.uniform(0.5, 1.0))
 
@@ -270,7 +267,10 @@ def _read_whole(chunks: Iterable[bytes], started: float) -> Reply:
     if not isinstance(message, dict):
         raise Passing(f"answered without a message: {_excerpt(body)}")
     seconds, reason = time.perf_counter() - started, str(choice.get("finish_reason") or "stop")
-    return Reply(_text(message), seconds, reason, *_usage(value))
+    if isinstance(message.get("content"), str):
+        return Reply(_text(message), seconds, reason, *_usage(value))
+    ended, problem = reason if reason == "length" else "error", "the server sent no content"
+    return Reply("", seconds, ended, *_usage(value), problem=problem)
 
 
 def _read_events(chunks: Iterable[bytes], started: float) -> Reply:
@@ -343,7 +343,7 @@ def _excerpt(body: bytes | str) -> str:
     if isinstance(value, dict):
         error = value.get("error", value.get("detail", value.get("message")))
         text = str(error.get("message") or error) if isinstance(error, dict) else str(error or text)
-    return " ".join(text.split())[:200] or "nothing"
+    return printable(text)[:200] or "nothing"
 
 
 def _asked_wait(header: str | None) -> float | None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from planner_ft.benchmark.plan import SERVER_SEED
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import EndpointSettings
-from planner_ft.benchmark.sources import Answered, Timed
+from planner_ft.benchmark.sources import Fields, timed
 from planner_ft.benchmark.sources.chat_client import ChatClient, Rejected, Reply, Unanswerable
 from planner_ft.prompts.text import prompt_messages
 from planner_ft.support.errors import PlannerError
@@ -54,7 +54,10 @@ class EndpointSource:
         self.streams = True
         try:
             self.models = self.client.models()
-            self.fields = self._accepted_fields()
+            # A server that does not answer at all is said to be so here.
+            self.client.complete(self._greeting(1))
+            heeded = self._heeded(self._greeting(1, **UNPENALISED)) is not None
+            self.fields: dict[str, Any] = UNPENALISED if heeded else {}
             held = any(job.configuration.strength == "schema" for job in jobs)
             self.schema_form = self._accepted_form() if held else None
         except BaseException:
@@ -62,22 +65,26 @@ class EndpointSource:
             raise
         self.seconds = time.perf_counter() - started
 
-    def answers(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Answered]]:
+    def answers(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
         """Several questions at a time; answers that came are yielded also when another question
         failed for good.
         """
         bodies = [self.request(job, sample) for sample in samples]
         yield from self.client.complete_all(self._answered, bodies)
 
-    def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Timed]]:
+    def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
         """One question at a time, streamed where the server streams, after one that is not
         counted.
         """
         bodies = [self.request(job, sample) for sample in samples]
         for index, body in enumerate([*bodies[:1], *bodies], -1):
-            timed = self._timed(body)
+            started = time.perf_counter()
+            try:
+                reply = self._streamed(body)
+            except Unanswerable:
+                reply = Reply("", time.perf_counter() - started, "error", tokens=0)
             if index >= 0:
-                yield index, timed
+                yield index, timed(reply.seconds, reply.tokens, None, reply.first_token_s)
 
     def costs(self) -> dict[str, Any]:
         return {
@@ -96,9 +103,8 @@ class EndpointSource:
         with the messages that the local candidates get.
         """
         level, vocabulary = self.plan.settings.level, self.plan.vocabulary
-        messages = prompt_messages(
-            level, sample.record, vocabulary, with_vocabulary=job.with_vocabulary
-        )
+        told = job.with_vocabulary
+        messages = prompt_messages(level, sample.record, vocabulary, with_vocabulary=told)
         body = {**self._body(messages, self.plan.settings.token_limit), **self.fields}
         if job.sampling is not None:
             body |= {
@@ -111,35 +117,30 @@ class EndpointSource:
             body["response_format"] = _response_format(self.schema_form, schema)
         return body
 
-    def _answered(self, body: dict[str, Any]) -> Answered:
-        started = time.perf_counter()
+    def _answered(self, body: dict[str, Any]) -> Fields:
+        started, error = time.perf_counter(), None
         try:
             reply = self.client.complete(body)
         except Unanswerable as problem:
-            seconds = time.perf_counter() - started
-            return Answered("", seconds, "error", tokens=0, error=str(problem))
-        return Answered(
-            reply.text,
-            reply.seconds,
-            reply.finish_reason,
-            reply.tokens,
-            reply.prompt_tokens,
-            more={"attempts": reply.attempts},
-        )
-
-    def _timed(self, body: dict[str, Any]) -> Timed:
-        started = time.perf_counter()
-        try:
-            reply = self._streamed(body) if self.streams else self.client.complete(body)
-        except Unanswerable:
-            return Timed(time.perf_counter() - started, tokens=0)
-        return Timed(reply.seconds, reply.tokens, first_token_s=reply.first_token_s)
+            error = str(problem)
+            reply = Reply("", time.perf_counter() - started, "error", tokens=0)
+        return {
+            "output": reply.text,
+            "tokens": reply.tokens,
+            "forward_passes": None,
+            "time_s": round(reply.seconds, 4),
+            "finish_reason": reply.finish_reason,
+            "error": error or reply.problem,
+            "prompt_tokens": reply.prompt_tokens,
+            "attempts": reply.attempts,
+        }
 
     def _streamed(self, body: dict[str, Any]) -> Reply:
+        """The answer, as a stream as long as the server has not refused one."""
         try:
-            return self.client.complete(body, stream=True)
+            return self.client.complete(body, stream=self.streams)
         except Rejected as problem:
-            if problem.status not in (400, 422):
+            if not self.streams or problem.status not in (400, 422):
                 raise
         self.streams = False
         return self.client.complete(body)
@@ -156,13 +157,6 @@ class EndpointSource:
     def _greeting(self, max_tokens: int, **fields: Any) -> dict[str, Any]:
         return {**self._body([{"role": "user", "content": GREETING}], max_tokens), **fields}
 
-    def _accepted_fields(self) -> dict[str, Any]:
-        """The fields beyond the usual ones that the server takes. Raises PlannerError when it does
-        not answer at all.
-        """
-        self.client.complete(self._greeting(1))
-        return {} if self._heeded(self._greeting(1, **UNPENALISED)) is None else UNPENALISED
-
     def _accepted_form(self) -> str:
         """The first way of asking for a schema that the server heeds. Raises PlannerError when it
         heeds none.
@@ -175,10 +169,9 @@ class EndpointSource:
                     return form
             except ValueError:
                 continue
-        raise PlannerError(
-            f"{self.endpoint.root}: the server does not hold answers to a JSON schema"
-            " (response_format); leave out the configurations with +schema"
-        )
+        problem = "the server does not hold answers to a JSON schema (response_format)"
+        way = "leave out the configurations with +schema"
+        raise PlannerError(f"{self.endpoint.root}: {problem}; {way}")
 
     def _heeded(self, body: dict[str, Any]) -> str | None:
         """The answer to a request with a field that the server may not know, None where it fails:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.benchmark.samples import Sample
-from planner_ft.benchmark.sources import Answered, Timed
+from planner_ft.benchmark.sources import Fields, timed
 from planner_ft.benchmark.sources.batching import in_batches, is_out_of_memory, new_batch_size
 from planner_ft.candidates.loading import resolve_device
 from planner_ft.decoding.configurations import Configuration
@@ -42,43 +42,45 @@ class EngineSource:
             threads=jobs[0].threads,
         )
         self.load_seconds = time.perf_counter() - started
+        for job in jobs:  # a limit that a strength cannot keep is refused before the first query
+            self.engine.method(self.level, job.configuration)
         # The size of batches is judged by a peak of its own, which begins here.
         self.load_peak = peak_memory(self.device)
         self.batch = new_batch_size(plan.settings.batch_size, plan.device)
 
-    def answers(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Answered]]:
+    def answers(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
         """Batch by batch, longest prompts first."""
         queries = self._queries(job, samples)
         lengths = [len(query.prompt) for query in queries]
 
         def ask(indices: list[int]) -> Iterator[tuple[int, Generation]]:
+            chosen, size = [queries[index] for index in indices], len(indices)
+            sampling = job.sampling
             return self.engine.answers(
-                [queries[index] for index in indices],
-                job.configuration,
-                batch_size=len(indices),
-                sampling=job.sampling,
+                chosen, job.configuration, batch_size=size, sampling=sampling
             )
 
         for index, answer, size in in_batches(ask, lengths, self.batch, is_out_of_memory):
             extra = {"alternatives": answer.alternatives, "working": self.engine.working(answer)}
             yield (
                 index,
-                Answered(
-                    output=self.engine.text(answer),
-                    seconds=answer.seconds,
-                    finish_reason=answer.finish_reason,
-                    tokens=len(answer.ids),
-                    prompt_tokens=lengths[index],
-                    forward_passes=answer.forward_passes,
-                    error=answer.error,
-                    more={"batch": size, **{name: value for name, value in extra.items() if value}},
-                ),
+                {
+                    "output": self.engine.text(answer),
+                    "tokens": len(answer.ids),
+                    "forward_passes": answer.forward_passes,
+                    "time_s": round(answer.seconds, 4),
+                    "finish_reason": answer.finish_reason,
+                    "error": answer.error,
+                    "prompt_tokens": lengths[index],
+                    "batch": size,
+                    **{name: value for name, value in extra.items() if value},
+                },
             )
 
-    def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Timed]]:
+    def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
         queries = self._queries(job, samples)
         for index, one in self.engine.latencies(queries, job.configuration, sampling=job.sampling):
-            yield index, Timed(one.seconds, one.tokens, one.forward_passes, one.first_token_s)
+            yield index, timed(one.seconds, one.tokens, one.forward_passes, one.first_token_s)
 
     def costs(self) -> dict[str, Any]:
         """Seconds to load base and adapter, the mean of a switch between them, and the most memory
@@ -103,7 +105,5 @@ class EngineSource:
         self.engine.release()
 
     def _queries(self, job: Job, samples: Sequence[Sample]) -> list[Query]:
-        return [
-            self.engine.query(self.level, sample.record, with_vocabulary=job.with_vocabulary)
-            for sample in samples
-        ]
+        told = job.with_vocabulary
+        return [self.engine.query(self.level, one.record, with_vocabulary=told) for one in samples]

@@ -76,10 +76,10 @@ def run_suite(
     A unit that fails is named in the result and in the tables, and the others go on. Raises
     PlannerError for problems that keep the suite from starting.
     """
-    with opened(suite, out, flags, report, resume=resume, overwrite=overwrite) as session:
-        session.run()
-        parts, manifest = combine(session)
-        _write(out, suite.title, parts, manifest)
+    session = opened(suite, out, flags, report, resume=resume, overwrite=overwrite)
+    session.run()
+    parts, manifest = combine(session)
+    _write(out, suite.title, parts, manifest)
     return parts
 
 

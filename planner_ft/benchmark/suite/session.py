@@ -4,15 +4,14 @@ others go on.
 
 from __future__ import annotations
 
-import contextlib
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from planner_ft.benchmark import folder
-from planner_ft.benchmark.records import Line, Tail, hold
+from planner_ft.benchmark.records import Line, Tail
 from planner_ft.benchmark.suite.definition import Suite
 from planner_ft.benchmark.suite.estimate import Kind, Pace, Work, time_left
 from planner_ft.benchmark.suite.units import LOG, UNIT, Flags, Process, Unit, make_units
@@ -20,7 +19,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, write_json
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 
-SUITE, LOCK = "suite.json", ".suite.lock"
+SUITE = "suite.json"
 POLL = 1.0
 """Seconds between looks at the files of a unit's process."""
 WRITTEN: dict[str, tuple[Kind, str]] = {
@@ -160,7 +159,6 @@ def _work(unit: Unit, configuration: str, kind: Kind, count: int) -> Work:
     return Work(candidate.name, unit.part.level, configuration, kind, count, candidate.parameters)
 
 
-@contextlib.contextmanager
 def opened(
     suite: Suite,
     out: Path,
@@ -169,8 +167,8 @@ def opened(
     *,
     resume: bool = False,
     overwrite: bool = False,
-) -> Iterator[Session]:
-    """A suite in its folder, checked and locked. Raises PlannerError, also when data changed since
+) -> Session:
+    """A suite in its folder, checked; whoever calls holds the folder. Raises PlannerError, also when data changed since
     an earlier session.
     """
     vocabulary = load_vocabulary(suite.vocabulary)
@@ -179,14 +177,12 @@ def opened(
         hint = "give --resume to go on, --overwrite to start anew, or another --out"
         folder.check_folder(out, (SUITE,), hint)
     folder.check_writable(out)
-    with open(out / LOCK, "w") as stream:
-        hold(stream, f"{out}: another suite is running here; wait for it or give another --out")
-        if overwrite:
-            (out / SUITE).unlink(missing_ok=True)
-            for unit in units:
-                folder.clear(unit.folder, (*folder.ALL, UNIT, LOG))
-        _record(suite, units, out)
-        yield Session(suite, vocabulary, out, units, report)
+    if overwrite:
+        (out / SUITE).unlink(missing_ok=True)
+        for unit in units:
+            folder.clear(unit.folder, (*folder.ALL, UNIT, LOG))
+    _record(suite, units, out)
+    return Session(suite, vocabulary, out, units, report)
 
 
 def _record(suite: Suite, units: list[Unit], out: Path) -> None:
