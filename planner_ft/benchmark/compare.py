@@ -15,7 +15,6 @@ from planner_ft.benchmark.contrasts import Scores, by_system
 from planner_ft.benchmark.folder import SCORES, read_results
 from planner_ft.benchmark.paired import paired
 from planner_ft.benchmark.results import Results
-from planner_ft.benchmark.settings import check_seed
 from planner_ft.benchmark.statistics import CONFIDENCE, RESAMPLES
 from planner_ft.benchmark.verdicts import (
     DEFAULT_METRICS,
@@ -77,7 +76,6 @@ class CompareSettings:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        check_seed(self.seed)
         known = [metric.name for metric in CATALOGUE]
         for name in self.metrics:
             if name not in known:

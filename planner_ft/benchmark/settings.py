@@ -26,12 +26,6 @@ def out_of_range(**bounds: tuple[float, float, float]) -> list[str]:
     ]
 
 
-def check_seed(seed: int) -> None:
-    """Raise PlannerError for a seed that no generator of random numbers takes."""
-    if seed < 0:
-        raise PlannerError(f"--seed {seed}: must be 0 or more")
-
-
 @dataclass(frozen=True)
 class EndpointSettings:
     """A server that speaks the OpenAI chat completions API, and how it is asked.
@@ -136,7 +130,6 @@ class BenchSettings:
     endpoint: EndpointSettings | None = None
 
     def __post_init__(self) -> None:
-        check_seed(self.seed)
         problems = out_of_range(
             batch_size=(1 if self.batch_size is None else self.batch_size, 1, 1024),
             max_new_tokens=(self.token_limit, 1, LONGEST),

@@ -11,7 +11,6 @@ from planner_ft.benchmark.folder import LATENCY, PREDICTIONS
 from planner_ft.benchmark.records import measured_in, read_run
 from planner_ft.benchmark.results import Measured, Results, System, assemble
 from planner_ft.benchmark.samples import BenchData, joined, load_bench_data
-from planner_ft.benchmark.settings import check_seed
 from planner_ft.candidates import all_candidates
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import iterate_jsonl
@@ -38,7 +37,6 @@ def score_predictions(
     without `candidate`. For the predictions.jsonl of a run, its latency.jsonl is read, too. Raises
     PlannerError that names the lines of malformed, double and unknown predictions.
     """
-    check_seed(seed)
     found, timed = [], _timed(path)
     for key, lines in _read(path, data.ids, name or path.stem).items():
         own = {sample: line for sample, line in lines.items() if _is_timed(line)}
@@ -61,7 +59,6 @@ def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None =
     `data_path` says where the data lies now if it was moved. Raises PlannerError when it is not the
     same data.
     """
-    check_seed(seed or 0)
     record = read_run(folder)
     settings = record.settings
     vocabulary = load_vocabulary(settings["vocabulary"])

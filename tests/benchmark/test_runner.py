@@ -603,7 +603,6 @@ def test_the_command_prints_the_table(tmp_path: Path, data: Path) -> None:
             r"--configurations lora\+x",
         ),
         (("--level", "mission", "--candidates", NAME, "--batch-size", "0"), "--batch-size 0"),
-        (("--level", "mission", "--candidates", NAME, "--seed", "-1"), "--seed -1"),
         (
             ("--level", "mission", "--candidates", NAME, "--max-new-tokens", "99999"),
             "--max-new-tokens 99999",

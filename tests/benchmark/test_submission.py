@@ -238,11 +238,6 @@ def test_rubbish_is_no_refusal_and_a_number_is_an_invented_name(tmp_path: Path, 
     assert scores["s1"]["hallucination_without_unparsed"] and scores["s1"]["precision"] == 0
 
 
-def test_a_seed_that_no_generator_takes_is_refused_first(tmp_path: Path, data: Path) -> None:
-    with pytest.raises(PlannerError, match="--seed -1: must be 0 or more"):
-        run("--predictions", tmp_path / "none.jsonl", "--data", data, "--seed", "-1")
-
-
 def test_the_same_id_may_stand_once_per_candidate_and_configuration(
     tmp_path: Path, data: Path
 ) -> None:

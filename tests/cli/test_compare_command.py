@@ -194,8 +194,6 @@ def test_what_is_no_run_is_one_sentence(tmp_path: Path, data: Path) -> None:
     good = run(tmp_path / "good", data, {"a base": {1}})
     with pytest.raises(PlannerError, match=r"nowhere: no results\.json"):
         invoke(good, tmp_path / "nowhere")
-    with pytest.raises(PlannerError, match="--seed -1"):
-        invoke(tmp_path / "nowhere", "--seed", "-1")
     with pytest.raises(PlannerError, match="--metric speed: unknown; there are f1"):
         invoke(good, "--metric", "speed")
     broken = run(tmp_path / "broken", data, {"a base": {1}})

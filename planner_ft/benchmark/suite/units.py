@@ -13,7 +13,6 @@ from typing import Any
 
 from planner_ft.benchmark.folder import RESULTS
 from planner_ft.benchmark.samples import BenchData, load_bench_data
-from planner_ft.benchmark.settings import check_seed
 from planner_ft.benchmark.suite.definition import Part, Suite
 from planner_ft.candidates import Candidate, resolve_candidate
 from planner_ft.candidates.adapters import (
@@ -51,9 +50,6 @@ class Flags:
     limit: int | None = None
     latency_samples: int | None = None
     processes: int = 1
-
-    def __post_init__(self) -> None:
-        check_seed(self.seed)
 
 
 @dataclass(frozen=True)
