@@ -30,7 +30,7 @@ from planner_ft.decoding.generate import (
 from planner_ft.decoding.lookup import Likeness, Lookup, usual_plans
 from planner_ft.decoding.passes import Decoder, ModelDecoder
 from planner_ft.decoding.sampling import Sampling
-from planner_ft.prompts import end_of_turn_ids, render_prompt
+from planner_ft.prompts import ends_of_answers, render_prompt
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, without_working
@@ -109,7 +109,8 @@ class Engine:
         else:
             model = load_model(candidate, device=device, adapters=given, **settings)
             width = model.config.get_text_config().vocab_size
-        ends, pad = end_ids(tokenizer, _named_ends(folder)), int(tokenizer.pad_token_id)
+        ends = tuple(ends_of_answers(tokenizer, _named_ends(folder)))
+        pad = int(tokenizer.pad_token_id)
         limits = {
             level: Limits(ends, pad, max_new_tokens or default)
             for level, default in MAX_NEW_TOKENS.items()
@@ -307,14 +308,6 @@ def limited_threads(threads: int | None) -> Iterator[None]:
         yield
     finally:
         torch.set_num_threads(before)
-
-
-def end_ids(tokenizer: Any, named: int | Sequence[int] | None = None) -> tuple[int, ...]:
-    """Tokens that end an answer: those of the prompt's form, then those that the generation
-    settings of the model name.
-    """
-    more = (named,) if isinstance(named, int) else tuple(named or ())
-    return tuple(dict.fromkeys([*end_of_turn_ids(tokenizer), *more]))
 
 
 def _named_ends(folder: Path) -> int | Sequence[int] | None:

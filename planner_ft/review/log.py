@@ -6,7 +6,6 @@ A record has "sequence", "time" (UTC), "event", "reviewer", "reason", "digest", 
 
 from __future__ import annotations
 
-import contextlib
 import os
 from datetime import UTC, datetime
 from pathlib import Path
@@ -16,7 +15,13 @@ from planner_ft.document.build import canonical
 from planner_ft.review.chain import Chain, Head, Record, read_chain, sealed
 from planner_ft.review.store import exclusive
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import atomic_writer, compact_json, read_json, sha256_text
+from planner_ft.support.files import (
+    atomic_writer,
+    compact_json,
+    read_json,
+    sha256_text,
+    sync_folder,
+)
 
 LOG_NAME = "approvals.jsonl"
 
@@ -120,7 +125,7 @@ def _write_head(log: Path, head: Head) -> None:
     except PlannerError as error:
         problem = f"record {head.sequence} stands in {log}, but its head file does not know it yet"
         raise PlannerError(f"{problem}: {error}") from None
-    _sync_folder(log)
+    sync_folder(log.parent)
 
 
 def _write_line(log: Path, line: bytes) -> None:
@@ -132,7 +137,7 @@ def _write_line(log: Path, line: bytes) -> None:
     except OSError as error:
         problem = f"{log}: nothing was recorded ({error.strerror})"
         raise PlannerError(f"{problem}; free some space or give another --log") from None
-    _sync_folder(log)
+    sync_folder(log.parent)
 
 
 def _set_aside(log: Path, chain: Chain) -> Path | None:
@@ -142,18 +147,8 @@ def _set_aside(log: Path, chain: Chain) -> Path | None:
     aside = log.with_name(f"{log.name}.unfinished-{sha256_text(chain.torn.hex())[:12]}")
     with atomic_writer(aside, "wb") as stream:
         stream.write(chain.torn)
-    _sync_folder(log)
+    sync_folder(log.parent)
     with open(log, "r+b") as stream:
         stream.truncate(log.stat().st_size - len(chain.torn))
         os.fsync(stream.fileno())
     return aside
-
-
-def _sync_folder(log: Path) -> None:
-    """Have the folder's entries on the disk, too; Windows cannot, and does so by itself."""
-    with contextlib.suppress(OSError):
-        descriptor = os.open(log.parent, os.O_RDONLY)
-        try:
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)

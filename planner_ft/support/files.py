@@ -48,6 +48,16 @@ def atomic_writer(path: Path | str, mode: str = "w") -> Iterator[IO[Any]]:
             temporary.unlink(missing_ok=True)
 
 
+def sync_folder(folder: Path) -> None:
+    """Have the folder's entries on the disk; Windows cannot, and does so by itself."""
+    with contextlib.suppress(OSError):
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
+
+
 def nearest_folder(path: Path) -> Path:
     """The folder itself, or the nearest one above that exists."""
     path = path.absolute()

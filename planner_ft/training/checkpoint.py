@@ -8,7 +8,6 @@ before stays in case it is damaged. No pickle is involved.
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 import json
 import os
@@ -23,6 +22,7 @@ from safetensors.torch import save as save_tensors
 from torch import Tensor
 
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import sync_folder
 from planner_ft.training.model import adapter_tensors, make_optimizer, set_adapter
 from planner_ft.training.report import Report
 from planner_ft.training.samples import Sample
@@ -107,7 +107,7 @@ def save_checkpoint(run: Run) -> None:
         _write(temporary / "state.json", json.dumps(values).encode())
         shutil.rmtree(target, ignore_errors=True)
         temporary.rename(target)
-        _sync(folder)
+        sync_folder(folder)
     except OSError as error:
         raise PlannerError(
             f"{target}: the checkpoint cannot be written ({error.strerror or error}); free some"
@@ -201,13 +201,3 @@ def _write(path: Path, content: bytes) -> None:
         stream.write(content)
         stream.flush()
         os.fsync(stream.fileno())
-
-
-def _sync(folder: Path) -> None:
-    """Make a rename in `folder` survive a power cut, where the system can."""
-    with contextlib.suppress(OSError):
-        descriptor = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)

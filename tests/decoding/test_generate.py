@@ -11,11 +11,11 @@ import torch
 
 from planner_ft.decoding import generate as generate_module
 from planner_ft.decoding.configurations import Limits
-from planner_ft.decoding.engine import end_ids
 from planner_ft.decoding.generate import Generation, Query, measure_latency
 from planner_ft.decoding.generate import generate as generate_answers
 from planner_ft.decoding.generate import generate_unordered as generate_answers_unordered
 from planner_ft.decoding.passes import ModelDecoder
+from planner_ft.prompts import ends_of_answers
 from planner_ft.support.errors import PlannerError
 
 VOCABULARY = 64
@@ -227,7 +227,7 @@ def test_every_end_token_of_the_published_candidates_ends_an_answer(models: Any)
         tokenizer = load_tokenizer(candidate)
         assert {
             tokenizer.decode([token])
-            for token in end_ids(
+            for token in ends_of_answers(
                 tokenizer, load_model(candidate, device="cpu").generation_config.eos_token_id
             )
         } == tokens
