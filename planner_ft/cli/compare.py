@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import typer
 
@@ -73,10 +72,11 @@ def report(
         return
     if out is None and len(runs) > 1:
         raise PlannerError("--out is missing: with several runs, name a folder for the report")
-    from planner_ft.report.write import check_pictures, write_report
+    from planner_ft.report.write import write_report
 
-    target, shown, samples = out or runs[0], check_pictures(pictures), data or ()
-    how: dict[str, Any] = {"overwrite": overwrite, "title": title}
-    written = write_report(runs, target, data=samples, pictures=shown, **how)
+    target, samples = out or runs[0], data or ()
+    written = write_report(
+        runs, target, data=samples, overwrite=overwrite, title=title, pictures=pictures
+    )
     counts = [sum(path.parent.name == name for path in written) for name in ("figures", "tables")]
     typer.echo(f"{target}/: report.html, figures/ ({counts[0]} files), tables/ ({counts[1]} files)")

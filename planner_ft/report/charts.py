@@ -148,17 +148,15 @@ def _stops(tests: TestSet) -> Chart:
     """Where replayed plans stop, and for want of what."""
     found: dict[str, Counter[str]] = {}
     for system in tests.results.rows:
-        if isinstance(stops := system.breakdown.get("stops"), list):
-            found[system.name] = Counter({_stop(stop): stop["n"] for stop in stops})
+        found[system.name] = Counter()
+        for stop in system.breakdown.get("stops") or ():
+            at = f"{stop['condition']}, at {stop['title']}" if stop.get("title") else "no plan"
+            found[system.name][at] += stop["n"]
     total = sum(found.values(), Counter[str]())
     cells = {
         stop: [counts[stop] for counts in found.values()] for stop, _count in total.most_common()
     }
     return _matrix(tests, "stops", ("Missing", *found), cells)
-
-
-def _stop(stop: Record) -> str:
-    return f"{stop['condition']}, at {stop['title']}" if stop.get("title") else "no plan"
 
 
 def _seconds(scores: Mapping[str, Record]) -> dict[str, float]:
@@ -170,7 +168,7 @@ def _seconds(scores: Mapping[str, Record]) -> dict[str, float]:
 def _latency(tests: TestSet) -> Chart:
     """Median, 90th and 99th percentile of timed queries."""
     rows = []
-    for system in (*tests.results.rows, *tests.results.baselines):
+    for system in tests.results.rows:
         if seconds := list(_seconds(tests.scores_of(system)).values()):
             cells = (cell(quantile(seconds, share).value) for _name, share in QUANTILES)
             rows.append(row(system.name, *cells, f"n = {len(seconds)}"))
@@ -192,7 +190,7 @@ def _planning(tests: TestSet) -> Chart:
 def _latency_by_size(tests: TestSet) -> Chart:
     """Mean time of a query by the number of tasks (steps) of the expected plan."""
     rows = []
-    for system in (*tests.results.rows, *tests.results.baselines):
+    for system in tests.results.rows:
         timed: dict[int, list[float]] = {}
         for name, seconds in _seconds(tests.scores_of(system)).items():
             entries = tests.samples.get(name, {}).get("expected", {}).get(list_key(tests.level))

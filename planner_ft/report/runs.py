@@ -12,7 +12,7 @@ from planner_ft.benchmark.contrasts import by_system, system_key
 from planner_ft.benchmark.folder import PREDICTIONS, RESULTS, RUN, SCORES, read_results
 from planner_ft.benchmark.results import Results, Row
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import iterate_jsonl, read_json, sha256_file
+from planner_ft.support.files import read_json, read_jsonl, sha256_file
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -156,7 +156,7 @@ def _load(folder: Path) -> Run:
     scored = within(record, "manifest", "inputs", "predictions")
     answers: Answers = {}
     for path in _answer_files(folder, scored, notes):
-        for line in _records(path):
+        for line in read_jsonl(path) if path.stat().st_size else ():
             answers.setdefault(_key(line), {}).setdefault(str(line.get("id")), line)
     # Answers without candidate or configuration are those of a run's only row.
     nameless = [key for key in answers if "None" in key.split()]
@@ -186,13 +186,6 @@ def _answer_files(folder: Path, scored: Record, notes: list[str]) -> list[Path]:
     if not paths:
         notes.append(f"{own} is not there: answers are not shown.")
     return paths
-
-
-def _records(path: Path) -> Iterator[Record]:
-    for number, value, problem in iterate_jsonl(path):
-        if problem or not isinstance(value, dict):
-            raise PlannerError(f"{path}:{number}: {problem or 'a JSON object is expected'}")
-        yield value
 
 
 def _key(line: Mapping[str, Any]) -> str:
@@ -235,7 +228,7 @@ def _samples(paths: Sequence[Path], sha256: str, notes: list[str]) -> dict[str, 
     """The test samples by id, from the first of the files that has the digest."""
     for path in paths:
         if path.is_file() and sha256_file(path) == sha256:
-            return {str(line.get("id")): line for line in _records(path)}
+            return {str(line.get("id")): line for line in read_jsonl(path)}
     state = "has changed since the run" if paths[0].is_file() else "is not there"
     what = "commands and expected plans are not shown"
     notes.append(f"{paths[0]} {state}: {what} (give the file with --data).")

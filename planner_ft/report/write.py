@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Literal, cast, get_args
 
 from planner_ft.report.contents import Section, section
 from planner_ft.report.page import page
@@ -14,7 +14,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import atomic_writer, write_text
 from planner_ft.support.tables import csv_table, latex_table, markdown_table
 
-Pictures = Literal["all", "overall", "none"]
+PICTURES = ("all", "overall", "none")
 PAGE, FIGURES, TABLES = "report.html", "figures", "tables"
 WRITTEN = re.compile(r"(mission|task)-.*-[0-9a-f]{6}-.*\.(png|svg|md|csv|tex)")
 WRITERS = {"md": markdown_table, "csv": csv_table, "tex": latex_table}
@@ -27,7 +27,7 @@ def write_report(
     data: Sequence[Path] = (),
     overwrite: bool = False,
     title: str = "",
-    pictures: Pictures = "all",
+    pictures: str = "all",
 ) -> list[Path]:
     """Report on these runs in `out`: report.html, figures/ and tables/. Returns what was written.
 
@@ -35,6 +35,8 @@ def write_report(
     them, those over all systems, or none. Raises PlannerError where a run cannot be read, or where
     a report is there already and `overwrite` is not given.
     """
+    if pictures not in PICTURES:
+        raise PlannerError(f"--pictures {pictures}: must be all, overall or none")
     if out.exists() and not out.is_dir():
         raise PlannerError(f"--out {out}: is a file; give a folder")
     if (out / PAGE).exists() and not overwrite:
@@ -63,25 +65,16 @@ def report_beside(folder: Path) -> str:
     return f"{folder / PAGE}: tables, figures and every sample; {more}"
 
 
-def check_pictures(name: str) -> Pictures:
-    """`name` itself. Raises PlannerError when it is none of the choices."""
-    if name not in get_args(Pictures):
-        *names, last = get_args(Pictures)
-        raise PlannerError(f"--pictures {name}: must be {', '.join(names)} or {last}")
-    return cast(Pictures, name)
-
-
 def _tables(sections: Sequence[Section], out: Path) -> Iterator[Path]:
-    for one in sections:
-        counted = [chart.table for chart in one.figures if chart.kind == "matrix"]
-        for table in [*one.tables, *counted]:
-            for suffix, writer in WRITERS.items():
-                path = out / TABLES / f"{table.name}.{suffix}"
-                write_text(path, writer(table))
-                yield path
+    every = [table for one in sections for table in one.tables]
+    every += [one.table for part in sections for one in part.figures if one.kind == "matrix"]
+    for table, (suffix, writer) in itertools.product(every, WRITERS.items()):
+        path = out / TABLES / f"{table.name}.{suffix}"
+        write_text(path, writer(table))
+        yield path
 
 
-def _figures(sections: Sequence[Section], out: Path, pictures: Pictures) -> Iterator[Path]:
+def _figures(sections: Sequence[Section], out: Path, pictures: str) -> Iterator[Path]:
     if pictures == "none":
         return
     from planner_ft.report.pictures import picture

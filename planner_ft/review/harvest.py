@@ -86,9 +86,11 @@ def harvest_files(
             lines[path] = canonical_record("mission", samples[path], known)
         except LeftOutError as error:
             left_out[path] = str(error)
-    for path, later in _superseded(samples).items():
+    ordered = sorted(samples, key=lambda path: _approved(samples[path]))
+    latest = {samples[path]["prompt"]: path for path in ordered}
+    for path in [path for path in samples if latest[samples[path]["prompt"]] != path]:
+        later = latest[samples.pop(path)["prompt"]]
         left_out[path] = f"a plan of the same command was approved later: {later}"
-        del samples[path]
     if not samples:
         reasons = "; ".join(f"{path}: {reason}" for path, reason in left_out.items())
         raise PlannerError(f"no plan gives a sample ({reasons}); correct and approve one first")
@@ -204,18 +206,6 @@ def _expected(
     }
 
 
-def _superseded(samples: dict[Path, dict[str, Any]]) -> dict[Path, Path]:
-    """Plans of a command that has a later approval, each with the plan of the next one."""
-
-    def approved(path: Path) -> tuple[str, int]:
-        made = samples[path]["provenance"]
-        return made["time"], made["sequence"]
-
-    last: dict[str, Path] = {}
-    older = {}
-    for path in sorted(samples, key=approved):
-        command = samples[path]["prompt"]
-        if command in last:
-            older[last[command]] = path
-        last[command] = path
-    return older
+def _approved(sample: dict[str, Any]) -> tuple[str, int]:
+    """When a sample's plan was approved."""
+    return sample["provenance"]["time"], sample["provenance"]["sequence"]

@@ -42,29 +42,21 @@ def approval_of(document: PlanDocument, log: Path) -> Approval:
     intact = document.get("digest") == digest
     last = next((record for record in reversed(records) if record["digest"] == digest), None)
     if intact and last is not None:
-        return _decided(last, digest)
+        status: Status = "approved" if last["event"] == "approved" else "rejected"
+        why = f": {last['reason']}" if last["reason"] else ""
+        who = f"{last['reviewer']} at {last['time']} (record {last['sequence']})"
+        return Approval(status, f"{status} by {who}{why}", digest, **_decision(last))
     other = _earlier_approval(document, records)
     if other is not None:
-        return _altered(document, digest, other)
+        found = tuple(changes(other["plan"], document))
+        count = f"{len(found)} change{'s' if len(found) != 1 else ''}"
+        when = f"at {other['time']} (record {other['sequence']})"
+        text = f"altered since {other['reviewer']} approved it {when}: {count}"
+        return Approval("altered", text, digest, **_decision(other), changes=found)
     if intact:
         return Approval("unknown", f"not approved: {log} holds no decision about this plan", digest)
     text = "altered by hand: the plan is not what its digest says"
     return Approval("altered", f"{text}, and {log} holds no approval of it", digest)
-
-
-def _decided(record: Record, digest: str) -> Approval:
-    status: Status = "approved" if record["event"] == "approved" else "rejected"
-    why = f": {record['reason']}" if record["reason"] else ""
-    who = f"{record['reviewer']} at {record['time']} (record {record['sequence']})"
-    return Approval(status, f"{status} by {who}{why}", digest, **_decision(record))
-
-
-def _altered(document: PlanDocument, digest: str, other: Record) -> Approval:
-    found = tuple(changes(other["plan"], document))
-    count = f"{len(found)} change{'s' if len(found) != 1 else ''}"
-    decision = f"{other['reviewer']} approved it at {other['time']} (record {other['sequence']})"
-    text = f"altered since {decision}: {count}"
-    return Approval("altered", text, digest, **_decision(other), changes=found)
 
 
 def _decision(record: Record) -> dict[str, Any]:

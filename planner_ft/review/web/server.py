@@ -120,21 +120,14 @@ def _listening(settings: WebSettings) -> socket.socket:
         )[0]
         dual = family == socket.AF_INET6 and socket.has_dualstack_ipv6()
         return socket.create_server(address, family=family, dualstack_ipv6=dual)
-    except socket.gaierror as error:
-        problem = f"--host {host}: is no address of this machine ({error.strerror})"
-    except PermissionError:
-        raise PlannerError(
-            f"--port {port}: this user may not listen there; give a port above 1023, or leave the"
-            " flag out for a free one"
-        ) from None
     except OSError as error:
-        if port and error.errno == errno.EADDRINUSE:
-            raise PlannerError(
-                f"--port {port}: another program listens there; give another port, or leave the"
-                " flag out for a free one"
-            ) from None
-        problem = f"--host {host}: cannot be listened on ({os.strerror(error.errno or 0)})"
-    raise PlannerError(f"{problem}; leave the flag out for {LOOPBACK}")
+        taken = error.errno == errno.EADDRINUSE
+        if port and (taken or isinstance(error, PermissionError)):
+            why = "another program listens there" if taken else "this user may not listen there"
+            way = "give another port, or leave the flag out for a free one"
+            raise PlannerError(f"--port {port}: {why}; {way}") from None
+        problem = f"--host {host}: cannot be listened on ({error.strerror})"
+        raise PlannerError(f"{problem}; leave the flag out for {LOOPBACK}") from None
 
 
 def _say_where(settings: WebSettings, door: Door) -> None:
