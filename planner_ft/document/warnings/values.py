@@ -6,8 +6,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from planner_ft.document.unused import unused_facts
+from planner_ft.document.warnings.command import UNKNOWN
 from planner_ft.document.warnings.warning import Warning, named, warning
-from planner_ft.facts import SCORING, WAYPOINT, Facts, Input, is_number, read_input
+from planner_ft.facts import SCORING, WAYPOINT, Facts, Input, is_number, read_input, unknown_words
 from planner_ft.planning.frame import frame_of
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
@@ -18,7 +19,7 @@ def value_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Itera
     command = frame_of(document).spoken
     source = read_input({"prompt": command}, vocabulary)
     said = source.facts
-    if said.unread:
+    if said.unread and unknown_words(said.text)[1] < UNKNOWN:
         unread = "has words or numbers that could not be read with certainty"
         unchecked = "values of the plan are not all checked against it"
         yield warning("unread-command", f"The command {unread}; {unchecked}.")

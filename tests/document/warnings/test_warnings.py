@@ -306,7 +306,7 @@ def test_answers_that_cannot_be_used() -> None:
 
 
 def test_a_command_that_cannot_be_read_is_said_once() -> None:
-    assert kinds(planned("去 [30, 40] 然后返回", THERE, HOME), notes=True) == ["unread-command"]
+    assert kinds(planned("去 [30, 40] 然后返回", THERE, HOME), notes=True) == ["unknown-language"]
 
 
 # ---------------------------------------------------------------- all of them
