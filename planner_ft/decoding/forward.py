@@ -199,11 +199,12 @@ class SmallModel:
     norm: Tensor
     head: Tensor
     frequencies: Tensor
-    heads: int
-    key_heads: int
-    head_size: int
+    sizes: Dimensions
     epsilon: float
-    context: int
+
+    @property
+    def context(self) -> int:
+        return self.sizes.context
 
     def start(self, rows: int) -> SmallPasses:
         return SmallPasses(self, rows)
@@ -259,22 +260,11 @@ def small_model(config: Mapping[str, Any], tensors: Mapping[str, Tensor]) -> Sma
         norm = take(NORM, hidden).float()
     except KeyError:
         return None
-    return (
-        None
-        if left
-        else SmallModel(
-            layers,
-            embeddings,
-            norm,
-            embeddings if sizes.tied or head is None else head,
-            _frequencies(_rope(config), sizes.head_dim),
-            sizes.heads,
-            sizes.kv_heads,
-            sizes.head_dim,
-            config["rms_norm_eps"],
-            sizes.context,
-        )
-    )
+    if left:
+        return None
+    head = embeddings if sizes.tied or head is None else head
+    frequencies = _frequencies(_rope(config), sizes.head_dim)
+    return SmallModel(layers, embeddings, norm, head, frequencies, sizes, config["rms_norm_eps"])
 
 
 def _frequencies(rope: Mapping[str, Any], size: int) -> Tensor:
@@ -301,7 +291,7 @@ class SmallPasses:
         self.model = model
         self.lengths = [0] * rows
         self.capacity = 0
-        empty = torch.zeros(2, rows, 0, model.key_heads, model.head_size)
+        empty = torch.zeros(2, rows, 0, model.sizes.kv_heads, model.sizes.head_dim)
         self.memory = [empty for _layer in model.layers]
 
     def run(self, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:
@@ -341,7 +331,7 @@ class SmallPasses:
         """The wanted logits of the rows of a grid."""
         model, slots = self.model, len(grid.starts) * grid.width // len(feeds)
         ids = [token for feed in feeds for token in (*feed, *[0] * (slots - len(feed)))]
-        hidden = grid.hidden(model.heads // model.key_heads)
+        hidden = grid.hidden(model.sizes.heads // model.sizes.kv_heads)
         angles = [angle[grid.where[1]] for angle in self.angles]
         states = embedding(torch.tensor(ids), model.embeddings).float()
         for layer, memory in zip(model.layers, self.memory, strict=True):
@@ -369,7 +359,8 @@ class SmallPasses:
         """Write the new keys and values into the memory, and let every position look at those up to
         itself.
         """
-        heads, key_heads, size = self.model.heads, self.model.key_heads, self.model.head_size
+        sizes = self.model.sizes
+        heads, key_heads, size = sizes.heads, sizes.kv_heads, sizes.head_dim
         both = heads + key_heads
         mixed = linear(states, *layer.qkv).float().view(-1, both + key_heads, size)
         rotated = mixed[:, :both]

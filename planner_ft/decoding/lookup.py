@@ -10,10 +10,11 @@ from collections.abc import Callable, Hashable, Sequence
 from pathlib import Path
 from typing import Any
 
+from planner_ft.data.task.steps import plan_step
 from planner_ft.support.files import compact_json, read_jsonl
 from planner_ft.vocabulary import Skill, Task, Vocabulary
 from planner_ft.vocabulary.definition import DEFAULT
-from planner_ft.vocabulary.plans import STEP_KEYS, Level
+from planner_ft.vocabulary.plans import Level
 
 LONGEST_MATCH = 4
 """Tokens at the end of the answer that are looked up at most. The longest match wins."""
@@ -80,17 +81,14 @@ def usual_plans(level: Level, vocabulary: Vocabulary) -> list[str]:
             for task in vocabulary.tasks
         ]
         return [compact_json({"tasks": tasks, "assumptions": [], "constraints": []})]
-    steps = []
-    first = vocabulary.skills_in_role("navigation")[0]
+    first, steps = vocabulary.skills_in_role("navigation")[0].name, []
     for skill in vocabulary.skills:
         named = {"name": skill.name, "parameters": _blank(skill)}
-        roles = {role: [named] if skill.role == role else [] for role in ("filter", "perception")}
-        moves = named if skill.role == "navigation" else {"name": first.name, "parameters": {}}
-        reports = [
-            [text] if (text := getattr(skill, field)) else []
-            for field in ("stop", "failure", "output")
-        ]
-        steps.append(dict(zip(STEP_KEYS, (moves, *roles.values(), *reports), strict=True)))
+        name, values = (skill.name, _blank(skill)) if skill.role == "navigation" else (first, {})
+        filters, perceptions = (
+            [named] if skill.role == role else [] for role in ("filter", "perception")
+        )
+        steps.append(plan_step(name, values, filters, perceptions, vocabulary))
     return [compact_json({"skill_sequence": steps})]
 
 
