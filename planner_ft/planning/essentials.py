@@ -8,12 +8,12 @@ A document keeps both apart from the model's: `defaults` of a task are the value
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.planning.limits import forbidden_skills
 from planner_ft.vocabulary import Skill, Vocabulary
-from planner_ft.vocabulary.essentials import TaskEssentials, essentials_of
+from planner_ft.vocabulary.essentials import essentials_of
 from planner_ft.vocabulary.plans import canonical_parameters, step_skills
 
 Step = dict[str, Any]
@@ -72,7 +72,7 @@ def with_essentials(
     needed = essentials_of(task["title"], vocabulary)
     forbidden = forbidden_skills(task.get("task_prompt", ""), vocabulary)
     completed, added = copy.deepcopy(list(steps)), Added()
-    for index in _performing(needed, completed, vocabulary):
+    for index in performing(task["title"], completed, vocabulary) or range(len(completed)):
         for name, parameters in needed.skills.items():
             step, skill = completed[index], vocabulary.skill[name]
             standing = [own for _role, own in step_skills(step) if own["name"] == name]
@@ -112,17 +112,15 @@ def _completed(
             yield {**mark, "parameter": key}
 
 
-def _performing(
-    needed: TaskEssentials, steps: Sequence[Step], vocabulary: Vocabulary
-) -> Iterable[int]:
-    """The steps that perform a task: an approach is none, unless there is nothing else."""
+def performing(title: str, steps: Sequence[Step], vocabulary: Vocabulary) -> list[int]:
+    """The steps (from 0) that perform a task: those of its motions; an approach is none."""
+    during = essentials_of(title, vocabulary).during
     motions = [vocabulary.skill[step["navigation_skill"]["name"]].motion for step in steps]
-    performing = [
+    return [
         index
         for index, motion in enumerate(motions)
-        if (motion in needed.during if needed.during else motion != "goto")
+        if (motion in during if during else motion != "goto")
     ]
-    return performing or range(len(steps))
 
 
 def _add(step: Step, skill: Skill, parameters: Mapping[str, Any]) -> None:

@@ -9,6 +9,7 @@ from planner_ft.document.track import Track
 from planner_ft.document.warnings.command import command_warnings
 from planner_ft.document.warnings.data import data_warnings
 from planner_ft.document.warnings.limits import limit_warnings
+from planner_ft.document.warnings.performed import performed_warnings
 from planner_ft.document.warnings.route import order_warnings, range_warnings, space_warnings
 from planner_ft.document.warnings.said import said_warnings
 from planner_ft.document.warnings.values import value_warnings
@@ -31,6 +32,7 @@ def warnings(document: Mapping[str, Any], vocabulary: Vocabulary, path: Track) -
         *range_warnings(document, path, vocabulary),
         *command_warnings(document, vocabulary),
         *data_warnings(document, vocabulary),
+        *performed_warnings(document, vocabulary),
         *said_warnings(document, vocabulary),
         *value_warnings(document, vocabulary),
     ]

@@ -1,0 +1,69 @@
+"""Whether the steps of a task perform it: a grid covers its area, a square keeps its stand-off."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from planner_ft.document.warnings.warning import Warning, named, warning
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import is_number
+
+Point = tuple[float, float]
+SIZE, SPACING = ("width", "length"), "spacing"
+"""The parameters of a grid: extent along x and y, and between lanes."""
+SLACK, SHARE = 0.5, 0.02
+"""Metres, and the share of a length, by which waypoints may differ from it."""
+
+
+def performed_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
+    """One per task without a step that fits it, or whose waypoints are not those of its values.
+
+    Waypoints that were added for clearance count with neither.
+    """
+    for task in document["tasks"]:
+        steps = task["skill_sequence"] or []
+        # A search may go anywhere.
+        if not steps or task.get("stale") or task["title"] == vocabulary.locate:
+            continue
+        fitting = vocabulary.task[task["title"]].skills.get("navigation", ())
+        if not any(step["navigation_skill"]["name"] in fitting for step in steps):
+            text = f"{named(task)}: no step performs it; its steps do something else."
+            yield warning("not-performed", text, task)
+        elif problem := _geometry_problem(task, _waypoints(task, vocabulary), vocabulary):
+            yield warning("not-performed", f"{named(task)}: {problem}.", task)
+
+
+def _waypoints(task: Mapping[str, Any], vocabulary: Vocabulary) -> list[Point]:
+    clearance = {mark["step"] for mark in task.get("added", ()) if mark["role"] == "navigation"}
+    found = []
+    for index, step in enumerate(task["skill_sequence"]):
+        skill = step["navigation_skill"]
+        names = [parameter.name for parameter in vocabulary.skill[skill["name"]].coordinates]
+        if names and index not in clearance:
+            found.append((skill["parameters"][names[0]], skill["parameters"][names[1]]))
+    return found
+
+
+def _geometry_problem(
+    task: Mapping[str, Any], points: list[Point], vocabulary: Vocabulary
+) -> str | None:
+    known, given = vocabulary.task[task["title"]], task["parameters"]
+    if known.pattern == "lawnmower" and all(is_number(given.get(name)) for name in SIZE):
+        return _grid_problem([given[name] for name in SIZE], given.get(SPACING, 0), points)
+    return None
+
+
+def _grid_problem(size: list[float], spacing: float, points: list[Point]) -> str | None:
+    """Lanes reach over the whole of one side; along the other less than a spacing may be left."""
+    spans = [max(axis) - min(axis) for axis in zip(*points, strict=True)] if points else [0.0, 0.0]
+    rest = [extent - span for extent, span in zip(size, spans, strict=True)]
+    fits = [
+        abs(left) <= max(SLACK, SHARE * extent) for left, extent in zip(rest, size, strict=True)
+    ]
+    steps = [fit or 0 < left < spacing for fit, left in zip(fits, rest, strict=True)]
+    if any(fits) and all(steps):
+        return None
+    (width, length), (along_x, along_y) = size, spans
+    covered = f"its waypoints span {along_x:g} m by {along_y:g} m"
+    return f"{covered}, and the area is {width:g} m by {length:g} m"

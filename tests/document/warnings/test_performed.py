@@ -1,0 +1,39 @@
+"""Steps that do not perform their task."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from tests.documents import document, step, task
+
+GRID = {"center": [100, 50], "width": 20, "length": 20, "spacing": 10}
+
+
+def lanes(xs: list[float], south: float, north: float) -> list[dict[str, Any]]:
+    return [step("GoToXY", {"x": x, "y": y}) for x in xs for y in (south, north)]
+
+
+def found(title: str, parameters: dict[str, Any], steps: list[dict[str, Any]]) -> list[str]:
+    made = document([task(title, parameters, steps)], command="Do it.")
+    return [item["text"] for item in made["warnings"] if item["kind"] == "not-performed"]
+
+
+def test_a_grid_that_leaves_half_of_its_area_is_named() -> None:
+    assert found("BathymetryGridSurvey", GRID, lanes([90, 100, 110], 40, 60)) == []
+    (text,) = found("BathymetryGridSurvey", GRID, lanes([90, 100, 110], 50, 60))
+    assert "span 20 m by 10 m, and the area is 20 m by 20 m" in text
+
+
+@pytest.mark.parametrize("xs", [[85, 105], [85, 105, 115]])
+def test_lanes_need_not_divide_the_area(xs: list[float]) -> None:
+    wide = {**GRID, "width": 30, "spacing": 20}
+    assert found("BathymetryGridSurvey", wide, lanes(xs, 40, 60)) == []
+
+
+def test_a_task_whose_steps_only_go_there_is_named() -> None:
+    go = step("GoToXY", {"x": 10, "y": 10})
+    (text,) = found("ThermalHotspotLocalizer", {}, [go])
+    assert "no step performs it" in text
+    assert found("ThermalHotspotLocalizer", {}, [go, step("RotateToHeading")]) == []
+    assert found("Transit", {"target_position": [10, 10]}, [go]) == []
