@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+
 from tests.documents import document, step, task
 
 GRID = {"center": [100, 50], "width": 20, "length": 20, "spacing": 10}
