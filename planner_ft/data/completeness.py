@@ -56,39 +56,21 @@ def completeness_problems(
 
 def _invented_numbers(record: dict[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
     """Numbers in the plan's texts that neither the command nor a parameter has."""
-    expected = record["expected"]
-    texts = {
-        f"tasks[{index}].task_prompt": task["task_prompt"]
-        for index, task in enumerate(expected["tasks"])
-    }
-    texts |= {
-        f"{key}[{index}]": text
-        for key in MISSION_KEYS[1:]
-        for index, text in enumerate(expected[key])
-    }
-    said = compact_json(
-        [[task["parameters"] for task in expected["tasks"]], vocabulary.home, vocabulary.unresolved]
-    )
-    known = {
-        abs(number)
-        for quantity in (*read_numbers(record["prompt"]), *read_numbers(said))
-        for number in (quantity.value, quantity.said)
-    }
+    expected, tasks = record["expected"], record["expected"]["tasks"]
+    texts = {f"tasks[{index}].task_prompt": task["task_prompt"] for index, task in enumerate(tasks)}
+    for key in MISSION_KEYS[1:]:
+        texts |= {f"{key}[{index}]": text for index, text in enumerate(expected[key])}
+    given = [task["parameters"] for task in tasks]
+    said = compact_json([given, vocabulary.home, vocabulary.unresolved])
+    numbers = (*read_numbers(record["prompt"]), *read_numbers(said))
+    known = {abs(number) for found in numbers for number in (found.value, found.said)}
     for where, text in texts.items():
-        digits = [
-            quantity
-            for quantity in read_numbers(text)
-            if text[quantity.start : quantity.end].lstrip("-−–")[:1].isdigit()
-        ]
-        invented = [
-            quantity.said
-            for quantity in digits
-            if not {abs(quantity.said), abs(quantity.value)} & known
-        ]
-        yield from (
-            f"expected: {where}: {number:g} is neither in the command nor in a parameter"
-            for number in invented
-        )
+        for found in read_numbers(text):
+            in_figures = text[found.start : found.end].lstrip("-−–")[:1].isdigit()
+            if in_figures and not {abs(found.said), abs(found.value)} & known:
+                yield (
+                    f"expected: {where}: {found.said:g} is neither in the command nor in a parameter"
+                )
 
 
 def _lost_values(record: dict[str, Any]) -> Iterator[str]:
@@ -97,29 +79,19 @@ def _lost_values(record: dict[str, Any]) -> Iterator[str]:
     """
     expected, prompt = record["expected"], record["prompt"]
     values = [value for task in expected["tasks"] for value in task["parameters"].values()]
-    numbers = [
-        number
-        for value in values
-        for number in (value if isinstance(value, list) else [value])
-        if isinstance(number, int | float)
+    flat = [one for value in values for one in (value if isinstance(value, list) else [value])]
+    numbers = [number for number in flat if isinstance(number, int | float)]
+    for text in (*expected["assumptions"], *expected["constraints"]):
+        numbers += [found.value for found in read_numbers(text)]
+    lost = [
+        f"{prompt[found.start : found.end]!r} of the command stands"
+        for found in read_numbers(prompt)
+        if found.unit and not any(near(number, found.value) for number in numbers)
     ]
-    numbers += [
-        quantity.value
-        for text in (*expected["assumptions"], *expected["constraints"])
-        for quantity in read_numbers(text)
+    lost += [
+        f"the coordinates {prompt[place.start : place.end]!r} of the command stand"
+        for place in read_positions(prompt)
+        if prompt[place.start - 1 : place.start] in ("[", "(")
+        and not ([place.x, place.y] in values or {place.x, place.y} <= set(numbers))
     ]
-    for quantity in read_numbers(prompt):
-        if quantity.unit and not any(near(number, quantity.value) for number in numbers):
-            yield (
-                f"expected: {prompt[quantity.start : quantity.end]!r} of the command stands in no"
-                " parameter and no constraint"
-            )
-    for place in read_positions(prompt):
-        x, y, start, end = place.x, place.y, place.start, place.end
-        if prompt[start - 1 : start] in ("[", "(") and not (
-            [x, y] in values or {x, y} <= set(numbers)
-        ):
-            yield (
-                f"expected: the coordinates {prompt[start:end]!r} of the command stand in no"
-                " parameter and no constraint"
-            )
+    yield from (f"expected: {text} in no parameter and no constraint" for text in lost)

@@ -53,7 +53,7 @@ def value_space(parameter: Parameter, config: dict[str, Any], lexicon: WordLists
     return lambda rng: say(words, rng)
 
 
-def sense_of(parameter: Parameter, config: dict[str, Any]) -> str | None:
+def _sense(parameter: Parameter, config: dict[str, Any]) -> str | None:
     """How the number is said: from the phrase file, else from name, unit and range."""
     if "sense" in config:
         return str(config["sense"])
@@ -67,7 +67,7 @@ def sense_of(parameter: Parameter, config: dict[str, Any]) -> str | None:
 
 def number_space(parameter: Parameter, config: dict[str, Any]) -> Draw:
     """A function that draws a number of this parameter."""
-    sense = sense_of(parameter, config)
+    sense = _sense(parameter, config)
     low, high = config.get("typical") or _default_range(parameter, sense)
     choices = config.get("choices")
 
@@ -175,12 +175,8 @@ def draw_polygon(rng: random.Random) -> list[Point]:
     width, height = 10 * rng.randrange(2, 20), 10 * rng.randrange(2, 20)
     if rng.random() < 0.15:
         height = width
-    first, second, third, fourth = (
-        point(x, y),
-        point(x + width, y),
-        point(x + width, y + height),
-        point(x, y + height),
-    )
+    corners = ((x, y), (x + width, y), (x + width, y + height), (x, y + height))
+    first, second, third, fourth = (point(*corner) for corner in corners)
     roll = rng.random()
     if roll < 0.2:
         return [first, second, pick((third, fourth), rng)]
