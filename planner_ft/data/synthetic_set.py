@@ -71,7 +71,8 @@ def _card(count: int, seed: int, titles: Counter[str], families: Counter[str]) -
         + "".join(f"{key}: {compact_json(value)}\n" for key, value in front.items())
         + f"---\n# Synthetic mission plans\n\n{count} commands with their plans, written by"
         f" `plannerft gen-data --level mission --synthetic {count}` with seed {seed}. They come"
-        " from whole commands written by hand, with slots for targets, positions and values."
+        " from whole commands written by hand, with slots for targets, positions and values, and"
+        " clauses of limits and demands for data."
         " Labels follow the labelling rules by construction. No curated command is among them.\n\n## Tasks\n\n"
         + table(["task", "occurrences"], titles.most_common())
         + "\n## Families\n\n"
