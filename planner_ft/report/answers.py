@@ -40,7 +40,7 @@ def index(tests: TestSet) -> dict[str, Any]:
     outcomes, names = {RIGHT: 0}, dict[str, int]()
 
     def brief(system: Row, sample: str) -> list[Any] | None:
-        score = tests.scores_of(system).get(sample)
+        score = tests.scores.get(system.key, {}).get(sample)
         if score is None:
             return None
         outcome = outcomes.setdefault(str(score.get("failure") or RIGHT), len(outcomes))

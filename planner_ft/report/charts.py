@@ -169,7 +169,7 @@ def _latency(tests: TestSet) -> Chart:
     """Median, 90th and 99th percentile of timed queries."""
     rows = []
     for system in tests.results.rows:
-        if seconds := list(_seconds(tests.scores_of(system)).values()):
+        if seconds := list(_seconds(tests.scores.get(system.key, {})).values()):
             cells = (cell(quantile(seconds, share).value) for _name, share in QUANTILES)
             rows.append(row(system.name, *cells, f"n = {len(seconds)}"))
     heads = ("System", *(name for name, _share in QUANTILES), "samples")
@@ -192,7 +192,7 @@ def _latency_by_size(tests: TestSet) -> Chart:
     rows = []
     for system in tests.results.rows:
         timed: dict[int, list[float]] = {}
-        for name, seconds in _seconds(tests.scores_of(system)).items():
+        for name, seconds in _seconds(tests.scores.get(system.key, {})).items():
             entries = tests.samples.get(name, {}).get("expected", {}).get(list_key(tests.level))
             if isinstance(entries, list):
                 timed.setdefault(len(entries), []).append(seconds)

@@ -15,7 +15,6 @@ from markupsafe import Markup
 from planner_ft.report.answers import index, parts, script_json
 from planner_ft.report.contents import Section
 from planner_ft.report.pictures import NARROW, WIDE, inline_svg
-from planner_ft.support.tables import Table
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -30,18 +29,13 @@ def page(sections: Sequence[Section], title: str) -> str:
     policy = f"default-src 'none'; style-src {_hash(style)}; script-src {_hash(script)};"
     policy += " base-uri 'none'; form-action 'none'"
     trusted = {"style": Markup(style), "script": Markup(script)}
-    template = _templates().get_template("page.html.j2")
+    template = templates().get_template("page.html.j2")
     return template.render(sections=sections, title=title, policy=policy, **trusted)
 
 
-def html_table(table: Table) -> str:
-    """A table under its title; wider than the screen it scrolls by itself, also by keyboard."""
-    module: Any = _templates().get_template("table.html.j2").module
-    return str(module.html_table(table))
-
-
 @functools.cache
-def _templates() -> Environment:
+def templates() -> Environment:
+    """The templates of the page, with their filters."""
     from jinja2 import Environment, PackageLoader
 
     blocks: Any = {"trim_blocks": True, "lstrip_blocks": True, "keep_trailing_newline": True}

@@ -102,10 +102,6 @@ class TestSet:
             for system, of_system in every.items()
         }
 
-    def scores_of(self, system: Row) -> dict[str, Record]:
-        """A system's scores by sample."""
-        return self.scores.get(system.key, {})
-
 
 def within(record: Any, *keys: str) -> Any:
     """The value below these keys, {} where one is missing."""

@@ -85,10 +85,6 @@ def _read_line(line: bytes) -> Record | str:
 
 def _line_problems(found: list[Record | str]) -> Iterator[Problem]:
     """Changed lines, and records that do not follow the line before."""
-    places: dict[int, int] = {}
-    for number, item in enumerate(found, start=1):
-        if isinstance(item, dict):
-            places.setdefault(item["sequence"], number)
     before: Record | str = START._asdict()
     for number, item in enumerate(found, start=1):
         if isinstance(item, str):
@@ -96,22 +92,14 @@ def _line_problems(found: list[Record | str]) -> Iterator[Problem]:
         elif isinstance(before, dict):
             expected = before["sequence"] + 1
             if item["sequence"] != expected:
-                yield Problem(number, _misplaced(number, item["sequence"], expected, places))
+                holds = f"line {number} holds record {item['sequence']} where record {expected}"
+                text = f"{holds} is due: lines were removed, changed places or were repeated"
+                yield Problem(number, text)
             elif item.get("previous") != before["hash"]:
                 here, last = f"line {number} (record {item['sequence']})", f"line {number - 1}"
                 text = f"{here} was recorded after another line than {last}; {last} was replaced"
                 yield Problem(number, text)
         before = item
-
-
-def _misplaced(number: int, sequence: int, expected: int, places: dict[int, int]) -> str:
-    holds = f"line {number} holds record {sequence} where record {expected} belongs"
-    moved = "lines changed places or were repeated"
-    if expected in places:
-        return f"{holds}, which stands in line {places[expected]}; {moved}"
-    if sequence < expected:
-        return f"{holds}; {moved}"
-    return f"{holds}; {_records(expected, sequence - 1)} missing: lines were removed"
 
 
 def _records(first: int, last: int) -> str:

@@ -67,16 +67,14 @@ def _keyed(before: Any, after: Any) -> tuple[dict[Any, Any], dict[Any, Any]] | N
         return before, after
     if not (isinstance(before, list) and isinstance(after, list)):
         return None
-    if _have_ids(before) and _have_ids(after):
-        return {item["id"]: item for item in before}, {item["id"]: item for item in after}
+    ids = [
+        [one.get("id") if isinstance(one, dict) else None for one in of] for of in (before, after)
+    ]
+    if all(len({name for name in of if isinstance(name, str)}) == len(of) for of in ids):
+        return dict(zip(ids[0], before, strict=True)), dict(zip(ids[1], after, strict=True))
     if any(isinstance(item, dict) for item in [*before, *after]):
         return dict(enumerate(before)), dict(enumerate(after))
     return None
-
-
-def _have_ids(items: list[Any]) -> bool:
-    ids = [item.get("id") for item in items if isinstance(item, dict)]
-    return len({name for name in ids if isinstance(name, str)}) == len(items)
 
 
 def _named(words: Words, path: str, key: Any, keyed: tuple[dict[Any, Any], ...]) -> Words:

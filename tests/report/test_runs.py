@@ -20,7 +20,7 @@ def test_a_run_is_read_with_its_answers_and_commands(run: Path) -> None:
     assert [system.name for system in tests.results.rows] == ["good, Base", "hostile, Base"]
     assert list(tests.samples) == list(EXPECTED)
     first = tests.results.rows[0]
-    assert set(tests.answers[first.key]) == set(EXPECTED) == set(tests.scores_of(first))
+    assert set(tests.answers[first.key]) == set(EXPECTED) == set(tests.scores[first.key])
     assert not [note for note in tests.notes if "not shown" in note]
 
 

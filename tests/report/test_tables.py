@@ -8,7 +8,7 @@ import io
 from rich.console import Console
 
 from planner_ft.report.charts import number
-from planner_ft.report.page import html_table
+from planner_ft.report.page import templates
 from planner_ft.support.tables import (
     Cell,
     Table,
@@ -37,7 +37,7 @@ TABLE = Table(
 
 
 def test_html_is_escaped_and_names_its_rows_and_columns() -> None:
-    text = html_table(TABLE)
+    text = str(templates().get_template("table.html.j2").module.html_table(TABLE))
     assert "one|two &lt;x&gt;" in text
     assert text.count('scope="col"') == 3
     assert text.count('scope="row"') == 2

@@ -15,7 +15,8 @@ from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import FileResponse, JSONResponse, Response
-from starlette.routing import Route
+from starlette.routing import BaseRoute, Mount, Route
+from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, ExceptionHandler
 
 from planner_ft.review.approval import UnacknowledgedError
@@ -27,8 +28,6 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, decode_json
 
 PAGE = Path(__file__).parent / "page"
-TYPES = {".js": "text/javascript", ".css": "text/css", ".txt": "text/plain"}
-"""Files of the page that are served, by their suffix."""
 LOOK_EVERY = 1.0
 """Seconds between looks at the disk for changes by others."""
 
@@ -68,7 +67,7 @@ async def _look(session: Session) -> None:
         await run_in_threadpool(session.look)
 
 
-def _page_routes(door: Door) -> list[Route]:
+def _page_routes(door: Door) -> list[BaseRoute]:
     async def index(request: Request) -> Response:
         if door.keys.opens(request.query_params.get("token", "")):
             answer = responses.RedirectResponse("/", 303)
@@ -79,16 +78,7 @@ def _page_routes(door: Door) -> list[Route]:
             return responses.PlainTextResponse(ASK_THE_TERMINAL + "\n", 403)
         return FileResponse(PAGE / "index.html", media_type="text/html")
 
-    return [Route("/", index), Route("/static/{name:path}", _static)]
-
-
-async def _static(request: Request) -> Response:
-    # The name is looked up among the files and never put into a path.
-    files = {file.relative_to(PAGE).as_posix(): file for file in PAGE.rglob("*")}
-    file = files.get(request.path_params["name"])
-    if file is None or file.suffix not in TYPES:
-        raise HTTPException(404)
-    return FileResponse(file, media_type=TYPES[file.suffix])
+    return [Route("/", index), Mount("/static", StaticFiles(directory=PAGE))]
 
 
 # ---------------------------------------------------------------- the interface
