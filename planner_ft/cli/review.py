@@ -25,6 +25,7 @@ def review(
     show: bool = False,
     adopt: bool = False,
     edit: list[str] | None = None,
+    origin: str | None = None,
     approve: bool = False,
     acknowledge: list[str] | None = None,
     reject: str | None = None,
@@ -41,7 +42,7 @@ def review(
     """Read, edit, approve or reject a plan."""
     options = locals()
     if harvest:
-        _refuse("--harvest", options, "web", *DECISIONS, *SERVING)
+        _refuse("--harvest", options, "web", "origin", *DECISIONS, *SERVING)
         _harvest(options)
     elif web:
         _refuse("--web", options, *DECISIONS, *HARVESTING)
@@ -69,6 +70,8 @@ def _review(options: dict[str, Any]) -> None:
     named = [options[key] for key in ("log", "vocabulary", "name", "candidate", "device")]
     adopt, approve, reason = options["adopt"], options["approve"], options["reject"]
     edits, acknowledged = options["edit"] or [], options["acknowledge"] or []
+    if options["origin"] is not None:
+        edits = [f"origin {options['origin']}", *edits]
     reviewer = Conversation(open_desk(plans[0], *named), terminal())
     if approve and reason is not None:
         raise PlannerError("--approve and --reject exclude each other; leave one of them out")
@@ -89,6 +92,7 @@ def _review(options: dict[str, Any]) -> None:
 def _serve(options: dict[str, Any]) -> None:
     from planner_ft.review.desk import planning_of
     from planner_ft.review.web import WebSettings, serve
+    from planner_ft.support.geodesy import parse_origin
 
     plans = options["plans"] or []
     if len(plans) > 1:
@@ -97,6 +101,8 @@ def _serve(options: dict[str, Any]) -> None:
     plan = plans[0] if plans else None
     planning = planning_of(plan, *(options[key] for key in ("vocabulary", "candidate", "device")))
     given = {key: options[key] for key in ("host", "port", "log") if options[key] is not None}
+    if options["origin"] is not None:
+        given["origin"] = parse_origin(options["origin"])
     serve(plan, WebSettings(planning=planning, open_browser=not options["no_browser"], **given))
 
 

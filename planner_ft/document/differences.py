@@ -11,7 +11,9 @@ from planner_ft.support.files import compact_json
 
 Tasks = Sequence[dict[str, Any]]
 MISSING = "nothing"
-Kind = Literal["added", "removed", "moved", "parameter", "prompt", "skills", "located"]
+Kind = Literal[
+    "added", "removed", "moved", "parameter", "prompt", "skills", "located", "constraint"
+]
 
 
 @dataclass(frozen=True)
@@ -40,6 +42,12 @@ def compare(before: dict[str, Any], after: dict[str, Any]) -> list[Difference]:
     old = {task["id"]: task for task in before["tasks"]}
     kept = {task["id"] for task in after["tasks"]}
     found = list(_changes(None, "located", "", before["located"], after["located"]))
+    for text in dict.fromkeys((*before.get("constraints", ()), *after.get("constraints", ()))):
+        was, now = (text in plan.get("constraints", ()) for plan in (before, after))
+        if was != now:
+            change = f'constraint "{text}": {"added" if now else "removed"}'
+            old_text, new_text = text if was else None, text if now else None
+            found.append(Difference(None, "constraint", "", old_text, new_text, change))
     for name, task in old.items():
         title, given = task["title"], task["parameters"]
         if name not in kept:

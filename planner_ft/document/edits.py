@@ -7,6 +7,7 @@ import functools
 import json
 import re
 from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from datetime import UTC, datetime
 from typing import Any
 
@@ -19,8 +20,11 @@ from planner_ft.document.build import (
     tasks_at,
     without_derived,
 )
+from planner_ft.document.limits import without_filters
+from planner_ft.planning.frame import frame_of
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
+from planner_ft.support.geodesy import parse_origin
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
 from planner_ft.vocabulary import plans as rules
 from planner_ft.vocabulary.document_schema import task_schema
@@ -56,6 +60,8 @@ def undo(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
     """The document without its last edit. Raises PlannerError when there is none."""
     if not document["edits"]:
         raise PlannerError("there is no edit to take back; the plan is as it was proposed")
+    if any(record["edit"]["kind"] == "origin" for record in document["edits"]):
+        document = {key: value for key, value in document.items() if key != "origin"}
     undone = {**document, **copy.deepcopy(document["proposed"]), "edits": []}
     for record in document["edits"][:-1]:
         undone = _applied(undone, record, vocabulary)
@@ -104,6 +110,30 @@ def _locate(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
         task["located"] = {**task.get("located", {}), parameter: name}
         _outdate(task)
     document["located"][name] = position
+
+
+def _origin(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
+    if "origin" in document:
+        raise PlannerError("origin: the plan has one, and its positions rest on it; plan anew")
+    origin = parse_origin(edit["place"])
+    document["origin"] = asdict(origin)
+    known = {swap.words: swap.position for swap in frame_of(document).swaps}
+    for place in places_of(document["tasks"], vocabulary):
+        if place.name in known:
+            located = {"name": place.name, "position": list(known[place.name])}
+            _locate(document, located, vocabulary)
+
+
+def _constraint(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
+    constraints, at, text = list(document["constraints"]), edit["at"], edit.get("text")
+    if not 0 <= at < len(constraints) + (text is not None):
+        raise PlannerError(f"constraint {at + 1}: the plan has {len(constraints)}")
+    if text is not None and not _prompt_text(text):
+        raise PlannerError(f"constraint {at + 1}: the text is empty; leave it out to remove it")
+    constraints[at : at + 1] = [] if text is None else [_prompt_text(text)]
+    document["constraints"] = constraints
+    document["tasks"] = without_filters(document["tasks"])
+    document["tasks"] = made_safe(document, vocabulary)
 
 
 def _parameter(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
@@ -233,6 +263,8 @@ PLACE = (list, "a position [x, y]")
 SKILL: Keys = {**TASK, "step": WHOLE, "role": TEXT, "index": WHOLE, "name": TEXT}
 KINDS: dict[str, tuple[Keys, tuple[str, ...], Callable[[PlanDocument, Edit, Vocabulary], None]]] = {
     "locate": ({"name": TEXT, "position": PLACE}, (), _locate),
+    "origin": ({"place": TEXT}, (), _origin),
+    "constraint": ({"at": WHOLE}, ("text",), _constraint),
     "parameter": ({**TASK, "name": TEXT}, ("value",), _parameter),
     "prompt": ({**TASK, "text": TEXT}, (), _prompt),
     "remove": (TASK, (), _remove),

@@ -103,6 +103,24 @@ def carried(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[st
     return done
 
 
+def without_filters(tasks: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The tasks without the filters that limits have brought."""
+    done = []
+    for task in tasks:
+        entry = copy.deepcopy(task)
+        marks = entry.pop("added", [])
+        for mark in (mark for mark in marks if mark["kind"] == "limit"):
+            filters = entry["skill_sequence"][mark["step"]]["filter_skills"]
+            for own in [one for one in filters if one["name"] == mark["name"]][-1:]:
+                if "parameter" in mark:
+                    own["parameters"].pop(mark["parameter"], None)
+                else:
+                    filters.remove(own)
+        kept = [mark for mark in marks if mark["kind"] != "limit"]
+        done.append({**entry, "added": kept} if kept else entry)
+    return done
+
+
 def moves(step: Mapping[str, Any], vocabulary: Vocabulary) -> bool:
     """Whether a step moves the vehicle."""
     motion = vocabulary.motion.of(step["navigation_skill"]["name"])

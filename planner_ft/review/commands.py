@@ -44,6 +44,10 @@ def parse_edit(text: str, document: PlanDocument, vocabulary: Vocabulary) -> Edi
             return _prompt(rest, document)
         case "insert":
             return _insert(rest, vocabulary)
+        case "origin":
+            return {"kind": "origin", "place": rest}
+        case "constraint":
+            return _constraint(rest)
         case "skills":
             return {"kind": "ask", "tasks": _asked(rest, document)}
         case "undo" if not rest:
@@ -130,6 +134,14 @@ def _remove(rest: str, document: PlanDocument) -> Edit:
         expected = "expected TASK, TASK.SKILL or TASK.STEP.SKILL"
         raise PlannerError(f"remove {rest}: {expected}, such as remove 2.1.GetSeabedDepth")
     return {**edit, "step": step - 1}
+
+
+def _constraint(rest: str) -> Edit:
+    number, _blank, text = rest.partition(" ")
+    at = _number(number)
+    if not at:
+        raise PlannerError(f"constraint {rest}: expected its number, and its new text or nothing")
+    return {"kind": "constraint", "at": at - 1, **({"text": text.strip()} if text.strip() else {})}
 
 
 def _move(rest: str, document: PlanDocument) -> Edit:

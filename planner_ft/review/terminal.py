@@ -12,7 +12,8 @@ from rich.text import Text
 from planner_ft.document import PlanDocument, altered, differences
 from planner_ft.document.differences import Difference
 from planner_ft.document.track import track
-from planner_ft.document.tree import plain, task_tree
+from planner_ft.document.tree import constraint_lines, plain, task_tree
+from planner_ft.planning.frame import origin_of
 from planner_ft.review.chart import chart
 from planner_ft.review.commands import HELP
 from planner_ft.review.desk import Desk
@@ -57,11 +58,11 @@ def review_lines(
     tasks = [task["id"] for task in document["tasks"]]
     course = track(document, vocabulary)
     sections: dict[str, Iterable[str]] = {
-        "Command": document["command"].splitlines(),
+        "Command": [*document["command"].splitlines(), *_origin(document)],
         "Tasks": task_tree(document),
         "Where values come from": _sources(document),
         "Assumptions": (f" - {text}" for text in document["assumptions"]),
-        "Constraints": (f" - {text}" for text in document["constraints"]),
+        "Constraints": (f" - {text}" for text in constraint_lines(document)),
         "Track": chart(course, tasks, vocabulary.home, **drawing),
         "Estimate": [_estimate(document)],
         "Changed since the model proposed it": _items(differences(document)),
@@ -96,6 +97,11 @@ def _warnings(document: PlanDocument) -> Iterator[Line]:
 def _counted(document: PlanDocument, none: str) -> str:
     count = len(document["warnings"])
     return f"{count or none} warning{'s' if count != 1 else ''}"
+
+
+def _origin(document: PlanDocument) -> Iterator[str]:
+    if origin := origin_of(document):
+        yield f"Origin of [0, 0]: {origin}"
 
 
 def _sources(document: PlanDocument) -> Iterator[str]:

@@ -6,7 +6,9 @@ from typing import Any
 
 import pytest
 
+from planner_ft.document import apply, differences, undo
 from planner_ft.planning.limits import with_limits, without_limits
+from planner_ft.support.errors import PlannerError
 from tests.documents import DRONE, USV, document, step, task
 
 FENCE = "The vehicle stays inside [0, 0], [200, 0], [200, 200], [0, 200]."
@@ -124,3 +126,34 @@ def test_limits_reach_all_task_prompts_and_not_the_task_agent() -> None:
         without_limits("Fly to [1, 2]. Stay inside [0, 0], [9, 0], [9, 9].", DRONE)
         == "Fly to [1, 2]."
     )
+
+
+def test_a_constraint_is_edited_and_its_filters_follow() -> None:
+    plan = document([transit(100, 50)], constraints=["Be careful.", FENCE])
+    plan = apply(plan, {"kind": "constraint", "at": 1}, USV)
+    assert plan["constraints"] == ["Be careful."] and "limits" not in plan
+    assert plan["tasks"][0]["skill_sequence"][0]["filter_skills"] == []
+    text = "The vehicle keeps at least 5 m from every obstacle."
+    plan = apply(plan, {"kind": "constraint", "at": 1, "text": text}, USV)
+    (own,) = plan["tasks"][0]["skill_sequence"][0]["filter_skills"]
+    assert own["name"] == "ObstacleAvoidance"
+    assert [change.kind for change in differences(plan)].count("constraint") == 2
+    assert undo(undo(plan, USV), USV)["constraints"] == ["Be careful.", FENCE]
+    for wrong in ({"at": 9}, {"at": 0, "text": " "}):
+        with pytest.raises(PlannerError, match="constraint"):
+            apply(plan, {"kind": "constraint", **wrong}, USV)
+
+
+def test_the_origin_of_a_plan_locates_its_geographic_places() -> None:
+    words = "54.3217 N, 10.1412 E"
+    go = task("Transit", {"target_position": [-99, -99]}, None, f"Go to {words}.")
+    plan = document([go], command=f"Go to {words}.")
+    assert plan["open_places"][0]["name"] == words
+    assert "--origin" in plan["warnings"][0]["text"]
+    edit = {"kind": "origin", "place": "54.32,10.14"}
+    located = apply(plan, edit, USV)
+    assert located["tasks"][0]["parameters"]["target_position"] == [78.1, 189.2]
+    assert located["origin"] == {"latitude": 54.32, "longitude": 10.14}
+    assert "origin" not in undo(located, USV)
+    with pytest.raises(PlannerError, match="plan anew"):
+        apply(located, edit, USV)

@@ -22,6 +22,7 @@ from planner_ft.review.store import ChangedError, add_plan, plan_names, signatur
 from planner_ft.review.web.events import Events
 from planner_ft.review.web.planning import Planning
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.geodesy import Origin
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import task_entry
 
@@ -32,7 +33,18 @@ LOOPBACK = "127.0.0.1"
 LAST_PORT = 65535
 LONGEST_COMMAND = 20_000
 """Characters."""
-EDITS = ("locate", "parameter", "prompt", "remove", "move", "insert", "skill", "drop")
+EDITS = (
+    "locate",
+    "origin",
+    "constraint",
+    "parameter",
+    "prompt",
+    "remove",
+    "move",
+    "insert",
+    "skill",
+    "drop",
+)
 """The kinds of edits that a page makes: not those that record an agent's answer or an adoption."""
 PLAN = ("document", "path", "revision", "track")
 """Keys of the state that are None without a plan."""
@@ -41,7 +53,9 @@ State = dict[str, Any]
 
 @dataclass(frozen=True)
 class WebSettings:
-    """Address, files and agents: `port` 0 is a free one, log and folder are the plan's."""
+    """Address, files and agents: `port` 0 is a free one, log and folder are the plan's, `origin` is that of
+    new commands.
+    """
 
     host: str = LOOPBACK
     port: int = 0
@@ -49,6 +63,7 @@ class WebSettings:
     log: Path | None = None
     folder: Path | None = None
     planning: PlanSettings = field(default_factory=PlanSettings)
+    origin: Origin | None = None
 
     def __post_init__(self) -> None:
         """Raise PlannerError for a port that does not exist."""
@@ -79,6 +94,7 @@ class Session:
         self.path, self.vocabulary, self.vehicle = plan, vocabulary, vehicle
         self.folder = settings.folder or (plan.parent if plan else Path())
         self.log = settings.log or log_beside(self.folder / "any")
+        self.origin = settings.origin
         self.events = Events()
         self.planning = Planning(settings.planning, self.events, self.tell_state)
         self._known: Any = self._signature()
@@ -153,7 +169,7 @@ class Session:
         places = {name: (x, y) for name, (x, y) in locations.items()}
 
         def work(planner: Planner) -> None:
-            planned = planner.plan(command, places, self._watch)
+            planned = planner.plan(command, places, self._watch, self.origin)
             document = build(planned, self.vocabulary, self.vehicle)
             self.path = add_plan(self.folder, document)
 

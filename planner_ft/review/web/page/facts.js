@@ -4,13 +4,21 @@ import { metres, number, seconds, tasksNamed } from "./format.js";
 import { html } from "./vendor.js";
 
 export function Facts({ store }) {
-  const { assumptions, constraints } = store.plan.document;
+  const { assumptions, constraints, limits = [], origin } = store.plan.document;
   return html`<section class="panel facts" aria-labelledby="facts-title">
     <h2 id="facts-title">Estimate</h2>
     <${Estimate} store=${store} />
     <${Texts} title="The model takes for granted" texts=${assumptions} none="nothing" />
-    <${Texts} title="The mission fails if this is violated" texts=${constraints} none="no constraint was named" />
+    <${Texts} title="The mission fails if this is violated" texts=${constraints.map((text) => explained(text, limits))} none="no constraint was named" />
+    ${origin && html`<h3>Where [0, 0] lies</h3><p>${number(Math.abs(origin.latitude))}° ${origin.latitude < 0 ? "S" : "N"}, ${number(Math.abs(origin.longitude))}° ${origin.longitude < 0 ? "W" : "E"}</p>`}
   </section>`;
+}
+
+/** A constraint; a limit with the words that it came from, what keeps it, and whether it is checked. */
+function explained(text, limits) {
+  const limit = limits.find((one) => one.text === text);
+  const notes = limit && [limit.words && `from “${limit.words}”`, limit.filter && `kept by ${limit.filter}`, limit.unchecked && `not checked: ${limit.unchecked}`].filter(Boolean);
+  return notes?.length ? `${text} (${notes.join("; ")})` : text;
 }
 
 const Texts = ({ title, texts, none }) => html`<h3>${title}</h3>${texts.length ? html`<ul>${texts.map((text) => html`<li>${text}</li>`)}</ul>` : html`<p class="soft">${none}</p>`}`;
