@@ -129,7 +129,7 @@ def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
     for task, found in zip(tasks, sources(revised, vocabulary), strict=True):
         task["sources"] = found
     path = track(revised, vocabulary)
-    revised["estimate"] = estimate(revised, path)
+    revised["estimate"] = estimate(revised, path, vocabulary.home)
     revised["warnings"] = warnings(revised, vocabulary, path)
     revised["tasks"] = [_ordered(task, TASK_KEYS) for task in tasks]
     ordered = _ordered(revised, document_keys())

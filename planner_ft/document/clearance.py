@@ -20,6 +20,7 @@ from planner_ft.document.ontology import is_thing, named_places
 from planner_ft.document.track import Leg, Pen, Point, TaskEntry, place_of
 from planner_ft.document.vehicle import STAND_OFF
 from planner_ft.facts.places import read_bearings
+from planner_ft.planning.frame import frame_of
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import canonical_value
 
@@ -90,6 +91,10 @@ def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Stru
         radius = task["parameters"].get(circle.radius) if circle else None
         if radius:
             stated.setdefault(place, []).append(float(radius))
+    visited = {place_of(task, vocabulary) for task in tasks}
+    for words, beside in named_places(frame_of(document).spoken, vocabulary):
+        if (beside.x, beside.y) not in visited:
+            named.setdefault((beside.x, beside.y), words)
     for charted in ("structures", "located"):
         for name, position in document.get(charted, {}).items():
             if is_thing(name, vocabulary):

@@ -92,10 +92,16 @@ def track(document: Mapping[str, Any], vocabulary: Vocabulary) -> Track:
     return Track(tuple(pen.legs), *shapes, tuple(pen.open))
 
 
-def estimate(document: Mapping[str, Any], path: Track) -> dict[str, Any]:
-    """Sums of what is known: {"length" in metres, "seconds", "open": tasks that lack a part}."""
+def estimate(document: Mapping[str, Any], path: Track, home: Point = (0.0, 0.0)) -> dict[str, Any]:
+    """Sums of what is known: {"length" in metres, "seconds", "open": tasks that lack a part}.
+
+    `away` is how far from home the plan ends, where that is known and not home.
+    """
+    last = next((leg.points[-1] for leg in reversed(path.legs) if leg.points), home)
+    away = round(math.dist(last, home), 1)
     untimed = {leg.task for leg in path.legs if leg.seconds is None} | set(path.open)
     return {
+        **({"away": away} if away and not path.open else {}),
         "length": round(sum(leg.metres for leg in path.legs), 1),
         "seconds": round(sum(leg.seconds or 0.0 for leg in path.legs)),
         "open": [task["id"] for task in document["tasks"] if task["id"] in untimed],

@@ -43,6 +43,8 @@ def _lines(document: PlanDocument) -> Iterator[str]:
     }
     for heading, items in sections.items():
         yield from (f"{heading}:", *(f" - {item}" for item in items)) if items else ()
+    if "away" in document["estimate"]:
+        yield f"Ends {document['estimate']['away']:g} m from home."
     yield ""
     for agent, use in document["usage"].items():
         yield f"{agent.capitalize()} Agent  {_use(use)}"

@@ -121,6 +121,7 @@ def _estimate(document: PlanDocument) -> str:
     unknown = [str(numbers.get(name, name)) for name in estimate["open"]]
     plural = "s" if len(unknown) > 1 else ""
     more = f", and what is not known of task{plural} {', '.join(unknown)}" if unknown else ""
+    more += f"; ends {estimate['away']:g} m from home" if "away" in estimate else ""
     time = clock(estimate["seconds"])
     return f"{estimate['length']:.0f} m, {time} at a cruise speed of {speed:g} m/s{more}"
 

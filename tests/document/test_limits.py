@@ -94,7 +94,7 @@ def test_a_leg_is_led_round_what_it_must_keep_away_from() -> None:
     command = "Go to [100, 50] and keep 20 m from the wreck at [50, 25]."
     plan = document([transit(100, 50)], constraints=[text], command=command)
     assert len(plan["tasks"][0]["skill_sequence"]) > 1
-    assert [one["kind"] for one in plan["warnings"]] == ["ends-away"]
+    assert [one["kind"] for one in plan["warnings"]] == []
 
 
 def test_speed_and_recording_are_checked_in_tasks_and_steps() -> None:

@@ -190,9 +190,6 @@ def range_warnings(
     if any(any(clause.spans(words["home"])) for clause in read_clauses(command, vocabulary)):
         text = f"coming home or back, and the plan ends with {named(away)} and no return."
         yield warning("missing-return", f"The command speaks of {text}")
-    elif not words["stay"].search(command):
-        text = f"ends with {named(away)}: it brings the vehicle neither home nor to a dock."
-        yield warning("ends-away", f"The plan {text}")
 
 
 def _over_endurance(

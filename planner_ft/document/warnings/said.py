@@ -24,6 +24,8 @@ PAIR = re.compile(r"[-−–]?\d+(?:\.\d+)?\s?,\s?[-−–]?\d+(?:\.\d+)?")
 BESIDE = re.compile(r"[\s,;\])\[(]*(?:and|to|then)?[\s,;\])\[(]*")
 """What stands between the positions of a row."""
 ROW = 3
+STEM = 5
+"""First letters by which a word is found again."""
 FULL = 360.0
 REPEATED = 16
 """Characters behind a count in which the word for what is repeated stands."""
@@ -49,6 +51,7 @@ def said_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterat
     for clause in clauses:
         if not any(clause.start <= row[0].start < clause.end for row in rows):
             yield from _lost_limit(clause, text, pairs, spoken, plan)
+        yield from _lost_instruction(clause, pairs, spoken, plan)
     yield from _lost_repeats(text, clauses, spoken, plan)
     yield from _home_and_not(clauses, spoken, document, vocabulary)
 
@@ -66,16 +69,22 @@ class _Plan:
         self.limited = [float(value) for value in self.limits if is_number(value)]
         self.polygons = [value for value in (*own, *self.limits) if _is_polygon(value)]
         self.visited = [tuple(value) for value in own if is_place(value)]
-        self.visited += [
+        gone = [
             (values["x"], values["y"])
             for values in (skill["parameters"] for skill in skills)
             if {"x", "y"} <= values.keys()
         ]
+        self.often: list[Any] = [*(gone or self.visited)]
+        self.often += [(task["title"], str(task["parameters"])) for task in tasks]
+        self.visited += gone
         texts = [*document.get("constraints", ()), *document.get("assumptions", ())]
         texts += [task["task_prompt"] for task in tasks]
         read = [place for line in texts for place in read_positions(line)]
         self.written = [(place.x, place.y) for place in read]
-        self.titles = [(task["title"], str(task["parameters"])) for task in tasks]
+        self.timed = any(limit["kind"] in ("return", "duration") for limit in limits)
+        own_texts = [value for value in own if isinstance(value, str)]
+        lists = [item for value in own if isinstance(value, list) for item in value]
+        self.text = " ".join([*texts, *own_texts, *map(str, lists)]).casefold()
 
     def has(self, place: Position) -> bool:
         """Whether a position is anywhere in the plan, or its numbers are values of it."""
@@ -95,8 +104,7 @@ class _Plan:
     def repeats(self, count: float) -> bool:
         """Whether something is done so often: an arc, a place, a task."""
         turned = any(near(abs(value), FULL * count) for value in self.numbers)
-        often = [*self.visited, *self.titles]
-        return turned or any(often.count(item) >= count for item in set(often))
+        return turned or any(self.often.count(item) >= count for item in set(self.often))
 
 
 def _pairs(text: str) -> list[Position]:
@@ -156,17 +164,30 @@ def _lost_limit(
     inside = [place for place in pairs if clause.start <= place.start < clause.end]
     whole = spoken.words["whole_limit"].search(clause.text)
     numbers = [one for one in read_numbers(text) if clause.start <= one.start < clause.end]
-    measures = [one for one in numbers if one.unit in ("m", "s", "m/s")]
-    places = [one for one in inside if not any(one.start <= n.start < one.end for n in measures)]
+    apart = [n for n in numbers if not any(one.start <= n.start < one.end for one in inside)]
+    measures = [n for n in apart if n.unit in ("m", "s", "m/s") or _is_coordinate(n, text)]
     known = plan.limited if whole else [*plan.limited, *plan.numbers]
     kept = all(any(near(one.value, other) for other in known) for one in measures)
     if not measures and spoken.words["away"].search(clause.text):
         limited = [(value[0], value[1]) for value in plan.limits if is_place(value)]
-        kept = all(any(_same(place, at) for at in limited) for place in places)
+        kept = all(any(_same(place, at) for at in limited) for place in inside)
+    if spoken.words["by_time"].search(clause.text) and re.search(r"\d", clause.text):
+        kept = plan.timed
     if not kept:
-        words = clause.text.strip(" ,;")
+        words = _with_clock(clause, text).strip(" ,;")
         said = f'The command says "{quoted(words)}", and no limit of the plan has that.'
         yield warning("limit-lost", said, about=words.casefold())
+
+
+def _is_coordinate(number: Number, text: str) -> bool:
+    """Whether a number is said as one coordinate: "x = 120"."""
+    return re.search(r"(?<![a-z])[xy]\s?[=:]?\s?$", text[: number.start].casefold()) is not None
+
+
+def _with_clock(clause: Clause, text: str) -> str:
+    """The words of a clause; a time of day in it goes on behind its colon."""
+    clock = re.compile(r":\d\d").match(text, clause.end)
+    return text[clause.start : clock.end() if clock else clause.end]
 
 
 def _lost_repeats(
@@ -192,6 +213,35 @@ def _lost_repeats(
 def _is_count(number: Number, text: str, until: int) -> bool:
     between = text[number.end : until].split()
     return number.value >= 2 and number.value.is_integer() and len(between) <= 1
+
+
+def _lost_instruction(
+    clause: Clause, pairs: Sequence[Position], spoken: Language, plan: _Plan
+) -> Iterator[Warning]:
+    """A clause that begins with an instruction, and of which no word and no fact is in the plan."""
+    text = clause.text.strip()
+    verb = spoken.words["verb"].match(text)
+    known = [
+        spoken.words["impossible"],
+        spoken.words["home"],
+        spoken.words["here"],
+        spoken.sensors,
+        spoken.words["stay"],
+    ]
+    known += [ask.said for ask in spoken.asks]
+    if not verb or clause.corrected or clause.excluded is not None or read_numbers(text):
+        return
+    if any(words.search(text) for words in known):
+        return
+    empty = [spoken.words[name] for name in ("nothing", "water", "boundary", "determiner")]
+    named = [
+        word
+        for word in re.findall(r"[a-z]{4,}", text[verb.end() :].casefold())
+        if not any(words.fullmatch(word) for words in empty)
+    ]
+    if named and not any(word[:STEM] in plan.text for word in named):
+        said = f'The command asks: "{quoted(text)}"; no task of the plan does that.'
+        yield warning("not-planned", said, about=text.casefold())
 
 
 def _home_and_not(

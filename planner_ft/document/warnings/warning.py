@@ -16,7 +16,7 @@ SERIOUS = (
     *("skill-value-not-said", "value-lost", "stale-skills", "no-skills"),
 )
 """Kinds that a plan should not be approved with unread, the most serious first."""
-NOTES = ("empty-plan", "unread-command", "data-not-collected", "endurance-open", "ends-away")
+NOTES = ("empty-plan", "unread-command", "data-not-collected", "endurance-open")
 """Kinds that also right plans have: what is unusual, or not known."""
 LONGEST = 60
 """Characters of the command that are quoted."""

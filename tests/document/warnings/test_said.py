@@ -62,3 +62,16 @@ def test_what_is_lost_is_told(
     command: str, tasks: list[dict[str, Any]], limits: tuple[str, ...], lost: str | None
 ) -> None:
     assert kinds(command, *tasks, limits=limits) == ({lost} if lost else set())
+
+
+@pytest.mark.parametrize(
+    ("command", "kind"),
+    [
+        ("Be back by 16:30.", "limit-lost"),
+        ("Do not go beyond x = 120.", "limit-lost"),
+        ("Go to [9, 9], make coffee, and come home.", "not-planned"),
+    ],
+)
+def test_limits_of_time_and_axis_and_strange_instructions(command: str, kind: str) -> None:
+    plan = document([to(9, 9), to(0, 0)], command=command)
+    assert kind in [one["kind"] for one in plan["warnings"]]

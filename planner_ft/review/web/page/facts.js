@@ -32,6 +32,7 @@ function Estimate({ store }) {
       <div><dt>Time</dt><dd>${estimate.open.length ? "at least " : ""}${seconds(estimate.seconds)}</dd></div>
       ${share !== null && html`<div><dt>Endurance</dt><dd>${seconds(vehicle.endurance)}</dd></div>`}
     </dl>
+    ${estimate.away && html`<p class="soft">Ends ${metres(estimate.away)} from home.</p>`}
     ${share !== null && html`<div class=${`meter ${over ? "over" : ""}`} role="meter" aria-label="Share of the endurance" aria-valuemin="0" aria-valuemax="100" aria-valuenow=${Math.round(100 * share)}>
       <svg viewBox="0 0 100 6" preserveAspectRatio="none" aria-hidden="true"><rect width=${Math.min(100 * share, 100)} height="6" /></svg>
       <span>${estimate.open.length ? "at least " : ""}${number(Math.round(1000 * share) / 10)} % of the endurance${over ? ": the vehicle does not come back" : ""}</span></div>`}
