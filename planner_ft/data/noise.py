@@ -12,18 +12,9 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from planner_ft.data.numbers import words
 from planner_ft.data.templates.render import PIECE, VALUE_CLOSE, VALUE_OPEN, segments
 from planner_ft.support.files import read_json
 
-_KEPT = frozenset(
-    words(
-        "north south east west clockwise anticlockwise counter right left starboard port corner"
-        " first second third fourth fifth before after then until back"
-    )
-)
-"""A slip in one of these, or a figure in its place, could change what is asked for."""
-_LITTLE = frozenset(("a", "an", "the", "please"))
 Change = Callable[[list[PIECE], Random], list[PIECE]]
 
 
@@ -69,7 +60,11 @@ def _free(piece: PIECE) -> bool:
     """Whether a word may be mistyped: an ordinary one in small letters."""
     word = piece[0].strip(",.;:!?")
     return (
-        not piece[1] and len(word) > 3 and word.isalpha() and word.islower() and (word not in _KEPT)
+        not piece[1]
+        and len(word) > 3
+        and word.isalpha()
+        and word.islower()
+        and word not in _lists()["kept"]
     )
 
 
@@ -151,7 +146,7 @@ def telegraphed(pieces: list[PIECE], rng: Random) -> list[PIECE]:
     changed: list[PIECE] = []
     stops = rng.random() < 0.2
     for word, stays in pieces:
-        if not stays and word.lower() in _LITTLE:
+        if not stays and word.lower() in _lists()["little"]:
             continue
         if word == " " and (not changed or changed[-1][0] == " "):
             continue

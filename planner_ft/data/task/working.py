@@ -22,7 +22,7 @@ from typing import Any
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import read_positions
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import canonical_value
+from planner_ft.vocabulary.plans import canonical_value, is_number, is_position
 
 NEAR = 0.0051
 """Coordinates are rounded to two decimals."""
@@ -57,7 +57,7 @@ def working_of(record: Mapping[str, Any], vocabulary: Vocabulary) -> str:
     # Numbers of the prompt that may be lengths; those that are coordinates come last.
     spoken = [quantity for quantity in read_numbers(prompt) if quantity.unit in (None, "m")]
     spoken.sort(key=lambda one: any(place.start <= one.start < place.end for place in said))
-    lengths = [value for parameter, value in known if parameter.unit == "m" and _is_number(value)]
+    lengths = [value for parameter, value in known if parameter.unit == "m" and is_number(value)]
     lengths += [quantity.value for quantity in spoken]
     distinct = [*dict.fromkeys(_tidy(abs(length)) for length in lengths)]
     stated = zip(*places, strict=True)
@@ -139,15 +139,15 @@ def _route(plan: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[_Point]:
         skill = vocabulary.skill.get(movement["name"])
         if skill is not None and skill.motion == "goto":
             x, y = (movement["parameters"].get(parameter.name) for parameter in skill.coordinates)
-            if _is_number(x) and _is_number(y):
+            if is_number(x) and is_number(y):
                 yield x, y
 
 
 def _places(kind: str, value: Any) -> Iterator[_Point]:
     """The points of a position or a polygon; what is malformed is passed over."""
-    if kind in ("position", "polygon") and isinstance(value, list | tuple):
+    if kind in ("position", "polygon") and isinstance(value, list):
         for place in [value] if kind == "position" else value:
-            if isinstance(place, list | tuple) and len(place) == 2 and all(map(_is_number, place)):
+            if is_position(place):
                 yield place[0], place[1]
 
 
@@ -160,10 +160,6 @@ def _on_lanes(route: Sequence[_Point]) -> list[bool]:
         if one == three and one != two and sum(one) == sum(two) == 1:
             found[start : start + 4] = [True] * 4
     return found
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _near(one: float, other: float) -> bool:
