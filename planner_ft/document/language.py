@@ -38,10 +38,14 @@ class Ask:
 
 @dataclass(frozen=True)
 class Data:
-    """Words for data, and the skills of which one gathers it (none: any that gathers)."""
+    """Words for data, and the skills of which one gathers it (none: any that gathers).
+
+    `ruled_out`: the words say that none of the skills is wanted.
+    """
 
     said: re.Pattern[str]
     skills: frozenset[str]
+    ruled_out: bool = False
 
 
 @dataclass(frozen=True)
@@ -71,7 +75,11 @@ def language(vocabulary: Vocabulary) -> Language:
     words = {name: pattern(entry["words"]) for name, entry in english.items()}
     sensors = pattern(own.get("sensor", {}).get("words", ()))
     data = (
-        Data(pattern(entry["words"]), frozenset(entry.get("skills", ())))
+        Data(
+            pattern(entry["words"]),
+            frozenset(entry.get("skills", ())),
+            bool(entry.get("ruled_out", False)),
+        )
         for entry in own.get("data", ())
     )
     return Language(words, tuple(asks), sensors, tuple(data), questions)

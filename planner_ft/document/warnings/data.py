@@ -13,7 +13,7 @@ from planner_ft.vocabulary.plans import step_skills
 
 
 def data_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
-    """One per clause with words for sensors or data that reach no skill.
+    """One per clause with words for sensors or data that reach no skill, or that are ruled out.
 
     Data that is sent may have been gathered long ago, and is not asked for.
     """
@@ -22,11 +22,17 @@ def data_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterat
         return
     gathering = _gathering(tasks, vocabulary)
     waiting = [task["task_prompt"] for task in tasks if not task["skill_sequence"]]
+    for data in (one for one in spoken.data if one.ruled_out and one.skills & gathering):
+        for match in data.said.finditer(document["command"]):
+            skills = ", ".join(sorted(data.skills & gathering))
+            text = f'The command says "{match[0]}", and steps of the plan have {skills}.'
+            yield warning("data-ruled-out", text, about=match[0].casefold())
+    asked = [data for data in spoken.data if not data.ruled_out]
     for clause in read_clauses(document["command"], vocabulary):
         sends = any(ask.sends and ask.said.search(clause.text) for ask in spoken.asks)
         if clause.corrected or sends:
             continue
-        lost = [data for data in spoken.data if not _gathered(data, gathering, waiting)]
+        lost = [data for data in asked if not _gathered(data, gathering, waiting)]
         spans = sorted(span for data in lost for span in clause.spans(data.said))
         words = list(dict.fromkeys(document["command"][start:end] for start, end in spans))
         if words:

@@ -12,8 +12,15 @@ SERIOUS = (
     *("doubtful-origin", "unknown-language", "repeat-lost"),
     *("unresolved-location", "value-asked", "used-before-found", "not-at-place"),
     *("position-missing", "outside-boundary", "outside-area", "out-of-reach", "over-endurance"),
-    *("missing-return", "not-planned", "data-not-planned", "not-performed", "value-not-said"),
-    *("skill-value-not-said", "value-lost", "stale-skills", "no-skills"),
+    *("missing-return", "not-planned", "data-not-planned", "not-performed"),
+    *(
+        "data-ruled-out",
+        "value-not-said",
+        "skill-value-not-said",
+        "value-lost",
+        "stale-skills",
+        "no-skills",
+    ),
 )
 """Kinds that a plan should not be approved with unread, the most serious first."""
 NOTES = ("empty-plan", "unread-command", "data-not-collected", "endurance-open")

@@ -47,6 +47,17 @@ def test_what_is_ruled_out_or_sent_is_not_asked_for(command: str) -> None:
     assert warned(command) == []
 
 
+def test_what_is_ruled_out_and_gathered_is_named() -> None:
+    one = step("GoToXY", {"x": 40, "y": 20})
+    one["perception_skills"] = [{"name": "SetStreamRecording", "parameters": {}}]
+    go = task("Transit", {"target_position": [40, 20]}, [one], "Go.")
+    made = document([go], command="Go to [40, 20] but record nothing.")
+    (text,) = [item["text"] for item in made["warnings"] if item["kind"] == "data-ruled-out"]
+    assert (
+        text == 'The command says "record nothing", and steps of the plan have SetStreamRecording.'
+    )
+
+
 def test_a_task_that_waits_counts_by_its_prompt() -> None:
     command = "Go to [40, 20] and log the depth."
     assert warned(command, prompt="Go to [40, 20]. Log the depth.", waits=True) == []
