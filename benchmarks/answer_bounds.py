@@ -26,7 +26,7 @@ from planner_ft.decoding.configurations import STRENGTHS, parse_configuration
 from planner_ft.decoding.constraints.grammar import MOST_STEPS, MOST_TASKS
 from planner_ft.decoding.constraints.steps import MOST_RUN, MOST_SAME
 from planner_ft.decoding.engine import Engine, decoding_threads
-from planner_ft.support.files import compact_json, read_jsonl, write_json
+from planner_ft.support.files import compact_json, read_jsonl, sha256_text, write_json
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.outputs import parse_output
@@ -45,14 +45,20 @@ def inputs(level: Level, vocabulary: Vocabulary, sampled: int) -> Iterator[dict[
     for pattern in SETS:
         for path in sorted(Path().glob(pattern.format(level=level))):
             for number, record in enumerate(read_jsonl(path)):
-                yield {**record, "id": f"{path.stem} {number}"}
+                yield {**record, "id": _name(f"{path.stem} {number}", record)}
     drawn = (
         sample_missions(SEED)
         if level == "mission"
         else sample_tasks(vocabulary, SEED, None, "test")
     )
     for number, record in enumerate(itertools.islice(drawn, sampled)):
-        yield {**record, "id": f"sampled {number}"}
+        yield {**record, "id": _name(f"sampled {number}", record)}
+
+
+def _name(name: str, record: dict[str, Any]) -> str:
+    """A name that another input does not get when sets or samplers change."""
+    asked = [record.get(key) for key in ("prompt", "task", "parameters")]
+    return f"{name} {sha256_text(compact_json(asked))[:12]}"
 
 
 def runs_on(entries: list[Any], level: Level) -> str:
@@ -79,6 +85,8 @@ def check(
     """A line for each input: entries of the answer and how it ended."""
     configuration = parse_configuration(f"lora+{strength}")
     queries = [engine.query(level, record) for record in records]
+    count = engine.method(level, configuration).entries
+    assert count is not None
     for index, answer in engine.answers(queries, configuration, batch_size=size):
         plan = parse_output(engine.text(answer)).plan or {}
         found = plan.get(BOUNDS[level][0])
@@ -87,7 +95,7 @@ def check(
             "level": level,
             "strength": strength,
             "id": records[index]["id"],
-            "entries": len(entries),
+            "entries": count(answer.ids),
             "run": runs_on(entries, level),
             "ended": answer.finish_reason == "stop" and not answer.cut,
             "alternatives": answer.alternatives,
