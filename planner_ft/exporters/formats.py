@@ -132,17 +132,18 @@ class Format:
     write: Callable[[PlanExport], Written]
 
 
-def format_names() -> list[str]:
+def known_formats() -> dict[str, EntryPoint]:
     """The bundled formats, then those that entry points add."""
-    return list(dict.fromkeys([*BUNDLED, *_added()]))
+    bundled = {name: EntryPoint(name, place, GROUP) for name, place in BUNDLED.items()}
+    return bundled | {one.name: one for one in entry_points(group=GROUP) if one.name not in bundled}
 
 
 def load_format(name: str) -> Format:
     """A format by its name. Raises PlannerError when there is none or it cannot be loaded."""
-    bundled = BUNDLED.get(name)
-    entry = EntryPoint(name, bundled, GROUP) if bundled else _added().get(name)
-    if entry is None:
-        raise PlannerError(f"--format {name}: must be one of {', '.join(format_names())}, or all")
+    known = known_formats()
+    if name not in known:
+        raise PlannerError(f"--format {name}: must be one of {', '.join(known)}, or all")
+    entry = known[name]
     about = f"--format {name}: {entry.value}"
     try:
         loaded = entry.load()
@@ -152,7 +153,3 @@ def load_format(name: str) -> Format:
     if not isinstance(loaded, Format):
         raise PlannerError(f"{about} is no planner_ft.exporters.Format; ask whoever wrote it")
     return loaded
-
-
-def _added() -> dict[str, EntryPoint]:
-    return {entry.name: entry for entry in entry_points(group=GROUP)}

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from planner_ft.document import read_document
 from planner_ft.document.tree import plain
-from planner_ft.exporters.formats import DRAFT, Format, PlanExport, format_names, load_format
+from planner_ft.exporters.formats import DRAFT, Format, PlanExport, known_formats, load_format
 from planner_ft.exporters.ledger import MOVEMENT, Account, Loss, ranges
 from planner_ft.exporters.ledger import Path as Place
 from planner_ft.planning.frame import doubt, origin_of
@@ -85,7 +85,7 @@ def export_plan(settings: PlanExportSettings) -> list[ExportedPlan]:
 
 
 def _formats(settings: PlanExportSettings) -> list[Format]:
-    known = format_names()
+    known = list(known_formats())
     names = [name for given in settings.formats for name in (known if given == ALL else [given])]
     if not names:
         raise PlannerError(f"--format: say for which vehicle; there is {', '.join(known)}, or all")

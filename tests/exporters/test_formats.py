@@ -9,7 +9,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 from planner_ft.exporters import DRAFT, Format, Origin, PlanExport, Written, formats, load_format
-from planner_ft.exporters.formats import GROUP, format_names
+from planner_ft.exporters.formats import GROUP, known_formats
 from planner_ft.support.errors import PlannerError
 
 from .plans import BUOY, DRONE, MAST, USV, document, documents, step, task
@@ -36,7 +36,7 @@ def added(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("added")
 def test_a_lab_adds_a_format_of_its_own() -> None:
-    assert format_names()[-3:] == ["ours", "broken", "wrong"]
+    assert list(known_formats())[-3:] == ["ours", "broken", "wrong"]
     assert load_format("ours") is OURS
 
 
