@@ -113,14 +113,17 @@ def close_legs(
     """(task, structure, metres) of every leg that comes too close; docking may."""
     known = structures(document, vocabulary)
     steering = {task["id"] for task in document["tasks"] if task.get("skill_sequence")}
-    docking = {task["id"] for task in document["tasks"] if _docks(task, vocabulary)}
-    for leg in legs if known else ():
+    docking = {task["id"] for task in document["tasks"] if _is_close(task, vocabulary)}
+    before = [None, *legs]
+    for last, leg in zip(before, legs, strict=False) if known else ():
         if leg.kind not in MOVING or leg.task in docking or leg.task not in steering:
             continue
         for structure in known:
             pairs = itertools.pairwise(leg.points)
             nearest = min(way_off(structure.position, *pair) for pair in pairs)
             ends = [point for point in (leg.points[0], leg.points[-1]) if point == vocabulary.home]
+            if last and last.task in docking and structure.blocks(*(leg.points[0],) * 2):
+                continue
             allowed = min([structure.standoff, *(math.dist(structure.position, at) for at in ends)])
             if nearest < allowed - structure.slack:
                 yield leg.task, structure, nearest
@@ -140,7 +143,7 @@ def cleared(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[st
     done = []
     for task, following in itertools.zip_longest(tasks, tasks[1:]):
         steps = task.get("skill_sequence")
-        if steps is None or task.get("stale") or _docks(task, vocabulary):
+        if steps is None or task.get("stale") or _is_close(task, vocabulary):
             pen.draw(task)
             done.append(task)
             continue
@@ -351,9 +354,10 @@ def _circle_of(task: TaskEntry, vocabulary: Vocabulary) -> tuple[Point, float] |
     return (center, float(radius)) if center and radius else None
 
 
-def _docks(task: TaskEntry, vocabulary: Vocabulary) -> bool:
+def _is_close(task: TaskEntry, vocabulary: Vocabulary) -> bool:
+    """Whether a task comes close on purpose: it docks, or passes along a face."""
     known = vocabulary.task.get(task["title"])
-    return known is not None and known.docks
+    return known is not None and (known.docks or known.pattern == "pass")
 
 
 def _point(value: Any) -> Point:

@@ -233,13 +233,10 @@ def _lost_instruction(
         return
     if any(words.search(text) for words in known):
         return
+    said_words = re.findall(r"[a-z]{4,}", text[verb.end() :].casefold())
     empty = [spoken.words[name] for name in ("nothing", "water", "boundary", "determiner")]
-    named = [
-        word
-        for word in re.findall(r"[a-z]{4,}", text[verb.end() :].casefold())
-        if not any(words.fullmatch(word) for words in empty)
-    ]
-    if named and not any(word[:STEM] in plan.text for word in named):
+    named = [word for word in said_words if not any(one.fullmatch(word) for one in empty)]
+    if named and not any(word[:STEM] in plan.text for word in said_words):
         said = f'The command asks: "{quoted(text)}"; no task of the plan does that.'
         yield warning("not-planned", said, about=text.casefold())
 
