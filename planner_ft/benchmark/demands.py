@@ -103,7 +103,7 @@ def judge_demands(
     plan: Callable[[Mapping[str, Any]], Mapping[str, Any]],
     progress: Callable[[int, int], None],
 ) -> tuple[tuple[Demand, ...], int]:
-    """The demands of the records, and how many plans warn of lost words; `plan` gives a document."""
+    """The demands of the records, and the plans that warn of lost words."""
     demands: list[Demand] = []
     warned = 0
     for number, record in enumerate(records, start=1):

@@ -92,7 +92,7 @@ def _entry_problems(entry: Mapping[str, Any], task: Task, vocabulary: Vocabulary
 
 def _skill_problems(key: str, skills: Any, task: Task, vocabulary: Vocabulary) -> Iterator[str]:
     if not isinstance(skills, dict) or not all(isinstance(own, dict) for own in skills.values()):
-        yield f"{key} must be a table of skills, each with a table of parameters: {{ SKILL = {{}} }}"
+        yield f"{key} must be a table of skills with their parameters: {{ SKILL = {{}} }}"
         return
     for name, own in skills.items():
         skill = vocabulary.skill.get(name)
@@ -102,8 +102,8 @@ def _skill_problems(key: str, skills: Any, task: Task, vocabulary: Vocabulary) -
             yield from _value_problems(f"{key}: {name}", own, skill)
         else:
             yield from (
-                f"{key}: {name}.{own_name} = {given!r} must name a parameter of the skill, then one of"
-                " the task"
+                f"{key}: {name}.{own_name} = {given!r} must name a parameter of the skill, then"
+                " one of the task"
                 for own_name, given in own.items()
                 if own_name not in skill.by_name or given not in task.by_name
             )
