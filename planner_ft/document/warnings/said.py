@@ -52,7 +52,8 @@ def said_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterat
         if not any(clause.start <= row[0].start < clause.end for row in rows):
             yield from _lost_limit(clause, text, pairs, spoken, plan)
         yield from _lost_instruction(clause, pairs, spoken, plan)
-    yield from _lost_repeats(text, clauses, spoken, plan)
+    yield from _lost_repeats(text, clauses, pairs, spoken, plan)
+    yield from _there_and_not(clauses, pairs)
     yield from _home_and_not(clauses, spoken, document, vocabulary)
 
 
@@ -101,10 +102,14 @@ class _Plan:
             for polygon in self.polygons
         )
 
-    def repeats(self, count: float) -> bool:
-        """Whether something is done so often: an arc, a place, a task."""
-        turned = any(near(abs(value), FULL * count) for value in self.numbers)
-        return turned or any(self.often.count(item) >= count for item in set(self.often))
+    def repeats(self, count: float, places: Sequence[Position]) -> bool:
+        """Whether something is done so often: an arc, each of the places, else any place or task."""
+        if any(near(abs(value), FULL * count) for value in self.numbers):
+            return True
+        if places:
+            points = [item for item in self.often if is_number(item[0])]
+            return all(sum(_same(at, one) for one in points) >= count for at in places)
+        return any(self.often.count(item) >= count for item in set(self.often))
 
 
 def _pairs(text: str) -> list[Position]:
@@ -191,7 +196,11 @@ def _with_clock(clause: Clause, text: str) -> str:
 
 
 def _lost_repeats(
-    text: str, clauses: Sequence[Clause], spoken: Language, plan: _Plan
+    text: str,
+    clauses: Sequence[Clause],
+    pairs: Sequence[Position],
+    spoken: Language,
+    plan: _Plan,
 ) -> Iterator[Warning]:
     """Counts of rounds or times that nothing in the plan is done so often."""
     found: dict[int, tuple[float, int, int]] = {}
@@ -204,7 +213,10 @@ def _lost_repeats(
         found |= {end: (count, start, end) for start, end in spans}
     for count, start, end in found.values():
         clause = _clause_at(clauses, start)
-        if clause and clause.wants(start) and not clause.corrected and not plan.repeats(count):
+        if not clause or clause.corrected or not clause.wants(start):
+            continue
+        places = [place for place in pairs if clause.start <= place.start < clause.end]
+        if not plan.repeats(count, places):
             words = text[start:end]
             said = f'The command says "{words}", and the plan does nothing so often.'
             yield warning("repeat-lost", said, about=words.casefold())
@@ -239,6 +251,22 @@ def _lost_instruction(
     if named and not any(word[:STEM] in plan.text for word in said_words):
         said = f'The command asks: "{quoted(text)}"; no task of the plan does that.'
         yield warning("not-planned", said, about=text.casefold())
+
+
+def _there_and_not(clauses: Sequence[Clause], pairs: Sequence[Position]) -> Iterator[Warning]:
+    """A position that one clause asks for and another rules out."""
+    for place in pairs:
+        clause = _clause_at(clauses, place.start)
+        others = [
+            (_clause_at(clauses, one.start), one)
+            for one in pairs
+            if one is not place and _same(place, (one.x, one.y))
+        ]
+        asked = any(other and other.wants(one.start) for other, one in others)
+        if asked and clause and not clause.corrected and not clause.wants(place.start):
+            words = quoted(clause.text.strip(" ,;"))
+            text = f'The command asks for [{place.x:g}, {place.y:g}], and says "{words}".'
+            yield warning("contradiction", text, about=f"{place.x:g},{place.y:g}")
 
 
 def _home_and_not(

@@ -54,7 +54,9 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Go round the mast at 60,60 three times at 20 m.", [orbit(1080)], (), None),
         ("Circle the mast at 60,60 twice at 20 m.", [orbit(720)], (), None),
         ("Run from 1,0 to 9,0 two times.", [to(1, 0), to(9, 0), to(1, 0), to(9, 0)], (), None),
+        ("Run from 1,0 to 9,0 two times.", [to(1, 0), to(9, 0), to(1, 0)], (), "repeat-lost"),
         ("Come home, but do not come home.", [to(0, 0)], (), "contradiction"),
+        ("Go to [9, 9]. Do not go to [9, 9].", [to(9, 9)], (), "contradiction"),
         ("Do not stop at 9,9, and come home.", [to(0, 0)], (), None),
     ],
 )
