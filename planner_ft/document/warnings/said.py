@@ -51,7 +51,10 @@ def said_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterat
     for clause in clauses:
         if not any(clause.start <= row[0].start < clause.end for row in rows):
             yield from _lost_limit(clause, text, pairs, spoken, plan)
-        yield from _lost_instruction(clause, pairs, spoken, plan)
+    instructions = [clause for clause in clauses if _instructs(clause, spoken)]
+    if len(instructions) > _own_tasks(document["tasks"], vocabulary):
+        for clause in instructions:
+            yield from _lost_instruction(clause, spoken, plan)
     yield from _lost_repeats(text, clauses, pairs, spoken, plan)
     yield from _there_and_not(clauses, pairs)
     yield from _home_and_not(clauses, spoken, document, vocabulary)
@@ -196,11 +199,7 @@ def _with_clock(clause: Clause, text: str) -> str:
 
 
 def _lost_repeats(
-    text: str,
-    clauses: Sequence[Clause],
-    pairs: Sequence[Position],
-    spoken: Language,
-    plan: _Plan,
+    text: str, clauses: Sequence[Clause], pairs: Sequence[Position], spoken: Language, plan: _Plan
 ) -> Iterator[Warning]:
     """Counts of rounds or times that nothing in the plan is done so often."""
     found: dict[int, tuple[float, int, int]] = {}
@@ -227,10 +226,28 @@ def _is_count(number: Number, text: str, until: int) -> bool:
     return number.value >= 2 and number.value.is_integer() and len(between) <= 1
 
 
-def _lost_instruction(
-    clause: Clause, pairs: Sequence[Position], spoken: Language, plan: _Plan
-) -> Iterator[Warning]:
-    """A clause that begins with an instruction, and of which no word and no fact is in the plan."""
+def _instructs(clause: Clause, spoken: Language) -> bool:
+    """Whether a clause begins with an instruction that stands, other than to come home."""
+    begins = spoken.words["verb"].match(clause.text.strip())
+    stands = begins is not None and not clause.corrected and clause.excluded is None
+    return stands and not spoken.words["home"].search(clause.text)
+
+
+def _own_tasks(tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> int:
+    """The tasks that such an instruction stands for: not those that look for a place, go to one for
+    the task behind them, or go home.
+    """
+    behind = [vocabulary.task[task["title"]].arrival for task in tasks[1:]] + ["none"]
+    return sum(
+        task["title"] != vocabulary.locate
+        and place_of(task, vocabulary) != vocabulary.home
+        and not (task["title"] == vocabulary.transit and arrival == "transit")
+        for task, arrival in zip(tasks, behind, strict=True)
+    )
+
+
+def _lost_instruction(clause: Clause, spoken: Language, plan: _Plan) -> Iterator[Warning]:
+    """An instruction of which no word and no fact is in the plan."""
     text = clause.text.strip()
     verb = spoken.words["verb"].match(text)
     known = [
@@ -241,7 +258,7 @@ def _lost_instruction(
         spoken.words["stay"],
     ]
     known += [ask.said for ask in spoken.asks]
-    if not verb or clause.corrected or clause.excluded is not None or read_numbers(text):
+    if not verb or read_numbers(text):
         return
     if any(words.search(text) for words in known):
         return
