@@ -25,7 +25,7 @@ def made(source):
     """The template of "TASK | TEXT => STEPS"."""
     task, _bar, rest = source.partition(" | ")
     text, _arrow, steps = rest.rpartition(" => ")
-    return Template("made-1", "train", text, steps, "made.jsonl:1", (task,))
+    return Template("made-1", "train", text, steps, "made.jsonl:1", tasks=(task,))
 
 
 def samples(source, count=40):
