@@ -11,8 +11,19 @@ from collections.abc import Mapping
 from typing import Any
 
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.limits import Limit, Limits, load_limits, prompt_sentence, read_limit
+from planner_ft.vocabulary.limits import (
+    Limit,
+    Limits,
+    load_limits,
+    prompt_sentence,
+    read_limit,
+    sentence,
+)
 
+GENERAL = ("fence", "keep_out_area", "keep_out", "clearance", "distance", "speed")
+"""Kinds that are kept for the whole mission when one task prompt has them; the others can be meant
+for that task alone.
+"""
 SENTENCE = re.compile(r"(?<=\.)\s+(?=[A-Z])")
 
 
@@ -25,18 +36,30 @@ def limits_in(texts: list[str], limits: Limits) -> list[Limit]:
     return found
 
 
-def with_limits(plan: Mapping[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
-    """The mission plan with its limits in the prompts of all tasks."""
+def with_limits(
+    plan: Mapping[str, Any], vocabulary: Vocabulary, command: str | None = None
+) -> dict[str, Any]:
+    """The mission plan with its limits in the prompts of all tasks, and those that stand in one
+    prompt alone among its constraints. A time of return that the command does not say is left out.
+    """
     limits = load_limits(vocabulary)
-    constraints = list(plan.get("constraints", ()))
+    constraints = [text for text in plan.get("constraints", ()) if _said(text, command, limits)]
+    prompts = [
+        [text for text in SENTENCE.split(task["task_prompt"]) if _said(text, command, limits)]
+        for task in plan["tasks"]
+    ]
     stated = limits_in(constraints, limits)
+    for limit in limits_in([text for texts in prompts for text in texts], limits):
+        if limit.kind in GENERAL and not any(_same(limit, one) for one in stated):
+            stated.append(limit)
+            constraints.append(sentence(limit.kind, limit.values, limits))
     tasks = []
-    for task in plan["tasks"]:
-        own = limits_in(SENTENCE.split(task["task_prompt"]), limits)
+    for task, texts in zip(plan["tasks"], prompts, strict=True):
+        own = limits_in(texts, limits)
         missing = [limit for limit in stated if not any(_same(limit, one) for one in own)]
         added = [prompt_sentence(limit.kind, limit.values, limits) for limit in missing]
-        tasks.append({**task, "task_prompt": " ".join([task["task_prompt"], *added])})
-    return {**plan, "tasks": tasks}
+        tasks.append({**task, "task_prompt": " ".join([*texts, *added]) or task["task_prompt"]})
+    return {**plan, "tasks": tasks, "constraints": constraints}
 
 
 def without_limits(prompt: str, vocabulary: Vocabulary) -> str:
@@ -53,6 +76,13 @@ def forbidden_skills(prompt: str, vocabulary: Vocabulary) -> set[str]:
     found = limits_in(SENTENCE.split(prompt), limits)
     holding = [limit for limit in found if limit.values.get("object", "").casefold() in asked]
     return {name for limit in holding for name in limits[limit.kind].forbids}
+
+
+def _said(text: str, command: str | None, limits: Limits) -> bool:
+    """Whether a sentence is no time of return, or one in the command's words."""
+    limit = read_limit(text, limits)
+    time = limit.values["time"] if limit and limit.kind == "return" else ""
+    return command is None or str(time).casefold() in command.casefold()
 
 
 def _same(one: Limit, other: Limit) -> bool:

@@ -97,7 +97,7 @@ class Planner:
         mission = self._mission(frame.spoken)
         if mission.plan is not None:
             told = frame.restored(mission.plan, self.vocabulary)
-            mission = replace(mission, plan=with_limits(told, self.vocabulary))
+            mission = replace(mission, plan=with_limits(told, self.vocabulary, command))
         tasks: tuple[PlannedTask, ...] = ()
         places: list[OpenPlace] = []
         located = {}

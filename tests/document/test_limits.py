@@ -128,6 +128,23 @@ def test_limits_reach_all_task_prompts_and_not_the_task_agent() -> None:
     )
 
 
+def test_a_limit_of_one_prompt_holds_for_the_mission_and_times_nobody_said_for_none() -> None:
+    tasks = [
+        {
+            "title": "Transit",
+            "parameters": {},
+            "task_prompt": "Go to [1, 2]. Stay within 90 m of home. Be back by sun.",
+        }
+    ]
+    told = {"tasks": tasks, "constraints": ["The vehicle is back by sun.", "Take care."]}
+    plan = with_limits(told, USV, "Stay within 90 m and be back here.")
+    assert plan["constraints"] == ["Take care.", "The vehicle stays within 90 m of home."]
+    assert plan["tasks"][0]["task_prompt"] == "Go to [1, 2]. Stay within 90 m of home."
+    said = {"tasks": tasks, "constraints": ["The vehicle is back by 16:30."]}
+    kept = with_limits(said, USV, "Be back by 16:30.")["constraints"]
+    assert kept[0] == "The vehicle is back by 16:30."
+
+
 def test_a_constraint_is_edited_and_its_filters_follow() -> None:
     plan = document([transit(100, 50)], constraints=["Be careful.", FENCE])
     plan = apply(plan, {"kind": "constraint", "at": 1}, USV)

@@ -69,7 +69,14 @@ class _Plan:
         skills = [skill for step in steps for _role, skill in step_skills(step)]
         own = [value for owner in (*tasks, *skills) for value in owner["parameters"].values()]
         self.limits = [value for limit in limits for value in limit["values"].values()]
-        self.numbers = [float(value) for value in own if is_number(value)]
+        # Coordinates are places, not numbers: 40 east of one and 40 north of another say no place.
+        named = [
+            item
+            for owner in (*tasks, *skills)
+            for item in owner["parameters"].items()
+            if not ({"x", "y"} <= owner["parameters"].keys() and item[0] in ("x", "y"))
+        ]
+        self.numbers = [float(value) for _name, value in named if is_number(value)]
         self.limited = [float(value) for value in self.limits if is_number(value)]
         self.polygons = [value for value in (*own, *self.limits) if _is_polygon(value)]
         self.visited = [tuple(value) for value in own if is_place(value)]

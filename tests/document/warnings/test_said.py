@@ -50,6 +50,7 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Go to 100,20 and 140,60 and 20,90.", [to(100, 20), to(140, 60), to(20, 90)], (), None),
         ("Go to 100,20 and 140,60 and 20,90.", [to(100, 20), to(140, 60)], (), "value-lost"),
         ("Patrol between 9,0 and 9,200.", [to(9, 0)], (), "value-lost"),
+        ("Go to 40,0 and 60,40 and 0,60.", [to(40, 0), to(0, 60)], (), "value-lost"),
         ("Go round the mast at 60,60 three times at 20 m.", [orbit(360)], (), "repeat-lost"),
         ("Go round the mast at 60,60 three times at 20 m.", [orbit(1080)], (), None),
         ("Circle the mast at 60,60 twice at 20 m.", [orbit(720)], (), None),
