@@ -33,7 +33,7 @@ from planner_ft.vocabulary.limits import load_limits
 
 FOREIGN = 0.03
 """Share of lengths and speeds in feet and knots."""
-CLAUSES, HOSTS, TWO = 0.4, 0.35, 0.25
+CLAUSES, HOSTS, TWO = 0.3, 0.35, 0.25
 """Shares of commands with clauses; among these, of templates made for them and of two templates in
 one command.
 """
