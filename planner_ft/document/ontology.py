@@ -96,8 +96,12 @@ def named_places(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Posit
 
 
 def is_thing(words: str, vocabulary: Vocabulary) -> bool:
-    """Whether a noun phrase names a thing in the water, and not a place of it."""
-    return not language(vocabulary).words["water"].search(words)
+    """Whether a noun phrase names a thing in the water, and not a place of it: its last word, or
+    the one before "of", tells. A mooring buoy is a thing, the middle of the channel is a place.
+    """
+    head = re.split(r"\s+(?:of|with)\b", words.strip(), maxsplit=1)[0]
+    places = language(vocabulary).words["water"].finditer(head)
+    return not any(match.end() == len(head) for match in places)
 
 
 def _noun_phrases(text: str, spoken: Language) -> Iterator[Span]:

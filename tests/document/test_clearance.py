@@ -56,18 +56,24 @@ def test_an_orbit_is_entered_on_its_circle_and_left_round_it(arc: float) -> None
     assert "skill-value-not-said" not in kinds(plan)
 
 
-def test_a_thing_that_the_prompt_names_has_the_vehicles_standoff() -> None:
-    plan = document([transit(60, 0, "Go to the green buoy at [60, 0]."), transit(100, 0)])
+@pytest.mark.parametrize("name", ["green buoy", "mooring buoy", "light of the harbour"])
+def test_a_thing_that_the_prompt_names_has_the_vehicles_standoff(name: str) -> None:
+    plan = document([transit(60, 0, f"Go to the {name} at [60, 0]."), transit(100, 0)])
     assert waypoints(plan)[0] == [50, 0]
     assert nearest(plan, [60, 0]) >= 9.5
     assert waypoints(plan)[-1] == [100, 0]
     (buoy,) = structures(plan, USV)
-    assert (buoy.name, buoy.standoff) == ("the green buoy", 10)
+    assert (buoy.name, buoy.standoff) == (f"the {name}", 10)
 
 
 @pytest.mark.parametrize(
     "prompt",
-    ["Go to [60, 0].", "Go to the waypoint at [60, 0].", "Hold the position at [60, 0] for 5 s."],
+    [
+        "Go to [60, 0].",
+        "Go to the waypoint at [60, 0].",
+        "Go to the middle of the channel at [60, 0].",
+        "Hold the position at [60, 0] for 5 s.",
+    ],
 )
 def test_a_place_of_the_water_is_gone_to_itself(prompt: str) -> None:
     plan = document([transit(60, 0, prompt), transit(0, 0)])
