@@ -1,4 +1,4 @@
-"""Fences and areas as operators give them: three to six corners in many notations, or two corners."""
+"""Fences and areas as operators give them: three to six corners in many notations, or two."""
 
 from __future__ import annotations
 

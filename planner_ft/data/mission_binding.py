@@ -61,8 +61,8 @@ class Line:
 
 @dataclass(frozen=True)
 class Bound:
-    """A template for one vehicle: its tasks, the parameter whose values a slot has, the kinds of its
-    targets, and the position slot of a target or id that has one (`PerformOrbit T1 P1`).
+    """A template for one vehicle: its tasks, the parameter whose values a slot has, the kinds of
+    its targets, and the position slot of a target or id that has one (`PerformOrbit T1 P1`).
     """
 
     lines: tuple[Line, ...]

@@ -38,7 +38,7 @@ CLAUSES, HOSTS, TWO = 0.3, 0.35, 0.25
 one command.
 """
 HOST, HOSTED = "{C", "clauses-"
-"""A place for a clause, and the ids of the templates of this subject, which are drawn more often."""
+"""A place for a clause, and the ids of the templates of this subject, which are drawn often."""
 ORDERING = ("first", "before", "after", "last", "then", "finally", "end", "finish", "next", "again")
 """Words that a template cannot have beside another one."""
 

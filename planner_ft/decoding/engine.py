@@ -53,8 +53,8 @@ class Engine:
     """Model and tokenizer of a candidate. One base serves both levels and every configuration:
     adapters are switched, none is on for base.
 
-    `lean` holds the lean forms of a small model (see `forward`) by adapter, None for the base; where
-    it is empty, `model` decodes, a model of transformers. `width` is the size of the logits.
+    `lean` holds the lean forms of a small model (see `forward`) by adapter, None for the base;
+    where it is empty, `model` decodes, a model of transformers. `width` is the size of the logits.
     `adapters` are the levels that have one, `threads` the CPU threads that it decodes with; None
     leaves torch's number.
     """

@@ -45,9 +45,9 @@ where it does not say; `start(rows)` gives the forward passes of a batch.
 
 
 class _ModelPasses:
-    """The forward passes of a batch. A single row is `wide`: after its prompt, it may be fed several
-    tokens at a time and have some taken back. In a batch all rows are fed one token at a time, so
-    that their positions stay aligned.
+    """The forward passes of a batch. A single row is `wide`: after its prompt, it may be fed
+    several tokens at a time and have some taken back. In a batch all rows are fed one token at a
+    time, so that their positions stay aligned.
 
     What all prompts of a batch begin with (the instruction, and a base model's vocabulary, most of
     its prompt) is computed once.

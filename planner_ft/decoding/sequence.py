@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 RELEASE = 3.0
 """Nats by which the model must prefer its own value to every one with evidence to keep it."""
 LONGEST_RUN = 16
-"""Tokens in a row, of two kinds at most, behind which an enforced text ends: a small model can write
-"ggg" for ever.
+"""Tokens in a row, of two kinds at most, behind which an enforced text ends: a small model can
+write "ggg" for ever.
 """
 LONGEST_FORCED = 31
 """Tokens that must follow and are fed with the choice before them: nothing of them is taken back,

@@ -45,9 +45,9 @@ def turned(said: Sequence[float], counts: Iterable[int]) -> Iterator[float]:
 
 @dataclass(frozen=True)
 class Ground:
-    """What waypoints are derived from: known places, centres of shapes (those that are the `corners`
-    of areas among them), lengths, bearings, numbers of lanes or points; `spacing` is that of all
-    lanes where the task has one.
+    """What waypoints are derived from: known places, centres of shapes (those that are the
+    `corners` of areas among them), lengths, bearings, numbers of lanes or points; `spacing` is that
+    of all lanes where the task has one.
     """
 
     places: tuple[Point, ...]

@@ -90,8 +90,8 @@ _LAPS = re.compile(
 class Position:
     """Two neighbouring numbers as local coordinates in metres, at `start` to `end` of the text.
 
-    `certain`: they are nothing else, standing in brackets, with axes or directions, or behind a word
-    like "at".
+    `certain`: they are nothing else, standing in brackets, with axes or directions, or behind a
+    word like "at".
     """
 
     x: float
@@ -312,8 +312,8 @@ def _points(points: list[tuple[str, int, int]], text: str) -> Iterator[Number]:
 
 @functools.lru_cache(maxsize=4096)
 def read_turns(text: str) -> tuple[Number, ...]:
-    """Angles in degrees of the turns that a text speaks of: full, once, half, three quarters, twice,
-    three times.
+    """Angles in degrees of the turns that a text speaks of: full, once, half, three quarters,
+    twice, three times.
     """
     found = []
     for match in _TURN.finditer(text):

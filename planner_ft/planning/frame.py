@@ -1,7 +1,8 @@
 """Geographic positions of a command, told to the agents in local metres.
 
 With an origin they are converted. Without one, and far from it, the agents are told placeholders,
-which become the unresolved location in the plan; the place has the words of the command as its name.
+which become the unresolved location in the plan; the place has the words of the command as its
+name.
 """
 
 from __future__ import annotations

@@ -130,7 +130,7 @@ def _matching(name: str, places: Sequence[OpenPlace]) -> OpenPlace:
 
 
 def _name_of(entry: Mapping[str, Any], searched: Sequence[str], vocabulary: Vocabulary) -> str:
-    """Degrees of the task prompt, the searched target in it, else the last one; a berth in words."""
+    """Degrees of the task prompt, the searched target in it or the last one; a berth in words."""
     prompt: str = entry["task_prompt"]
     if degrees := read_geographic(prompt):
         return prompt[degrees[0].start : degrees[0].end].strip()

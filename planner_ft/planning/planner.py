@@ -88,9 +88,9 @@ class Planner:
 
         Geographic positions of the command are read with the `origin`, where [0, 0] lies; without
         one they are open places. `chart` has positions of places that may be open, and of
-        structures to keep clear of. `on_event` gets the tasks, then the skills of each; an error in it
-        ends planning. Raises PlannerError for a bad command or location; invalid answers are part
-        of the result.
+        structures to keep clear of. `on_event` gets the tasks, then the skills of each; an error in
+        it ends planning. Raises PlannerError for a bad command or location; invalid answers are
+        part of the result.
         """
         check_command(command)
         frame = agents_frame(command, origin)

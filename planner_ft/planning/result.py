@@ -66,7 +66,7 @@ class Planned:
     """A command with its plan: the mission answer as it was, tasks with `located` places filled in.
 
     `origin` is where [0, 0] lies,
-    `chart` has structures by name. `peak_memory` is that of the whole process in bytes (of the GPU, where there is one).
+    `chart` has structures by name. `peak_memory` is in bytes, of the process or the GPU.
     """
 
     command: str

@@ -104,7 +104,8 @@ def register_attention() -> None:
 
 
 def summed_cross_entropy(hidden: Tensor, weight: Tensor, targets: Tensor) -> Tensor:
-    """Cross-entropies of `hidden` (n, width) through `weight` (vocabulary, width) at `targets` (n,).
+    """Cross-entropies of `hidden` (n, width) through `weight` (vocabulary, width) at `targets`
+    (n,).
 
     Products in bfloat16, the rest in float32. The logits never exist as a whole.
     """

@@ -152,7 +152,8 @@ def pretrain(
 ) -> dict[str, Any]:
     """Train until the token budget is spent; return tokens, steps, seconds and loss.
 
-    Resumes from `folder`/checkpoint.pt. Logs one JSON line per 20 steps to `folder`/log.jsonl and to the terminal.
+    Resumes from `folder`/checkpoint.pt. Logs a JSON line per 20 steps to
+    `folder`/log.jsonl and to the terminal.
     """
     rank, world = _join()
     optims = optimizers(model, settings)

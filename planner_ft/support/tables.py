@@ -1,7 +1,7 @@
 """One table model with writers for Markdown, CSV, LaTeX and the terminal.
 
-The benchmark's tables, comparisons and suites, the report's page and the model cards are all made of
-it. Imports nothing else of the package.
+The benchmark's tables, comparisons and suites, the report's page and the model cards are all made
+of it. Imports nothing else of the package.
 """
 
 from __future__ import annotations

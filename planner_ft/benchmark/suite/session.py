@@ -168,8 +168,8 @@ def opened(
     resume: bool = False,
     overwrite: bool = False,
 ) -> Session:
-    """A suite in its folder, checked; whoever calls holds the folder. Raises PlannerError, also when data changed since
-    an earlier session.
+    """A suite in its folder, checked; whoever calls holds the folder. Raises PlannerError, also
+    when data changed since an earlier session.
     """
     vocabulary = load_vocabulary(suite.vocabulary)
     units = make_units(suite, vocabulary, out, flags)

@@ -1,5 +1,5 @@
-"""Clauses: phrases of the phrase file bound to what they stand for, a skill or a movement of several
-steps, so that they are drawn as templates are.
+"""Clauses: phrases of the phrase file bound to what they stand for, a skill or a movement of
+several steps, so that they are drawn as templates are.
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ UNRESOLVED = 0.05
 
 
 class Context:
-    """The task's values; one that fills a slot is used once, then the slot has values of its own."""
+    """The task's values; one that fills a slot is used once, then the slot has its own values."""
 
     def __init__(self, book: Phrasebook, task: Task, rng: random.Random) -> None:
         self.book, self.task, self.rng = book, task, rng

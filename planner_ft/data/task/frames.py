@@ -17,8 +17,8 @@ TABLES: dict[str, Any] = tomllib.loads(Path(__file__).with_suffix(".toml").read_
 
 
 class Scopes:
-    """Words for sets of the movements of a prompt, which are its steps or parts: "in the second step
-    only", "in steps 1 and 3", "throughout"; `numbered`: the prompt numbers them.
+    """Words for sets of the movements of a prompt, which are its steps or parts: "in the second
+    step only", "in steps 1 and 3", "throughout"; `numbered`: the prompt numbers them.
     """
 
     def __init__(

@@ -22,7 +22,7 @@ from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import canonical_parameters, plan_problems
 
 TRANSITS = 0.3
-"""Share of the Transits without clauses that are kept: every third task of a mission is one, and all are alike."""
+"""Share of the Transits without clauses that are kept: every third task is one, and all are alike."""
 LONGEST_GRID, MOST_SECTORS = 24, 12
 HEALTH = ("VerifyGeotagQuality", "GetImageQualityMetrics", "GetHorizonAngle", "CheckLensClearness")
 """What a sensor health check covers: GPS, cameras, horizon, lens (the task's own description)."""

@@ -3,9 +3,10 @@
     for record in sample_tasks(load_vocabulary(), seed=0, count=500, split="test"): ...
 
 About half of the samples are put together (compose.py): movements, filters and perception skills of
-a task, each in a clause of the phrase file, and the label is exactly what the clauses say. The others
-come from whole-prompt templates (prompts/), which belong to one of the splits each. The skeleton of a
-prompt, its text without the values, decides which of train, validation and test may hold it.
+a task, each in a clause of the phrase file, and the label is exactly what the clauses say. The
+others come from whole-prompt templates (prompts/), which belong to one of the splits each. The
+skeleton of a prompt, its text without the values, decides which of train, validation and test may
+hold it.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ English, misspelt ones among them, three are above it.
 
 
 def command_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
-    """Instructions that nothing in the plan answers or declines, behind doubts about the language."""
+    """Doubts about the language, and instructions that the plan neither answers nor declines."""
     yield from _language_warning(document["command"])
     planned, spoken = {task["title"] for task in document["tasks"]}, language(vocabulary)
     texts = [*document.get("constraints", ()), *document.get("assumptions", ())]

@@ -113,7 +113,7 @@ class _Plan:
         )
 
     def repeats(self, count: float, places: Sequence[Position]) -> bool:
-        """Whether something is done so often: an arc, each of the places, else any place or task."""
+        """Whether something is done so often: an arc, each place, else any place or task."""
         if any(near(abs(value), FULL * count) for value in self.numbers):
             return True
         if places:

@@ -53,8 +53,8 @@ State = dict[str, Any]
 
 @dataclass(frozen=True)
 class WebSettings:
-    """Address, files and agents: `port` 0 is a free one, log and folder are the plan's, `origin` is that of
-    new commands.
+    """Address, files and agents: `port` 0 is a free one, log and folder are the plan's, `origin` is
+    that of new commands.
     """
 
     host: str = LOOPBACK
