@@ -94,7 +94,8 @@ class Frame:
         if isinstance(value, str):
             for swap in self._open:
                 x, y = (re.escape(f"{part:g}") for part in swap.position)
-                value = re.sub(rf"[\[(]?\s?(?<!\d){x}\s?,\s?{y}(?!\d)\s?[\])]?", swap.words, value)
+                form = rf"[\[(]?\s?(?<!\d){x}\s?,\s?{y}(?!\d)\s?[\])]?"
+                value = swap.words.join(re.split(form, value))
             return value
         if isinstance(value, list):
             if any(value == list(swap.position) for swap in self._open):

@@ -1,7 +1,9 @@
-"""Whether the steps of a task perform it: a grid covers its area, a square keeps its stand-off."""
+"""Whether the steps of a task perform it: a grid covers its area, a pass has its length."""
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -51,6 +53,11 @@ def _geometry_problem(
     known, given = vocabulary.task[task["title"]], task["parameters"]
     if known.pattern == "lawnmower" and all(is_number(given.get(name)) for name in SIZE):
         return _grid_problem([given[name] for name in SIZE], given.get(SPACING, 0), points)
+    length = given.get(SIZE[1])
+    if known.pattern == "pass" and is_number(length) and len(points) > 1:
+        run = max(math.dist(*pair) for pair in itertools.combinations(points, 2))
+        if run < length * (1 - SHARE) - SLACK:
+            return f"its waypoints are {run:.3g} m apart, and its length is {length:g} m"
     return None
 
 

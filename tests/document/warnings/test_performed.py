@@ -38,3 +38,13 @@ def test_a_task_whose_steps_only_go_there_is_named() -> None:
     assert "no step performs it" in text
     assert found("ThermalHotspotLocalizer", {}, [go, step("RotateToHeading")]) == []
     assert found("Transit", {"target_position": [10, 10]}, [go]) == []
+
+
+def test_a_pass_that_is_shorter_than_its_length_is_named() -> None:
+    given = {"side_id": "west", "length": 60, "distance": 5}
+    whole, none = (
+        [step("GoToXY", {"x": 35, "y": y}) for y in ends] for ends in ((-20, 40), (9, 9))
+    )
+    assert found("ParallelStructurePass", given, whole) == []
+    (text,) = found("ParallelStructurePass", given, none)
+    assert "0 m apart, and its length is 60 m" in text
