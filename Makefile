@@ -1,6 +1,6 @@
 # make demo   data, a mission adapter for the embedded candidate and its benchmark table, from nothing
 # make test   lint, types, tests and the CI gate
-# make peers-test   our benchmark inside lm-evaluation-harness, in an environment of its own
+# make peers-test   our benchmark inside lm-evaluation-harness, and TRL on our data, in an environment of its own
 #
 # VENV=DIR          use (or make) another virtual environment
 # CONSTRAINTS=FILE  other pinned versions; CONSTRAINTS=/dev/null keeps what is installed (a CUDA build of torch, say)
@@ -46,7 +46,7 @@ peers-test:
 	test -x $(PEERS_VENV)/bin/python || $(PYTHON) -m venv $(PEERS_VENV)
 	$(PEERS_VENV)/bin/python -m pip install --quiet --disable-pip-version-check -c $(CONSTRAINTS) torch
 	$(PEERS_VENV)/bin/python -m pip install --quiet --disable-pip-version-check -c $(CONSTRAINTS) -c benchmarks/peers.txt -e ".[dev,peers]"
-	$(PEERS_VENV)/bin/python -m pytest -m peers tests/lm_eval
+	$(PEERS_VENV)/bin/python -m pytest -m peers tests/lm_eval tests/training/test_train_trl.py
 
 # llama.cpp builds from source for minutes (CMAKE_BUILD_PARALLEL_LEVEL=1 on a small machine): it has an environment of its own, too.
 SERVER_VENV ?= .venv-server

@@ -114,6 +114,18 @@ def test_scoring_and_data_import_no_torch(part: str) -> None:
                 ready.append(name)
 
 
+def test_nothing_prints_past_the_terminal() -> None:
+    """`support.terminal` escapes what a terminal would obey; pretraining prints figures alone."""
+    free = {ROOT / "support" / "terminal.py", *(ROOT / "pretraining").rglob("*.py")}
+    calls = {
+        (path.name, ast.unparse(node.func))
+        for path in set(ROOT.rglob("*.py")) - free
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.Call)
+    }
+    assert not {name for name, call in calls if call in ("print", "typer.echo", "Console")}
+
+
 def test_no_property_test_has_a_deadline() -> None:
     """None may depend on the clock; the profile in conftest.py holds for all of them."""
     assert hypothesis.settings.default is not None

@@ -19,11 +19,11 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data
+from planner_ft.data.leakage import input_digest
 from planner_ft.prompts.text import user_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.definition import DEFAULT
 from planner_ft.vocabulary.plans import Level, list_key, step_skills
 
 MAJORITY, NEAREST = "majority plan", "nearest neighbour"
@@ -65,8 +65,8 @@ def make_baselines(data: BenchData, vocabulary: Vocabulary) -> Baselines:
         [user_text(data.level, sample.record, vocabulary) for sample in one.samples]
         for one in (data, training)
     )
-    seen = set(map(_normalised, theirs))
-    if known := sum(_normalised(text) in seen for text in ours):
+    seen = set(map(input_digest, theirs))
+    if known := sum(input_digest(text) in seen for text in ours):
         stand = f"{known} of {len(ours)} test inputs stand in the training split, too"
         notes.append(f"{stand}: figures of whatever was trained on it are too high.")
     nearest: dict[str, Line] = {}
@@ -95,11 +95,11 @@ def _find_training(data: BenchData, vocabulary: Vocabulary) -> tuple[BenchData |
 
 def _places(data: BenchData, vocabulary: Vocabulary) -> Iterator[Path]:
     yield data.path.with_name(TRAIN)
-    yield Path("data") / data.level / TRAIN
-    if data.level == "mission" and vocabulary.name == DEFAULT:
+    yield vocabulary.data / data.level / TRAIN
+    if data.level == "mission" and vocabulary.bundled:
         from planner_ft.data.curated import find_source
 
-        yield find_source() / TRAIN
+        yield find_source(None, vocabulary) / TRAIN
 
 
 def _majority(data: BenchData, training: BenchData) -> dict[str, Line]:
@@ -146,10 +146,6 @@ def _entries(level: Level, plan: Plan) -> list[tuple[int, str, dict[str, Any]]]:
 
 def _line(sample: Sample, plan: Plan) -> Line:
     return {"id": sample.id, "output": compact_json(plan)}
-
-
-def _normalised(text: str) -> str:
-    return re.sub(r"\W+", " ", text.lower()).strip()
 
 
 class Index:

@@ -5,6 +5,7 @@ samples (keys of scores.jsonl), and how tables show it.
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -49,6 +50,21 @@ class Metric:
     def title(self) -> str:
         """The heading of a column, with the way that is better."""
         return f"{self.heading} {self.better}".strip()
+
+    def terms(self, score: Mapping[str, Any]) -> tuple[float, float] | None:
+        """Numerator and denominator of a sample (a line of scores.jsonl); None where it says nothing
+        about the metric.
+        """
+        top, below = self.over if self.kind == "ratio" else (self.name, "")
+        if score.get(below or top) is None:
+            return None
+        return float(score[top] or 0), float(score[below]) if below else 1.0
+
+    def value(self, scores: Iterable[Mapping[str, Any]]) -> float | None:
+        """The metric over samples, each of which counts once; None where none says anything."""
+        known = [terms for score in scores if (terms := self.terms(score))]
+        above, below = (sum(column) for column in zip(*known, strict=True)) if known else (0, 0)
+        return above / below if below else None
 
     def cell(self, found: Estimate, mark: str = "", *, published: bool = False) -> Cell:
         """A figure with its interval; published latencies have one decimal."""

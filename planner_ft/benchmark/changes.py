@@ -10,56 +10,25 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
 from typing import Any
 
 from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.contrasts import by_system
-from planner_ft.benchmark.paired import Paired, Score, holm, paired
+from planner_ft.benchmark.paired import Score, holm, paired
 
 RIGHT = "right"
 """The outcome of an answer with right names, order and parameters."""
 COMPARED = ("f1", "whole_plan")
 
 
-@dataclass(frozen=True)
-class Change:
-    """One configuration against another of the same candidate, over the samples that both answered.
-
-    `f1` and `whole_plan` are compared by sample (after minus before); `p_adjusted` are their
-    p-values after Holm over all changes of a run. `seconds` and `forward_passes` are ratios of the
-    sums, None where they are not known. `outcomes` counts answers by (outcome before, outcome
-    after), an outcome being "right" or a kind of failure.
-    """
-
-    candidate: str
-    before: str
-    after: str
-    n: int
-    f1: Paired
-    whole_plan: Paired
-    seconds: float | None
-    forward_passes: float | None
-    outcomes: dict[tuple[str, str], int]
-    p_adjusted: tuple[float | None, float | None] = (None, None)
-
-    def to_json(self) -> dict[str, Any]:
-        outcomes = self.outcomes.items()
-        return {
-            **asdict(self),
-            "f1": self.f1.difference.to_json(),
-            "whole_plan": self.whole_plan.difference.to_json(),
-            "p": [self.f1.p, self.whole_plan.p],
-            "p_adjusted": list(self.p_adjusted),
-            "outcomes": [
-                {"before": old, "after": new, "n": count} for (old, new), count in outcomes
-            ],
-        }
-
-
-def changes(scores: Iterable[Mapping[str, Any]], seed: int) -> list[Change]:
+def changes(scores: Iterable[Mapping[str, Any]], seed: int) -> list[dict[str, Any]]:
     """Every enforced configuration against the free one of the same weights ("lora+state" against
-    "lora").
+    "lora"), over the samples that both answered, as results.json has them.
+
+    `f1` and `whole_plan` are differences by sample (after minus before), `p` and `p_adjusted` their
+    p-values, the latter after Holm over all changes of a run. `seconds` and `forward_passes` are
+    ratios of the sums, None where they are not known. `outcomes` counts answers by outcome before
+    and after, "right" or a kind of failure.
     """
     # Scores of earlier versions do not say whether the whole plan is right.
     systems = by_system({**score, "whole_plan": score["failure"] is None} for score in scores)
@@ -80,16 +49,21 @@ def changes(scores: Iterable[Mapping[str, Any]], seed: int) -> list[Change]:
             (old["failure"] or RIGHT, new["failure"] or RIGHT) for old, new in answers
         )
         made.append(
-            Change(
-                *names,
-                len(common),
-                f1=pair[0],
-                whole_plan=pair[1],
-                seconds=_ratio(answers, "latency_s"),
-                forward_passes=_ratio(answers, "forward_passes"),
-                outcomes=dict(outcomes.most_common()),
-                p_adjusted=(ps[2 * index], ps[2 * index + 1]),
-            )
+            {
+                **dict(zip(("candidate", "before", "after"), names, strict=True)),
+                "n": len(common),
+                **{
+                    name: one.difference.to_json() for name, one in zip(COMPARED, pair, strict=True)
+                },
+                "seconds": _ratio(answers, "latency_s"),
+                "forward_passes": _ratio(answers, "forward_passes"),
+                "outcomes": [
+                    {"before": old, "after": new, "n": count}
+                    for (old, new), count in outcomes.most_common()
+                ],
+                "p": [one.p for one in pair],
+                "p_adjusted": ps[2 * index : 2 * index + 2],
+            }
         )
     return made
 

@@ -222,14 +222,13 @@ def _notes(
             if absent := [name for name in one.scores if name not in other.scores]:
                 yield f"{other.name} lacks {_listed(absent)} of {one.name}: left out."
         for metric in metrics:
-            key = metric.over[0] or metric.name
-            if not (_knows(first, key) and _knows(second, key)):
+            if not (_knows(first, metric) and _knows(second, metric)):
                 pair = f"{second.name} against {first.name}"
                 yield f"{metric.name} of {pair} was not measured in both."
 
 
-def _knows(one: RunRow, key: str) -> bool:
-    return any(score.get(key) is not None for scores in one.scores.values() for score in scores)
+def _knows(one: RunRow, metric: Metric) -> bool:
+    return any(metric.terms(score) for scores in one.scores.values() for score in scores)
 
 
 def _listed(names: Sequence[str]) -> str:

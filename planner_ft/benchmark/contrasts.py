@@ -93,21 +93,15 @@ def _with_best(rows: Mapping[System, Scores]) -> list[tuple[System, System, Metr
         systems = [system for system in rows if system[1] == configuration]
         for metric in _metrics(COMPARED) if len(systems) > 1 else ():
             sign = -1 if metric.better == "↓" else 1
-            values = {system: _value(metric, rows[system]) for system in systems}
+            values = {
+                system: metric.value(line for lines in rows[system].values() for line in lines)
+                for system in systems
+            }
             known = {one: sign * value for one, value in values.items() if value is not None}
             if known:
                 best = max(known, key=known.__getitem__)
                 found += [(best, system, metric) for system in systems if system != best]
     return found
-
-
-def _value(metric: Metric, scores: Scores) -> float | None:
-    lines = [line for of_sample in scores.values() for line in of_sample]
-    if metric.kind == "ratio":
-        top, below = (sum(line.get(key) or 0 for line in lines) for key in metric.over)
-        return top / below if below else None
-    known = [float(line[metric.name]) for line in lines if line.get(metric.name) is not None]
-    return sum(known) / len(known) if known else None
 
 
 def marks(found: Contrasts) -> dict[tuple[str, str], str]:

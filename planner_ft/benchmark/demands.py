@@ -6,11 +6,14 @@ is met when some step of a task of the title has the skill.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from planner_ft.benchmark.field.cases import Case, check_problems
+from planner_ft.benchmark.field.checks import Outcome, passes
+from planner_ft.benchmark.field.run import Judged
 from planner_ft.benchmark.folder import RESULTS
 from planner_ft.benchmark.statistics import Estimate, clustered_rate
 from planner_ft.support.errors import PlannerError
@@ -28,23 +31,14 @@ WARNING = "data-not-planned"
 
 
 @dataclass(frozen=True)
-class Demand:
-    """One skill that the steps of a task must have; whether the agents gave it, and the plan."""
-
-    record: str
-    task: str
-    skill: str
-    agents: bool
-    plan: bool
-
-
-@dataclass(frozen=True)
 class DemandRow:
-    """The demands of all records in one configuration; `warned` are records with lost words."""
+    """The demands of all records in one configuration: record, task, skill, and whether the agents
+    and the plan meet it; `warned` are records with lost words.
+    """
 
     candidate: str
     configuration: str
-    demands: tuple[Demand, ...]
+    demands: tuple[dict[str, Any], ...]
     records: int
     warned: int
 
@@ -54,13 +48,14 @@ class DemandRow:
 
     def rates(self) -> dict[str, Estimate]:
         """Shares of demands met by the agents and by the plan, and of records with all met."""
-        clusters = [demand.record for demand in self.demands]
-        names = list(dict.fromkeys(clusters))
-        whole = [all(one.plan for one in self.demands if one.record == name) for name in names]
+        clusters = [one["record"] for one in self.demands]
+        met = {by: [one[by] for one in self.demands] for by in ("agents", "plan")}
+        whole = dict.fromkeys(clusters, True)
+        for one in self.demands:
+            whole[one["record"]] &= one["plan"]
         return {
-            "demands_agents": clustered_rate([one.agents for one in self.demands], clusters),
-            "demands_plan": clustered_rate([one.plan for one in self.demands], clusters),
-            "all_demands_plan": clustered_rate(whole, names),
+            **{f"demands_{by}": clustered_rate(found, clusters) for by, found in met.items()},
+            "all_demands_plan": clustered_rate([*whole.values()], [*whole]),
         }
 
     def as_json(self) -> dict[str, Any]:
@@ -69,16 +64,23 @@ class DemandRow:
         return named | counts | {name: rate.to_json() for name, rate in self.rates().items()}
 
 
-def load_demands(path: Path, vocabulary: Vocabulary) -> list[dict[str, Any]]:
-    """The records of a file. Raises PlannerError with file and line."""
-    records = []
+def load_demands(path: Path, vocabulary: Vocabulary) -> list[Case]:
+    """The records of a file as cases, a check per demand. Raises PlannerError with file and line."""
+    cases = []
     for number, value, problem in iterate_jsonl(path):
         if problem := problem or _problem(value, vocabulary):
             raise PlannerError(f"{path}:{number}: {problem}")
-        records.append(value or {})
-    if not any(record["skills"] for record in records):
+        record = value or {}
+        locate = {name: (x, y) for name, (x, y) in record.get("locate", {}).items()}
+        expect = tuple(_checks(record.get("skills", [])))
+        cases.append(Case(record["id"], "both", record["prompt"], expect, locate))
+    if not any(case.expect for case in cases):
         raise PlannerError(f"{path}: demands no skills; give records the key skills")
-    return records
+    return cases
+
+
+def _checks(entries: Sequence[dict[str, Any]]) -> list[dict[str, str]]:
+    return [{"skill": name, "under": one["task"]} for one in entries for name in one["skills"]]
 
 
 def _problem(value: Any, vocabulary: Vocabulary) -> str | None:
@@ -86,52 +88,54 @@ def _problem(value: Any, vocabulary: Vocabulary) -> str | None:
         return "a record with the texts id and prompt is expected"
     if unknown := [key for key in value if key not in KEYS]:
         return f"unknown key {unknown[0]!r}; there is {', '.join(KEYS)}"
-    entries = value.setdefault("skills", [])
-    for entry in entries if isinstance(entries, list) else [entries]:
-        if not isinstance(entry, dict) or entry.keys() != DEMAND:
-            return 'skills must be a list of {"task": TITLE, "skills": [NAME, ...]}'
-        if entry["task"] not in vocabulary.task:
-            return f"skills: {entry['task']!r} is no task of this vehicle"
-        unknown = [name for name in entry["skills"] if name not in vocabulary.skill]
-        if unknown:
-            return f"skills: {unknown[0]!r} is no skill of this vehicle"
-    return None
+    entries = value.get("skills", [])
+    if not isinstance(entries, list) or not all(map(_is_demand, entries)):
+        return 'skills must be a list of {"task": TITLE, "skills": [NAME, ...]}'
+    checks = [*({"under": entry["task"]} for entry in entries), *_checks(entries)]
+    problems = (text for check in checks for text in check_problems(check, vocabulary))
+    return next((f"skills: {text}" for text in problems), None)
 
 
-def judge_demands(
-    records: Sequence[Mapping[str, Any]],
-    plan: Callable[[Mapping[str, Any]], Mapping[str, Any]],
-    progress: Callable[[int, int], None],
-) -> tuple[tuple[Demand, ...], int]:
-    """The demands of the records, and the plans that warn of lost words."""
-    demands: list[Demand] = []
-    warned = 0
-    for number, record in enumerate(records, start=1):
-        document = plan(record)
-        warned += any(one["kind"] == WARNING for one in document.get("warnings", ()))
-        for entry in record["skills"]:
-            agents, whole = _skills(document, entry["task"])
-            for name in entry["skills"]:
-                met = name in agents, name in whole
-                demands.append(Demand(record["id"], entry["task"], name, *met))
-        progress(number, len(records))
-    return tuple(demands), warned
+def _is_demand(entry: Any) -> bool:
+    if not isinstance(entry, dict) or entry.keys() != DEMAND:
+        return False
+    names = entry["skills"] if isinstance(entry["skills"], list) else [None]
+    return all(isinstance(name, str) for name in (entry["task"], *names))
 
 
-def _skills(document: Mapping[str, Any], title: str) -> tuple[set[str], set[str]]:
-    """The skills in the steps of tasks of a title: those that the Task Agent gave, and all."""
-    agents, whole = set[str](), set[str]()
-    for task in (task for task in document.get("tasks", ()) if task["title"] == title):
-        added = {
-            (mark["step"], mark["name"])
-            for mark in task.get("added", ())
-            if "parameter" not in mark
+def demand_row(
+    name: tuple[str, str], judged: Sequence[Judged], vocabulary: Vocabulary
+) -> DemandRow:
+    """The demands of the records in the configuration of a candidate."""
+    demands = [
+        {
+            "record": one.case.id,
+            "task": check["under"],
+            "skill": check["skill"],
+            "agents": passes(check, _of_agents(one.outcome), vocabulary),
+            "plan": check not in one.failed,
         }
-        for index, step in enumerate(task["skill_sequence"] or ()):
-            names = {skill["name"] for _role, skill in step_skills(step)}
-            whole |= names
-            agents |= {name for name in names if (index, name) not in added}
-    return agents, whole
+        for one in judged
+        for check in one.case.expect
+    ]
+    warnings = [one.outcome.document.get("warnings", ()) for one in judged]
+    warned = sum(any(warning["kind"] == WARNING for warning in found) for found in warnings)
+    return DemandRow(*name, tuple(demands), len(judged), warned)
+
+
+def _of_agents(outcome: Outcome) -> Outcome:
+    """A plan without the skills that the vehicle added."""
+    tasks = []
+    for task in outcome.tasks:
+        marks = (mark for mark in task.get("added", ()) if "parameter" not in mark)
+        added = {(mark["step"], mark["name"]) for mark in marks}
+        steps = [
+            [one for _role, one in step_skills(step) if (index, one["name"]) not in added]
+            for index, step in enumerate(task["skill_sequence"] or ())
+        ]
+        sequence = [{"perception_skills": skills} for skills in steps]
+        tasks.append({"title": task["title"], "skill_sequence": sequence})
+    return Outcome({"tasks": tasks}, outcome.error)
 
 
 def demand_table(rows: Sequence[DemandRow]) -> Table:
@@ -156,7 +160,7 @@ def _cell(rate: Estimate) -> Cell:
 def write_demands(folder: Path, rows: Sequence[DemandRow], manifest: dict[str, Any]) -> None:
     """Write scores.jsonl, table.md and results.json, which comes last."""
     scores = [
-        {"candidate": one.candidate, "configuration": one.configuration, **vars(demand)}
+        {"candidate": one.candidate, "configuration": one.configuration, **demand}
         for one in rows
         for demand in one.demands
     ]

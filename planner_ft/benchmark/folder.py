@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,14 @@ from typing import Any
 from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.tables import render_tables
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import iterate_jsonl, read_json, write_json, write_jsonl, write_text
+from planner_ft.support.files import (
+    check_writable,
+    iterate_jsonl,
+    read_json,
+    write_json,
+    write_jsonl,
+    write_text,
+)
 from planner_ft.vocabulary.plans import check_level
 
 RESULTS, SCORES, BASELINES = "results.json", "scores.jsonl", "baselines.jsonl"
@@ -23,26 +29,14 @@ ALL = (*SCORED, PREDICTIONS, LATENCY, PLANNING, RUN)
 
 
 def check_folder(folder: Path, names: Sequence[str], hint: str) -> None:
-    """Raise PlannerError when the folder holds any of these files, cannot be written, or is a
-    file.
+    """Make the folder if need be. Raises PlannerError when it holds any of these files, cannot be
+    written, or is a file.
     """
     present = [name for name in names if (folder / name).exists()]
     if present:
         raise PlannerError(f"{folder / present[0]}: results are there already; {hint}")
     check_writable(folder)
-
-
-def check_writable(folder: Path) -> None:
-    """Make the folder if need be. Raises PlannerError when that or writing into it fails."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except (FileExistsError, NotADirectoryError):
-        raise PlannerError(f"--out {folder}: is or lies below a file; give a folder") from None
-    except OSError as error:
-        problem = f"cannot be made ({error.strerror}); give another folder"
-        raise PlannerError(f"--out {folder}: {problem}") from None
-    if not os.access(folder, os.W_OK | os.X_OK):
-        raise PlannerError(f"--out {folder}: cannot be written; give another folder")
+    folder.mkdir(parents=True, exist_ok=True)
 
 
 def clear(folder: Path, names: Sequence[str] = ALL) -> None:

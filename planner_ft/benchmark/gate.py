@@ -12,19 +12,16 @@ from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.runner import Progress, run_bench
 from planner_ft.benchmark.settings import BenchSettings
-from planner_ft.benchmark.toml_files import key_problems, read_toml
+from planner_ft.benchmark.toml_files import Kind, key_problems, run_settings
 from planner_ft.support.errors import GateError, PlannerError
-from planner_ft.vocabulary.plans import check_level
+from planner_ft.support.files import read_toml
 
-REQUIRED: dict[str, type] = {
-    "level": str,
-    "candidate": str,
-    "configuration": str,
+REQUIRED = ("level", "candidate", "configuration", "thresholds")
+KEYS: dict[str, Kind] = {
     "thresholds": dict,
+    **dict.fromkeys((*REQUIRED[:3], "data", "adapter", "vocabulary"), str),
+    **dict.fromkeys(("limit", "max_new_tokens", "latency_samples"), int),
 }
-NUMBERS = ("limit", "max_new_tokens", "latency_samples")
-TEXTS = ("data", "adapter", "vocabulary")
-KEYS = {**REQUIRED, **dict.fromkeys(TEXTS, str), **dict.fromkeys(NUMBERS, int)}
 
 
 @dataclass(frozen=True)
@@ -61,23 +58,19 @@ def load_gate(path: Path) -> Gate:
     PlannerError that lists every mistake.
     """
     raw, here = read_toml(path), path.parent
-    if problems := key_problems(raw, KEYS, REQUIRED, {}):
+    if problems := key_problems(raw, KEYS, REQUIRED):
         raise PlannerError(f"{path}: {'; '.join(problems)}")
     thresholds = tuple(_threshold(path, *item) for item in raw["thresholds"].items())
     if not thresholds:
         example = "write for example schema_valid = { min = 0.98 }"
         raise PlannerError(f"{path}: [thresholds] names no metric; {example}")
-    vocabulary = raw.get("vocabulary", "usv")
     needs_latency = any(threshold.metric == "latency_s" for threshold in thresholds)
-    given = {"latency_samples": 25 if needs_latency else 0}
-    settings = BenchSettings(
-        level=check_level(raw["level"]),
+    settings = run_settings(
+        {"latency_samples": 25 if needs_latency else 0, **raw},
+        here,
         candidates=(raw["candidate"],),
         configurations=(raw["configuration"],),
-        data=here / raw["data"] if "data" in raw else None,
         adapters=(str(here / raw["adapter"]),) if "adapter" in raw else (),
-        vocabulary=str(here / vocabulary) if vocabulary.endswith(".toml") else vocabulary,
-        **given | {name: raw[name] for name in NUMBERS if name in raw},
     )
     return Gate(path, settings, thresholds)
 

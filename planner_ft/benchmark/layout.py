@@ -2,60 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
 from planner_ft.benchmark import published
 from planner_ft.benchmark.catalogue import METRIC, METRICS
 from planner_ft.benchmark.contrasts import contrast_notes, marks
-from planner_ft.benchmark.results import Results, Row, heading
-from planner_ft.benchmark.statistics import Estimate
-from planner_ft.support.tables import NOTHING, Cell, RowKind, Table, row
+from planner_ft.benchmark.results import Results, Row
+from planner_ft.support.tables import Table, row
 
 
-class Line(NamedTuple):
-    """A row of figures: measured, published or a baseline."""
-
-    model: str
-    configuration: str
-    n: int
-    kind: RowKind
-    metrics: Mapping[str, Estimate]
-    marks: Mapping[str, str]
-
-    @property
-    def name(self) -> str:
-        baseline = self.kind == "baseline"
-        return self.model if baseline else f"{self.model}, {self.configuration}"
-
-    def figure(self, metric: str) -> Estimate:
-        return self.metrics.get(metric, Estimate(None))
-
-    def cells(self, names: Iterable[str]) -> list[Cell]:
-        theirs = self.kind == "published"
-        return [
-            METRIC[name].cell(self.figure(name), self.marks.get(name, ""), published=theirs)
-            for name in names
-        ]
-
-
-def lines(results: Results, *, beside: bool = True) -> list[Line]:
-    """Measured rows, each candidate's followed by its published ones, then the baselines and the
-    other published rows; `beside` says whether there shall be published ones.
+def lines(results: Results, *, beside: bool = True) -> list[Row]:
+    """Measured rows with their marks, each candidate's followed by its published ones, then the
+    baselines and the other published rows; `beside` says whether there shall be published ones.
     """
     known = marks(results.contrasts)
     theirs = _published(results) if beside else {}
-    found: list[Line] = []
+    found: list[Row] = []
     for of_candidate in by_candidate(results.rows):
         for one in of_candidate:
             own = {metric: mark for (key, metric), mark in known.items() if key == one.key}
-            label, name = one.system.label, heading(one.system.configuration)
-            found.append(Line(label, name, one.n, "measured", one.metrics, own))
+            found.append(replace(one, marks=own))
         system = of_candidate[0].system
         found += theirs.pop(system.published or "", []) if not system.is_standin else []
-    for one in results.baselines:
-        found.append(Line(one.system.label, NOTHING, one.n, "baseline", one.metrics, {}))
-    return [*found, *(line for of_model in theirs.values() for line in of_model)]
+    found += results.baselines
+    return [*found, *(row for of_model in theirs.values() for row in of_model)]
 
 
 def shows_published(results: Results) -> bool:
@@ -67,47 +38,41 @@ def shows_published(results: Results) -> bool:
     return real and vocabulary == published.VOCABULARY
 
 
-def _published(results: Results) -> dict[str, list[Line]]:
+def _published(results: Results) -> dict[str, list[Row]]:
     """Published rows by model, in the configurations of the run if it has any of theirs."""
     if not shows_published(results):
         return {}
+    every = by_candidate(published.published_rows(results.level))
     ours = {one.system.configuration for one in results.rows}
-    shown = [name for name in published.CONFIGURATIONS if name in ours]
-    n, found = published.SAMPLES[results.level], dict[str, list[Line]]()
-    for one in published.published_rows(results.level):
-        for name in shown or published.CONFIGURATIONS:
-            metrics = {
-                metric: Estimate(value)
-                for (metric, configuration), value in one.figures.items()
-                if configuration == name
-            }
-            words = f"{one.model} (published)", heading(name)
-            found.setdefault(one.model, []).append(Line(*words, n, "published", metrics, {}))
-    return found
+    shown = ours & {*published.CONFIGURATIONS} or {*published.CONFIGURATIONS}
+    return {
+        rows[0].system.candidate: [one for one in rows if one.system.configuration in shown]
+        for rows in every
+    }
 
 
-def known_metrics(names: Iterable[str], shown: Sequence[Line]) -> list[str]:
+def known_metrics(names: Iterable[str], shown: Sequence[Row]) -> list[str]:
     """Those of the metrics that any line has a figure for."""
     return [name for name in names if any(one.figure(name).value is not None for one in shown)]
 
 
-def metric_table(names: Iterable[str], shown: Sequence[Line], corner: str = "Model") -> Table:
+def metric_table(names: Iterable[str], shown: Sequence[Row], corner: str = "Model") -> Table:
     """A row per line with these metrics; a metric that no line has a figure for is left out."""
     known = known_metrics(names, shown)
     return _figures(shown, known, corner, ("Configuration", *(METRIC[one].title for one in known)))
 
 
-def figures_table(shown: Sequence[Line]) -> Table:
+def figures_table(shown: Sequence[Row]) -> Table:
     """Every metric under its name in results.json, as table.csv has them."""
     return _figures(shown, METRICS, "model", ("configuration", *METRICS))
 
 
 def _figures(
-    shown: Sequence[Line], metrics: Sequence[str], corner: str, heads: Sequence[str]
+    shown: Sequence[Row], metrics: Sequence[str], corner: str, heads: Sequence[str]
 ) -> Table:
     rows = tuple(
-        row(line.model, line.configuration, str(line.n), *line.cells(metrics), kind=line.kind)
-        for line in shown
+        row(one.system.label, one.configuration, str(one.n), *one.cells(metrics), kind=one.kind)
+        for one in shown
     )
     return Table(corner, "", "", corner, (heads[0], "n", *heads[1:]), rows, texts=1)
 
@@ -153,6 +118,8 @@ def _about_rows(rows: Sequence[Row]) -> Iterator[str]:
             yield f"{system.label} is a tiny, randomly initialised model: {why}."
     for one in rows:
         empty = "count as empty outputs"
+        if one.system.seen:
+            yield trained_on(one)
         if one.missing:
             missing = f"{len(one.missing)} of {one.n} samples have no prediction"
             yield f"{one.name}: {missing} and {empty}."
@@ -161,6 +128,12 @@ def _about_rows(rows: Sequence[Row]) -> Iterator[str]:
         if failed := one.finish_reasons.get("error"):
             where = f"{empty} (see predictions.jsonl)"
             yield f"{one.name}: {failed} of {one.n} samples failed and {where}."
+
+
+def trained_on(one: Row) -> str:
+    """That an adapter was trained on samples that it is measured on."""
+    seen = f"{one.system.seen} of {one.n} samples were in its adapter's training or validation data"
+    return f"{one.name}: {seen}; its figures say nothing about other commands."
 
 
 def by_candidate(rows: Iterable[Row]) -> list[list[Row]]:

@@ -88,14 +88,9 @@ def _terms(metric: Metric, scores: Sequence[Score]) -> tuple[float, float] | Non
     """Numerator and denominator of a sample, means over its repeats; None where it says nothing
     about the metric.
     """
-    top, below = metric.over if metric.kind == "ratio" else (metric.name, "")
-    known = [score for score in scores if score.get(top) is not None]
-    if not known:
-        return None
-    numerator = sum(float(score[top]) for score in known) / len(known)
-    if not below:
-        return numerator, 1.0
-    return numerator, sum(float(score.get(below) or 0) for score in known) / len(known)
+    known = [terms for score in scores if (terms := metric.terms(score))]
+    above, below = (sum(column) for column in zip(*known, strict=True)) if known else (0.0, 0.0)
+    return (above / len(known), below / len(known)) if known else None
 
 
 def _values(sums: Floats) -> tuple[Any, Any]:

@@ -19,14 +19,23 @@ from planner_ft.candidates.adapters import (
     adapter_folder,
     check_adapter,
     find_adapter,
+    seen_in_training,
 )
-from planner_ft.candidates.loading import compute_dtype, require_folder, resolve_device
+from planner_ft.candidates.loading import (
+    compute_dtype,
+    load_tokenizer,
+    require_folder,
+    resolve_device,
+)
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import Quantization
+from planner_ft.data.leakage import input_digest
 from planner_ft.decoding.configurations import Configuration, parse_configuration
+from planner_ft.decoding.constraints.factory import constraint_factory
 from planner_ft.decoding.engine import decoding_threads
 from planner_ft.decoding.sampling import Sampling
-from planner_ft.prompts.render import PROMPT_VERSION
+from planner_ft.prompts.render import PROMPT_VERSION, end_of_turn_ids
+from planner_ft.prompts.text import user_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import sha256_text, sha256_tree
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
@@ -118,7 +127,8 @@ def make_plan(settings: BenchSettings) -> Plan:
     candidates = [] if settings.endpoint else _candidates(settings)
     needs_adapter = any(configuration.adapter for configuration in configurations)
     adapters = _adapters(settings, candidates) if candidates and needs_adapter else {}
-    path = settings.data or default_data(settings.level)
+    _check_limit(settings, candidates, configurations, vocabulary)
+    path = settings.data or default_data(settings.level, vocabulary)
     data = load_bench_data(path, settings.level, vocabulary, settings.limit)
     # Everything that the answers of all jobs depend on.
     common = {
@@ -139,8 +149,9 @@ def make_plan(settings: BenchSettings) -> Plan:
         for candidate in candidates:
             if (adapter := adapters.get(candidate.name)) is not None:
                 check_adapter(adapter, candidate, level=settings.level, vocabulary=vocabulary)
+        seen = {name: _seen(folder, data, vocabulary) for name, folder in adapters.items()}
         jobs = [
-            _job(settings, candidate, one, adapters.get(candidate.name), vocabulary, common)
+            _job(settings, candidate, one, adapters.get(candidate.name), vocabulary, common, seen)
             for candidate in candidates
             for one in configurations
         ]
@@ -187,6 +198,36 @@ def _adapters(settings: BenchSettings, candidates: list[Candidate]) -> dict[str,
     }
 
 
+def _check_limit(
+    settings: BenchSettings,
+    candidates: list[Candidate],
+    configurations: list[Configuration],
+    vocabulary: Vocabulary,
+) -> None:
+    """Raise PlannerError where a constrained answer of a later candidate needs more tokens than the
+    limit; the first candidate's are checked when it is loaded.
+    """
+    strengths = [one.strength for one in configurations if one.strength != "free"]
+    for candidate in candidates[1:] if strengths else ():
+        tokenizer = load_tokenizer(candidate)
+        ends, limit = tuple(end_of_turn_ids(tokenizer)), settings.token_limit
+        try:
+            constraint_factory(
+                tokenizer, settings.level, vocabulary, strengths[0], end_ids=ends, limit=limit
+            )
+        except PlannerError as error:
+            raise PlannerError(f"{candidate.name}: {error}") from None
+
+
+def _seen(adapter: Path, data: BenchData, vocabulary: Vocabulary) -> int:
+    """How many of the samples an adapter was trained on."""
+    seen, level = seen_in_training(adapter), data.level
+    if data.sha256 in seen:
+        return len(data.samples)
+    texts = (user_text(level, sample.record, vocabulary) for sample in data.samples)
+    return sum(input_digest(text) in seen for text in texts)
+
+
 def _job(
     settings: BenchSettings,
     candidate: Candidate,
@@ -194,13 +235,14 @@ def _job(
     adapter: Path | None,
     vocabulary: Vocabulary,
     common: dict[str, Any],
+    seen: dict[str, int],
 ) -> Job:
     folder = require_folder(candidate)
     used = adapter if configuration.adapter else None
     pretrained = candidate.knows(vocabulary)
     # A fine-tuned model has learned the vocabulary, and so has one that was pretrained on it.
     with_vocabulary = not configuration.adapter and not pretrained
-    default = candidate.adapter_defaults(settings.level).quantization
+    default = candidate.adapter_defaults(settings.level, vocabulary).quantization
     quantization = settings.quantization or default or "nf4"
     parts = {
         **common,
@@ -221,6 +263,7 @@ def _job(
         pretrained=pretrained,
         with_vocabulary=with_vocabulary,
         adapter=str(used) if used else None,
+        seen=seen.get(candidate.name, 0) if used else 0,
     )
     threads = decoding_threads(candidate, str(common["device"]).split()[0])
     return Job(

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import csv
 import functools
-from dataclasses import dataclass
 from pathlib import Path
 
+from planner_ft.benchmark.results import Row, System
+from planner_ft.benchmark.statistics import Estimate
 from planner_ft.vocabulary.plans import Level
 
 FOLDER = Path(__file__).parent / "published"
@@ -14,21 +15,17 @@ SAMPLES: dict[Level, int] = {"mission": 25, "task": 500}
 CONFIGURATIONS = ("base", "lora")
 VOCABULARY = "usv"
 """The vocabulary that the published figures are about."""
-
-
-@dataclass(frozen=True)
-class PublishedRow:
-    """One model's published figures by (metric, configuration), rates as fractions."""
-
-    model: str
-    figures: dict[tuple[str, str], float]
+PERCENT = ("hallucination", "schema_valid")
 
 
 @functools.cache
-def published_rows(level: Level) -> tuple[PublishedRow, ...]:
-    """The rows of the published table of a level, in its order."""
+def published_rows(level: Level) -> tuple[Row, ...]:
+    """The rows of the published table of a level in its order, each model in both configurations;
+    rates are fractions.
+    """
     with open(FOLDER / f"{level}.csv", encoding="utf-8", newline="") as stream:
-        return tuple(_row(line) for line in csv.DictReader(stream))
+        lines = list(csv.DictReader(stream))
+    return tuple(_row(line, name, level) for line in lines for name in CONFIGURATIONS)
 
 
 def source(level: Level) -> str:
@@ -37,11 +34,11 @@ def source(level: Level) -> str:
     return f"published study ({level}-level table): {own}"
 
 
-def _row(line: dict[str, str]) -> PublishedRow:
-    figures = {}
+def _row(line: dict[str, str], configuration: str, level: Level) -> Row:
+    model, metrics = line["model"], {}
     for column, text in line.items():
-        metric, _, configuration = column.rpartition("_")
-        if configuration in CONFIGURATIONS:
-            percent = metric in ("hallucination", "schema_valid")
-            figures[metric, configuration] = float(text) / (100 if percent else 1)
-    return PublishedRow(line["model"], figures)
+        metric, _, of = column.rpartition("_")
+        if of == configuration:
+            metrics[metric] = Estimate(float(text) / (100 if metric in PERCENT else 1))
+    system = System(model, configuration, label=f"{model} (published)", published=model)
+    return Row(system, SAMPLES[level], metrics, quoted=True)

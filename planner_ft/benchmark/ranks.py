@@ -6,11 +6,8 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import timedelta
-from pathlib import Path
 from typing import TypeVar
 
-from planner_ft.benchmark.folder import PREDICTIONS
-from planner_ft.benchmark.records import RecordLog, Tail
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.support.resources import end_with_parent
 
@@ -23,8 +20,8 @@ its launcher.
 
 @dataclass(frozen=True)
 class Ranks:
-    """This process's place among those that share a run. Rank 0 owns the folder; the others write
-    parts, which it takes in.
+    """This process's place among those that share a run. Rank 0 owns the folder; the others add
+    answers to its predictions.jsonl.
     """
 
     rank: int = 0
@@ -56,10 +53,6 @@ class Ranks:
         local = int(os.environ.get("LOCAL_RANK", self.rank))
         return replace(settings, device=f"cuda:{local % torch.cuda.device_count()}")
 
-    def log(self, folder: Path) -> RecordLog:
-        """The log that this process writes its answers to."""
-        return RecordLog(folder / (PREDICTIONS if self.leads else part_name(self.rank)))
-
 
 ALONE = Ranks()
 
@@ -81,36 +74,3 @@ def join_ranks() -> Ranks:
     torch.distributed.init_process_group("gloo", timeout=LONGEST_WAIT)
     atexit.register(torch.distributed.destroy_process_group)
     return Ranks(torch.distributed.get_rank(), torch.distributed.get_world_size())
-
-
-def part_name(rank: int | str) -> str:
-    """The file of a process's answers until rank 0 has taken them in."""
-    return f"predictions.part{rank}.jsonl"
-
-
-def part_files(folder: Path) -> list[Path]:
-    """The parts that lie in a folder."""
-    return sorted(folder.glob(part_name("*")))
-
-
-def take_in(folder: Path, log: RecordLog) -> None:
-    """Add the answers of the parts to the log, each once, however often this is done."""
-    for _name, record in Tail(*part_files(folder)).new():
-        if (record["key"], record["id"]) not in log.records:
-            log.append(record)
-
-
-def take_in_abandoned(folder: Path, log: RecordLog) -> None:
-    """Take in and remove the parts of a run that was killed. Raises PlannerError when one is still
-    being written.
-    """
-    for path in part_files(folder):
-        RecordLog(path).close()
-    take_in(folder, log)
-    remove_parts(folder)
-
-
-def remove_parts(folder: Path) -> None:
-    """Remove parts that were taken in."""
-    for path in part_files(folder):
-        path.unlink()

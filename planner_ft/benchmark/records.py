@@ -26,27 +26,11 @@ Line = dict[str, Any]
 OTHER = "give --overwrite to start anew, or another --out"
 
 
-def hold(stream: IO[Any], problem: str) -> None:
-    """Lock an open file for this process until it is closed. Raises PlannerError with `problem`
-    when another process holds it.
-    """
-    try:
-        import fcntl
-    except ImportError:  # not on Windows
-        return
-    try:
-        fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        stream.close()
-        raise PlannerError(problem) from None
-
-
 class RecordLog:
-    """An append-only JSONL file of records with `key` and `id`, held by one process at a time.
+    """An append-only JSONL file of records with `key` and `id`, which the processes of a run share.
 
-    Opening drops a last line that a killed run left without its end, reads the records and locks
-    the file. Raises PlannerError when another run holds it, a line is damaged, or it cannot be
-    written.
+    Opening drops a last line that a killed run left without its end, and reads the records. Raises
+    PlannerError when a line is damaged, or the file cannot be written.
     """
 
     def __init__(self, path: Path) -> None:
@@ -57,16 +41,19 @@ class RecordLog:
         except OSError as error:
             reason = f"cannot be written ({error.strerror}); give another --out"
             raise PlannerError(f"{path}: {reason}") from None
-        hold(self.stream, f"{path}: another run is writing here; wait for it or give another --out")
         self._drop_unfinished_line()
         self.records: dict[tuple[str, str], Line] = {}
-        for number, record, problem in iterate_jsonl(path):
+        self.read()
+
+    def read(self) -> None:
+        """Read the records again, those of other processes, too."""
+        for number, record, problem in iterate_jsonl(self.path):
             if not problem and not _is_record(record):
                 problem = "no record of a run (key and id are expected)"
             if problem or record is None:
                 self.close()
                 way = "remove the line, or start with --overwrite"
-                raise PlannerError(f"{path}:{number}: {problem}; {way}")
+                raise PlannerError(f"{self.path}:{number}: {problem}; {way}")
             self.records[record["key"], record["id"]] = record
 
     def of_key(self, key: str) -> dict[str, Line]:
@@ -74,7 +61,7 @@ class RecordLog:
         return {sample: record for (known, sample), record in self.records.items() if known == key}
 
     def append(self, record: Line) -> None:
-        """Write a record as one line and hand it to the operating system."""
+        """Write a record as one line, whole, at the end of the file."""
         self.records[record["key"], record["id"]] = record
         try:
             line = f"{compact_json(record)}\n".encode()
@@ -105,38 +92,17 @@ def _is_record(record: Any) -> bool:
     return isinstance(record, dict) and all(isinstance(record.get(n), str) for n in ("key", "id"))
 
 
-class Tail:
-    """Reads the records of files as they are written, each once."""
-
-    def __init__(self, *paths: Path) -> None:
-        self.offsets = dict.fromkeys(paths, 0)
-
-    def new(self) -> list[tuple[str, Line]]:
-        """(file name, record) of the whole lines that were written since the last call; lines that
-        are no JSON object are passed over.
-        """
-        found = []
-        for path, offset in self.offsets.items():
-            if not path.is_file():
-                continue
-            with open(path, "rb") as stream:
-                stream.seek(offset)
-                text = stream.read()
-            whole = text[: text.rfind(b"\n") + 1]
-            self.offsets[path] += len(whole)
-            for line in whole.splitlines():
-                try:
-                    record = json.loads(line)
-                except ValueError:
-                    continue
-                found += [(path.name, record)] if isinstance(record, dict) else []
-        return found
-
-
 def records_by_key(path: Path) -> dict[str, dict[str, Line]]:
-    """The records of a file by key and id, read without locking."""
+    """The records of a file by key and id; a last line without its end, which may be about to be
+    written, and other lines that are no records are passed over.
+    """
     found: dict[str, dict[str, Line]] = {}
-    for _name, record in Tail(path).new():
+    text = path.read_bytes() if path.is_file() else b""
+    for line in text[: text.rfind(b"\n") + 1].splitlines():
+        try:
+            record = json.loads(line)
+        except ValueError:
+            continue
         if _is_record(record):
             found.setdefault(record["key"], {})[record["id"]] = record
     return found

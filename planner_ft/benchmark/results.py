@@ -6,13 +6,14 @@ from __future__ import annotations
 
 import functools
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any, get_args
 
 from planner_ft.benchmark.baselines import make_baselines
 from planner_ft.benchmark.breakdown import Breakdown, breakdown
-from planner_ft.benchmark.changes import Change, changes
+from planner_ft.benchmark.catalogue import METRIC
+from planner_ft.benchmark.changes import changes
 from planner_ft.benchmark.contrasts import Contrasts, Question, contrasts, system_key
 from planner_ft.benchmark.costs import cost_figures
 from planner_ft.benchmark.samples import BenchData, Sample
@@ -20,6 +21,7 @@ from planner_ft.benchmark.scoring import score_sample
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.benchmark.summary import failure_counts, group_figures, pass_figures, summarise
 from planner_ft.benchmark.verdicts import Comparison
+from planner_ft.support.tables import NOTHING, Cell, RowKind
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -34,8 +36,9 @@ class System:
 
     `label` is its name in tables, `published` its name in the published tables. `with_vocabulary`
     says whether the prompt held the vocabulary, `pretrained` whether the candidate was pretrained
-    on plans of this vocabulary; both are None or False for predictions of unknown origin. `repeat`
-    numbers the answers of a system that was asked several times; a row is of all of them.
+    on plans of this vocabulary; both are None or False for predictions of unknown origin. `seen` are
+    the samples that its adapter was trained on. `repeat` numbers the answers of a system that was
+    asked several times; a row is of all of them.
     """
 
     candidate: str
@@ -46,6 +49,7 @@ class System:
     pretrained: bool = False
     with_vocabulary: bool | None = None
     adapter: str | None = None
+    seen: int = 0
     repeat: int | None = None
     is_baseline: bool = False
 
@@ -56,27 +60,37 @@ class Row:
     empty outputs.
 
     With repeats, `metrics` and `failures` are over all answers to the `n` samples, and `repeats`
-    holds pass^k. `breakdown` has the row taken apart, `costs` are time and memory.
+    holds pass^k. `breakdown` has the row taken apart, `costs` are time and memory. `quoted` figures
+    are published ones, not measured here; `marks` are those of tables by metric.
     """
 
     system: System
     n: int
     metrics: dict[str, Estimate]
-    failures: dict[str, int]
-    finish_reasons: dict[str, int]
+    failures: dict[str, int] = field(default_factory=dict)
+    finish_reasons: dict[str, int] = field(default_factory=dict)
     missing: tuple[str, ...] = ()
     latency_n: int = 0
     repeats: dict[str, Any] | None = None
     breakdown: Breakdown = field(default_factory=dict)
     costs: dict[str, Any] = field(default_factory=dict)
+    quoted: bool = False
+    marks: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def name(self) -> str:
         """Label and configuration, as tables name a row."""
         label = self.system.label
-        return (
-            label if self.system.is_baseline else f"{label}, {heading(self.system.configuration)}"
-        )
+        return label if self.system.is_baseline else f"{label}, {self.configuration}"
+
+    @property
+    def configuration(self) -> str:
+        """The configuration as the published tables write it."""
+        return NOTHING if self.system.is_baseline else heading(self.system.configuration)
+
+    @property
+    def kind(self) -> RowKind:
+        return "published" if self.quoted else "baseline" if self.system.is_baseline else "measured"
 
     @property
     def key(self) -> str:
@@ -86,6 +100,13 @@ class Row:
     def figure(self, metric: str) -> Estimate:
         """A metric, without a value where it was not measured."""
         return self.metrics.get(metric, Estimate(None))
+
+    def cells(self, metrics: Iterable[str]) -> list[Cell]:
+        """The figures and marks of these metrics, as tables show them."""
+        return [
+            METRIC[one].cell(self.figure(one), self.marks.get(one, ""), published=self.quoted)
+            for one in metrics
+        ]
 
     def to_json(self) -> Record:
         system = asdict(self.system)
@@ -151,7 +172,7 @@ class Results:
             "level": self.level,
             "data": self.data,
             "rows": [row.to_json() for row in self.rows],
-            "changes": [change.to_json() for change in self.changes],
+            "changes": self.changes,
             "groups": self.groups,
             "comparisons": {
                 question: [one.to_json() for one in found]
@@ -199,7 +220,7 @@ class Results:
         return contrasts(self.scores, self.baseline_scores, self.seed)
 
     @functools.cached_property
-    def changes(self) -> list[Change]:
+    def changes(self) -> list[Record]:
         """Differences between each strength and free decoding, paired by sample."""
         return changes(self.scores, self.seed)
 

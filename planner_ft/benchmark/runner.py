@@ -14,16 +14,8 @@ from typing import Any
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.plan import Job, Plan, make_plan
 from planner_ft.benchmark.planning_time import time_planning
-from planner_ft.benchmark.ranks import ALONE, Ranks, remove_parts, take_in, take_in_abandoned
-from planner_ft.benchmark.records import (
-    Line,
-    RecordLog,
-    add_costs,
-    begin_run,
-    measured,
-    read_run,
-    records_by_key,
-)
+from planner_ft.benchmark.ranks import ALONE, Ranks
+from planner_ft.benchmark.records import Line, RecordLog, add_costs, begin_run, measured, read_run
 from planner_ft.benchmark.results import Results, assemble
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
@@ -90,21 +82,17 @@ def run_bench(
     PlannerError.
     """
     out = settings.folder
-    if not (settings.resume or settings.overwrite):
-        hint = "give --resume to go on, --overwrite to start anew, or another --out"
-        folder.check_folder(out, folder.ALL, hint)
-    folder.check_writable(out)
+    hint = "give --resume to go on, --overwrite to start anew, or another --out"
+    folder.check_folder(out, () if settings.resume or settings.overwrite else folder.ALL, hint)
     plan = make_plan(ranks.settings(settings))
     started = time.time()
     if settings.overwrite:
         folder.clear(out)
-        remove_parts(out)
     with (
         _nothing_left(out),
         RecordLog(out / folder.PREDICTIONS) as predictions,
         RecordLog(out / folder.LATENCY) as latencies,
     ):
-        take_in_abandoned(out, predictions)
         begin_run(plan, predictions)
         reused = len(predictions.records)
         ranks.wait()
@@ -116,7 +104,6 @@ def run_bench(
             if settings.planning_samples:
                 add_costs(out, jobs[0].candidate.name, time_planning(plan, jobs, progress))
             ranks.wait()
-        remove_parts(out)
         took = {"seconds": round(time.time() - started, 1), "reused_predictions": reused}
         results = _results(plan, predictions, latencies, took)
         folder.write_results(out, results)
@@ -142,43 +129,43 @@ def help_bench(settings: BenchSettings, ranks: Ranks) -> None:
     PlannerError.
     """
     plan = make_plan(ranks.settings(settings))
-    # The first process has refused or cleared the folder and taken in what lay there before anybody
-    # goes on.
+    # The first process has refused or cleared the folder before anybody goes on.
     ranks.wait()
-    done = records_by_key(settings.folder / folder.PREDICTIONS)
-    ranks.wait()
-    with ranks.log(settings.folder) as own:
-        run = _Run(plan, ranks, own, _silent)
+    with RecordLog(settings.folder / folder.PREDICTIONS) as predictions:
+        ranks.wait()
         for jobs in plan.by_candidate():
-            missing = {job.name: run.share(done.get(job.key, {})) for job in jobs}
-            if any(missing.values()):
-                with run.source(jobs) as source:
-                    for job in jobs:
-                        run.answer(job, missing[job.name], source)
-            ranks.wait()
-            # Timing wants a quiet machine: only the first process goes on until here.
+            _run_candidate(_Run(plan, ranks, predictions, _silent), jobs, None)
             ranks.wait()
 
 
-def _run_candidate(run: _Run, jobs: list[Job], latencies: RecordLog) -> None:
-    """Make the missing answers of one candidate; its model is loaded once, and only if need be."""
+def _run_candidate(run: _Run, jobs: list[Job], latencies: RecordLog | None) -> None:
+    """Make this process's share of the missing answers of one candidate, and time queries if there
+    is a log for them; the model is loaded once, and only if need be.
+    """
     timed = run.plan.data.samples[: run.plan.settings.latency_samples]
     missing = {job.name: run.share(run.predictions.of_key(job.key)) for job in jobs}
     # The repeats of a system take the time of the first.
     first = [job for job in jobs if job.sampling is None or job.sampling.repeat == 1]
-    untimed = {job.name: _without(timed, latencies.of_key(job.key)) for job in first}
-    if not any(missing.values()) and not any(untimed.values()):
+    untimed = {
+        job.name: _without(timed, latencies.of_key(job.key))
+        for job in first
+        if latencies is not None
+    }
+    with contextlib.ExitStack() as loaded:
+        if needed := any(missing.values()) or any(untimed.values()):
+            run.progress(f"{jobs[0].candidate.name}: loading", 0, 0)
+            source = loaded.enter_context(run.source(jobs))
+            for job in jobs:
+                run.answer(job, missing[job.name], source)
+        if latencies is None:
+            loaded.close()
+        # Timing wants a quiet machine: the others have answered, and wait until it is over.
         run.ranks.wait()
-        return
-    run.progress(f"{jobs[0].candidate.name}: loading", 0, 0)
-    with run.source(jobs) as source:
-        for job in jobs:
-            run.answer(job, missing[job.name], source)
-        run.ranks.wait()
-        take_in(run.plan.settings.folder, run.predictions)
-        for job in first:
-            run.time(job, untimed[job.name], len(timed), source, latencies)
-        add_costs(run.plan.settings.folder, jobs[0].candidate.name, source.costs())
+        run.predictions.read()
+        if needed and latencies is not None:
+            for job in first:
+                run.time(job, untimed[job.name], len(timed), source, latencies)
+            add_costs(run.plan.settings.folder, jobs[0].candidate.name, source.costs())
 
 
 def _without(samples: Sequence[Sample], done: Mapping[str, Line]) -> list[Sample]:

@@ -125,9 +125,9 @@ def _problems(record: Any, level: Level, vocabulary: Vocabulary) -> Iterator[str
             yield f"expected names {name!r}, which {where}"
 
 
-def default_data(level: Level) -> Path:
+def default_data(level: Level, vocabulary: Vocabulary) -> Path:
     """The test split that `plannerft gen-data` writes. Raises PlannerError when it is not there."""
-    path = Path("data") / level / "test.jsonl"
+    path = vocabulary.data / level / "test.jsonl"
     if not path.is_file():
         way = f"write it with `plannerft gen-data --level {level}`, or give --data"
         raise PlannerError(f"{path}: no such file; {way}")

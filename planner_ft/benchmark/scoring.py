@@ -28,11 +28,7 @@ from planner_ft.benchmark.metrics.names import (
     name_sequence,
     set_counts,
 )
-from planner_ft.benchmark.metrics.parameters import (
-    agreement_by_type,
-    parameter_counts,
-    right_entries,
-)
+from planner_ft.benchmark.metrics.parameters import Parameters, compare_parameters
 from planner_ft.benchmark.samples import Sample
 from planner_ft.facts import read_input
 from planner_ft.vocabulary import Vocabulary
@@ -135,7 +131,8 @@ def score_sample(
     judged, valid = (level, answer.plan, answer.expected, vocabulary), answer.schema_valid
     failure = failure_kind(*judged, valid=valid)
     logic, details = plan_logic(answer)
-    values = _published(answer) | _names(answer) | _parameters(answer) | logic
+    found = compare_parameters(level, answer.alignment, vocabulary)
+    values = _published(answer) | _names(answer) | _parameters(found) | logic
     values |= {
         "whole_plan": failure is None,
         "whole_plan_unordered": failure is None or whole_plan_unordered(*judged, valid=valid),
@@ -143,9 +140,8 @@ def score_sample(
         "latency_s": timed.get("latency_s"),
         "forward_passes": timed.get("forward_passes"),
     }
-    types = agreement_by_type(level, answer.alignment, vocabulary)
     named = sample.id, sample.family, sample.group
-    return SampleScore(*named, failure, values, answer.alignment, types, details)
+    return SampleScore(*named, failure, values, answer.alignment, found.types, details)
 
 
 def _published(answer: Answer) -> Values:
@@ -192,15 +188,13 @@ def _names(answer: Answer) -> Values:
     }
 
 
-def _parameters(answer: Answer) -> Values:
+def _parameters(found: Parameters) -> Values:
     """Parameters of aligned entries: all right, keys and key-value pairs; these also over the whole
     plan.
     """
-    agreement = right_entries(answer.level, answer.alignment, answer.vocabulary)
-    counts = parameter_counts(answer.level, answer.alignment, answer.vocabulary)
-    values: Values = {"parameters_right": agreement.right, "parameters_matched": agreement.matched}
-    for name, count in counts._asdict().items():
-        values |= _pooled(f"parameter_{name}", count)
+    values: Values = {"parameters_right": found.right, "parameters_matched": found.matched}
+    for name in ("keys", "values", "keys_overall", "values_overall"):
+        values |= _pooled(f"parameter_{name}", getattr(found, name))
     return values
 
 

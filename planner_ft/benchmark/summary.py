@@ -17,6 +17,7 @@ from planner_ft.benchmark.statistics import (
     clustered_rate,
 )
 
+OF_GROUPS = ("f1", "exact_sequence", "parameters", "whole_plan", "strict_valid")
 Scores = Sequence[SampleScore]
 Term = tuple[float, float, str]
 """Numerator, denominator and family."""
@@ -43,16 +44,8 @@ def _terms(metric: Metric, scores: Scores) -> list[Term]:
         values = [float(score.values[metric.worst] or 0) for score in scores]
         ids, families = [score.id for score in scores], [score.family for score in scores]
         return [(one, 1.0, family) for family, one in worst_cases(values, ids, families).items()]
-    top, below = metric.over if metric.kind == "ratio" else (metric.name, "")
-    return [
-        (
-            float(score.values[top] or 0),
-            float(score.values[below] or 0) if below else 1.0,
-            score.family,
-        )
-        for score in scores
-        if score.values.get(below or top) is not None
-    ]
+    found = ((metric.terms(score.values), score.family) for score in scores)
+    return [(*terms, family) for terms, family in found if terms]
 
 
 def _estimate(metric: Metric, terms: Sequence[Term], seed: int) -> Estimate:
@@ -92,24 +85,17 @@ def group_figures(scores: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     for score in scores:
         if score.get("group"):
             key = score["candidate"], score["configuration"], score["group"]
-            found.setdefault(key, []).append(score)
-    lines = []
-    for key, members in found.items():
-        n = len(members)
-        matched = sum(score["parameters_matched"] for score in members)
-        right = sum(score["parameters_right"] for score in members)
-        lines.append(
-            {
-                **dict(zip(("candidate", "configuration", "group"), key, strict=True)),
-                "n": n,
-                "f1": sum(score["f1"] for score in members) / n,
-                "exact_sequence": sum(score["exact_sequence"] for score in members) / n,
-                "parameters": right / matched if matched else None,
-                "whole_plan": sum(score["failure"] is None for score in members) / n,
-                "strict_valid": sum(score["strict_valid"] for score in members) / n,
-            }
-        )
-    return lines
+            # Scores of earlier versions do not say whether the whole plan is right.
+            right = score["failure"] is None
+            found.setdefault(key, []).append({**score, "whole_plan": right})
+    return [
+        {
+            **dict(zip(("candidate", "configuration", "group"), key, strict=True)),
+            "n": len(members),
+            **{name: METRIC[name].value(members) for name in OF_GROUPS},
+        }
+        for key, members in found.items()
+    ]
 
 
 def all_of(right: int, n: int, k: int) -> float:

@@ -11,7 +11,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.benchmark.catalogue import MAIN, METRIC, RIGHT, SECTIONS
-from planner_ft.benchmark.changes import Change
 from planner_ft.benchmark.contrasts import DECISIVE, Contrasts, baseline_name
 from planner_ft.benchmark.costs import QUANTILES
 from planner_ft.benchmark.layout import (
@@ -24,6 +23,7 @@ from planner_ft.benchmark.layout import (
 )
 from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
 from planner_ft.benchmark.results import Results, Row
+from planner_ft.benchmark.statistics import Estimate
 from planner_ft.benchmark.verdicts import MARKS, Comparison, difference_cell, verdict
 from planner_ft.support.resources import memory_size
 from planner_ft.support.tables import (
@@ -236,22 +236,24 @@ def repeat_tables(figures: Mapping[str, Figures]) -> Iterator[Table]:
     yield Table("repeats", "", caption, corner, tuple(heads), tuple(body))
 
 
-def change_tables(changes: Sequence[Change]) -> Iterator[Table]:
+def change_tables(changes: Sequence[Figures]) -> Iterator[Table]:
     """Differences by enforcing, and the outcomes that changed."""
     body, moved = [], []
     for change in changes:
-        name = f"{change.candidate}, {change.before} → {change.after}"
-        tests = zip((change.f1, change.whole_plan), change.p_adjusted, strict=True)
-        differences = [difference_cell(one, MARKS[verdict(one, p)]) for one, p in tests]
+        name = f"{change['candidate']}, {change['before']} → {change['after']}"
+        differences = []
+        for metric, p in zip(("f1", "whole_plan"), change["p_adjusted"], strict=True):
+            found = Estimate(**change[metric])
+            differences.append(difference_cell(metric, found, MARKS[verdict(metric, found, p)]))
         ratios = [
-            NOTHING if ratio is None else f"× {ratio:.2f}"
-            for ratio in (change.seconds, change.forward_passes)
+            NOTHING if change[key] is None else f"× {change[key]:.2f}"
+            for key in ("seconds", "forward_passes")
         ]
-        body.append(row(name, str(change.n), *differences, *ratios))
+        body.append(row(name, str(change["n"]), *differences, *ratios))
         moved += [
-            row(name, old, new, str(count))
-            for (old, new), count in change.outcomes.items()
-            if old != new
+            row(name, one["before"], one["after"], str(one["n"]))
+            for one in change["outcomes"]
+            if one["before"] != one["after"]
         ]
     if body:
         heads = ("n", "F1 (difference)", "Whole plan right (difference, points)")

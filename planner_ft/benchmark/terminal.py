@@ -10,8 +10,8 @@ from rich.text import Text
 
 from planner_ft.benchmark import published
 from planner_ft.benchmark.catalogue import MAIN, METRIC, RIGHT
-from planner_ft.benchmark.layout import Line, known_metrics, lines, notes
-from planner_ft.benchmark.results import Results
+from planner_ft.benchmark.layout import known_metrics, lines, notes, trained_on
+from planner_ft.benchmark.results import Results, Row
 from planner_ft.support.tables import Cell, Table, TableRow, row, terminal_table
 
 
@@ -33,14 +33,16 @@ def print_results(results: Results, console: Console) -> None:
         console.print(Text(note, style="dim"))
 
 
-def _narrow(names: Iterable[str], shown: Sequence[Line]) -> Any:
+def _narrow(names: Iterable[str], shown: Sequence[Row]) -> Any:
     """A line per configuration below its model, intervals without decimals, for 80 columns."""
     metrics = [METRIC[name] for name in known_metrics(names, shown)]
     rows: list[TableRow] = []
     for line in shown:
-        if line.kind != "baseline" and line.model not in [one.heading for one in rows]:
-            rows.append(row(line.model, kind="section"))
-        label = line.model if line.kind == "baseline" else f"  {line.configuration}"
+        label = line.system.label
+        if line.kind != "baseline":
+            if label not in [one.heading for one in rows]:
+                rows.append(row(label, kind="section"))
+            label = f"  {line.configuration}"
         cells = zip(metrics, line.cells(one.name for one in metrics), strict=True)
         short = [_short(cell, one.decimals if one.scale == 1 else 0) for one, cell in cells]
         rows.append(row(label, *short, kind=line.kind))
@@ -55,9 +57,11 @@ def _short(cell: Cell, decimals: int) -> Cell:
     return Cell(cell.text, f"{low}–{high}", cell.mark)
 
 
-def print_missing(results: Results, console: Console) -> None:
-    """Name the samples without a prediction."""
+def print_warnings(results: Results, console: Console) -> None:
+    """Name the samples without a prediction, and adapters that were trained on the samples."""
     for one in results.rows:
+        if one.system.seen:
+            console.print(Text(f"warning: {trained_on(one)}"), soft_wrap=True)
         if one.missing:
             missing = f"no prediction for {', '.join(one.missing)}; counted as empty outputs"
             console.print(Text(f"{one.name}: {missing}"), soft_wrap=True)

@@ -48,7 +48,7 @@ class Comparison:
 
     @property
     def verdict(self) -> Verdict:
-        return verdict(self.paired, self.p_adjusted)
+        return verdict(self.paired.metric, self.paired.difference, self.p_adjusted)
 
     @property
     def mark(self) -> str:
@@ -56,7 +56,7 @@ class Comparison:
 
     def difference(self) -> Cell:
         """The difference with its interval and mark."""
-        return difference_cell(self.paired, self.mark)
+        return difference_cell(self.paired.metric, self.paired.difference, self.mark)
 
     def to_json(self) -> dict[str, Any]:
         """As results.json and comparison.json have it."""
@@ -81,11 +81,11 @@ class Comparison:
         return cls(record["first"], record["second"], found, record["p_adjusted"])
 
 
-def verdict(paired: Paired, p_adjusted: float | None) -> Verdict:
+def verdict(name: str, difference: Estimate, p_adjusted: float | None) -> Verdict:
     """A difference is real where p, adjusted for the table, is under 0.05; equal is a difference
     that is known to be less than MARGIN. Everything else is not told apart.
     """
-    difference, metric = paired.difference, METRIC.get(paired.metric)
+    metric = METRIC.get(name)
     if difference.value is None or p_adjusted is None:
         return "not compared"
     better = metric.better if metric else "↑"
@@ -110,9 +110,9 @@ def p_text(p: float | None) -> str:
     return NOTHING if p is None else "< 0.001" if p < 0.001 else f"{p:.3f}"
 
 
-def difference_cell(paired: Paired, mark: str = "") -> Cell:
+def difference_cell(name: str, found: Estimate, mark: str = "") -> Cell:
     """A difference with its sign, interval and mark, in the unit of its metric."""
-    metric, found = METRIC[paired.metric], paired.difference
+    metric = METRIC[name]
     decimals = 3 if metric.scale == 1 and metric.fraction else metric.decimals
     bounds = found.value, found.low, found.high
     return figure(*bounds, scale=metric.scale, decimals=decimals, mark=mark, sign=True)

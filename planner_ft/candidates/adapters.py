@@ -16,11 +16,13 @@ from planner_ft.candidates.location import (
 )
 from planner_ft.candidates.registry import Candidate, Dimensions
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_json
+from planner_ft.support.files import read_json, read_text
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
 CONFIG, WEIGHTS, MANIFEST = "adapter_config.json", "adapter_model.safetensors", "manifest.json"
+SEEN = "samples.txt"
+"""Digests of the inputs of training and validation (`planner_ft.data.leakage.input_digest`)."""
 ADAPTERS = Path("adapters")
 """Where `plannerft train` writes adapters: ADAPTERS/CANDIDATE/LEVEL."""
 PACKAGE = Path(planner_ft.__file__).resolve().parent
@@ -63,6 +65,13 @@ def find_adapter(
         if vocabulary is None or trained_with in (None, vocabulary.sha256):
             return folder
     return None
+
+
+def seen_in_training(folder: Path) -> set[str]:
+    """SHA-256 of an adapter's data files and the digests of their inputs, as far as it says."""
+    inputs = _manifest(folder).get("inputs", {})
+    files = {str(one.get("sha256")) for one in inputs.values() if isinstance(one, dict)}
+    return files | set(read_text(folder / SEEN).split() if (folder / SEEN).is_file() else ())
 
 
 def adapter_record(candidate: Candidate, level: Level, vocabulary: Vocabulary) -> dict[str, Any]:
@@ -132,7 +141,7 @@ def _manifest(folder: Path) -> dict[str, Any]:
     """Our manifest; empty for an adapter that another program has saved."""
     if not (folder / MANIFEST).is_file():
         return {}
-    manifest, parts = read_json(folder / MANIFEST), ("base", "vocabulary", "outputs")
+    manifest, parts = read_json(folder / MANIFEST), ("base", "vocabulary", "outputs", "inputs")
     if isinstance(manifest, dict) and all(isinstance(manifest.get(p, {}), dict) for p in parts):
         return manifest
     raise PlannerError(

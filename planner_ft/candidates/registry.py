@@ -107,7 +107,7 @@ class Candidate:
     """A language model that can be prompted, fine-tuned and benchmarked.
 
     `folder` is where it lies on this machine, None when it is not here. `vocabulary` names the
-    vocabulary that it was pretrained on.
+    vocabulary that it was pretrained on; `adapter` holds there, `other_vocabulary` elsewhere.
     """
 
     name: str
@@ -120,6 +120,7 @@ class Candidate:
     vocabulary: str | None = None
     dimensions: Dimensions | None = None
     adapter: dict[Level, AdapterDefaults] = field(default_factory=dict)
+    other_vocabulary: dict[Level, AdapterDefaults] = field(default_factory=dict)
     folder: Path | None = None
     source: Source | None = None
     is_standin: bool = False
@@ -149,9 +150,10 @@ class Candidate:
         below = self.folder.is_relative_to(Path.cwd())
         return str(self.folder.relative_to(Path.cwd()) if below else self.folder)
 
-    def adapter_defaults(self, level: Level) -> AdapterDefaults:
-        """Its deviations from the published adapter settings at `level`."""
-        return self.adapter.get(level, AdapterDefaults())
+    def adapter_defaults(self, level: Level, vocabulary: Vocabulary) -> AdapterDefaults:
+        """Its deviations from the published adapter settings at `level`, for this vocabulary."""
+        other = self.vocabulary is not None and not self.knows(vocabulary)
+        return (self.other_vocabulary if other else self.adapter).get(level, AdapterDefaults())
 
     def knows(self, vocabulary: Vocabulary) -> bool:
         """Whether it was pretrained on exactly this vocabulary: no prompt needs to list it."""
@@ -200,10 +202,11 @@ def _unknown(text: str) -> str:
 def _registered() -> tuple[Candidate, ...]:
     found = []
     for entry in tomllib.loads(read_text(REGISTRY))["candidate"]:
-        sizes, levels = entry.pop("dimensions", None), entry.pop("adapter", {}).items()
-        adapter = {level: AdapterDefaults(**settings) for level, settings in levels}
-        dimensions = Dimensions(**sizes) if sizes else None
-        found.append(Candidate(**entry, dimensions=dimensions, adapter=adapter))
+        sizes = entry.pop("dimensions", None)
+        for key in {"adapter", "other_vocabulary"} & entry.keys():
+            levels = entry[key].items()
+            entry[key] = {level: AdapterDefaults(**settings) for level, settings in levels}
+        found.append(Candidate(**entry, dimensions=Dimensions(**sizes) if sizes else None))
     return tuple(found)
 
 

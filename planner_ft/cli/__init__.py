@@ -6,6 +6,7 @@ import os
 import sys
 
 from planner_ft.support.errors import GateError, IncompleteError, PlannerError
+from planner_ft.support.terminal import show
 
 
 def main() -> None:
@@ -23,7 +24,7 @@ def main() -> None:
     except PlannerError as error:
         if debug:
             raise
-        print(f"plannerft: {error}", file=sys.stderr)
+        show(f"plannerft: {error}", error=True)
         sys.exit(1 if isinstance(error, GateError | IncompleteError) else 2)
     except BrokenPipeError:
         # The reader (head, less) closed the pipe: nothing is wrong.

@@ -9,11 +9,12 @@ import typer
 from planner_ft.cli.bench import bench, score
 from planner_ft.cli.candidates import candidates, doctor
 from planner_ft.cli.compare import compare, report
-from planner_ft.cli.data import gen_data, validate, vocabulary
+from planner_ft.cli.data import gen_data, validate, vehicle, vocabulary
 from planner_ft.cli.export import export
 from planner_ft.cli.plan import plan
 from planner_ft.cli.review import review, verify
 from planner_ft.cli.train import train
+from planner_ft.support.terminal import show
 
 app = typer.Typer(
     name="plannerft",
@@ -35,7 +36,7 @@ def _version(value: bool) -> None:
     if value:
         import planner_ft
 
-        print(f"planner_ft {planner_ft.__version__}")
+        show(f"planner_ft {planner_ft.__version__}")
         raise typer.Exit
 
 
@@ -50,5 +51,16 @@ def options(version: Annotated[bool, VERSION] = False) -> None:
 
 
 MEASURING = (candidates, train, bench, score, compare, report)
-for command in (plan, review, verify, gen_data, validate, *MEASURING, export, vocabulary, doctor):
+for command in (
+    plan,
+    review,
+    verify,
+    gen_data,
+    validate,
+    *MEASURING,
+    export,
+    vocabulary,
+    vehicle,
+    doctor,
+):
     app.command(command.__name__.replace("_", "-"))(command)

@@ -6,12 +6,11 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import typer
-
 from planner_ft.cli.options import command, given, typed
 from planner_ft.cli.progress import interruptible, resume_command, status
 from planner_ft.support.errors import IncompleteError, PlannerError
 from planner_ft.support.files import alone
+from planner_ft.support.terminal import show, terminal
 
 if TYPE_CHECKING:
     from planner_ft.benchmark.results import Results
@@ -82,8 +81,7 @@ def bench(
         run_both(data, out or Path("eval/runs/both"), named, device, overwrite=overwrite)
     elif suite is not None:
         _check_file_alone("suite", suite, named | served, ("limit", "latency_samples"))
-        flags = generation | named | {"processes": processes}
-        _run_suite(suite, out, flags, rerun, report=not no_report)
+        _run_suite(suite, out, generation | named, rerun, processes, report=not no_report)
     elif gate is not None:
         _check_file_alone("gate", gate, named | served)
         _run_gate(gate, out, generation | rerun)
@@ -118,7 +116,9 @@ def score(
             results = score_run(run, data, seed=seed)
         elif level is not None and predictions is not None and run is None:
             checked, definition = check_level(level), load_vocabulary(vocabulary)
-            samples = load_bench_data(data or default_data(checked), checked, definition, limit)
+            samples = load_bench_data(
+                data or default_data(checked, definition), checked, definition, limit
+            )
             results = score_predictions(predictions, samples, definition, seed=seed, name=name)
         else:
             ways = "score needs either --level and --predictions, or --run alone"
@@ -200,12 +200,18 @@ def _check_file_alone(
 
 
 def _run_suite(
-    path: Path, out: Path | None, flags: dict[str, Any], rerun: dict[str, bool], *, report: bool
+    path: Path,
+    out: Path | None,
+    changes: dict[str, Any],
+    rerun: dict[str, bool],
+    processes: int,
+    *,
+    report: bool,
 ) -> None:
     """Run a suite, and exit with 1 when a candidate could not be measured."""
     from planner_ft.benchmark.suite.definition import load_suite
     from planner_ft.benchmark.suite.run import run_suite
-    from planner_ft.benchmark.suite.units import Flags
+    from planner_ft.benchmark.terminal import print_warnings
 
     if all(rerun.values()):
         problem = "--resume keeps former results and --overwrite removes them"
@@ -214,21 +220,26 @@ def _run_suite(
     folder = out or Path("eval/runs") / path.stem
     with (
         alone(folder, "--out", "a suite"),
-        status(lambda: f"go on with: {resume_command()}") as show,
+        status(lambda: f"go on with: {resume_command()}") as step,
     ):
 
         def shown(state: State) -> None:
-            show(state.unit, _state_line(state))
+            step(state.unit, _state_line(state))
 
-        parts = run_suite(suite, folder, Flags(**flags), shown, **rerun)
-    typer.echo((folder / "table.md").read_text(encoding="utf-8"))
+        parts = run_suite(suite, folder, changes, shown, processes=processes, **rerun)
+    show((folder / "table.md").read_text(encoding="utf-8"))
+    for part in parts:
+        print_warnings(part.results, terminal(stderr=True))
     names = ", ".join(part.part.name for part in parts)
     files = "table.md, table.csv, table.tex, results.json"
-    typer.echo(f"{folder}/: {files}; a folder for each of {names}")
+    show(f"{folder}/: {files}; a folder for each of {names}")
     if report:
         _report(folder)
-    failures = [(part.part.name, entry) for part in parts for entry in part.failed]
-    failed = [f"{row.candidate} {row.configuration} ({name})" for name, row in failures]
+    failed = [
+        f"{entry['candidate']} {entry['configuration']} ({part.part.name})"
+        for part in parts
+        for entry in part.failed
+    ]
     if failed:
         problem = f"{len(failed)} of the suite could not be measured: {', '.join(failed)}"
         raise IncompleteError(f"{problem}; the reasons are in {folder / 'table.md'}")
@@ -253,7 +264,7 @@ def _run_gate(path: Path, out: Path | None, common: dict[str, Any]) -> None:
             interruptible((lambda: _kept(target)) if out else None) as progress,
         ):
             run_gate(gate, target, progress, lambda results: _show(results, out), **common)
-    typer.echo(f"{path}: passed ({', '.join(threshold.metric for threshold in gate.thresholds)})")
+    show(f"{path}: passed ({', '.join(threshold.metric for threshold in gate.thresholds)})")
 
 
 def _kept(folder: Path) -> str:
@@ -266,17 +277,15 @@ def _report(folder: Path) -> None:
     """Write the report of a finished run or suite beside its results."""
     from planner_ft.report.write import report_beside
 
-    typer.echo(report_beside(folder))
+    show(report_beside(folder))
 
 
 def _show(results: Results, out: Path | None) -> None:
     """Print the table, the samples without a prediction and the names of the files."""
-    from rich.console import Console
-
     from planner_ft.benchmark.folder import TABLES
-    from planner_ft.benchmark.terminal import print_missing, print_results
+    from planner_ft.benchmark.terminal import print_results, print_warnings
 
-    print_results(results, Console())
-    print_missing(results, Console(stderr=True))
+    print_results(results, terminal())
+    print_warnings(results, terminal(stderr=True))
     if out is not None:
-        typer.echo(f"\n{out}/: results.json, scores.jsonl, {', '.join(TABLES)}")
+        show(f"\n{out}/: results.json, scores.jsonl, {', '.join(TABLES)}")

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import typer
-
 from planner_ft.cli.options import command
+from planner_ft.support.terminal import show, terminal
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -36,11 +35,10 @@ def candidates(names: list[str] | None = None, json: bool = False) -> None:
     chosen = [resolve_candidate(name) for name in names] if names else all_candidates()
     rows = [describe(candidate) for candidate in chosen]
     if json:
-        typer.echo(indented_json(rows), nl=False)
+        show(indented_json(rows), end="")
         return
-    from rich.console import Console
 
-    console = Console(highlight=False, soft_wrap=True)
+    console = terminal(soft_wrap=True)
     console.print(_table(rows), soft_wrap=False)
     console.print(ESTIMATES, soft_wrap=False)
     missing = [row for row in rows if row["command"]]
@@ -63,15 +61,15 @@ def doctor(json: bool = False) -> None:
 
     found = diagnose()
     if json:
-        typer.echo(indented_json({**found.sections, "warnings": found.warnings}), nl=False)
+        show(indented_json({**found.sections, "warnings": found.warnings}), end="")
         return
     for title, entries in found.sections.items():
-        print(title)
+        show(title)
         for name, value in entries.items():
-            print(f"  {name}: {_text(value)}")
-    print(f"warnings: {len(found.warnings) or 'none'}")
+            show(f"  {name}: {_text(value)}")
+    show(f"warnings: {len(found.warnings) or 'none'}")
     for warning in found.warnings:
-        print(f"  - {warning}")
+        show(f"  - {warning}")
 
 
 def _text(value: Any) -> str:

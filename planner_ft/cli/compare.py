@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import typer
-
 from planner_ft.cli.options import command
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.terminal import show, terminal
 
 
 @command
@@ -23,8 +22,6 @@ def compare(
     seed: int = 0,
 ) -> None:
     """Compare rows of finished runs."""
-    from rich.console import Console
-
     from planner_ft.benchmark.compare import (
         DEFAULT_METRICS,
         CompareSettings,
@@ -48,9 +45,9 @@ def compare(
             write_text(out / name, text)
         write_json(out / "comparison.json", report.to_json())
     if json:
-        typer.echo(indented_json(report.to_json()), nl=False)
+        show(indented_json(report.to_json()), end="")
     else:
-        print_report(report, Console())
+        print_report(report, terminal())
 
 
 @command
@@ -68,7 +65,7 @@ def report(
         from planner_ft.report.card import write_card
 
         count = write_card(card, runs)
-        typer.echo(f"{card / 'README.md'}: {count} measured figures")
+        show(f"{card / 'README.md'}: {count} measured figures")
         return
     if out is None and len(runs) > 1:
         raise PlannerError("--out is missing: with several runs, name a folder for the report")
@@ -79,4 +76,4 @@ def report(
         runs, target, data=samples, overwrite=overwrite, title=title, pictures=pictures
     )
     counts = [sum(path.parent.name == name for path in written) for name in ("figures", "tables")]
-    typer.echo(f"{target}/: report.html, figures/ ({counts[0]} files), tables/ ({counts[1]} files)")
+    show(f"{target}/: report.html, figures/ ({counts[0]} files), tables/ ({counts[1]} files)")

@@ -1,4 +1,4 @@
-"""`plannerft gen-data`, `plannerft validate` and `plannerft vocabulary`."""
+"""`plannerft gen-data`, `validate`, `vocabulary` and `vehicle`."""
 
 from __future__ import annotations
 
@@ -11,12 +11,13 @@ from planner_ft.cli.options import command
 from planner_ft.cli.progress import interruptible
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import alone
+from planner_ft.support.terminal import show, terminal
 
 
 @command
 def gen_data(
     level: str = "all",
-    out: Path = Path("data"),
+    out: Path | None = None,
     seed: int = 0,
     train: int | None = None,
     validation: int | None = None,
@@ -30,7 +31,9 @@ def gen_data(
     """Make the training data."""
     from planner_ft.data.generate import GenerationSettings, generate
     from planner_ft.prompts.text import chat_messages
+    from planner_ft.vocabulary import load_vocabulary
 
+    out = out or load_vocabulary(vocabulary).data
     settings = GenerationSettings(
         level, out, seed, train, validation, test, vocabulary, source, overwrite, chat, synthetic
     )
@@ -38,10 +41,10 @@ def gen_data(
         results = generate(settings, progress, chat_messages)
     for result in results:
         counts = ", ".join(f"{split} {count}" for split, count in result.counts.items())
-        typer.echo(f"{result.folder}: {counts}{'' if result.written else ' (up to date)'}")
+        show(f"{result.folder}: {counts}{'' if result.written else ' (up to date)'}")
         total = sum(result.counts.values())
         stages = (_stage(stage, seconds, total) for stage, seconds in result.seconds.items())
-        typer.echo(f"  {', '.join(stages)}")
+        show(f"  {', '.join(stages)}")
 
 
 def _stage(stage: str, seconds: float, count: int) -> str:
@@ -65,16 +68,16 @@ def validate(
         try:
             report = validate_file(path, definition, checked, complete=complete)
         except PlannerError as error:
-            typer.echo(f"plannerft: {error}", err=True)
+            show(f"plannerft: {error}", error=True)
             status = 2
             continue
         for problem in report.problems:
-            typer.echo(str(problem))
+            show(str(problem))
         counts = report.counts.items()
         held = [f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in counts]
         number = len(report.problems)
         found = f"{number or 'no'} problem{'' if number == 1 else 's'}"
-        typer.echo(f"{path}: {', '.join(held) or 'nothing'}: {found}", err=True)
+        show(f"{path}: {', '.join(held) or 'nothing'}: {found}", error=True)
         status = max(status, 1 if report.problems else 0)
     raise typer.Exit(status)
 
@@ -99,24 +102,40 @@ def vocabulary(
         stale += [str(page)] if stale_page(page, definition) else []
         again = f"plannerft vocabulary --schemas {folder} --docs {page}"
         for name in stale:
-            typer.echo(f"{name}: stale; write it again with {again}")
+            show(f"{name}: stale; write it again with {again}")
         raise typer.Exit(1 if stale else 0)
     if schemas is not None:
         for path in write_schemas(schemas, definition):
-            typer.echo(str(path))
+            show(str(path))
     text = documentation_page(definition)
     if docs is not None:
         write_text(docs, text)
-        typer.echo(str(docs))
+        show(str(docs))
     elif schemas is None:
         _show_page(text)
 
 
+@command
+def vehicle(action: str, name: str, out: Path | None = None) -> None:
+    """Begin a vehicle of one's own, or check it."""
+    from planner_ft.document.own_vehicle import check_vehicle, new_vehicle
+
+    if action == "new":
+        for path in new_vehicle(name, out):
+            show(str(path))
+    elif action == "check":
+        parts = check_vehicle(name)
+        for part in parts:
+            show(str(part))
+        raise typer.Exit(any(part.state == "wrong" for part in parts))
+    else:
+        raise PlannerError(f"plannerft vehicle {action}: must be new or check")
+
+
 def _show_page(page: str) -> None:
     if not sys.stdout.isatty():
-        typer.echo(page, nl=False)
+        show(page, end="")
         return
-    from rich.console import Console
     from rich.markdown import Markdown
 
-    Console().print(Markdown(page.replace("<br>", "; ")))
+    terminal().print(Markdown(page.replace("<br>", "; ")))

@@ -10,6 +10,7 @@ import typer
 from planner_ft.cli.options import command, typed
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import alone
+from planner_ft.support.terminal import show
 
 PLAN_FLAGS = ("format", "origin", "log", "draft")
 MODEL_FLAGS = ("candidate", "merge", "level", "adapter", "gguf", "outtype", "checks", "check_data")
@@ -81,23 +82,23 @@ def _export_plan(plan: Path, formats: tuple[str, ...], origin: str | None, *sett
     place = parse_origin(origin) if origin is not None else None
     done = run.export_plan(run.PlanExportSettings(plan, formats, place, *settings))
     for one in done:
-        typer.echo(f"{one.file}: {run.loss_summary(one.account)} (report: {one.report})")
+        show(f"{one.file}: {run.loss_summary(one.account)} (report: {one.report})")
         for line in run.loss_lines(one.account):
-            typer.echo(f"  {line}")
+            show(f"  {line}")
     if done[0].origin:
-        typer.echo(done[0].origin, err=True)
+        show(done[0].origin, error=True)
 
 
 def _export_model(settings: Any) -> None:
     from planner_ft.model_export.run import export as run_export
 
     with alone(settings.out, "--out", "an export"):
-        done = run_export(settings, lambda line: typer.echo(line, err=True))
+        done = run_export(settings, lambda line: show(line, error=True))
     check = done.check
     same = f"{check.same} of {check.count} answers as before"
     most = f"logits differ by at most {check.largest_logit_difference:.2g}"
-    typer.echo(f"{done.folder}: {same}, {most}")
+    show(f"{done.folder}: {same}, {most}")
     if done.gguf is not None:
-        typer.echo(f"{done.gguf}: {done.gguf.stat().st_size / 1e6:.1f} MB")
+        show(f"{done.gguf}: {done.gguf.stat().st_size / 1e6:.1f} MB")
     model = f"--level {settings.named_adapter[0]} --candidates {done.folder}"
-    typer.echo(f"next: plannerft bench {model} --configurations base --quantization none")
+    show(f"next: plannerft bench {model} --configurations base --quantization none")

@@ -2,27 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from planner_ft.cli.options import typed
-from planner_ft.cli.progress import Report, interruptible
+from planner_ft.cli.progress import interruptible
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.terminal import show, terminal
 
 if TYPE_CHECKING:
     from planner_ft.benchmark.field.cases import Case
     from planner_ft.benchmark.field.checks import Outcome
+    from planner_ft.benchmark.field.run import Judged
     from planner_ft.document.vehicle import Vehicle
     from planner_ft.planning import Planner
     from planner_ft.planning.settings import PlanSettings
     from planner_ft.support.tables import Table
     from planner_ft.vocabulary import Vocabulary
 
-Row = TypeVar("Row")
 Name = tuple[str, str]
 """A candidate and its configuration."""
 
@@ -42,22 +41,18 @@ def run_field(
     files: Sequence[Path], out: Path, named: dict[str, Any], device: str, *, overwrite: bool
 ) -> None:
     """Run the cases in every configuration of every candidate; print the table, write results."""
+    from planner_ft.benchmark.field import run
     from planner_ft.benchmark.field.cases import case_files, load_cases
-    from planner_ft.benchmark.field.run import FILES, FieldRow, field_table, judge, write_field
     from planner_ft.vocabulary import load_vocabulary
 
     vocabulary = load_vocabulary(named.get("vocabulary", "usv"))
     paths = case_files(files)
     cases = load_cases(paths, vocabulary)[: named.get("limit")]
-
-    def made(planner: Planner, name: Name, progress: Report) -> FieldRow:
-        label, plan = " ".join(name), _Plan(planner, _vehicle(planner))
-        return FieldRow(*name, judge(cases, plan, vocabulary, progress, label))
-
-    _check_out(out, FILES, overwrite=overwrite)
-    rows, manifest = _rows("field", named, vocabulary, device, paths, made)
-    write_field(out, rows, manifest)
-    _show(field_table(rows), out, FILES)
+    _check_out(out, run.FILES, overwrite=overwrite)
+    found, manifest = _judged("field", cases, named, vocabulary, device, paths)
+    rows = [run.FieldRow(*name, judged) for name, judged in found.items()]
+    run.write_field(out, rows, manifest)
+    _show(run.field_table(rows), out, run.FILES)
 
 
 def run_both(
@@ -69,38 +64,12 @@ def run_both(
 
     vocabulary = load_vocabulary(named.get("vocabulary", "usv"))
     path = data or demands.DEFAULT
-    records = demands.load_demands(path, vocabulary)[: named.get("limit")]
-
-    def made(planner: Planner, name: Name, progress: Report) -> demands.DemandRow:
-        def report(done: int, total: int) -> None:
-            progress(" ".join(name), done, total)
-
-        judged, warned = demands.judge_demands(records, _everywhere(planner), report)
-        return demands.DemandRow(*name, judged, len(records), warned)
-
+    cases = demands.load_demands(path, vocabulary)[: named.get("limit")]
     _check_out(out, demands.FILES, overwrite=overwrite)
-    rows, manifest = _rows("both", named, vocabulary, device, [path], made)
+    found, manifest = _judged("both", cases, named, vocabulary, device, [path])
+    rows = [demands.demand_row(name, judged, vocabulary) for name, judged in found.items()]
     demands.write_demands(out, rows, manifest)
     _show(demands.demand_table(rows), out, demands.FILES)
-
-
-def _everywhere(planner: Planner) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:
-    """Plans a record, open places being somewhere."""
-    from planner_ft.document import build
-
-    vehicle = _vehicle(planner)
-
-    def plan(record: Mapping[str, Any]) -> Mapping[str, Any]:
-        places = {name: (x, y) for name, (x, y) in record.get("locate", {}).items()}
-        planned = planner.plan(record["prompt"], places)
-        east, north = PLACE
-        for number, place in enumerate(planned.open_places):
-            places[place.name] = (east * (number + 1), north)
-        if planned.open_places:
-            planned = planner.plan(record["prompt"], places)
-        return build(planned, planner.vocabulary, vehicle)
-
-    return plan
 
 
 def _check_out(out: Path, names: Sequence[str], *, overwrite: bool) -> None:
@@ -109,46 +78,42 @@ def _check_out(out: Path, names: Sequence[str], *, overwrite: bool) -> None:
     check_folder(out, () if overwrite else names, "give --overwrite or another --out")
 
 
-def _vehicle(planner: Planner) -> Vehicle:
-    from planner_ft.document.vehicle import load_vehicle
-
-    return load_vehicle(None, planner.vocabulary)
-
-
-def _rows(
+def _judged(
     kind: str,
+    cases: Sequence[Case],
     named: dict[str, Any],
     vocabulary: Vocabulary,
     device: str,
     files: Sequence[Path],
-    made: Callable[[Planner, Name, Report], Row],
-) -> tuple[list[Row], dict[str, Any]]:
-    """A row for each configuration of each candidate, and the manifest of all."""
+) -> tuple[dict[Name, tuple[Judged, ...]], dict[str, Any]]:
+    """The cases in each configuration of each candidate, and the manifest of all."""
+    from planner_ft.benchmark.field.run import judge
+    from planner_ft.document.vehicle import load_vehicle
     from planner_ft.planning import Planner
     from planner_ft.support.manifest import build_manifest
 
-    rows: list[Row] = []
+    found: dict[Name, tuple[Judged, ...]] = {}
     used: dict[str, Any] = {}
     with interruptible() as progress:
         for settings in _settings(named, vocabulary.source, device):
             with Planner(settings) as planner:
                 agents = planner.agents.agents
                 name = settings.candidate, agents["mission"].configuration.name
-                rows.append(made(planner, name, progress))
+                vehicle = load_vehicle(None, planner.vocabulary)
+                plan = _Plan(planner, vehicle, everywhere=kind == "both")
+                found[name] = judge(cases, plan, vocabulary, progress, " ".join(name))
                 used[" ".join(name)] = {of: one.record() for of, one in agents.items()}
     definition = {"name": vocabulary.name, "sha256": vocabulary.sha256}
     ran = {"limit": named.get("limit"), "vocabulary": definition}
     inputs: dict[str, Path | str] = {str(path): path for path in files}
-    return rows, build_manifest(kind, seed=None, configuration=ran, inputs=inputs, agents=used)
+    return found, build_manifest(kind, seed=None, configuration=ran, inputs=inputs, agents=used)
 
 
 def _show(table: Table, out: Path, files: Sequence[str]) -> None:
-    from rich.console import Console
-
     from planner_ft.support.tables import terminal_table
 
-    Console().print(terminal_table(table))
-    typer.echo(f"\n{out}/: {', '.join(files)}")
+    terminal().print(terminal_table(table))
+    show(f"\n{out}/: {', '.join(files)}")
 
 
 def _settings(named: dict[str, Any], vocabulary: str, device: str) -> list[PlanSettings]:
@@ -175,10 +140,11 @@ def _names(text: str | None) -> list[str]:
 
 @dataclass(frozen=True)
 class _Plan:
-    """Plans a case as `plannerft plan` does."""
+    """Plans a case as `plannerft plan` does; `everywhere` takes open places to be somewhere."""
 
     planner: Planner
     vehicle: Vehicle
+    everywhere: bool
 
     def __call__(self, case: Case) -> Outcome:
         from planner_ft.benchmark.field.checks import Outcome
@@ -188,10 +154,14 @@ class _Plan:
         origin = Origin(*case.origin) if case.origin else None
         try:
             planned = self.planner.plan(case.command, case.locate, origin=origin)
+            if self.everywhere and planned.open_places:
+                (east, north), places = PLACE, dict(case.locate)
+                for number, place in enumerate(planned.open_places, 1):
+                    places[place.name] = (east * number, north)
+                planned = self.planner.plan(case.command, places, origin=origin)
         except PlannerError as error:
             return Outcome({}, str(error))
         document = build(planned, self.planner.vocabulary, self.vehicle)
-        problems = [
-            part["problems"][0] for part in (document, *document["tasks"]) if "problems" in part
-        ]
+        parts = [] if self.everywhere else [document, *document["tasks"]]
+        problems = [part["problems"][0] for part in parts if "problems" in part]
         return Outcome(document, problems[0] if problems else None)

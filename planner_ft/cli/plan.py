@@ -11,6 +11,7 @@ import typer
 
 from planner_ft.cli.options import command
 from planner_ft.cli.progress import Report, interruptible
+from planner_ft.support.terminal import show
 
 if TYPE_CHECKING:
     from planner_ft.document import PlanDocument
@@ -61,10 +62,10 @@ def plan(
         new_file(out, overwrite=overwrite)
     named = {name: options[name] for name in PLANNING}
     document = _plan(command, vehicle, named, {name: options[name] for name in PLACES})
-    typer.echo(indented_json(document) if json else plan_tree(document), nl=not json)
+    show(indented_json(document) if json else plan_tree(document), end="" if json else "\n")
     if out is not None:
         write_document(out, document)
-        typer.echo(f"{out}: next, plannerft review {out}", err=True)
+        show(f"{out}: next, plannerft review {out}", error=True)
     if not document["valid"]:
         raise typer.Exit(1)
 
@@ -97,7 +98,7 @@ def _plan(
         profile = load_vehicle(vehicle, planner.vocabulary)
         profile = replace(profile, area=corners) if corners else profile
         for question in check(text, planner.vocabulary)["questions"]:
-            typer.echo(f"the command does not say: {question}", err=True)
+            show(f"the command does not say: {question}", error=True)
         planned = planner.plan(text, locations, origin=origin, chart=chart)
         return build(planned, planner.vocabulary, profile)
 

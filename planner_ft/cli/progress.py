@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from planner_ft.support.terminal import terminal
+
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -64,9 +66,7 @@ def resume_command() -> str:
 @contextlib.contextmanager
 def _interruptible(kept: Callable[[], str] | None) -> Iterator[tuple[Console, threading.Event]]:
     """A console, and an event that Ctrl-C sets: libraries swallow KeyboardInterrupt."""
-    from rich.console import Console
-
-    console, pressed = Console(stderr=True, highlight=False), threading.Event()
+    console, pressed = terminal(stderr=True), threading.Event()
 
     def press(_number: int, _frame: object) -> None:
         pressed.set()
@@ -93,7 +93,7 @@ def _bars(console: Console) -> Iterator[Report]:
 
     columns = (
         progress.SpinnerColumn(),
-        progress.TextColumn("{task.description}"),
+        progress.TextColumn("{task.description}", markup=False),
         progress.BarColumn(bar_width=20),
         progress.MofNCompleteColumn(),
         progress.TimeElapsedColumn(),

@@ -10,6 +10,7 @@ import typer
 
 from planner_ft.cli.options import command, typed
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.terminal import show, terminal
 
 DECISIONS = ("show", "adopt", "edit", "approve", "acknowledge", "reject")
 SERVING = ("port", "host", "no_browser")
@@ -61,7 +62,7 @@ def _refuse(mode: str, options: dict[str, Any], *names: str) -> None:
 
 def _review(options: dict[str, Any]) -> None:
     from planner_ft.review.desk import open_desk
-    from planner_ft.review.terminal import Conversation, terminal
+    from planner_ft.review.terminal import Conversation
 
     plans = options["plans"] or []
     if len(plans) != 1:
@@ -72,7 +73,7 @@ def _review(options: dict[str, Any]) -> None:
     edits, acknowledged = options["edit"] or [], options["acknowledge"] or []
     if options["origin"] is not None:
         edits = [f"origin {options['origin']}", *edits]
-    reviewer = Conversation(open_desk(plans[0], *named), terminal())
+    reviewer = Conversation(open_desk(plans[0], *named), terminal(soft_wrap=True))
     if approve and reason is not None:
         raise PlannerError("--approve and --reject exclude each other; leave one of them out")
     if adopt or edits or approve or reason is not None:
@@ -85,7 +86,7 @@ def _review(options: dict[str, Any]) -> None:
         try:
             reviewer.converse()
         except KeyboardInterrupt:
-            typer.echo("\ninterrupted; every edit and every decision that was confirmed is saved")
+            show("\ninterrupted; every edit and every decision that was confirmed is saved")
             raise typer.Exit(130) from None
 
 
@@ -112,7 +113,7 @@ def _harvest(options: dict[str, Any]) -> None:
     files = options["plans"] or [], options["log"], options["out"]
     settings = {key: options[key] for key in ("overwrite", "vocabulary")}
     for line in harvest_files(*files, **settings).lines():
-        typer.echo(line)
+        show(line)
 
 
 @command
@@ -143,9 +144,9 @@ def _verify_plan(plan: Path, log: Path | None, json: bool, vocabulary: str | Non
     document = read_document(plan, load_vocabulary(vocabulary) if vocabulary else None)
     approval = approval_of(document, existing_log(log) if log else log_beside(plan))
     if json:
-        typer.echo(indented_json({"plan": str(plan), **approval.as_json()}), nl=False)
+        show(indented_json({"plan": str(plan), **approval.as_json()}), end="")
     else:
-        typer.echo("\n".join(approval_text(approval)))
+        show("\n".join(approval_text(approval)))
     raise typer.Exit(0 if approval.status == "approved" else 1)
 
 
@@ -155,17 +156,19 @@ def _verify_log(log: Path, json: bool) -> None:
 
     chain = check_log(existing_log(log))
     torn = len(chain.torn)
+    if torn and not chain.lines and not chain.torn.startswith(b"{"):
+        raise PlannerError(f"{log}: is no approval log; give the one that `plannerft review` wrote")
     if json:
         problems = [problem._asdict() for problem in chain.problems]
         found = {"records": chain.lines, "problems": problems, "unfinished_bytes": torn}
-        typer.echo(indented_json({"log": str(log), **found}), nl=False)
+        show(indented_json({"log": str(log), **found}), end="")
     else:
         for problem in chain.problems:
-            typer.echo(f"{log}:{problem.line}: {problem.text}")
+            show(f"{log}:{problem.line}: {problem.text}")
         broken = f"broken; {way_out(log)}"
         state = broken if chain.problems else "nothing removed, changed or reordered"
         if torn:
             state += f"; the last line was never finished ({torn} bytes)"
             state += ", and the next decision moves it aside"
-        typer.echo(f"{log}: {chain.lines} records: {state}")
+        show(f"{log}: {chain.lines} records: {state}")
     raise typer.Exit(2 if chain.problems else 0)

@@ -10,6 +10,7 @@ import typer
 
 from planner_ft.cli.options import command, set_parameters
 from planner_ft.cli.progress import resume_command
+from planner_ft.support.terminal import terminal
 from planner_ft.training.settings import ABOUT, FIELDS, default_text, kind_of
 
 if TYPE_CHECKING:
@@ -60,14 +61,13 @@ def train(
     **settings: Any,
 ) -> None:
     """Fine-tune a LoRA adapter on a 4-bit base."""
-    from rich.console import Console
 
     from planner_ft.training.request import RUN_KEYS, build_request
 
     options = locals()
     names = {name: options[name] for name in RUN_KEYS}
     request = build_request(names, settings, recipe=recipe, overwrite=overwrite, resume=resume)
-    console = Console(highlight=False, soft_wrap=True)
+    console = terminal(soft_wrap=True)
     if preview or preview_id:
         _preview(request, preview_id, console)
     else:
@@ -75,11 +75,12 @@ def train(
 
 
 def _train(request: Any, console: Console) -> None:
+    from planner_ft.benchmark.judge import Judge
     from planner_ft.training.loop import InterruptedRunError
     from planner_ft.training.run import train as run_training
 
     try:
-        manifest = run_training(request, console)
+        manifest = run_training(request, console, Judge)
     except InterruptedRunError as stop:
         done = f"stopped at step {stop.step} of {stop.total}, all saved"
         console.print(f"{done}; continue with:\n  {resume_command()}", markup=False)
@@ -100,6 +101,7 @@ def _result(request: Any, result: dict[str, Any]) -> list[str]:
         f"{result['steps']} steps, {tokens:,} tokens in {clock(seconds)}"
         f" ({result['tokens_per_s']:.0f} tokens/s), peak memory"
         f" {memory_size(result['peak_memory_bytes'])}{best}",
+        *([f"the adapter is {result['change']}"] if "change" in result else []),
         f"adapter: {request.output} ({result['adapter_bytes'] / 1e6:.1f} MB); loss curve in"
         " loss.png, log in train_log.jsonl",
         f"next: plannerft bench --level {request.level} --candidates {request.candidate.name}"

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from planner_ft.data.leakage import mask
-from planner_ft.data.tags import TAGS
+from planner_ft.data.tags import TAGS, tags_of
 from planner_ft.facts import words
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary
@@ -24,6 +24,7 @@ Splits = Mapping[str, Records]
 SIZES = ((1_000, "n<1K"), (10_000, "1K<n<10K"), (100_000, "10K<n<100K"), (1_000_000, "100K<n<1M"))
 SCORES = ("f1", "sequence", "plan")
 QUANTILES = (0, 50, 90, 100)
+FAMILIES = 40
 OVERLAP = ("split", "other", "exact", "near", "exact_masked", "near_masked", "families")
 
 
@@ -31,10 +32,13 @@ def dataset_card(
     level: Level,
     splits: Splits,
     vocabulary: Vocabulary,
-    leakage: Mapping[str, Any],
+    leakage: Mapping[str, Any] | None,
     seed: int | None,
+    labelling: str = "",
 ) -> str:
-    """The card's text: front matter, counts, coverage, lengths, diversity, leakage."""
+    """The card's text: front matter, counts, coverage, lengths, diversity, leakage. Without a
+    leakage report it is that of synthetic missions.
+    """
     import jinja2
 
     environment = jinja2.Environment(
@@ -59,16 +63,17 @@ def dataset_card(
 
     known = every["train"]["pairs"] if "train" in every else set()
     figures = {split: diversity(records) for split, records in splits.items() if records}
-    tagged = any(of_split["tags"] for of_split in every.values())
+    tagged = leakage and any(of_split["tags"] for of_split in every.values())
     baselines = [
         [one["split"], *(f"{100 * one[key]:.1f} %" for key in SCORES), one["similarity"]]
-        for one in leakage["baseline"]
+        for one in (leakage["baseline"] if leakage else ())
     ]
     alone = len(vocabulary.skills_in_role("navigation"))
     beside = len(vocabulary.skills) - alone
     return template.render(
         table=table,
         level=level,
+        labelling=labelling,
         vehicle=vocabulary.title,
         frame=vocabulary.frame,
         home=list(vocabulary.home),
@@ -86,7 +91,7 @@ def dataset_card(
         ],
         tags=[
             [tag, TAGS[tag[1:-1]], *found]
-            for tag, *found in (counts(TAGS, "tags") if tagged else ())
+            for tag, *found in (counts(tags_of(vocabulary), "tags") if tagged else ())
         ],
         lengths=_lengths(level, splits),
         diverse_splits=list(figures),
@@ -94,10 +99,14 @@ def dataset_card(
             [name, *(of_split[name] for of_split in figures.values())]
             for name in next(iter(figures.values()), {})
         ],
-        near=leakage["method"]["near"],
-        overlaps=[[item[key] for key in OVERLAP] for item in leakage["overlaps"]],
+        leakage=leakage,
+        overlaps=[
+            [one[key] for key in OVERLAP] for one in (leakage["overlaps"] if leakage else ())
+        ],
         baselines=baselines,
-        memory=[split for split, found in leakage["memory_test"].items() if found],
+        families=Counter(
+            record["family"] for records in splits.values() for record in records
+        ).most_common(FAMILIES),
     )
 
 

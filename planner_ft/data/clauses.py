@@ -12,8 +12,7 @@ from random import Random
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.data.drawing import Drawing
-from planner_ft.data.fences import corners
-from planner_ft.data.mission_binding import IT, OBJECTS, Bound
+from planner_ft.data.mission_binding import IT, Bound, bound
 from planner_ft.data.mission_plan import Planned, Target
 from planner_ft.data.numbers import Value, knots
 from planner_ft.data.templates.grammar import Call, Slot, TemplateError, all_slots, base_of
@@ -43,6 +42,8 @@ LIMIT = Task(
 SCOPES = ("mission", "task", "way", "home")
 SPOKEN_IN_KNOTS = 0.5
 """Share of the limits of speed that are said in knots."""
+BOXED = 0.3
+"""Share of the boxes that are said by two of their corners."""
 Beside = tuple[str, str, dict[str, Any]]
 """A skill that runs in the steps of a task: role, name and parameters."""
 
@@ -75,11 +76,12 @@ class Clause(Drawing):
 
     def _new(self, key: str) -> Value:
         rng = self.rng
-        if base_of(key) == "polygon":
-            return corners(rng)
+        value = super()._new(key)
+        if value.noun and base_of(key) == "polygon" and rng.random() < BOXED:
+            return Value(value.value, value.noun)
         if base_of(key) == "speed" and rng.random() < SPOKEN_IN_KNOTS:
             return knots(rng)
-        return super()._new(key)
+        return value
 
     def effect(
         self, planned: Sequence[Planned], covered: set[int], *, alone: bool
@@ -217,11 +219,9 @@ def _demands(sampler: MissionSampler) -> Mapping[str, str]:
 def _bound(template: Template, sampler: MissionSampler) -> Bound:
     """The clause for this vehicle. Raises TemplateError."""
     vocabulary = sampler.vocabulary
-    bound: Bound | None = template.bound.get(vocabulary)
-    if bound is not None:
-        return bound
-    every = [slot for slot in all_slots(template.nodes) if slot.sign != "?"]
-    keys = {slot.key for slot in every}
+    known: Bound | None = template.bound.get(vocabulary)
+    if known is not None:
+        return known
     limits, used = load_limits(vocabulary), set[str]()
     for call in (step.call for step in template.steps):
         if call.name not in limits and (
@@ -230,25 +230,17 @@ def _bound(template: Template, sampler: MissionSampler) -> Bound:
             raise TemplateError(f"{call.name} is no kind of limit and no skill with a [demand]")
         for argument in call.arguments:
             value = str(argument.value)
-            used.add(value)
             if argument.name == "scope" and value not in SCOPES:
                 raise TemplateError(f"scope={value}: must be {', '.join(SCOPES)}")
-            if argument.kind == "slot" and argument.name != "scope" and value not in keys:
-                raise TemplateError(f"{value} stands in the plan and not in the text")
-    for nodes in template.remarks[0]:
-        used |= {slot.key for slot in all_slots(nodes)}
-    for name in sorted(keys - used):
-        raise TemplateError(f"{{{name}}} belongs to no limit and no demand")
+            if argument.kind == "slot" and argument.name != "scope":
+                used.add(value)
     for title in template.tasks:
         if title not in vocabulary.task:
             raise TemplateError(f"there is no task {title}")
-    kinds = {slot.key: slot.kind for slot in every if slot.kind and slot.base == "T"}
     owners = {
-        slot.key: (LIMIT, LIMIT.by_name[slot.base]) for slot in every if slot.base in LIMIT.by_name
+        slot.key: (LIMIT, LIMIT.by_name[slot.base])
+        for slot in all_slots(template.nodes)
+        if slot.base in LIMIT.by_name
     }
-    for slot in every:
-        known = slot.base in (*OBJECTS, IT) or slot.key in owners or slot.base in sampler.words
-        if not known or kinds.get(slot.key, "thing") not in sampler.words:
-            raise TemplateError(f"{{{slot.key}}} is no target, value of a limit or word list")
-    bound = template.bound[vocabulary] = Bound((), owners, kinds, {})
-    return bound
+    found = template.bound[vocabulary] = bound(template, sampler.words, used, owners)
+    return found

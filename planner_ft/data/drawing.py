@@ -8,7 +8,7 @@ from random import Random
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.data.mission_binding import CLAUSE, IT, OBJECTS, Bound, Line
-from planner_ft.data.mission_plan import DOCKING, Intent, Target, point_text
+from planner_ft.data.mission_plan import Intent, Target, point_text
 from planner_ft.data.numbers import WRITTEN, Value, digits, pick, position
 from planner_ft.data.task.values import draw_point
 from planner_ft.data.templates.grammar import Nodes, Slot, TemplateError, base_of, choose
@@ -114,7 +114,7 @@ class Drawing:
         if near in self.targets:
             whereabouts = f"near {point_text(self.targets[near].position or (0, 0))}"
             target = replace(target, whereabouts=whereabouts)
-        spot = any(line.task is not None and line.task.pattern == DOCKING for line in lines)
+        spot = any(line.task is not None and line.task.docks for line in lines)
         return replace(target, spot=spot, on_site=any(line.here for line in lines))
 
     def _is_located(

@@ -10,24 +10,35 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.data.card import dataset_card
-from planner_ft.data.curated import curated_splits, find_source
+from planner_ft.data.curated import curated_folder, curated_splits, find_source
 from planner_ft.data.leakage import leakage_report
-from planner_ft.data.output import DataFolder, check_writable, write_folders
-from planner_ft.data.synthetic_set import synthetic_folder
+from planner_ft.data.missions import sample_missions
+from planner_ft.data.output import DataFolder, write_folders
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.validation import canonical_record
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import compact_json, indented_json, sha256_text
+from planner_ft.support.files import (
+    check_writable,
+    compact_json,
+    indented_json,
+    read_text,
+    sha256_text,
+)
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import DEFAULT
-from planner_ft.vocabulary.plans import LEVELS, Level
+from planner_ft.vocabulary.plans import LEVELS, Level, plan_problems
 
 DEFAULT_COUNTS: dict[Level, dict[str, int]] = {
     "mission": {"train": 125, "validation": 25, "test": 25},
     "task": {"train": 10_000, "validation": 500, "test": 500},
 }
 """The published sizes of the splits. At task level, test_unseen has as many records as test."""
+
+SYNTHETIC = "mission-synthetic"
+"""The set of synthetic missions, beside the curated one."""
+ABOUT = "labelling.md"
+"""Beside a curated set: how it was labelled, for its card."""
 
 Record = dict[str, Any]
 Progress = Callable[[str, int, int], None]
@@ -103,17 +114,15 @@ def generate(
     """
     vocabulary = load_vocabulary(settings.vocabulary)
     check_writable(settings.out)
-    made = []
-    for level in settings.levels:
-        if level == "task" or not settings.synthetic or _has_curated(settings):
-            chat = messages if settings.chat else None
-            made.append(_make(level, settings, vocabulary, progress, chat))
-    if count := settings.synthetic:
-        started = time.perf_counter()
-        folder = synthetic_folder(settings.out, vocabulary, settings.seed, count, progress)
-        seconds = {"sampling and validation": time.perf_counter() - started}
-        result = Generated("mission", folder.folder, {"train": count}, seconds=seconds)
-        made.append((result, folder))
+    curated = settings.source or curated_folder(vocabulary)
+    sets: list[str] = [
+        level for level in settings.levels if level == "task" or not settings.synthetic or curated
+    ]
+    chat = messages if settings.chat else None
+    made = [
+        _make(name, settings, vocabulary, progress, chat)
+        for name in (*sets, *([SYNTHETIC] if settings.synthetic else []))
+    ]
     started = time.perf_counter()
     written = write_folders([folder for _result, folder in made], overwrite=settings.overwrite)
     results = [result for result, _folder in made]
@@ -123,52 +132,57 @@ def generate(
     return results
 
 
-def _has_curated(settings: GenerationSettings) -> bool:
-    """Whether there is a curated mission set: one that is named, or the default vehicle's."""
-    return settings.source is not None or settings.vocabulary == DEFAULT
-
-
 def _make(
-    level: Level,
+    name: str,
     settings: GenerationSettings,
     vocabulary: Vocabulary,
     progress: Progress,
     messages: Messages | None,
 ) -> tuple[Generated, DataFolder]:
-    result = Generated(level, settings.out / level, {})
+    """One set: "mission", "task" or the synthetic missions."""
+    level: Level = "task" if name == "task" else "mission"
+    result = Generated(level, settings.out / name, {})
     clock = _Clock(result.seconds)
-    source = find_source(settings.source) if level == "mission" else None
+    source = find_source(settings.source, vocabulary) if name == "mission" else None
     if source is None:
-        splits = _sampled(settings, vocabulary, progress)
+        splits = _sampled(name, settings, vocabulary, progress)
         clock.stop("sampling and validation")
     else:
-        splits = curated_splits(source, settings.counts("mission"), vocabulary, settings.vocabulary)
+        ours = settings.source is None or vocabulary.name == DEFAULT
+        audit = vocabulary.bundled and ours
+        splits = curated_splits(source, settings.counts("mission"), vocabulary, audit=audit)
         clock.stop("validation and audit")
     result.counts = {split: len(records) for split, records in splits.items()}
-    leakage = leakage_report(level, splits, lambda step: progress(f"{level}: {step}", 0, 0))
-    clock.stop("leakage report")
     seed = settings.seed if source is None else None
     texts = {
         f"{split}.jsonl": _lines(canonical_record(level, record, vocabulary) for record in records)
         for split, records in splits.items()
     }
-    texts["leakage.json"] = indented_json(leakage)
-    texts["README.md"] = dataset_card(level, splits, vocabulary, leakage, seed)
+    leakage = None
+    if name != SYNTHETIC:
+        leakage = leakage_report(level, splits, lambda step: progress(f"{level}: {step}", 0, 0))
+        texts["leakage.json"] = indented_json(leakage)
+        clock.stop("leakage report")
+    about = source / ABOUT if source else None
+    labelling = read_text(about).strip() if about and about.is_file() else ""
+    texts["README.md"] = dataset_card(level, splits, vocabulary, leakage, seed, labelling)
     if messages is not None:
         for split, records in splits.items():
             texts[f"chat/{split}.jsonl"] = _lines(
                 _chat_line(record["id"], messages(level, record, vocabulary)) for record in records
             )
     clock.stop("card and serialisation")
-    configuration = {
+    configuration: dict[str, Any] = {
         "level": level,
         "counts": result.counts,
         "vocabulary": vocabulary.name,
         "vocabulary_sha256": vocabulary.sha256,
         "chat": messages is not None,
     }
-    if level == "task":
+    if name == "task":
         configuration["phrases_sha256"] = sha256_text(compact_json(vocabulary.phrases))
+    elif name == SYNTHETIC:
+        configuration["synthetic"] = settings.synthetic
     files: dict[str, Path | str] = {}
     if source:
         files = {split: source / f"{split}.jsonl" for split in splits}
@@ -177,19 +191,31 @@ def _make(
 
 
 def _sampled(
-    settings: GenerationSettings, vocabulary: Vocabulary, progress: Progress
+    name: str, settings: GenerationSettings, vocabulary: Vocabulary, progress: Progress
 ) -> dict[str, list[Record]]:
     splits: dict[str, list[Record]] = {}
     defaults = DEFAULT_COUNTS["task"]
+    asked: dict[Any, int | None] = settings.counts("task")
+    if name == SYNTHETIC:
+        asked = {"train": settings.synthetic}
     gc.disable()  # Samples have no cycles, and collecting walks thousands of parsed templates.
     try:
-        for split, asked in settings.counts("task").items():
-            count = asked or defaults[split.removesuffix("_unseen")]
+        for split, number in asked.items():
+            count = number or defaults[split.removesuffix("_unseen")]
             records = splits[split] = []
-            for record in sample_tasks(vocabulary, settings.seed, count, split):
+            samples = (
+                sample_missions(settings.seed, count, vocabulary)
+                if name == SYNTHETIC
+                else sample_tasks(vocabulary, settings.seed, count, split)
+            )
+            for record in samples:
+                if name == SYNTHETIC and (
+                    found := plan_problems("mission", record["expected"], vocabulary, strict=True)
+                ):
+                    raise PlannerError(f"--synthetic: {record['family']}: {found[0]}")
                 records.append(record)
                 if len(records) % 100 == 0 or len(records) == count:
-                    progress(f"task: {split}", len(records), count)
+                    progress(f"{name}: {split}", len(records), count)
     finally:
         gc.enable()
     return splits

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from planner_ft.facts.lists import SMALL
-from planner_ft.support.files import compact_json
+from planner_ft.support.files import compact_json, sha256_text
 from planner_ft.vocabulary.plans import Level, named_entries
 
 NEAR = 0.8
@@ -102,6 +102,11 @@ def near_duplicate(prompt: str, records: Records) -> str | None:
         if any(jaccard(*pair) >= NEAR for pair in zip(wanted, found, strict=True)):
             return str(record["id"])
     return None
+
+
+def input_digest(text: str) -> str:
+    """What two inputs share that say the same: a digest of their words and numbers."""
+    return sha256_text(" ".join(shingle_words(text)))[:16]
 
 
 def jaccard(first: Shingles, second: Shingles) -> float:

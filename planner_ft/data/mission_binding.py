@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -72,36 +71,34 @@ class Bound:
 
 
 def bind(template: Template, vocabulary: Vocabulary, lists: WordLists) -> Bound:
-    """The template for this vehicle; with its word lists. Raises TemplateError."""
+    """A command for this vehicle; with its word lists. Raises TemplateError."""
     every = list(all_slots(template.nodes))
-    slots = [slot for slot in every if slot.sign != "?"]
-    lines = tuple(_line(step, vocabulary, {slot.key for slot in slots}) for step in template.steps)
-    _check_slots(template, slots, lines)
-    asked = {
-        label
-        for line in lines
-        for label in (line.label, *(demand.label for demand in line.demands))
-        if label
-    }
-    for name in asked ^ {slot.key for slot in every if slot.sign == "?"}:
-        raise TemplateError(f"the label ?{name} stands only in the text or only in the plan")
+    slots = {slot.key for slot in every if slot.sign != "?"}
+    lines = tuple(_line(step, vocabulary, slots) for step in template.steps)
     for title in template.excluded:
         if title != HOME and title not in vocabulary.task:
             raise TemplateError(f"there is no task {title} to rule out")
-    kinds = {slot.key: slot.kind for slot in slots if slot.kind and slot.base == "T"}
-    for kind in kinds.values():
-        if kind not in lists:
-            raise TemplateError(f"there is no word list {kind} for targets")
+    surely = always(template.nodes)
+    for line in lines:
+        for key in line.objects if not line.label else ():
+            if base_of(key) == "T" and key not in surely:
+                raise TemplateError(f"{{{key}}} is needed, and not every alternative says it")
     owners = {
         fill.slot: (line.task, fill.parameter)
         for line in reversed(lines)
         for fill in reversed(line.fills)
         if line.task
     }
-    for slot in slots:
+    for slot in every:
         known = slot.base in (*OBJECTS, CLAUSE) or slot.key in owners or slot.base in lists
-        if not known:
+        if not known and slot.sign != "?":
             owners[slot.key] = _owner(slot, vocabulary)
+    unused = {
+        str(argument.value)
+        for step in template.steps
+        for argument in step.call.arguments
+        if argument.kind == "unused"
+    }
     places = {
         key: place
         for line in lines
@@ -110,25 +107,41 @@ def bind(template: Template, vocabulary: Vocabulary, lists: WordLists) -> Bound:
         for key in line.objects
         if base_of(key) != "P"
     }
-    return Bound(lines, owners, kinds, places)
+    used = unused.union(*(line.slots() for line in lines))
+    return bound(template, lists, used, owners, lines, places)
 
 
-def _check_slots(template: Template, slots: Sequence[Slot], lines: Sequence[Line]) -> None:
-    """Every slot of the plan stands in the text and every slot of the text in the plan."""
-    noted = {slot.key for nodes in itertools.chain(*template.remarks) for slot in all_slots(nodes)}
-    for argument in itertools.chain(*(step.call.arguments for step in template.steps)):
-        if argument.kind == "unused":
-            noted.add(str(argument.value))
-    used = noted.union(*(line.slots() for line in lines))
+def bound(
+    template: Template,
+    lists: WordLists,
+    used: set[str],
+    owners: dict[str, tuple[Task, Parameter]],
+    lines: tuple[Line, ...] = (),
+    places: dict[str, str] | None = None,
+) -> Bound:
+    """A command or a clause whose plan needs the `used` slots, as far as text and plan agree.
+    Raises TemplateError.
+    """
+    every = list(all_slots(template.nodes))
+    slots = [slot for slot in every if slot.sign != "?"]
+    asked = {call.label for step in template.steps for call in step.calls() if call.label}
+    for name in asked ^ {slot.key for slot in every if slot.sign == "?"}:
+        raise TemplateError(f"the label ?{name} stands only in the text or only in the plan")
+    used |= {slot.key for nodes in itertools.chain(*template.remarks) for slot in all_slots(nodes)}
     for key in sorted(used - {slot.key for slot in slots if not slot.sign}):
-        raise TemplateError(f"{key} stands in the plan, but the text has no {{{key}}}")
+        raise TemplateError(f"{key} stands in the plan and not in the text")
     for key in sorted({slot.key for slot in slots} - used):
-        raise TemplateError(f"{{{key}}} belongs to no task; a wrong value is {{~{key}}}")
-    surely = always(template.nodes)
-    for line in lines:
-        for key in line.objects if not line.label else ():
-            if base_of(key) == "T" and key not in surely:
-                raise TemplateError(f"{{{key}}} is needed, and not every alternative says it")
+        raise TemplateError(
+            f"{{{key}}} belongs to no task, limit or demand; a wrong value is {{~{key}}}"
+        )
+    kinds = {slot.key: slot.kind for slot in slots if slot.kind and slot.base == "T"}
+    for kind in kinds.values():
+        if kind not in lists:
+            raise TemplateError(f"there is no word list {kind} for targets")
+    for slot in slots:
+        if not (slot.base in (*OBJECTS, CLAUSE, IT) or slot.key in owners or slot.base in lists):
+            raise TemplateError(f"{{{slot.key}}} is no target, parameter, limit or word list")
+    return Bound(lines, owners, kinds, places or {})
 
 
 def _line(step: Step, vocabulary: Vocabulary, keys: set[str]) -> Line:

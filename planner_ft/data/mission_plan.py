@@ -13,12 +13,10 @@ from random import Random
 from typing import Any
 
 from planner_ft.data.numbers import digits
+from planner_ft.data.task.phrasebook import spaced
 from planner_ft.data.templates.grammar import Nodes, Slot, choose, parse_text
 from planner_ft.facts.geometry import Point, tidy
 from planner_ft.vocabulary import Task, Vocabulary
-
-DOCKING = "approach"
-"""The pattern of tasks that end at a docking spot, which needs no search."""
 
 
 @dataclass(frozen=True)
@@ -284,9 +282,3 @@ class PlanTexts:
                 name = target.name[0].upper() + target.name[1:]
                 lines.append(f"{name} must be found before {say(before, self._given(use))}.")
         return lines
-
-
-def spaced(name: str) -> str:
-    """A name as words: "TowerOrbit" -> "tower orbit"."""
-    words = "".join(f" {mark.lower()}" if mark.isupper() else mark for mark in name)
-    return words.strip().replace("_", " ")

@@ -32,6 +32,9 @@ COMPASS = {45 * number: name for number, name in enumerate(POINTS[::2])}
 ENDINGS: dict[str, list[str]] = _SAID["endings"]
 WRITTEN = tuple(form for form, often in _SAID["written"].items() for _ in range(often))
 """Forms of a written position, the usual ones more often."""
+CORNERS: list[str] = _SAID["polygon"]["corners"]
+JOINTS: list[str] = _SAID["polygon"]["joints"]
+BOXES: list[str] = _SAID["polygon"]["boxes"]
 
 
 def _wordings(table: str, value: float) -> list[str]:
@@ -281,25 +284,29 @@ def _compass_position(value: Point, rng: Random) -> str:
 
 
 def polygon(value: list[Point], rng: Random) -> Value:
-    """The corners, one after the other; noun, for a box that starts in the south-west: "the box
-    from [0, 0] to [50, 40]".
+    """The corners, one after the other in one of many notations; noun, for a box that starts in the
+    south-west: "the box from [0, 0] to [50, 40]".
     """
-    mark = "[{}, {}]" if rng.random() < 0.7 else "({}, {})"
-    corners = [mark.format(digits(x), digits(y)) for x, y in value]
-    noun = None
+    form, joint = pick(CORNERS, rng), pick(JOINTS, rng)
+    if joint == " " and form[-1] not in ")]":
+        joint = ", "
+    corners = [form.format(x=digits(x), y=digits(y)) for x, y in value]
+    text = joint.join(corners)
+    if joint == " and ":
+        text = ", ".join(corners[:-1]) + joint + corners[-1]
+    elif form[0] == "[" and rng.random() < 0.3:
+        text = f"[{', '.join(corners)}]"
+    points, noun = [list(corner) for corner in value], None
     if len(value) == 4 and value[0][0] < value[2][0] and value[0][1] == value[1][1] < value[2][1]:
-        kind = "box" if rng.random() < 0.6 else "rectangle"
-        noun = f"the {kind} from {corners[0]} to {corners[2]}"
+        mark = "[{}, {}]" if rng.random() < 0.7 else "({}, {})"
+        first, last = (mark.format(*map(digits, value[place])) for place in (0, 2))
+        noun = pick(BOXES, rng).format(first, last)
         half = (value[2][0] - value[0][0]) / 2
         if value[2][1] - value[0][1] == 2 * half and rng.random() < 0.8:
             center = mark.format(digits(value[0][0] + half), digits(value[0][1] + half))
             unit = "-metre" if rng.random() < 0.7 else " m"
             noun = f"a {digits(half)}{unit} square around {center}"
-    points = [list(corner) for corner in value]
-    if rng.random() < 0.2:
-        return Value(points, f"[{', '.join(corners)}]", noun=noun)
-    joint = ", " if rng.random() < 0.5 else " and "
-    return Value(points, ", ".join(corners[:-1]) + joint + corners[-1], noun=noun)
+    return Value(points, text, noun=noun)
 
 
 SENSES: dict[str, Callable[[float, Random], Value]] = {

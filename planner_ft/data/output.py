@@ -89,15 +89,6 @@ def _canonical(text: str) -> str:
     return "".join(f"{compact_json(json.loads(line))}\n" for line in lines)
 
 
-def check_writable(folder: Path) -> None:
-    """Raise PlannerError when `folder` cannot be made or written: before the work, not after it."""
-    existing = next(path for path in (folder, *folder.absolute().parents) if path.exists())
-    if not existing.is_dir():
-        raise PlannerError(f"--out {folder}: {existing} is no folder; give another --out")
-    if not os.access(existing, os.W_OK | os.X_OK):
-        raise PlannerError(f"--out {folder}: {existing} cannot be written; give another --out")
-
-
 def _write(folder: DataFolder, texts: dict[str, str]) -> None:
     """Stage all files beside the target, then move them in: a full disk leaves the target as it
     was.

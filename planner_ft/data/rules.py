@@ -48,8 +48,6 @@ PLACED = re.compile(
 )
 """What stands between a target and its coordinates."""
 AREA = re.compile(r"\bby\b", re.IGNORECASE)
-DOCKING = "approach"
-"""The pattern of tasks that end at a docking spot, which needs no search."""
 
 
 @dataclass(frozen=True)
@@ -139,7 +137,7 @@ class _Rules:
                     )
                 searched[target.lower()] = step
                 yield from self._needless_search(step, target, self.steps[number + 1 :])
-            elif unresolved and not searched and step.task.pattern != DOCKING:
+            elif unresolved and not searched and not step.task.docks:
                 yield f"{step}: the place is unresolved and no {locate} comes before it"
             if unresolved and step.first("id") is not None:
                 place = step.task.position_parameter
@@ -211,17 +209,17 @@ class _Rules:
             for number, step in enumerate(self.steps)
             if self._is(step, transit) and step.place == self.home
         ]
-        docks = any(step.task.pattern == DOCKING for step in self.steps)
+        docks = any(step.task.docks for step in self.steps)
         if "rule.return" in (self.tags or ()) and not returns and not docks:
             yield f"the tag rule.return needs a {transit} to {self.home} or a docking"
         named = self.prompt is not None and read(self.prompt).evidence(self.home, WAYPOINT).given
         if named or not returns:
             return
         last, *after = self.steps[returns[-1] :]
-        if after and after[0].task.pattern == DOCKING:
+        if after and after[0].task.docks:
             yield f"{last}: a return that ends in {after[0].task.title} is that task alone"
         for step in after:
-            if step.task.arrival != "none" and step.task.pattern != DOCKING:
+            if step.task.arrival != "none" and not step.task.docks:
                 yield f"{step}: comes after the return home, which is the last {transit}"
 
     # ------------------------------------------------------------ values

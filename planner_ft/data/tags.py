@@ -32,20 +32,22 @@ COVERAGE = {"train": (125, 8), "validation": (25, 1), "test": (25, 1)}
 """
 
 
-def tag_problems(record: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
-    """Unknown tags, and tags that do not agree with the tasks of the expected plan.
+def tags_of(vocabulary: Vocabulary) -> list[str]:
+    """The tags that a vehicle's commands can have: those of no task, and of a task that it has."""
+    known = vocabulary.task.keys()
+    return [tag for tag in TAGS if not known.isdisjoint(TASKS_OF_TAG.get(tag, known))]
 
-    The tags were made for the surface vehicle: tags of tasks that another vehicle lacks are not
-    asked of it.
-    """
+
+def tag_problems(record: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
+    """Unknown tags, and tags that do not agree with the tasks of the expected plan."""
     tags = record.get("tags", [])
     titles = set(plan_names("mission", record.get("expected")))
     for tag in tags:
-        needed = set(TASKS_OF_TAG.get(tag, ())) & set(vocabulary.task)
+        needed = [title for title in TASKS_OF_TAG.get(tag, ()) if title in vocabulary.task]
         if tag not in TAGS:
             yield f"tag {tag!r} is not known"
-        elif needed and not titles & needed:
-            yield f"tag {tag} needs {' or '.join(TASKS_OF_TAG[tag])} in the plan"
+        elif needed and titles.isdisjoint(needed):
+            yield f"tag {tag} needs {' or '.join(needed)} in the plan"
     if len(set(tags)) != len(tags):
         yield "a tag stands twice"
     for title, tag in ALWAYS_TAGGED.items():
@@ -74,7 +76,8 @@ def coverage_problems(splits: Mapping[str, Records], vocabulary: Vocabulary) -> 
         ]
     for split, records in splits.items():
         tags = {tag for record in records for tag in record.get("tags", [])}
-        missing = (tag for tag in TAGS if tag.startswith("which.") and tag not in tags)
+        which = (tag for tag in tags_of(vocabulary) if tag.startswith("which."))
+        missing = (tag for tag in which if tag not in tags)
         problems += [f"{split}: no record has the tag {tag}" for tag in missing]
     for key in ("family", "prompt"):
         homes: dict[str, str] = {}

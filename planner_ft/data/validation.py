@@ -62,10 +62,15 @@ class Report:
 
 
 def validate_file(
-    path: Path, vocabulary: Vocabulary, level: Level | None = None, *, complete: bool = False
+    path: Path,
+    vocabulary: Vocabulary,
+    level: Level | None = None,
+    *,
+    complete: bool = False,
+    canonical: bool = True,
 ) -> Report:
     """Check every object of a file. `complete` asks of dataset records what the curated set has:
-    family, spans, tags, all texts, canonical form.
+    family, spans, tags, all texts and, unless told otherwise, `canonical` form.
 
     Raises PlannerError when the file is missing, unreadable, not UTF-8 or empty.
     """
@@ -78,6 +83,7 @@ def validate_file(
             counts[" ".join(filter(None, (found_level, kind or "unknown object")))] += 1
             if (
                 complete
+                and canonical
                 and kind == "record"
                 and found_level
                 and not texts

@@ -3,9 +3,9 @@
 An entry is a text such as "the {colour} ladder", "camera {n}" or "weld {code}"; a list that is a
 table gives each entry a weight. An entry that begins with "the " is said with its article and
 stored without it; what stands before a bar is said and not stored ("sensor |{code}"), nor are the
-quotation marks behind it. Made-up slots: {n} a number, {code} "KX-07", {low} a small letter,
-{letter} a capital, {digit} a digit, {name} and {word} what no dictionary has, {tag} a file tag,
-{any_thing} a thing's name from things.txt.
+quotation marks behind it. Every vehicle has the lists of wordlists.toml: {n} a number, {code} "KX-07",
+{low} a small letter, {letter} a capital, {digit} a digit, {word} and {name} what no dictionary has,
+{tag} a file tag, {any_thing} a thing's name from things.txt.
 """
 
 from __future__ import annotations
@@ -22,18 +22,15 @@ from planner_ft.data.numbers import Value, pick, words
 from planner_ft.data.templates.render import bare as without_article
 
 _TABLE: dict[str, Any] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
-_PARTS = {name: words(text) for name, text in _TABLE.items() if isinstance(text, str)}
-LETTERS: str = _TABLE["letters"]
-FALLBACK: Mapping[str, Sequence[str]] = _TABLE["lists"]
+ORDERS = words(_TABLE["orders"])
+_PARTS = {name: words(text) for name, text in _TABLE["parts"].items()}
+FALLBACK: Mapping[str, Sequence[str] | Mapping[str, float]] = {**_TABLE["lists"], **_PARTS}
 Weighted = tuple[Sequence[str], Sequence[float] | None]
 
 
 def pseudo_word(rng: Random) -> str:
     """A word that no dictionary has but anybody could say: "skarb"."""
-    return "".join(
-        "".join(pick(_PARTS[part], rng) for part in ("onsets", "vowels", "codas"))
-        for _ in range(1 if rng.random() < 0.5 else 2)
-    )
+    return _made_up().entry("word", rng)
 
 
 def made_up_name(rng: Random) -> str:
@@ -41,47 +38,24 @@ def made_up_name(rng: Random) -> str:
     return f"{pseudo_word(rng)}{pick(_TABLE['endings'], rng)}".capitalize()
 
 
-def made_up_code(rng: Random) -> str:
-    """A code as structures bear them: "KX-07", "B12", "T-4"."""
-    roll = rng.random()
-    letters = pick(LETTERS, rng) + (pick(LETTERS, rng) if roll < 0.5 else "")
-    number = rng.randrange(1, 100)
-    if roll < 0.35:
-        return f"{letters}-{number:02d}"
-    return f"{letters}{number}" if roll < 0.7 else f"{letters}-{number}"
-
-
-def made_up_tag(rng: Random) -> str:
-    """A file tag: "run_4", "skarberg-07", "dive12"."""
-    stem = made_up_name(rng).lower() if rng.random() < 0.45 else pick(_PARTS["stems"], rng)
-    joint = pick(("_", "-", "", "_"), rng)
-    roll = rng.random()
-    if roll < 0.5:
-        return f"{stem}{joint}{rng.randrange(1, 100)}"
-    if roll < 0.75:
-        return f"{stem}{joint}{pick(_PARTS['tails'], rng)}"
-    return made_up_code(rng) if roll < 0.85 else stem
-
-
 @functools.cache
 def any_things() -> tuple[str, ...]:
     """The names of things, of three letters or more."""
     text = (Path(__file__).parent / "things.txt").read_text(encoding="utf-8")
     found = dict.fromkeys(word for word in text.split() if len(word) > 2 and word.isalpha())
-    return tuple(word for word in found if not word.startswith(_PARTS["orders"]))
+    return tuple(word for word in found if not word.startswith(ORDERS))
 
 
 MADE_UP: dict[str, Callable[[Random], str]] = {
     "name": made_up_name,
-    "word": pseudo_word,
-    "code": made_up_code,
-    "tag": made_up_tag,
-    "n": lambda rng: str(rng.randrange(1, 10) if rng.random() < 0.75 else rng.randrange(10, 100)),
-    "letter": lambda rng: pick(LETTERS, rng),
-    "low": lambda rng: pick("abcdef", rng),
-    "digit": lambda rng: pick("0123456789", rng),
+    "lower_name": lambda rng: made_up_name(rng).lower(),
     "any_thing": lambda rng: pick(any_things(), rng),
 }
+
+
+@functools.cache
+def _made_up() -> WordLists:
+    return WordLists()
 
 
 def joined(parts: Sequence[str], last: str = " and ") -> str:
@@ -95,6 +69,8 @@ class WordLists:
     def __init__(self, *groups: Mapping[str, Sequence[str] | Mapping[str, float]]) -> None:
         self.lists: dict[str, Weighted] = {}
         for name, entries in itertools.chain(*(group.items() for group in (FALLBACK, *groups))):
+            if list(entries) == [f"{{{name}}}"]:
+                continue  # The list that every vehicle has.
             weights = None
             if isinstance(entries, Mapping):
                 weights = list(itertools.accumulate(entries.values()))

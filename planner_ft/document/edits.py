@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from datetime import UTC, datetime
 from typing import Any
+from unicodedata import category
 
 from planner_ft.document.build import (
     PlanDocument,
@@ -338,13 +339,22 @@ def _value(value: Any, parameter: Parameter) -> Any:
     if problem:
         unit = f" ({parameter.unit})" if parameter.unit else ""
         raise PlannerError(f"{parameter.name}: {_short(problem)}{unit}")
+    for one in value if isinstance(value, list) else [value]:
+        _visible(one if isinstance(one, str) else "")
     return canonical_value(value)
 
 
 def _prompt_text(text: Any) -> str:
     if not isinstance(text, str) or len(text) > LONGEST_PROMPT:
         raise PlannerError(f"the task prompt must be a text of at most {LONGEST_PROMPT} characters")
-    return text.strip()
+    return _visible(text.strip())
+
+
+def _visible(text: str) -> str:
+    """The text. Raises PlannerError for control characters, which nobody can see and approve."""
+    if hidden := [one for one in text if category(one) == "Cc" and one not in "\n\t"]:
+        raise PlannerError(f"the text holds the control character {hidden[0]!r}; leave it out")
+    return text
 
 
 def _short(text: str) -> str:

@@ -85,7 +85,7 @@ def _mentions(values: Mapping[str, Any], facts: Facts) -> Iterator[Span]:
 
 
 def carried(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[str, Any]]:
-    """The tasks of a plan with every limit that has a filter in each step that moves."""
+    """The tasks of a plan with every limit that has a filter in each step that moves or has one."""
     known = load_limits(vocabulary)
     limits = [limit for limit in limits_of(document, vocabulary) if "filter" in limit]
     tasks: list[dict[str, Any]] = list(document["tasks"])
@@ -95,8 +95,9 @@ def carried(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[st
     for task in tasks:
         steps, marks = copy.deepcopy(task.get("skill_sequence")), list(task.get("added", ()))
         for number, step in enumerate(steps or ()):
-            if moves(step, vocabulary) and not task.get("stale"):
-                for limit in limits:
+            filters = {own["name"] for own in step["filter_skills"]}
+            for limit in limits if not task.get("stale") else ():
+                if moves(step, vocabulary) or limit["filter"] in filters:
                     marks += _filter(number, step, limit, known, vocabulary)
         entry = {**task, "skill_sequence": steps}
         done.append({**entry, "added": marks} if marks else entry)

@@ -10,16 +10,19 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.language import Clause, Language, language, read_clauses
-from planner_ft.facts import Position, Span, pieces
+from planner_ft.facts import Position, Span
 from planner_ft.facts.places import read_positions
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.schema import ELEMENTS
 
 LONGEST_NAME = 7
 """Words of a noun phrase that are looked at."""
+LONGEST_PIECE = 1500
+"""Characters that are read at once."""
 CLOSED = ("]", ")")
 FARTHEST = 40
 """Characters between a name and its coordinates."""
+_END = re.compile(r"[.!?;]\s+|\n+")
 _WORD = re.compile(r"\s+([^\W_][\w'’-]*)")
 _LINK = re.compile(r"\s+(?:of|with)\s+(?=\w)")
 _PLACED = re.compile(
@@ -82,6 +85,20 @@ def _targets(command: str, spoken: Language) -> Iterator[Span]:
         ]
         here = [match.span() for match in spoken.words["here"].finditer(text)]
         yield from ((start + offset, end + offset) for start, end in (*named, *places, *here))
+
+
+def pieces(text: str, longest: int = LONGEST_PIECE) -> Iterator[tuple[int, str]]:
+    """The text cut behind sentences, or words where a sentence is too long, with where each piece
+    begins.
+    """
+    start = 0
+    while len(text) - start > longest:
+        window = text[start : start + longest]
+        ends = [match.end() for match in _END.finditer(window)]
+        cut = ends[-1] if ends else window.rfind(" ") + 1 or longest
+        yield start, window[:cut]
+        start += cut
+    yield start, text[start:]
 
 
 def named_places(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Position]]:

@@ -10,6 +10,7 @@ from planner_ft.planning.essentials import added_text
 from planner_ft.planning.frame import origin_of
 from planner_ft.support.files import compact_json
 from planner_ft.support.resources import memory_size
+from planner_ft.support.terminal import plain
 from planner_ft.vocabulary.plans import step_skills
 
 INDENT = "   "
@@ -110,11 +111,6 @@ def _use(use: dict[str, Any]) -> str:
     answers = f"{use['queries']} answer{'s' if use['queries'] != 1 else ''}"
     cost = f"{use['tokens']} tokens, {use['forward_passes']} forward passes, {use['seconds']:.2f} s"
     return f"{use['candidate']} {use['configuration']}, {adapter}: {answers}, {cost}{loaded}"
-
-
-def plain(line: str) -> str:
-    """The line with control characters, which a command may bring, as escapes."""
-    return "".join(char if char.isprintable() else repr(char)[1:-1] for char in line)
 
 
 def _invalid(whose: str, part: dict[str, Any]) -> Iterable[str]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_text
+from planner_ft.support.files import read_toml
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import VEHICLE
 from planner_ft.vocabulary.plans import is_number, is_position
@@ -54,11 +53,8 @@ def load_vehicle(path: Path | str | None, vocabulary: Vocabulary) -> Vehicle:
         stem = vocabulary.path.stem if vocabulary.path else vocabulary.name
         ways = f"write {stem}{VEHICLE} beside its definition, or give one with --vehicle FILE"
         raise PlannerError(f"vocabulary {vocabulary.name}: has no vehicle profile; {ways}")
-    try:
-        if path is not None:
-            where, raw = str(path), tomllib.loads(read_text(path))
-    except tomllib.TOMLDecodeError as error:
-        raise PlannerError(f"{path}: not TOML: {error}") from None
+    if path is not None:
+        where, raw = str(path), read_toml(path)
     try:
         return _built({"orbit_angle": FULL_CIRCLE, "stand_off": STAND_OFF, **own, **raw})
     except PlannerError as error:

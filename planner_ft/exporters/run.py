@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from planner_ft.document import read_document
-from planner_ft.document.tree import plain
 from planner_ft.exporters.formats import DRAFT, Format, PlanExport, known_formats, load_format
 from planner_ft.exporters.ledger import MOVEMENT, Account, Loss, ranges
 from planner_ft.exporters.ledger import Path as Place
@@ -17,6 +16,7 @@ from planner_ft.review.verify import approval_of
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import write_text
 from planner_ft.support.geodesy import Origin
+from planner_ft.support.terminal import plain
 from planner_ft.vocabulary import load_vocabulary
 
 ALL = "all"

@@ -35,7 +35,6 @@ from planner_ft.facts.reading import (
     is_number,
     is_place,
     near,
-    pieces,
     read,
     same_place,
 )
@@ -73,7 +72,6 @@ __all__ = [
     "near",
     "normalised",
     "phrases",
-    "pieces",
     "read",
     "read_input",
     "same_place",

@@ -1,62 +1,43 @@
-"""The numbers of a text with their units, in one way of reading it: "four minutes" is 240 s, "a
-metre and a half" 1.5 m.
-"""
+"""The numbers of a text with their units: "four minutes" is 240 s, "a metre and a half" 1.5 m."""
 
 from __future__ import annotations
 
+import bisect
 import functools
 import itertools
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from planner_ft.facts.lists import DIGITS, FRACTIONS, UNITS, WORDS
-from planner_ft.facts.numerals import (
-    AND,
-    Token,
-    half_behind,
-    number_at,
-    tokenize,
-    unit_at,
-    unit_of,
-    word_at,
-)
+from planner_ft.facts.numerals import AND, Row, unit_of
 from planner_ft.facts.words import edit_distance, is_known
 
 WRITTEN, BARE, IN_PAIR, AS_BEFORE, REREAD = range(5)
 """How plainly a number is said: with its unit, without, as half of a pair, in the unit of another
 number, in another way of reading the text.
 """
-FOOT, CABLE, POINT = 0.3048, 185.2, 11.25
-"""Metres in a foot and in a cable (a tenth of a nautical mile); degrees in a compass point."""
+THOROUGH = 6000
+"""Characters of a text whose misspelt words are put right; what follows is read as it stands."""
+CHOICES = range(2)
+"""Words that a misspelt one can be, and that are tried."""
+FOOT, DAY = 0.3048, 86400
 NEIGHBOURS = 5
 """Characters that "and" with its blanks takes between two parts of one value."""
-LEAST = 0.2
-"""A number that corrects another is at least this share of it, and at most as many times as
-large.
-"""
+MOST_TIMES = 5
+"""Times that a number is as large as another one, at most, to be in its unit."""
 
 _BY = re.compile(r"\s?(?:by|x|×)\s?", re.IGNORECASE)
-_CLOCK = re.compile(r" ?m(?:in)? ?(\d{1,2}) ?s(?:ec)?\b", re.IGNORECASE)
-"""What follows the minutes of "3m30s"."""
-_CABLES = re.compile(r"[ -](?:of )?(?:an? )?cables?(?:[ -]lengths?)?\b", re.IGNORECASE)
-_POINTS = re.compile(
-    r" points?(?: of the compass)?,? (?:further |more )?(?:to (?:the )?(?:starboard|port|left|right)"
-    r"|of the compass|(?:off|on|abaft|before) the)\b",
+_TIME = re.compile(r"(?<![\d:])(\d{1,3}):([0-5]\d)(?![\d:])")
+_BETWEEN_TIMES = re.compile(r"\D{1,9}")
+_RARE = re.compile(
+    r"[ -](?:of )?(?:an? )?(cable)s?(?:[ -]lengths?)?\b|[ -](point)s?(?: of the compass)?,?"
+    r" (?:further |more )?(?:to (?:the )?(?:starboard|port|left|right)|of the compass"
+    r"|(?:off|on|abaft|before) the)\b",
     re.IGNORECASE,
 )
-_EVERY = re.compile(r"\b(?:every|each|per)\s+$", re.IGNORECASE)
-_UNIT_LEFT_OUT = re.compile(
-    r"(?: (?:more|at|here|there|on|and|then|in)\b|[.,;)]|$)(?! ?\d)", re.IGNORECASE
-)
-"""What stands behind a number whose unit was said before: "ten minutes here and five there"."""
-_SIZE = re.compile(r" (?:of )?(?:wide|width|long|length|broad)\b", re.IGNORECASE)
-_CORRECTED = re.compile(
-    r"\b(?:no|sorry|scratch|scrap|strike|correction|rather|mean|meant|belay|mistake|misread)\b"
-    r"|\bmake (?:that|it)\b",
-    re.IGNORECASE,
-)
-"""Words between a value and the one that takes its place: "two minutes, no, three"."""
+RARE_UNITS = {"cable": ("m", 185.2), "point": ("deg", 11.25)}
+"""Words that mostly mean things: a tenth of a nautical mile, a point of the compass."""
 _ANGLE = re.compile(
     r"\b(?:courses?|headings?|bearings?|hdg|azimuth|steering|steer)(?: of| is| to|:|=)? ?$",
     re.IGNORECASE,
@@ -66,14 +47,14 @@ _A_SECOND_ONE = re.compile(
     r"|nudges?|fix|still|pin|round|lap|look|stop|wait|stay)\b",
     re.IGNORECASE,
 )
-_WORDS = re.compile(r"[^a-z&]+")
 _THINGS = re.compile(r"[ -]([a-z]+s)\b(?!['’])", re.IGNORECASE)
 
 
-@dataclass(frozen=True, order=True)
+@dataclass(frozen=True)
 class Number:
     """A number of a text: `value` in `unit` (None where no unit is said), at `start` to `end`, sign
-    included; `said` before conversion, 0 for a sum. A lower `rank` is a plainer way of saying it.
+    included; `said` before conversion, 0 for a sum, ends at `stop`. A lower `rank` is a plainer way
+    of saying it.
 
     `counts`: it is no measure, but counts things, stands for a thing, or is a heading or a part.
     """
@@ -85,6 +66,7 @@ class Number:
     unit: str | None = None
     said: float = 0.0
     counts: bool = False
+    stop: int = 0
 
     @property
     def factor(self) -> float:
@@ -94,119 +76,193 @@ class Number:
 
 @functools.lru_cache(maxsize=4096)
 def read_numbers(text: str) -> tuple[Number, ...]:
-    """Every number of a text in order, words included; "a minute" is one minute, "half an hour"
-    1800 s.
+    """Every number of a text in order, words included, in the plain way of reading it; "a minute"
+    is one minute, "half an hour" 1800 s.
     """
-    tokens, found, index = tokenize(text), list[Number](), 0
-    while index < len(tokens):
-        value, used = number_at(tokens, index)
-        if used:
-            sign = _sign(text, tokens, index)
-            number, after = _measured(text, tokens, index, index + used, -value if sign else value)
-            number = replace(number, counts=_counts(text, number))
-            found.append(replace(number, start=number.start - sign))
-            index = max(after, index + used)
-        else:
-            index += 1
-    return tuple(_with_shared_units(text, found))
+    return _plain(read_rows(text)[0])
+
+
+@functools.lru_cache(maxsize=4096)
+def read_all(text: str) -> tuple[Number, ...]:
+    """The numbers of a text in every way of reading it, in order; those that the plain way has not
+    are of rank REREAD and above.
+    """
+    plain = dict.fromkeys(read_numbers(text))
+    others = itertools.chain(_times(text), *map(_every, read_rows(text)))
+    reread = (replace(one, rank=REREAD + (one.rank >= BARE)) for one in others if one not in plain)
+    return tuple(sorted((*plain, *dict.fromkeys(reread)), key=lambda number: number.start))
 
 
 def in_unit(text: str, unit: str | None) -> Iterator[Number]:
     """The numbers of a text as values of a parameter in `unit`, bare ones and sums of neighbours
     ("two minutes and thirty seconds") included.
     """
-    numbers = read_numbers(text)
+    numbers = read_all(text)
     totals = list(_sums(numbers, unit))
     # "2 h 20 min" are no two hours.
     parts = [total for total, whole in totals if whole]
     for number in numbers:
         if number.unit == unit:
             if not any(total.start <= number.start < total.end for total in parts):
-                yield replace(number, rank=WRITTEN if unit else BARE)
+                yield number
         elif number.unit is None:
-            yield replace(number, rank=BARE)
-            yield from _without_unit(text, number, unit)
+            yield number
+            if unit == "%" and number.value < 1:
+                yield replace(number, value=100 * number.value, counts=False)
     yield from (total for total, _whole in totals)
-    yield from _as_before(text, numbers, unit)
-    if unit == "m/s":
-        yield from _speeds(text, numbers)
+    for row in read_rows(text):
+        yield from _as_before(row, unit)
 
 
-# ---------------------------------------------------------------- one number
+# ---------------------------------------------------------------- the numbers of a row
 
 
-def _sign(text: str, tokens: list[Token], index: int) -> int:
+@functools.lru_cache(maxsize=64)
+def read_rows(text: str) -> tuple[Row, ...]:
+    """A text as it stands, and with its spelling put right in the ways that it can be."""
+    row = Row.of(text)
+    rows = {tuple(one.tokens): one for one in (row, *(row.mended(THOROUGH, at) for at in CHOICES))}
+    return tuple(rows.values())
+
+
+@functools.lru_cache(maxsize=64)
+def _plain(row: Row) -> tuple[Number, ...]:
+    """The numbers of a row, one behind the other."""
+    found, index = list[Number](), 0
+    while index < len(row.tokens):
+        number, index = next(_at(row, index), (None, index + 1))
+        found += [number] if number else []
+    return tuple(_with_shared_units(row.text, found))
+
+
+def _every(row: Row) -> Iterator[Number]:
+    """The numbers from every token on at which one can begin."""
+    found, todo, seen = list[Number](), [0], set[int]()
+    while todo:
+        index = todo.pop()
+        if index in seen or index >= len(row.tokens):
+            continue
+        seen.add(index)
+        options = list(_at(row, index))
+        todo += [behind for _number, behind in options] or [index + 1]
+        if row.bare_unit(index):
+            options += _measured(row, index, index, 1.0)
+        found += [number for number, _behind in options]
+    return _with_shared_units(row.text, found)
+
+
+def _times(text: str) -> Iterator[Number]:
+    """ "2:30" as minutes or hours; "from 11:10 to 11:30" as their difference, over midnight too."""
+    times = list(_TIME.finditer(text))
+    for one, two in itertools.zip_longest(times, times[1:]):
+        first = 60 * int(one[1]) + int(one[2])
+        for seconds in (first, 60 * first):
+            yield Number(seconds, WRITTEN, one.start(), one.end(), "s")
+        if two and _BETWEEN_TIMES.fullmatch(text, one.end(), two.start()):
+            seconds = (60 * int(two[1]) + int(two[2]) - first) * 60 % DAY
+            yield Number(seconds, WRITTEN, one.start(), two.end(), "s", seconds)
+
+
+def _at(row: Row, index: int) -> Iterator[tuple[Number, int]]:
+    """The numbers that begin at a token, the plain one first, each with the index behind it."""
+    sign = _sign(row, index)
+    for value, after in row.numerals(index):
+        for number, behind in _measured(row, index, after, -value if sign else value):
+            counts = _counts(row, index, number)
+            yield replace(number, start=number.start - sign, counts=counts), behind
+
+
+def _sign(row: Row, index: int) -> int:
     """How many characters before a number its sign begins; none where it has no sign."""
-    before, start, end = tokens[index - 1] if index else ("", 0, 0)
-    first = tokens[index][1]
+    if not index:
+        return 0
+    (before, start, end), first = row.tokens[index - 1], row.tokens[index].start
     if before in ("minus", "negative"):
         return first - start
     if before not in ("-", "−", "–") or end != first:
         return 0
     # A sign, and no hyphen: nothing before it, or no letter or digit, or the name of an axis.
-    left = text[max(0, start - 2) : start].lower()
+    left = row.text[max(0, start - 2) : start].lower()
     letter = left[-1:]
     axis = letter in ("x", "y") and not left[:-1].isalpha()
     return first - start if axis or not (letter.isalnum() or letter == ")") else 0
 
 
-def _measured(
-    text: str, tokens: list[Token], first: int, after: int, value: float
-) -> tuple[Number, int]:
+def _measured(row: Row, first: int, after: int, value: float) -> Iterator[tuple[Number, int]]:
     """The number of the tokens `first` to `after` with the unit behind it, and the token behind
     that.
     """
-    start, end = tokens[first][1], tokens[after - 1][2]
-    if clock := _CLOCK.match(text, end):
-        behind = sum(token[1] < clock.end() for token in tokens)
-        seconds = 60 * value + float(clock[1])
-        return Number(seconds, WRITTEN, start, clock.end(), "s", value), behind
-    unit, behind = unit_at(tokens, after)
+    start, stop = row.tokens[first].start, row.tokens[max(first, after - 1)].end
+    words = [row.word(after + place) for place in range(3)]
+
+    def number(value: float, unit: str | None, said: float, behind: int) -> tuple[Number, int]:
+        end = row.tokens[behind - 1].end
+        return Number(value, WRITTEN if unit else BARE, start, end, unit, said, stop=stop), behind
+
+    bare = number(value, None, value, after)
+    unit, behind = row.unit(after)
+    if words[0] in ("m", "min") and words[1].isdigit() and words[2] in ("s", "sec"):  # 3m30s
+        yield number(60 * value + float(words[1]), "s", value, after + 3)
     # "40S" is a coordinate.
-    if unit is None or text[tokens[behind - 1][1] : tokens[behind - 1][2]] == "S":
-        return Number(value, BARE, start, end, None, value), after
-    rate, last = _rate(tokens, behind) if unit[0] == "m" else (0.0, behind)
-    if rate:
-        speed = value * unit[1] / rate
-        return Number(speed, WRITTEN, start, tokens[last - 1][2], "m/s", value), last
-    fraction, more = half_behind(tokens, behind)
-    if more and value == int(value):
-        value, behind = value + fraction, behind + more
-    return Number(value * unit[1], WRITTEN, start, tokens[behind - 1][2], unit[0], value), behind
+    elif unit is None or row.written(behind - 1) == "S":
+        yield bare
+        if rare := _RARE.match(row.text, stop):
+            word = (rare[1] or rare[2]).lower()
+            yield number(value * RARE_UNITS[word][1], RARE_UNITS[word][0], value, after)
+    else:
+        rate, last = _rate(row, behind) if unit[0] == "m" else (0.0, behind)
+        fraction, more = row.half(behind) if value == int(value) else (0.0, behind)
+        if rate:
+            yield number(value * unit[1] / rate, "m/s", value, last)
+        else:
+            said = value + fraction
+            yield number(said * unit[1], unit[0], said, more)
+            time = unit_of(row.word(behind)) if unit[0] == "m" else None
+            if time and time[0] == "s":  # "one metre second"
+                yield number(value * unit[1] / time[1], "m/s", value, behind + 1)
+            if fraction and row.word(more) in WORDS["bare_units"]:
+                yield number(value * unit[1], unit[0], value, behind)
+        # "From 22/0 a kilometre", "drift 4 an hour".
+        if words[0] in ("a", "an") and row.word(after - 1)[-1:].isdigit():
+            yield bare
 
 
-def _rate(tokens: list[Token], index: int) -> tuple[float, int]:
+def _rate(row: Row, index: int) -> tuple[float, int]:
     """The seconds of "per second", "/h", "an hour" at `index`, and the token behind; 0 where there
     are none.
     """
-    index += word_at(tokens, index) == "," and word_at(tokens, index + 1) == "per"
-    if [word_at(tokens, index + place) for place in range(3)] == ["s", "-", "1"]:
+    index += row.word(index) == "," and row.word(index + 1) == "per"
+    if [row.word(index + place) for place in range(3)] == ["s", "-", "1"]:
         return 1.0, index + 3
-    if word_at(tokens, index) in ("per", "a", "an", "each", "every", "/"):
-        unit = unit_of(word_at(tokens, index + 1))
+    if row.word(index) in ("per", "a", "an", "each", "every", "/"):
+        unit = unit_of(row.word(index + 1))
         if unit is not None and unit[0] == "s":
             return unit[1], index + 2
     return 0.0, index
 
 
-def _counts(text: str, number: Number) -> bool:
+def _counts(row: Row, index: int, number: Number) -> bool:
     """Whether a number is certainly no measure: "two buoys", "the other one", "heading 045"."""
-    if _A_SECOND_ONE.match(text, number.start):
+    text, start, end = row.text, number.start, number.end
+    if _A_SECOND_ONE.match(text, start):
         return True
-    if number.unit is not None or _CABLES.match(text, number.end):
+    if number.unit is not None:
         return False
-    word = text[number.start : number.end].lower()
-    before, behind = text[: number.start][-24:].lower(), text[number.end :][:24]
-    *_, second, last = ("", "", *(found for found in _WORDS.split(before) if found))
+    word, last, second = row.word(index), row.word(index - 1), row.word(index - 2)
     added = last in AND or (last in ("a", "an") and second in AND)
-    following = tokenize(behind)
-    digit = behind[:1] == " " and bool(following) and following[0][0] in DIGITS
-    stands = word == "one" and last not in WORDS["before_one"] and not digit
-    part = word in FRACTIONS and not added
+    stands = (
+        number.said == 1
+        and word == "one"
+        and last not in WORDS["before_one"]
+        and row.word(index + 1) not in DIGITS
+    )
+    part = word in FRACTIONS and end == row.tokens[index].end and not added
     bearing = len(word) == 3 and word.isdigit() and word[0] == "0"
-    things = _THINGS.match(text, number.end)
+    things = _THINGS.match(text, end)
     thing = things is not None and _is_thing(things[1])
-    return stands or part or bearing or thing or _ANGLE.search(before) is not None
+    return (
+        stands or part or bearing or thing or bool(_ANGLE.search(text, max(0, start - 24), start))
+    )
 
 
 @functools.lru_cache(maxsize=2048)
@@ -217,45 +273,32 @@ def _is_thing(word: str) -> bool:
     return is_known(lowered) and lowered not in WORDS["no_things"] and not units
 
 
-def _with_shared_units(text: str, found: list[Number]) -> Iterator[Number]:
-    """The numbers, the first side of an area with the unit that is said behind the second: "200 by
-    120 feet".
-    """
-    for one, two in itertools.zip_longest(found, found[1:]):
-        shared = two is not None and one.unit is None and two.unit == "m" and two.factor
-        if shared and _BY.fullmatch(text[one.end : two.start]):
-            yield replace(one, value=one.said * two.factor, unit=two.unit, counts=False)
-        else:
-            yield one
-
-
 # ---------------------------------------------------------------- what numbers say together
 
 
-def _without_unit(text: str, number: Number, unit: str | None) -> Iterator[Number]:
-    """What a number without a unit says as well: cables, points of the compass, parts of a
-    hundred.
+def _with_shared_units(text: str, numbers: list[Number]) -> Iterator[Number]:
+    """The numbers, the first side of an area with the unit that is said behind the second: "200 by
+    120 feet".
     """
-    if unit == "m" and (cables := _CABLES.match(text, number.end)):
-        yield replace(number, value=number.value * CABLE, unit="m", rank=WRITTEN, end=cables.end())
-    elif unit == "deg" and (points := _POINTS.match(text, number.end)):
-        yield replace(number, value=number.value * POINT, unit="deg", end=points.end())
-    elif unit == "%" and number.value < 1:
-        yield replace(number, value=100 * number.value, unit="%", rank=BARE, counts=False)
+    lengths = {number.start: number for number in numbers if number.unit == "m" and number.factor}
+    for one in numbers:
+        by = _BY.match(text, one.end) if one.unit is None else None
+        two = lengths.get(by.end()) if by else None
+        yield replace(one, value=one.said * two.factor, unit="m", counts=False) if two else one
 
 
-def neighbours(numbers: tuple[Number, ...], unit: str | None) -> list[Number]:
+def neighbours(numbers: Iterable[Number], unit: str | None) -> list[Number]:
     """The values that neighbouring numbers are together: "two minutes and thirty seconds"."""
     return [total for total, _whole in _sums(numbers, unit)]
 
 
-def _sums(numbers: tuple[Number, ...], unit: str | None) -> Iterator[tuple[Number, bool]]:
+def _sums(numbers: Iterable[Number], unit: str | None) -> Iterator[tuple[Number, bool]]:
     """Neighbours that are one value ("1 h 20 min", "5 minutes 30", "two foot six"), and whether
     their parts are none.
     """
-    for first, second in itertools.pairwise(numbers):
+    for first, second in pairs(numbers, NEIGHBOURS) if unit in ("s", "m") else ():
         gap, value = second.start - first.end, 0.0
-        if first.unit != unit or gap > NEIGHBOURS or not first.said or unit not in ("s", "m"):
+        if first.unit != unit or gap < 0 or not first.said:
             continue
         if unit == "s" and second.unit == "s":
             value = first.value + second.value
@@ -267,43 +310,26 @@ def _sums(numbers: tuple[Number, ...], unit: str | None) -> Iterator[tuple[Numbe
         if value:
             joined = unit == second.unit == "s" and gap <= 1 and first.said > 0 and second.said > 0
             whole = joined and first.factor > second.factor and second.value < first.factor
-            yield Number(value, WRITTEN, first.start, second.end, unit), whole
+            rank = max(first.rank, second.rank) // REREAD * REREAD
+            yield Number(value, rank, first.start, second.end, unit), whole
 
 
-def _as_before(text: str, numbers: tuple[Number, ...], unit: str | None) -> Iterator[Number]:
-    """Bare numbers in the unit of another one: "ten minutes here and five there", "a reading every
-    five", "two minutes, no, three".
+def pairs(numbers: Iterable[Number], most: int) -> Iterator[tuple[Number, Number]]:
+    """Numbers with those that begin behind them, at most this many characters on."""
+    known = sorted(numbers, key=lambda number: number.start)
+    for first in known:
+        begin = bisect.bisect_left(known, first.stop, key=lambda number: number.start)
+        for second in itertools.islice(known, begin, None):
+            if second.start > first.end + most:
+                break
+            yield first, second
+
+
+def _as_before(row: Row, unit: str | None) -> Iterator[Number]:
+    """Bare numbers in the unit of the number before, when they are of a like size: "ten minutes
+    here and five there", "two minutes, no, three".
     """
-    factors = {number.factor for number in numbers if number.unit == unit and number.factor}
-    for before, number in itertools.pairwise((None, *numbers)):
-        if number is None or number.unit is not None or number.said <= 0 or unit not in ("s", "m"):
-            continue
-        again = (
-            _SIZE.match(text, number.end)
-            if unit == "m"
-            else (_UNIT_LEFT_OUT.match(text, number.end) or _EVERY.search(text[: number.start]))
-        )
-        if before is not None and before.unit == unit and before.factor:
-            between = text[before.end : number.start]
-            size = number.said / before.said
-            if len(between) <= 40 and _CORRECTED.search(between) and LEAST < size < 1 / LEAST:
-                value = number.said * before.factor
-                yield replace(number, value=value, unit=unit, rank=AS_BEFORE, counts=False)
-        for factor in sorted(factors) if again else ():
-            yield replace(
-                number, value=number.said * factor, unit=unit, rank=AS_BEFORE, counts=False
-            )
-
-
-def _speeds(text: str, numbers: tuple[Number, ...]) -> Iterator[Number]:
-    """Lengths with a unit of time right behind them: "one metre second"."""
-    for number in numbers:
-        if number.unit == "m":
-            tokens = tokenize(text[number.end : number.end + 16])
-            place = next((at for at, token in enumerate(tokens) if token[0] not in ",/"), 0)
-            unit = unit_of(word_at(tokens, place))
-            if unit and unit[0] == "s":
-                end = number.end + tokens[place][2]
-                yield replace(
-                    number, value=number.value / unit[1], unit="m/s", end=end, rank=REREAD
-                )
+    for before, number in itertools.pairwise(_plain(row)) if unit in ("s", "m") else ():
+        like = before.said and 1 / MOST_TIMES < number.said / before.said < MOST_TIMES
+        if number.unit is None and before.unit == unit and like and not number.counts:
+            yield replace(number, value=number.said * before.factor, unit=unit, rank=AS_BEFORE)

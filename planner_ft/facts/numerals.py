@@ -1,103 +1,279 @@
 """English numerals and units in a row of tokens: "ninety-five", "one point two", "a hundred and
-twenty metres".
+twenty metres". Where a row can be read in several ways, each is given, the plain one first:
+"seventy one hundred and eighty" is 71 180, or 70 and 180.
 """
 
 from __future__ import annotations
 
 import functools
 import re
+from collections.abc import Iterator
+from typing import NamedTuple
 
-from planner_ft.facts.lists import DIGITS, FRACTIONS, ORDINALS, PARTS, SCALES, SMALL, UNITS, WORDS
-from planner_ft.facts.words import edit_distance
+from planner_ft.facts.lists import (
+    DIGITS,
+    FRACTIONS,
+    ORDINALS,
+    PARTS,
+    PRONOUNCED,
+    SCALES,
+    SMALL,
+    TURNS,
+    UNITS,
+    VULGAR,
+    WORDS,
+)
+from planner_ft.facts.words import corrections, edit_distance
 
-AND = WORDS["and"]
+AND, SAID = WORDS["and"], {**DIGITS, **PRONOUNCED}
 MIXED = {"1/2": 0.5, "1/4": 0.25, "3/4": 0.75}
 TURNED = ("of", "turn", "turns", "circle", "circles")
+NUMERALS = frozenset([*SMALL, *SCALES, *PARTS, *TURNS])
+COUNTED = frozenset([*WORDS["articles"], *SMALL, *SCALES, *FRACTIONS, "-", "/", "of"])
+PASSED = 3
+"""Words between a number and its unit: "quarter of a nautical mile"."""
 
 _TOKEN = re.compile(
     r"\d{1,3},\d{3}(?=\s?(?:m|metres|meters|s|seconds)\b)"
+    rf"|(?:\d+\s?)?[{''.join(VULGAR)}]|(?<![\w.])\d+(?:\.\d+)?e\+?\d{{1,2}}(?!\w)"
     r"|(?:1/[2-9]|2/[3579]|3/[4578]|4/5|5/[68]|7/8)(?!\d)|\d*\.\d+|\d+"
     r"|[a-z°]+(?:'[a-z]+)?|(?<![a-z])[-−–]|[-−–](?![a-z])|[^\s\w−–-]",
     re.IGNORECASE,
 )
 """A hyphen between letters is no token: "ninety-five" is ninety five."""
 
-Token = tuple[str, int, int]
-"""Lower-case text, start, end."""
 Unit = tuple[str, float]
+Reading = tuple[float, int]
+"""A number, and the index behind it."""
 
 
-def signed(digits: str) -> float:
-    """The number that `digits` say; its minus may be a dash. Raises ValueError for anything
-    else.
+class Token(NamedTuple):
+    word: str
+    start: int
+    end: int
+
+
+class Row:
+    """The tokens of a text: numbers, words in lower case and signs; digits and letters that stand
+    together ("5m") are apart.
     """
-    return float(digits.replace("−", "-").replace("–", "-"))
 
+    def __init__(self, text: str, tokens: list[Token]) -> None:
+        self.text, self.tokens = text, tokens
 
-def tokenize(text: str) -> list[Token]:
-    """Numbers, words and signs of a text; digits and letters that stand together ("5m") are
-    apart.
-    """
-    return [(match[0].lower(), *match.span()) for match in _TOKEN.finditer(text)]
+    @classmethod
+    def of(cls, text: str) -> Row:
+        """A text as it stands; "right angle" is one word, "tree minutes" are three."""
+        row = cls(text, [Token(match[0].lower(), *match.span()) for match in _TOKEN.finditer(text)])
+        for index, (word, start, _end) in enumerate(row.tokens):
+            before, following = row.word(index - 1), row.word(index + 1)
+            if word in PRONOUNCED and (
+                following in SAID
+                or (len(following) > 3 and following in UNITS)
+                or (before in SAID and row.gap(index) == "-")
+            ):
+                row._write(index, PRONOUNCED[word])
+            elif word in ("angle", "angles") and before == "right":
+                row.tokens[index - 1 : index + 1] = [
+                    Token("rightangle", start, row.tokens[index].end)
+                ]
+            elif (
+                word == "other" and before == "every" and len(following) > 2 and following in UNITS
+            ):
+                row._write(index, "two")
+        return row
 
+    def mended(self, until: int, choice: int) -> Row:
+        """The row with misspelt numerals and units put right up to a place of the text, by the
+        likeliest word or another `choice`: "quartesr", "two hous"; "secotrs" are no seconds.
+        """
+        other, behind = Row(self.text, list(self.tokens)), False
+        for index, (word, start, _end) in enumerate(self.tokens):
+            if start >= until:
+                break
+            if len(word) > 2 and word.isalpha() and word not in UNITS and word not in NUMERALS:
+                meant = corrections(word)
+                known = [one for one in meant if one in NUMERALS] if len(word) > 3 else []
+                if behind and not unit_of(word):
+                    known = [one for one in meant if one in UNITS] or known
+                elif not known and unit_of(word) and meant and meant[0] not in UNITS:
+                    known = [meant[0]]
+                if known:
+                    other._write(index, known[choice % len(known)])
+            passed = behind and word in WORDS["beside_unit"]
+            behind = passed or word[0].isdigit() or word in NUMERALS or word in WORDS["articles"]
+        return other
 
-def word_at(tokens: list[Token], index: int) -> str:
-    """The token's text, or an empty one outside the row."""
-    return tokens[index][0] if 0 <= index < len(tokens) else ""
+    def _write(self, index: int, word: str) -> None:
+        self.tokens[index] = self.tokens[index]._replace(word=word)
 
+    def word(self, index: int) -> str:
+        """The token's text, or an empty one outside the row."""
+        return self.tokens[index].word if 0 <= index < len(self.tokens) else ""
 
-def number_at(tokens: list[Token], index: int) -> tuple[float, int]:
-    """The number that begins at `index` and its number of tokens; 0 where none begins."""
-    word, following = word_at(tokens, index), word_at(tokens, index + 1)
-    if word[:1].isdigit() or (word[:1] == "." and word[1:].isdigit()):
-        if word.isdigit() and following in MIXED and unit_at(tokens, index + 2)[0]:
-            return float(word) + MIXED[following], 2
-        above, _, below = word.replace(",", "").partition("/")
-        return _with_fraction(tokens, index, float(above) / float(below or 1), 1)
-    if word in FRACTIONS:
-        dozen = index + 1 + (following in ("a", "of"))
-        if word_at(tokens, dozen) == "dozen":
-            return 12 * FRACTIONS[word], dozen + 1 - index
-        return FRACTIONS[word], 1
-    if word in ("a", "an", "per", "each", "every"):
-        return _behind_article(tokens, index)
-    if word not in SMALL and word not in SCALES:
-        return 0.0, 0
-    value, used = _digit_by_digit(tokens, index) or _in_words(tokens, index)
-    part = word_at(tokens, index + used)
-    if _is_part(tokens, index + used) or part in PARTS:
-        return value * {**ORDINALS, **PARTS}[part], used + 1
-    return _with_fraction(tokens, index, value, used)
+    def written(self, index: int) -> str:
+        """A token as it stands in the text."""
+        return self.text[self.tokens[index].start : self.tokens[index].end]
 
+    def gap(self, index: int) -> str:
+        """The text before a token."""
+        return self.text[self.tokens[index - 1].end : self.tokens[index].start] if index else ""
 
-def half_behind(tokens: list[Token], index: int) -> tuple[float, int]:
-    """The fraction that "and a half", "and three quarters" add at `index`, and its tokens."""
-    if word_at(tokens, index) not in AND:
-        return 0.0, 0
-    first, second, third = (word_at(tokens, index + place) for place in (1, 2, 3))
-    several = {"three": 3, "two": 2}.get(first, 0)
-    if several and second.startswith(("quarter", "third")) and several * PARTS[second] < 1:
-        # "And three quarters of a turn" is something else.
-        whole = third not in TURNED and (second.endswith("s") or unit_of(third))
-        return (several * PARTS[second], 3) if whole else (0.0, 0)
-    if first in MIXED:
-        return MIXED[first], 2
-    place = index + 1 + (first in ("a", "one"))
-    # "Nine minutes and half an hour" are two.
-    if word_at(tokens, place) not in FRACTIONS or word_at(tokens, place + 1) in ("a", "an"):
-        return 0.0, 0
-    return FRACTIONS[word_at(tokens, place)], place + 1 - index
+    # ------------------------------------------------------------ numbers
 
+    def numerals(self, index: int) -> Iterator[Reading]:
+        """The numbers that begin at `index`, the plain one first."""
+        word, following = self.word(index), self.word(index + 1)
+        if (figure := _figure(word)) is not None:
+            if word.isdigit() and following in MIXED and self.unit(index + 2)[0]:
+                yield figure + MIXED[following], index + 2
+                return
+            yield from self._with_fraction(figure, index + 1)
+            yield from self._thousands(index)
+        elif word in FRACTIONS:
+            dozen = index + 1 + (following in ("a", "of"))
+            if self.word(dozen) == "dozen":
+                yield 12 * FRACTIONS[word], dozen + 1
+            else:
+                yield FRACTIONS[word], index + 1
+        elif word in ("a", "an", "per", "each", "every"):
+            if self._is_part(index + 1):
+                yield ORDINALS[following], index + 2
+            elif following in SCALES or following == "couple":
+                yield from self._in_words(index + 1)
+            # A letter alone is rather a name or an article than a unit.
+            elif len(following) > 2 and self.unit(index + 1)[0]:
+                yield 1.0, index + 1
+        elif word in SMALL or word in SCALES:
+            yield from self._spoken(index)
 
-def unit_at(tokens: list[Token], index: int) -> tuple[Unit | None, int]:
-    """The unit at `index`, with its factor, and the index behind it; words that may stand before it
-    are passed over.
-    """
-    for _passed in range(3):
-        index += word_at(tokens, index) in WORDS["beside_unit"]
-    if word_at(tokens, index) == "per" and word_at(tokens, index + 1) == "cent":
-        return UNITS["percent"], index + 2
-    return unit_of(word_at(tokens, index)), index + 1
+    def half(self, index: int) -> Reading:
+        """What "and a half", "and three quarters" add at `index`, and the index behind it."""
+        nothing = (0.0, index)
+        if self.word(index) not in AND:
+            return nothing
+        first, second, third = (self.word(index + place) for place in (1, 2, 3))
+        several = {"three": 3, "two": 2}.get(first, 0)
+        if several and second.startswith(("quarter", "third")) and several * PARTS[second] < 1:
+            # "And three quarters of a turn" is something else.
+            whole = third not in TURNED and (second.endswith("s") or unit_of(third))
+            return (several * PARTS[second], index + 3) if whole else nothing
+        if first in MIXED:
+            return MIXED[first], index + 2
+        place = index + 1 + (first in ("a", "one"))
+        # "Nine minutes and half an hour" are two.
+        if self.word(place) not in FRACTIONS or self.word(place + 1) in ("a", "an"):
+            return nothing
+        return FRACTIONS[self.word(place)], place + 1
+
+    def unit(self, index: int) -> tuple[Unit | None, int]:
+        """The unit at `index`, with its factor, and the index behind it; words that may stand
+        before it are passed over.
+        """
+        for _passed in range(PASSED):
+            index += self.word(index) in WORDS["beside_unit"]
+        if self.word(index) == "per" and self.word(index + 1) == "cent":
+            return UNITS["percent"], index + 2
+        return unit_of(self.word(index)), index + 1
+
+    def bare_unit(self, index: int) -> bool:
+        """Whether a unit without a number begins here: "wait minute at each", "full mnute"."""
+        at = index + (self.word(index) in WORDS["whole"])
+        word, before = self.word(at), self.word(index - 1)
+        misspelt = word not in UNITS and not word.endswith("s")
+        return (
+            len(word) > 2
+            and unit_of(word) is not None
+            and (word in WORDS["bare_units"] or misspelt)
+            and not (before in COUNTED or before in WORDS["whole"] or before[:1].isdigit())
+        )
+
+    def _thousands(self, index: int) -> Iterator[Reading]:
+        """ "1,250" as one number."""
+        match = re.compile(r"(?<![\d.,])\d{1,3}(?:,\d{3})+(?![\d.])").match(
+            self.text, self.tokens[index].start
+        )
+        if match and match.end() > self.tokens[index].end:
+            yield float(match[0].replace(",", "")), index + 1 + 2 * match[0].count(",")
+
+    def _spoken(self, index: int) -> Iterator[Reading]:
+        """A number in words: digit by digit as over the radio ("one two zero"), or "one hundred and
+        twenty", "one eighty".
+        """
+        said = self._digits(index)
+        radio = [(float(said[:count]), index + count) for count in range(len(said), 1, -1)]
+        words = list(self._in_words(index))
+        joined = len(said) == 2 and self.gap(index + 1) == "-" and int(said[1]) != int(said[0]) + 1
+        two = len(said) == 2 and said[0] != "0"
+        # "Two five minute holds" may be two.
+        sure = two and (said[1] == "0" or joined or self.unit(index + 2)[0] is None)
+        value, after = words[0]
+        part = self.word(after)
+        if len(said) > 2 or sure:
+            yield radio[0]
+        elif part in PARTS or self._is_part(after):
+            yield value * {**ORDINALS, **PARTS}[part], after + 1
+        else:
+            yield from self._with_fraction(value, after)
+        others = (*radio, *words)
+        yield from (one for one in others if len(said) == 2 or self._splits(one[1]))
+        yield from self._hundreds(index)
+
+    def _hundreds(self, index: int) -> Iterator[Reading]:
+        """ "One eighty" is 180, "two twenty-five" 225."""
+        first, tens, ones = (SMALL.get(self.word(index + place), 0) for place in range(3))
+        if 0 < first < 10 <= tens:
+            more = 0 < ones < 10
+            yield 100 * first + tens + more * ones, index + 2 + more
+
+    def _in_words(self, start: int) -> Iterator[Reading]:
+        """A number in words: "one thousand six hundred and seventy-four", "one point two"; then
+        those that its first words are alone.
+        """
+        index, total, current, found = start, 0.0, 0.0, list[Reading]()
+        while True:
+            word, skip = self.word(index), 0
+            if index > start and word in AND and (current >= 100 or (total and not current)):
+                word, skip = self.word(index + 1), 1
+            if word in SMALL and (index == start or _joins(current, SMALL[word], total)):
+                current += SMALL[word]
+            elif word == "thousand":
+                total, current = total + max(current, 1) * 1000, 0.0
+            elif word in SCALES:
+                current = max(current, 1) * SCALES[word]
+            else:
+                break
+            index += 1 + skip
+            found.append((total + current, index))
+        decimals = self._digits(index + 1) if self.word(index) in ("point", "decimal") else ""
+        if decimals:
+            found[-1] = total + current + float(f"0.{decimals}"), index + 1 + len(decimals)
+        yield found.pop()
+        yield from (one for one in reversed(found) if self._splits(one[1]))
+
+    def _digits(self, index: int) -> str:
+        """The digits in words from `index` on, as figures."""
+        found = ""
+        while self.word(index + len(found)) in DIGITS:
+            found += DIGITS[self.word(index + len(found))]
+        return found
+
+    def _splits(self, index: int) -> bool:
+        """Whether one number can end before a token and another begin: "seventy / one hundred"."""
+        apart = self.word(index) in SMALL and self.gap(index)
+        return bool(apart) and str(apart).isspace() and "\n" not in str(apart)
+
+    def _with_fraction(self, value: float, index: int) -> Iterator[Reading]:
+        fraction, behind = self.half(index)
+        yield value + fraction, behind
+        # "At 4 and a half hour of film".
+        if self.word(behind) in WORDS["bare_units"] and behind > index:
+            yield value, index
+
+    def _is_part(self, index: int) -> bool:
+        """Whether an ordinal stands for a part of a unit: "tenth of an hour", "eighth of a turn"."""
+        word, of, article = (self.word(index + place) for place in range(3))
+        return word in ORDINALS and of == "of" and article in ("a", "an", "the")
 
 
 @functools.lru_cache(maxsize=4096)
@@ -114,62 +290,14 @@ def unit_of(word: str) -> Unit | None:
     return None
 
 
-def _behind_article(tokens: list[Token], index: int) -> tuple[float, int]:
-    following = word_at(tokens, index + 1)
-    if _is_part(tokens, index + 1):
-        return ORDINALS[following], 2
-    if following in SCALES or following == "couple":
-        value, used = _in_words(tokens, index + 1)
-        return value, used + 1
-    # A letter alone is rather a name or an article than a unit.
-    return (1.0, 1) if len(following) > 2 and unit_at(tokens, index + 1)[0] else (0.0, 0)
-
-
-def _is_part(tokens: list[Token], index: int) -> bool:
-    """Whether an ordinal stands for a part of a unit: "tenth of an hour", "eighth of a turn"."""
-    word, of, article = (word_at(tokens, index + place) for place in range(3))
-    return word in ORDINALS and of == "of" and article in ("a", "an", "the")
-
-
-def _digits(tokens: list[Token], index: int) -> str:
-    found = ""
-    while word_at(tokens, index + len(found)) in DIGITS:
-        found += DIGITS[word_at(tokens, index + len(found))]
-    return found
-
-
-def _digit_by_digit(tokens: list[Token], index: int) -> tuple[float, int] | None:
-    """Digits as they are read over the radio: "one two zero", "minus two five"; two with a unit
-    behind them may be "two five minute holds".
-    """
-    digits = _digits(tokens, index)
-    two = len(digits) == 2 and digits[0] != "0"
-    sure = two and (digits[1] == "0" or unit_at(tokens, index + 2)[0] is None)
-    return (float(digits), len(digits)) if len(digits) >= 3 or sure else None
-
-
-def _in_words(tokens: list[Token], start: int) -> tuple[float, int]:
-    """A number in words: "one thousand six hundred and seventy-four", "one point two"."""
-    index, total, current = start, 0.0, 0.0
-    while True:
-        word, skip = word_at(tokens, index), 0
-        if index > start and word in AND and (current >= 100 or (total and not current)):
-            word, skip = word_at(tokens, index + 1), 1
-        if word in SMALL and (index == start or _joins(current, SMALL[word], total)):
-            current += SMALL[word]
-        elif word == "thousand":
-            total, current = total + max(current, 1) * 1000, 0.0
-        elif word in SCALES:
-            current = max(current, 1) * SCALES[word]
-        else:
-            break
-        index += 1 + skip
-    decimals = ""
-    if index > start and word_at(tokens, index) in ("point", "decimal"):
-        decimals = _digits(tokens, index + 1)
-    if decimals:
-        return total + current + float(f"0.{decimals}"), index + 1 + len(decimals) - start
-    return total + current, index - start
+def _figure(word: str) -> float | None:
+    """The value of a token in figures: "1,200", "2/3", "1½", "1e3"."""
+    if word[-1:] in VULGAR:
+        return float(word[:-1] or 0) + VULGAR[word[-1]]
+    if not word[-1:].isdigit():
+        return None
+    above, _, below = word.replace(",", "").partition("/")
+    return float(above) / float(below or 1)
 
 
 def _joins(current: float, following: float, total: float) -> bool:
@@ -181,8 +309,3 @@ def _joins(current: float, following: float, total: float) -> bool:
     if current >= 100 and current % 100 == 0:
         return following < 100
     return current >= 20 and current % 10 == 0 and 0 < following < 10
-
-
-def _with_fraction(tokens: list[Token], index: int, value: float, used: int) -> tuple[float, int]:
-    fraction, more = half_behind(tokens, index + used)
-    return value + fraction, used + more

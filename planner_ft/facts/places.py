@@ -1,4 +1,4 @@
-"""Places, directions and turns of a text, in one way of reading it.
+"""Places, directions and turns of a text.
 
 Geographic coordinates are a kind of their own. They are told from local positions ("40 east, 25
 north", in metres) by a degree sign with minutes or a hemisphere, the words latitude and longitude,
@@ -9,20 +9,21 @@ they have minutes.
 from __future__ import annotations
 
 import functools
-import itertools
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from planner_ft.facts.lists import COMPASS, SHORT, TURNS, UNITS
-from planner_ft.facts.numbers import WRITTEN, Number, read_numbers
+from planner_ft.facts.numbers import REREAD, WRITTEN, Number, pairs, read_numbers, read_rows
 
 DIGITS_OF_DEGREES = 4
 """Decimals from which a bare number is rather degrees than metres."""
+MOST_BETWEEN = 80
+"""Characters between two coordinates."""
 BLANK = "|"
 """Stands in place of what was read already."""
 _DIRECTION = r"(?:east|west|north|south)(?:ings?|wards?|erly)?|[ewns](?![a-z])"
-_METRES = r"met(?:re|er)s?|m"
+_METRES = r"(?:met(?:re|er)s?|m)\b"
 _SIGN = r"(?:minus |negative |[-−–])"
 _NUMBER = r"[-−–]?\d+(?:\.\d+)?"
 _PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
@@ -48,7 +49,9 @@ _BETWEEN = re.compile(
 )
 _DIRECTED = re.compile(rf"\s*(?:{_METRES})?\s*(?:(?:to )?the |due )?({_DIRECTION})", re.IGNORECASE)
 _LED = re.compile(rf"(?<![a-z])({_DIRECTION})\s*(?:of|by|[:=])?\s*{_SIGN}?\s*$", re.IGNORECASE)
-_Y_FIRST = re.compile(r"y\s*[=:]?\s*$", re.IGNORECASE)
+_Y_FIRST = re.compile(r"(?<![a-z])y\s*[=:]?\s*$", re.IGNORECASE)
+_CLOCK = re.compile(r"(?:[01]?\d|2[0-3]):[0-5]\d(?!\d)")
+"""A time of day: "16:00"."""
 _COORDINATE_UNIT = re.compile(
     r"(?:,|\(|^|\ball|\bgiven|\bcorners|\bcoordinates|\bpositions|\bis|\bare) ?in "
     r"(kilometres|kilometers|km|feet|ft|yards)\b(?! \w+ing\b)",
@@ -79,7 +82,7 @@ _PART = re.compile(
     r"(?:turn|circle|rotation|revolution|circuit|round)\b",
     re.IGNORECASE,
 )
-_TURN = re.compile(rf"\b(?:all the way (?:a?round|about)|{'|'.join(TURNS)})\b", re.IGNORECASE)
+_ROUND = ("round", "around", "about")
 _LAPS = re.compile(
     r"[\s-]*(?:full |complete )?(?:times?|turns?|laps?|rounds?|circles?|circuits?|orbits?)",
     re.IGNORECASE,
@@ -179,40 +182,45 @@ def written_pairs(text: str) -> list[tuple[int, int]]:
     return [match.span() for match in _WRITTEN_PAIR.finditer(text)]
 
 
-@functools.lru_cache(maxsize=4096)
 def read_positions(text: str) -> tuple[Position, ...]:
-    """Pairs of neighbouring numbers that can be coordinates, whatever form they are written in.
+    """Pairs of neighbouring numbers that can be coordinates, whatever form they are written in, in
+    the plain way of reading the text.
 
     A pair is read both as it stands and by its directions, said behind the numbers or before them:
     "40 south 12 east" and "south 40, east 12" are also (12, -40).
     """
-    found = dict[Position, None]()
-    for first, second in itertools.pairwise(read_numbers(text)):
-        between = text[_number_end(text, first) : second.start]
-        if not _BETWEEN.fullmatch(between):
-            continue
-        certain = _is_certain(text, first.start, second.end)
-        behind = text[_number_end(text, second) : second.end + 24]
-        end = _way_end(text, first.start, second.end)
-        for x, y in _readings(first, second, text[: first.start][-24:], between, behind):
-            found[Position(x, y, first.start, end, certain)] = None
+    return positions_of(text, read_numbers(text))
+
+
+@functools.lru_cache(maxsize=4096)
+def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]:
+    """The positions that numbers of a text can be, the plainest first."""
+    found = dict[Position, int]()
+    for first, second in pairs((one for one in numbers if one.stop), MOST_BETWEEN):
+        between = _BETWEEN.fullmatch(text, first.stop, second.start)
+        if between and not _CLOCK.fullmatch(text, first.start, second.stop):
+            certain = _is_certain(text, first.start, second.end)
+            end = _way_end(text, first.start, second.end)
+            rank = max(first.rank, second.rank)
+            for x, y in _readings(text, first, second):
+                place = Position(x, y, first.start, end, certain)
+                found[place] = min(rank, found.get(place, REREAD))
     for place, unit in _other_units(text, list(found)):
-        found[place] = found[unit] = None
-    return tuple(found)
+        found[place] = found[unit] = found[place]
+    return tuple(sorted(found, key=lambda place: found[place] >= REREAD))
 
 
-def _readings(
-    first: Number, second: Number, before: str, between: str, behind: str
-) -> Iterator[tuple[float, float]]:
-    ways = _DIRECTED.match(between), _DIRECTED.match(behind)
+def _readings(text: str, first: Number, second: Number) -> Iterator[tuple[float, float]]:
+    before, between = (max(0, first.start - 24), first.start), (first.stop, second.start)
+    ways = _DIRECTED.match(text, *between), _DIRECTED.match(text, second.stop, second.end + 24)
     one, two = (_along(number, way) for number, way in zip((first, second), ways, strict=True))
     yield one[0], two[0]
     if (one[1] is None) != (two[1] is None):
         # The direction belongs to what follows: "from 22/98 westwards".
         yield first.said, second.said
-    if one[1] == "y" or two[1] == "x" or _Y_FIRST.search(before):
+    if one[1] == "y" or two[1] == "x" or _Y_FIRST.search(text, *before):
         yield two[0], one[0]
-    led = [_along(first, _LED.search(before)), _along(second, _LED.search(between))]
+    led = [_along(first, _LED.search(text, *before)), _along(second, _LED.search(text, *between))]
     by_axis = {axis: value for value, axis in led}
     if {"x", "y"} <= by_axis.keys():
         yield by_axis["x"], by_axis["y"]
@@ -224,15 +232,6 @@ def _along(number: Number, way: re.Match[str] | None) -> tuple[float, str | None
         return number.said, None
     letter = way[1][0].lower()
     return (-number.said if letter in "ws" else number.said), "x" if letter in "ew" else "y"
-
-
-def _number_end(text: str, number: Number) -> int:
-    """Where a number ends and its unit begins: coordinates keep metres in the text between them."""
-    said = text[number.start : number.end].lower()
-    for unit in ("metres", "meters", "metre", "meter", "m") if number.unit == "m" else ():
-        if said.endswith(unit):
-            return number.start + len(said.removesuffix(unit).rstrip())
-    return number.end
 
 
 def _way_end(text: str, start: int, end: int) -> int:
@@ -310,20 +309,20 @@ def _points(points: list[tuple[str, int, int]], text: str) -> Iterator[Number]:
         points = points[many:]
 
 
-@functools.lru_cache(maxsize=4096)
-def read_turns(text: str) -> tuple[Number, ...]:
+def turns_of(text: str, numbers: Iterable[Number]) -> Iterator[Number]:
     """Angles in degrees of the turns that a text speaks of: full, once, half, three quarters,
     twice, three times.
     """
-    found = []
-    for match in _TURN.finditer(text):
-        turn = TURNS.get(match[0].lower(), 1.0 if match[0].lower().startswith("all") else 0.0)
-        if turn:
-            found.append(Number(360 * turn, WRITTEN, *match.span(), "deg", turn))
-    for number in read_numbers(text):
-        behind = _LAPS.match(text, number.end) or _PART.match(text, number.end)
+    for row in read_rows(text):
+        for index, (word, start, end) in enumerate(row.tokens):
+            turn = TURNS.get(word, 0.0)
+            if word == "way" and row.word(index - 2) == "all" and row.word(index + 1) in _ROUND:
+                turn, start, end = 1.0, row.tokens[index - 2].start, row.tokens[index + 1].end
+            if turn:
+                yield Number(360 * turn, WRITTEN, start, end, "deg", turn)
+    for number in (one for one in numbers if one.unit is None):
+        laps = _LAPS.match(text, number.end)
         part = number.value in (0.75, 1.5) or abs(number.value - 2 / 3) < 1e-9
-        if number.unit is None and (part or behind):
-            end = behind.end() if behind and _LAPS.match(text, number.end) else number.end
-            found.append(Number(360 * number.value, WRITTEN, number.start, end, "deg", number.said))
-    return tuple(found)
+        if part or laps or _PART.match(text, number.end):
+            end = laps.end() if laps else number.end
+            yield Number(360 * number.value, WRITTEN, number.start, end, "deg", number.said)

@@ -2,29 +2,37 @@
 
 from __future__ import annotations
 
-import bisect
 import functools
-import itertools
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal
 
 from planner_ft.facts.lists import SCALES, SMALL, WORDS
-from planner_ft.facts.numbers import AS_BEFORE, BARE, IN_PAIR, REREAD, Number, in_unit, read_numbers
+from planner_ft.facts.numbers import (
+    AS_BEFORE,
+    BARE,
+    IN_PAIR,
+    REREAD,
+    THOROUGH,
+    Number,
+    in_unit,
+    read_all,
+    read_numbers,
+)
 from planner_ft.facts.places import (
     Geographic,
     Position,
+    positions_of,
     read_bearings,
     read_geographic,
     read_positions,
-    read_turns,
+    turns_of,
     unpaired_coordinates,
     without_geographic,
     written_pairs,
 )
-from planner_ft.facts.variants import Variant, plain, variants
 from planner_ft.facts.words import Phrases, Span, is_known, phrases
 from planner_ft.vocabulary import Parameter
 
@@ -39,17 +47,12 @@ FARTHEST = 0.5
 """Metres that a position may lie off: another whole metre is another place."""
 LARGEST = 1e9
 """Longer rows of digits are no values."""
-LONGEST_PIECE = 1500
-"""Characters that are read at once."""
-THOROUGH = 6000
-"""Characters that are read in every way that they can be meant; what follows, as it stands."""
 FEWEST_WORDS = 5
 """Words below which a text is too short to tell its language by."""
 MEASURES = ("m", "s", "m/s", "degC")
 WAYPOINT = Parameter("x, y", "position", "m")
 """The two coordinates of a destination, judged together."""
 
-_END = re.compile(r"[.!?;]\s+|\n+")
 _UNREAD = re.compile(
     r"\d+(?:\.\d+){2,}|\d+['’]\d+|\d\^\d|(?<![\w.])0x[0-9a-f]+|[×*]\s?10\b(?!\s?m)"
     rf"|\b(?:\d+|an?|half|{'|'.join([*SMALL, *SCALES])})[ -]"
@@ -59,7 +62,6 @@ _UNREAD = re.compile(
 )
 
 Place = tuple[float, float]
-Found = TypeVar("Found", Number, Position)
 
 
 @dataclass(frozen=True)
@@ -95,21 +97,9 @@ class Evidence:
 NOBODY, UNREAD = Evidence("nobody"), Evidence("unread")
 
 
-@dataclass(frozen=True)
-class _Piece:
-    """A part of a text at `offset`, and the ways of reading it, the plain one first."""
-
-    offset: int
-    readings: tuple[Variant, ...]
-
-    def span(self, reading: Variant, start: int, end: int) -> Span:
-        first, last = reading.origin(start, end)
-        return first + self.offset, last + self.offset
-
-
 class Facts:
-    """What a text states. Everything is read once, when it is first asked for, and in pieces: the
-    work grows with the length of the text and no faster.
+    """What a text states. Everything is read once, when it is first asked for; the work grows with
+    the length of the text and no faster.
     """
 
     def __init__(self, text: str) -> None:
@@ -122,19 +112,22 @@ class Facts:
         coordinates are neither.
         """
         if unit not in self._numbers:
-            found = (
-                number
-                for piece in self._pieces
-                for reading in piece.readings
-                for number in self._numbers_of(piece, reading, unit)
+            found = in_unit(self._local, "deg" if unit == "degC" else unit)
+            spans = [(place.start, place.end) for place in read_positions(self._local)]
+            certain, inside = _covered(written_pairs(self._local)), _covered(spans)
+            self._numbers[unit] = tuple(
+                replace(one, rank=IN_PAIR) if one.rank == BARE and one.start in inside else one
+                for one in sorted(dict.fromkeys(found), key=_plainness)
+                if not (one.counts and unit in MEASURES)
+                and one.start not in certain
+                and abs(one.value) < LARGEST
             )
-            self._numbers[unit] = tuple(sorted(dict.fromkeys(found), key=_plainness))
         return self._numbers[unit]
 
     @functools.cached_property
     def positions(self) -> tuple[Position, ...]:
         """Local coordinates in metres that the text can state, the plainest reading first."""
-        found = self._read(read_positions)
+        found = positions_of(self._local, self._all)
         return tuple(place for place in found if max(abs(place.x), abs(place.y)) < LARGEST)
 
     @functools.cached_property
@@ -145,18 +138,17 @@ class Facts:
     @functools.cached_property
     def bearings(self) -> tuple[Number, ...]:
         """Compass directions, in degrees clockwise from north."""
-        return tuple(self._read(read_bearings))
+        return read_bearings(self._local)
 
     @functools.cached_property
     def turns(self) -> tuple[Number, ...]:
         """Angles of parts and numbers of circles: "half", "once round", "three times"."""
-        return tuple(self._read(read_turns))
+        return tuple(dict.fromkeys(turns_of(self._local, self._all)))
 
     @functools.cached_property
     def counts(self) -> tuple[float, ...]:
         """The bare numbers of the text, those that count things included."""
-        plain_numbers = (read_numbers(piece.readings[0].text) for piece in self._pieces)
-        return tuple(number.said for number in itertools.chain(*plain_numbers))
+        return tuple(number.said for number in read_numbers(self._local))
 
     @property
     def phrases(self) -> Phrases:
@@ -173,12 +165,9 @@ class Facts:
         """The numbers that coordinates can be made of, where one that is said as a coordinate has
         no partner.
         """
-        pieces = [piece for piece in self._pieces if piece.offset < THOROUGH]
-        if self.unread or not any(unpaired_coordinates(piece.readings[0].text) for piece in pieces):
+        if self.unread or not unpaired_coordinates(self._local[:THOROUGH]):
             return ()
-        found = (read_numbers(reading.text) for piece in pieces for reading in piece.readings)
-        said = (number.said for number in itertools.chain(*found) if number.unit in ("m", None))
-        return tuple(dict.fromkeys(said))
+        return tuple(dict.fromkeys(one.said for one in self._all if one.unit in ("m", None)))
 
     def evidence(self, value: Any, parameter: Parameter, tolerance: float = EXACT) -> Evidence:
         """Whether the text says a value of a parameter, and with which words. A number may differ
@@ -193,36 +182,6 @@ class Facts:
         if kind == "polygon":
             return together(self.evidence(corner, WAYPOINT, tolerance) for corner in items)
         return together(self._text(str(item)) for item in items)
-
-    def _read(self, reader: Callable[[str], Iterable[Found]]) -> dict[Found, None]:
-        """What a reader finds in every way of reading the text, with its place in the text itself,
-        the plainest way first.
-        """
-        return {
-            replace(item, start=span[0], end=span[1]): None
-            for piece in self._pieces
-            for reading in piece.readings
-            for item in reader(reading.text)
-            for span in [piece.span(reading, item.start, item.end)]
-        }
-
-    # ------------------------------------------------------------ numbers
-
-    def _numbers_of(self, piece: _Piece, reading: Variant, unit: str | None) -> Iterator[Number]:
-        text, degrees = reading.text, "deg" if unit == "degC" else unit
-        certain = written_pairs(text)
-        pairs = [(place.start, place.end) for place in read_positions(text)]
-        for number in in_unit(text, degrees):
-            no_measure = number.counts and unit in MEASURES
-            if no_measure or _within(certain, number.start) or abs(number.value) >= LARGEST:
-                continue
-            rank = number.rank
-            if rank == BARE and _within(pairs, number.start):
-                rank = IN_PAIR
-            if reading is not piece.readings[0]:
-                rank = REREAD + (rank >= BARE)
-            start, end = piece.span(reading, number.start, number.end)
-            yield replace(number, rank=rank, start=start, end=end)
 
     def _number(self, value: float, parameter: Parameter, tolerance: float) -> Evidence:
         found = _near(self.numbers(parameter.unit), value, tolerance)
@@ -261,31 +220,19 @@ class Facts:
         return Evidence("stated", tuple(spans for spans in self.phrases.spans(value) if spans))
 
     @functools.cached_property
-    def _pieces(self) -> tuple[_Piece, ...]:
-        return tuple(
-            _Piece(offset, variants(text) if offset < THOROUGH else (plain(text),))
-            for offset, text in pieces(without_geographic(self.text))
-        )
+    def _local(self) -> str:
+        """The text with blanks for geographic positions."""
+        return without_geographic(self.text)
+
+    @property
+    def _all(self) -> tuple[Number, ...]:
+        return read_all(self._local)
 
 
 @functools.lru_cache(maxsize=4096)
 def read(text: str) -> Facts:
     """The facts of a text, read once for all that ask about it."""
     return Facts(text)
-
-
-def pieces(text: str, longest: int = LONGEST_PIECE) -> Iterator[tuple[int, str]]:
-    """The text cut behind sentences, or words where a sentence is too long, with where each piece
-    begins.
-    """
-    start = 0
-    while len(text) - start > longest:
-        window = text[start : start + longest]
-        ends = [match.end() for match in _END.finditer(window)]
-        cut = ends[-1] if ends else window.rfind(" ") + 1 or longest
-        yield start, window[:cut]
-        start += cut
-    yield start, text[start:]
 
 
 # ---------------------------------------------------------------- comparing values
@@ -334,15 +281,13 @@ def _mentions(found: Iterable[Number | Position]) -> tuple[tuple[Span, ...], ...
 
 
 def _near(numbers: tuple[Number, ...], value: float, tolerance: float) -> list[Number]:
-    """The numbers, sorted by value, that `value` is near to."""
-    margin = 2 * max(ROUNDING, max(tolerance, CONVERSION) * abs(value))
-    first = bisect.bisect_left(numbers, value - margin, key=lambda number: number.value)
-    last = bisect.bisect_right(numbers, value + margin, key=lambda number: number.value)
-    return [number for number in numbers[first:last] if near(value, number.value, tolerance)]
+    """The numbers that `value` is near to."""
+    return [number for number in numbers if near(value, number.value, tolerance)]
 
 
-def _within(spans: Iterable[tuple[int, int]], place: int) -> bool:
-    return any(start <= place < end for start, end in spans)
+def _covered(spans: Iterable[Span]) -> set[int]:
+    """The places of a text that spans cover."""
+    return {place for start, end in spans for place in range(start, end)}
 
 
 def _notes(text: str) -> Iterator[str]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from planner_ft.data.curated import find_source
+from planner_ft.data.curated import curated_folder, find_source
 from planner_ft.prompts.render import ends_of_answers, render_prompt
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl
@@ -49,7 +49,9 @@ def check_records(
                 raise PlannerError(f"{data}: record {number} has no {missing[0]}; {hint}")
         return records
     if level == "mission":
-        return read_jsonl(find_source() / "validation.jsonl")[:count]
+        return read_jsonl((curated_folder(vocabulary) or find_source()) / "validation.jsonl")[
+            :count
+        ]
     from planner_ft.data.task.sampler import sample_tasks
 
     return list(itertools.islice(sample_tasks(vocabulary, SEED, count, "validation"), count))

@@ -105,6 +105,20 @@ def resolve(
     return filled
 
 
+def fitting(
+    plan: dict[str, Any], locations: Mapping[str, Position], vocabulary: Vocabulary
+) -> tuple[dict[str, Position], list[str]]:
+    """The locations that resolve takes, and a note for each of the others."""
+    fits, notes = dict[str, Position](), list[str]()
+    for name, position in locations.items():
+        try:
+            resolve(plan, {**fits, name: position}, vocabulary)
+            fits[name] = position
+        except PlannerError as problem:
+            notes.append(f"Not used: {problem}.")
+    return fits, notes
+
+
 def charted(chart: Mapping[str, Position], places: Sequence[OpenPlace]) -> dict[str, Position]:
     """The positions of a chart, by open place, that fit just one."""
     found: dict[str, Position] = {}

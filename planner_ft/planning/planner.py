@@ -16,6 +16,7 @@ from planner_ft.planning.locations import (
     OpenPlace,
     Position,
     charted,
+    fitting,
     is_open,
     open_places,
     resolve,
@@ -89,8 +90,8 @@ class Planner:
         Geographic positions of the command are read with the `origin`, where [0, 0] lies; without
         one they are open places. `chart` has positions of places that may be open, and of
         structures to keep clear of. `on_event` gets the tasks, then the skills of each; an error in
-        it ends planning. Raises PlannerError for a bad command or location; invalid answers are
-        part of the result.
+        it ends planning. Raises PlannerError for a bad command; a location that fits no open place
+        is a note and invalid answers are part of the result.
         """
         check_command(command)
         frame = agents_frame(command, origin)
@@ -102,10 +103,12 @@ class Planner:
         places: list[OpenPlace] = []
         located = {}
         if mission.plan is not None:
-            filled = resolve(mission.plan, locations or {}, self.vocabulary)
+            known, unused = fitting(mission.plan, locations or {}, self.vocabulary)
+            filled = resolve(mission.plan, known, self.vocabulary)
+            mission = replace(mission, notes=(*mission.notes, *unused))
             found = charted(chart or {}, open_places(filled, self.vocabulary))
             filled = resolve(filled, found, self.vocabulary)
-            located = {name: list(at) for name, at in {**(locations or {}), **found}.items()}
+            located = {name: list(at) for name, at in {**known, **found}.items()}
             places = open_places(filled, self.vocabulary)
             tasks = self._tasks(filled, places, on_event)
         answers = {"mission": [mission], "task": [task.answer for task in tasks if task.answer]}

@@ -118,5 +118,6 @@ def _agent(level: Level, settings: PlanSettings, vocabulary: Vocabulary) -> Agen
         )
     # A fine-tuned model has learned the vocabulary, and so has one that was pretrained on it.
     with_vocabulary = not chosen.adapter and not candidate.knows(vocabulary)
-    quantization = settings.quantization or candidate.adapter_defaults(level).quantization or "nf4"
+    default = candidate.adapter_defaults(level, vocabulary).quantization
+    quantization = settings.quantization or default or "nf4"
     return Agent(level, candidate, chosen, adapter, quantization, with_vocabulary)

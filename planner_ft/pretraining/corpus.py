@@ -20,7 +20,7 @@ from planner_ft.data.missions import sample_missions
 from planner_ft.data.task.mission_tasks import mission_tasks
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.task.working import working_of
-from planner_ft.pretraining.unfamiliar import with_unfamiliar_words
+from planner_ft.data.unfamiliar import with_unfamiliar_words
 from planner_ft.prompts.render import render_sample
 from planner_ft.prompts.text import answer_text, user_text
 from planner_ft.support.files import atomic_writer

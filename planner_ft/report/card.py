@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark.catalogue import METRIC
-from planner_ft.benchmark.layout import Line, metric_table
+from planner_ft.benchmark.layout import metric_table
 from planner_ft.benchmark.results import Row, heading
 from planner_ft.candidates.adapters import CONFIG, MANIFEST, WEIGHTS
 from planner_ft.report.contents import MAIN, failure_words
@@ -82,12 +82,8 @@ def _section(measured: Sequence[Measured]) -> str:
     sets = {tests.key: tests for tests, _row in reversed(measured)}
     for key in dict.fromkeys(tests.key for tests, _row in measured):
         rows = [row for tests, row in measured if tests.key == key]
-        shown = []
-        for row in rows:
-            name = row.system.label, heading(row.system.configuration)
-            shown.append(Line(*name, row.n, "measured", row.metrics, {}))
         how = "In brackets 95 % intervals."
-        table = replace(metric_table(MAIN, shown), title=f"{sets[key].title}.", caption=how)
+        table = replace(metric_table(MAIN, rows), title=f"{sets[key].title}.", caption=how)
         limits = [f"- {text}" for text in _limits(sets[key], rows)]
         parts += [markdown_table(table) + "\n".join(limits)]
     return "\n\n".join(parts)

@@ -76,13 +76,12 @@ def harvest_files(
         example = "plannerft review --harvest plan.json --out corrections.jsonl"
         raise PlannerError(f"--harvest needs plans and --out, such as {example}")
     new_file(out, overwrite=overwrite)
-    held_out, left_out = held_out_records(), dict[Path, str]()
-    samples, lines = dict[Path, dict[str, Any]](), dict[Path, str]()
+    samples, lines, left_out = dict[Path, dict[str, Any]](), dict[Path, str](), dict[Path, str]()
     for path in plans:
         document, known = read_plan(path, vocabulary)
         approval = approval_of(document, existing_log(log) if log else log_beside(path))
         try:
-            samples[path] = sample(document, approval, held_out, known)
+            samples[path] = sample(document, approval, held_out_records(known), known)
             lines[path] = canonical_record("mission", samples[path], known)
         except LeftOutError as error:
             left_out[path] = str(error)
@@ -98,9 +97,13 @@ def harvest_files(
     return Harvest(samples, left_out, out)
 
 
-def held_out_records() -> HeldOut:
-    """The curated records that no sample may come near to. Raises PlannerError without the set."""
-    files = [find_source() / f"{name}.jsonl" for name in HELD_OUT]
+def held_out_records(vocabulary: Vocabulary) -> HeldOut:
+    """The curated records that no sample may come near to; an own vehicle may have none. Raises
+    PlannerError for a bundled vehicle without its set.
+    """
+    own = vocabulary.data / "mission"
+    folder = find_source(None, vocabulary) if vocabulary.bundled else own
+    files = [folder / f"{name}.jsonl" for name in HELD_OUT]
     return {file.stem: read_jsonl(file) for file in files if file.is_file()}
 
 

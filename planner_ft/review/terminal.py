@@ -12,7 +12,7 @@ from rich.text import Text
 from planner_ft.document import PlanDocument, altered, differences
 from planner_ft.document.differences import Difference
 from planner_ft.document.track import track
-from planner_ft.document.tree import constraint_lines, plain, task_tree
+from planner_ft.document.tree import constraint_lines, task_tree
 from planner_ft.planning.frame import origin_of
 from planner_ft.review.chart import chart
 from planner_ft.review.commands import HELP
@@ -23,6 +23,7 @@ from planner_ft.review.verify import Approval
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.support.resources import clock
+from planner_ft.support.terminal import plain
 from planner_ft.vocabulary import Vocabulary
 
 PROMPT = "approve, reject, an edit (help shows them), show or quit: "
@@ -34,11 +35,6 @@ Read = Callable[[str], str]
 Texts = Sequence[str]
 Line = tuple[str, str]
 """A text, and its style for rich."""
-
-
-def terminal() -> Console:
-    """A console without markup, emoji names and colours."""
-    return Console(markup=False, highlight=False, emoji=False, soft_wrap=True)
 
 
 # ---------------------------------------------------------------- what is shown

@@ -7,6 +7,7 @@ import hashlib
 import json
 import os
 import secrets
+import tomllib
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import IO, Any
@@ -62,6 +63,15 @@ def nearest_folder(path: Path) -> Path:
     """The folder itself, or the nearest one above that exists."""
     path = path.absolute()
     return next(folder for folder in (path, *path.parents) if folder.exists())
+
+
+def check_writable(folder: Path) -> None:
+    """Raise PlannerError when `folder` cannot be made or written: before the work, not after it."""
+    existing = nearest_folder(folder)
+    if not existing.is_dir():
+        raise PlannerError(f"--out {folder}: {existing} is no folder; give another --out")
+    if not os.access(existing, os.W_OK | os.X_OK):
+        raise PlannerError(f"--out {folder}: {existing} cannot be written; give another --out")
 
 
 @contextlib.contextmanager
@@ -171,6 +181,14 @@ def read_json(path: Path | str) -> Any:
     if problem is not None:
         raise PlannerError(f"{path}:{line}: {problem}")
     return value
+
+
+def read_toml(path: Path | str) -> dict[str, Any]:
+    """The content of a TOML file. Raises PlannerError."""
+    try:
+        return tomllib.loads(read_text(path))
+    except tomllib.TOMLDecodeError as error:
+        raise PlannerError(f"{path}: not TOML: {error}") from None
 
 
 def iterate_jsonl(path: Path | str) -> Iterator[tuple[int, Any | None, str | None]]:

@@ -12,9 +12,10 @@ import hashlib
 import json
 import os
 import shutil
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import torch
 from safetensors.torch import load as load_tensors
@@ -31,6 +32,18 @@ from planner_ft.training.settings import TrainSettings
 CHECKPOINTS = "checkpoints"
 KEPT = 2
 PREFIX, TENSOR = "step-", "$tensor"
+JUDGED = ("f1", "strict_valid", "exact_sequence")
+"""Metrics of answers to validation samples."""
+Answer = dict[str, Any]
+"""Id and family of a validation sample, and the JUDGED metrics of its answer."""
+
+
+class Judging(Protocol):
+    """What answers validation samples while a model is in training."""
+
+    def answers(self, *, adapter: bool) -> list[Answer]: ...
+
+    def change(self, base: Sequence[Answer], best: Sequence[Answer]) -> str: ...
 
 
 @dataclass
@@ -39,6 +52,8 @@ class TrainState:
 
     `loss` is the mean a completion token over the epoch in progress, or the one that just ended;
     `epoch_loss` and `epoch_tokens` are its sum of losses and its completion tokens so far.
+    `best_rank` orders adapters (smaller is better), `base_answers` and `best_answers` are those of
+    the base and of the best adapter.
     """
 
     step: int = 0
@@ -50,6 +65,9 @@ class TrainState:
     epoch_tokens: int = 0
     best_loss: float | None = None
     best_epoch: float | None = None
+    best_rank: list[float] | None = None
+    base_answers: list[Answer] | None = None
+    best_answers: list[Answer] | None = None
     history: list[dict[str, Any]] = field(default_factory=list)
 
 
@@ -71,6 +89,7 @@ class Run:
     state: TrainState = field(default_factory=TrainState)
     best: dict[str, Tensor] | None = None
     report: Report = field(init=False)
+    judge: Judging | None = None
 
     def __post_init__(self) -> None:
         self.optimizer = make_optimizer(self.model, self.settings)

@@ -7,7 +7,7 @@ import math
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from types import FrameType
 
 import torch
@@ -15,7 +15,7 @@ import torch
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.resources import peak_memory
 from planner_ft.training.batches import Batch, collate, epoch_steps
-from planner_ft.training.checkpoint import Run, save_checkpoint
+from planner_ft.training.checkpoint import JUDGED, Answer, Run, save_checkpoint
 from planner_ft.training.model import (
     adapter_parameters,
     adapter_tensors,
@@ -78,6 +78,9 @@ def train_loop(run: Run) -> None:
     run.model.train()
     state, settings, saved = run.state, run.settings, time.monotonic()
     with stop_signals(run.report.note) as signals:
+        if run.judge and state.base_answers is None:
+            state.base_answers = run.judge.answers(adapter=False)
+            run.report.note(f"base: {_summary(state.base_answers)}")
         for batches in _remaining_steps(run):
             begun = time.monotonic()
             _step(run, batches)
@@ -179,14 +182,32 @@ def _end_epoch(run: Run) -> None:
         if not math.isfinite(loss):
             rate = f"lower --learning-rate (now {run.settings.learning_rate:g})"
             raise PlannerError(f"epoch {epoch:g}: the validation loss is {loss}; {rate}")
-        best = state.best_loss is None or loss < state.best_loss
+        answers = run.judge.answers(adapter=True) if run.judge else None
+        rank = [loss]
+        if answers and run.settings.select == "f1":
+            found = means(answers)
+            rank = [-found["f1"], -found["exact_sequence"], loss]
+        best = state.best_rank is None or rank < state.best_rank
         if best:
-            state.best_loss, state.best_epoch = loss, epoch
+            state.best_loss, state.best_epoch, state.best_rank = loss, epoch, rank
+            state.best_answers = answers
             run.best = adapter_tensors(run.model)
         record = {"step": state.step, "epoch": epoch, "train_loss": state.loss}
-        record |= {"validation_loss": loss, "best": best}
+        record |= {"validation_loss": loss, "best": best, **means(answers or [])}
         record["seconds"] = round(time.monotonic() - begun, 3)
         state.history.append(record)
         run.report.record(record)
         text += f", validation loss {loss:.4f}{' (best)' if best else ''}"
+        text += f"; {_summary(answers)}" if answers else ""
     run.report.note(text)
+
+
+def means(answers: Sequence[Answer]) -> dict[str, float]:
+    """The mean of each metric; empty without answers."""
+    return {name: sum(a[name] for a in answers) / len(answers) for name in JUDGED if answers}
+
+
+def _summary(answers: Sequence[Answer]) -> str:
+    found = means(answers)
+    shares = f"valid {found['strict_valid']:.0%}, exact {found['exact_sequence']:.0%}"
+    return f"F1 {found['f1']:.2f}, {shares} of {len(answers)} answers"

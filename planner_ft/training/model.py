@@ -13,6 +13,7 @@ from torch.utils.checkpoint import checkpoint
 from planner_ft.candidates.packing import linear_4bit
 from planner_ft.support.errors import PlannerError
 from planner_ft.training.batches import Batch, collate, validation_batches
+from planner_ft.training.lean import lean_states
 from planner_ft.training.settings import TrainSettings
 
 if TYPE_CHECKING:
@@ -120,8 +121,11 @@ def loss_sum(model: Any, batch: Batch, dtype: torch.dtype) -> Tensor:
     head = base.get_output_embeddings()
     places = {} if batch.positions is None else {"position_ids": batch.positions}
     with autocast(batch.input_ids.device, dtype):
-        output = base.get_decoder()(input_ids=batch.input_ids, use_cache=False, **places)
-        selected = output.last_hidden_state[batch.rows, batch.columns]
+        states = lean_states(model, batch.input_ids, batch.positions)
+        if states is None:
+            output = base.get_decoder()(input_ids=batch.input_ids, use_cache=False, **places)
+            states = output.last_hidden_state
+        selected = states[batch.rows, batch.columns]
         size = max(1, LOGIT_VALUES // base.config.get_text_config().vocab_size)
         if len(selected) <= size:
             return _cross_entropy(head, selected, batch.targets)

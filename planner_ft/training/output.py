@@ -9,15 +9,17 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import torch
 
-from planner_ft.candidates.adapters import CONFIG, MANIFEST, WEIGHTS, adapter_record
+from planner_ft.candidates.adapters import CONFIG, MANIFEST, SEEN, WEIGHTS, adapter_record
 from planner_ft.prompts.render import prompt_frame, save_tokenizer
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, read_text, sha256_file, write_json, write_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.resources import peak_memory
 from planner_ft.training.checkpoint import CHECKPOINTS, PREFIX, Run
+from planner_ft.training.loop import means
 from planner_ft.training.model import adapter_parameters
 from planner_ft.training.report import LOG, TRACKED, plot_losses, read_log
+from planner_ft.training.samples import digests, tests_warnings
 
 if TYPE_CHECKING:
     from planner_ft.training.preflight import Prepared
@@ -31,7 +33,7 @@ TOKENIZER = (
     "tokenizer.json tokenizer_config.json special_tokens_map.json added_tokens.json"
     " chat_template.jinja vocab.json merges.txt generation_config.json"
 )
-WRITTEN = f"{CONFIG} {WEIGHTS} README.md {MANIFEST} {LOG} loss.png loss.svg {TOKENIZER}"
+WRITTEN = f"{CONFIG} {WEIGHTS} README.md {MANIFEST} {SEEN} {LOG} loss.png loss.svg {TOKENIZER}"
 """All files that a run writes; --overwrite removes them and the folders of checkpoints and logs."""
 LICENCES = {"Apache-2.0": "apache-2.0"}
 """Licences with an identifier of the Hub; model cards name others in full."""
@@ -142,6 +144,8 @@ def write_result(
         ) from error
     title = f"{request.candidate.row_name}, {request.level} level"
     plot_losses(read_log(output / LOG), output, title)
+    seen = [digests(one, request.level, request.vocabulary) for one in prepared.splits]
+    write_text(output / SEEN, "".join(f"{digest}\n" for of_split in seen for digest in of_split))
     manifest = run_manifest(request, prepared, run, fingerprint)
     write_text(output / "README.md", model_card(manifest))
     write_json(output / MANIFEST, manifest)
@@ -161,7 +165,7 @@ def run_manifest(
     inputs: dict[str, Path | str] = {role: one.path for role, one in splits.items() if one}
     if request.corrections:
         inputs["corrections"] = request.corrections
-    files = [output / name for name in (WEIGHTS, CONFIG, "tokenizer.json", LOG)]
+    files = [output / name for name in (WEIGHTS, CONFIG, SEEN, "tokenizer.json", LOG)]
     before, after = prompt_frame(request.level, prepared.tokenizer, request.vocabulary)
     return build_manifest(
         "train",
@@ -174,7 +178,8 @@ def run_manifest(
         base_reference=candidate.reference,
         licence=candidate.licence,
         samples={role: len(split.samples) for role, split in splits.items() if split},
-        departures=request.resolved.departures(request.level),
+        departures=[*request.resolved.departures(request.level), *tests_warnings(prepared.tests)],
+        tests_trained_on=prepared.tests,
         result=_result(run, output / WEIGHTS),
         prompt={"before": before, "after": after},
         fingerprint=fingerprint,
@@ -195,12 +200,22 @@ def _result(run: Run, adapter: Path) -> Values:
         "validation_loss": state.best_loss,
         "best_epoch": state.best_epoch,
         "history": state.history,
+        **_judged(run),
         "peak_memory_bytes": peak_memory(run.device),
         "device": torch.cuda.get_device_name(run.device) if gpu else str(run.device),
         "compute_dtype": str(run.dtype).removeprefix("torch."),
         "adapter_parameters": sum(one.numel() for one in adapter_parameters(run.model).values()),
         "adapter_bytes": adapter.stat().st_size,
     }
+
+
+def _judged(run: Run) -> Values:
+    """Answers of base and best adapter to validation samples, and what training changed."""
+    base, best = run.state.base_answers, run.state.best_answers
+    if not run.judge or not base or not best:
+        return {}
+    answers = {"n": len(best), "base": means(base), "adapter": means(best)}
+    return {"validation_answers": answers, "change": run.judge.change(base, best)}
 
 
 def model_card(manifest: Values) -> str:

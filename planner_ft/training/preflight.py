@@ -25,7 +25,10 @@ from planner_ft.training.samples import (
     read_split,
     render_split,
     shortened,
+    tests_warnings,
+    tests_within,
     with_corrections,
+    with_variants,
 )
 
 if TYPE_CHECKING:
@@ -46,6 +49,8 @@ class Prepared:
     tokenizer: PreTrainedTokenizerBase | None = None
     train: Split | None = None
     validation: Split | None = None
+    tests: dict[str, str] = field(default_factory=dict)
+    """Test sets whose inputs are trained on: path, and how many."""
 
     @property
     def splits(self) -> list[Split]:
@@ -60,12 +65,16 @@ class Prepared:
 
 @dataclass
 class Finding:
-    """The outcome of one check: a line of text, problems, notes. `skipped`: it could not run."""
+    """The outcome of one check: a line of text, problems, notes, warnings for standard error.
+
+    `skipped`: it could not run.
+    """
 
     title: str
     text: str = ""
     problems: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
     skipped: bool = False
 
 
@@ -117,6 +126,10 @@ def check_data(request: TrainRequest, prepared: Prepared, finding: Finding) -> N
         train = with_corrections(train, request.corrections, level, vocabulary, problems)
         count = len(train.records) - own
         added.append(f"{count} of the training samples from {request.corrections}")
+    if train and settings.vary:
+        own = len(train.records)
+        train = with_variants(train, level, vocabulary, settings.seed, settings.vary)
+        added.append(f"{len(train.records) - own} of the training samples with other values")
     if train and settings.augment:
         train = augmented(train, level, vocabulary, settings.seed, settings.augment)
         added.append(f"{settings.augment} of the training samples synthetic")
@@ -134,6 +147,9 @@ def check_data(request: TrainRequest, prepared: Prepared, finding: Finding) -> N
             prompts = f"{len(shared)} validation prompts are in the training split, too"
             note = f"{prompts} (first: {shared[0]}); the validation loss will flatter"
             finding.notes.append(note)
+    if not problems:
+        prepared.tests = tests_within(prepared.splits, level, vocabulary)
+    finding.warnings += tests_warnings(prepared.tests)
 
 
 def check_rendering(request: TrainRequest, prepared: Prepared, finding: Finding) -> None:

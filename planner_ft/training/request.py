@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import Any, TypeVar
 from planner_ft.candidates import Candidate, resolve_candidate
 from planner_ft.prompts.render import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_text
+from planner_ft.support.files import read_toml
 from planner_ft.training.settings import Resolved, Source, TrainSettings, resolve_settings
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level, check_level
@@ -79,10 +78,7 @@ def load_recipe(name_or_path: str) -> tuple[str, dict[str, Any]]:
         there = ", ".join(bundled_recipes())
         problem = f"no such file, and no bundled recipe of that name ({there})"
         raise PlannerError(f"--recipe {name_or_path}: {problem}")
-    try:
-        return str(path), tomllib.loads(read_text(path))
-    except tomllib.TOMLDecodeError as error:
-        raise PlannerError(f"{path}: not TOML: {error}") from None
+    return str(path), read_toml(path)
 
 
 def build_request(
@@ -129,13 +125,17 @@ def build_request(
     candidate = attempt(resolve_candidate, named.get("candidate"), missing)
     vocabulary = attempt(load_vocabulary, named.get("vocabulary") or "usv")
     sources = [Source("flag", flags), Source(path, values)]
-    if candidate and level:
-        sources.append(Source(candidate.name, asdict(candidate.adapter_defaults(level))))
+    if candidate and level and vocabulary:
+        own = candidate.vocabulary is None or candidate.knows(vocabulary)
+        label = candidate.name if own else f"{candidate.name} for another vocabulary"
+        sources.append(Source(label, asdict(candidate.adapter_defaults(level, vocabulary))))
     resolved = resolve_settings(level or "mission", sources, problems)
+    if resolved.settings.select == "f1" and not resolved.settings.validation_answers:
+        problems.append("--select f1 needs --validation-answers of at least 1")
     if problems or not (level and candidate and vocabulary):
         raise refusal("the configuration has", problems)
     output = Path(named.get("output") or Path("adapters") / candidate.slug / level)
-    folder = Path(named.get("data_dir") or Path("data") / level)
+    folder = Path(named.get("data_dir") or vocabulary.data / level)
     files: tuple[Path, Path | None] = (folder / "train.jsonl", folder / "validation.jsonl")
     if named.get("train_file"):
         files = Path(named["train_file"]), _path(named.get("validation_file"))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +13,8 @@ from planner_ft.candidates.loading import compute_dtype, load_model, load_tokeni
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import alone
-from planner_ft.training.checkpoint import Run, load_newest_checkpoint
+from planner_ft.support.terminal import show
+from planner_ft.training.checkpoint import Judging, Run, load_newest_checkpoint
 from planner_ft.training.loop import InterruptedRunError, train_loop
 from planner_ft.training.model import (
     SMALL_MODEL,
@@ -33,6 +34,8 @@ from planner_ft.training.samples import Sample, Split, read_split, render_split
 if TYPE_CHECKING:
     from rich.console import Console
 
+    NewJudge = Callable[[TrainRequest, Prepared, Run], Judging]
+
 
 def preview_sample(request: TrainRequest, sample_id: str | None) -> tuple[Sample, Any]:
     """The sample of that id (or the first one) rendered as for training, and the tokenizer."""
@@ -49,8 +52,11 @@ def preview_sample(request: TrainRequest, sample_id: str | None) -> tuple[Sample
     return render_split(one, request.level, tokenizer, request.vocabulary).samples[0], tokenizer
 
 
-def train(request: TrainRequest, console: Console) -> dict[str, Any] | None:
-    """Run the checks, train, write the adapter folder and return its manifest.
+def train(
+    request: TrainRequest, console: Console, new_judge: NewJudge | None = None
+) -> dict[str, Any] | None:
+    """Run the checks, train, write the adapter folder and return its manifest. What `new_judge`
+    makes answers validation samples after each epoch.
 
     None when --resume finds the run complete. Raises PlannerError for anything that the user can
     put right, and InterruptedRunError after Ctrl-C.
@@ -76,11 +82,15 @@ def train(request: TrainRequest, console: Console) -> dict[str, Any] | None:
             _say(console, f"{request.output}: this run is complete; nothing to resume")
             return None
         with _limits(request, prepared):
-            return _train(request, prepared, console, fingerprint)
+            return _train(request, prepared, console, fingerprint, new_judge)
 
 
 def _train(
-    request: TrainRequest, prepared: Prepared, console: Console, fingerprint: dict[str, Any]
+    request: TrainRequest,
+    prepared: Prepared,
+    console: Console,
+    fingerprint: dict[str, Any],
+    new_judge: NewJudge | None,
 ) -> dict[str, Any]:
     settings, output = request.settings, request.output
     with console.status("loading the model ..."):
@@ -93,6 +103,8 @@ def _train(
     torch.manual_seed(settings.seed)
     samples = train.samples, validation.samples if validation else []
     run = Run(settings, model, *samples, prepared.pad, device, compute_dtype(device), output)
+    if new_judge and validation and settings.validation_answers:
+        run.judge = new_judge(request, prepared, run)
     if request.resume:
         write_run(output, fingerprint, "running")
         _say(console, load_newest_checkpoint(run))
@@ -163,6 +175,8 @@ def _show(console: Console, number: int, finding: Finding) -> None:
     _say(console, line, "red" if found else None)
     for note in finding.notes:
         _say(console, f"      note: {note}", "yellow")
+    for text in finding.warnings:
+        show(f"warning: {text}", error=True)
 
 
 def _say(console: Console, text: str, style: str | None = None) -> None:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
 from pathlib import Path
+from random import Random
 from typing import TYPE_CHECKING, Any
 
+from planner_ft.data.curated import known_tests
+from planner_ft.data.leakage import input_digest
 from planner_ft.prompts import Rendered, render_sample
+from planner_ft.prompts.text import user_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, iterate_jsonl, sha256_file, sha256_text
 from planner_ft.vocabulary import Vocabulary
@@ -99,6 +103,16 @@ def read_split(
 
 def record_problem(value: Any, level: Level, vocabulary: Vocabulary) -> str | None:
     """The reason why a record cannot be trained on, or None."""
+    if problem := input_problem(value, level):
+        return problem
+    if "expected" not in value:
+        return "expected (the plan) is missing"
+    found = plan_problems(level, value["expected"], vocabulary, strict=True)
+    return "expected: " + "; ".join(found) if found else None
+
+
+def input_problem(value: Any, level: Level) -> str | None:
+    """The reason why a record holds no input of an agent, or None."""
     if not isinstance(value, dict):
         return f"a JSON object is expected, not {type(value).__name__}"
     for key in ("id", "prompt", *(("task",) if level == "task" else ())):
@@ -106,10 +120,36 @@ def record_problem(value: Any, level: Level, vocabulary: Vocabulary) -> str | No
             return f"{key} is missing or no text"
     if level == "task" and not isinstance(value.get("parameters", {}), dict):
         return "parameters is no JSON object"
-    if "expected" not in value:
-        return "expected (the plan) is missing"
-    found = plan_problems(level, value["expected"], vocabulary, strict=True)
-    return "expected: " + "; ".join(found) if found else None
+    return None
+
+
+def digests(split: Split, level: Level, vocabulary: Vocabulary) -> list[str]:
+    """The digest of every record's input, by which it is known again in a test set."""
+    return [input_digest(user_text(level, record, vocabulary)) for record in split.records]
+
+
+def tests_within(splits: Sequence[Split], level: Level, vocabulary: Vocabulary) -> dict[str, str]:
+    """The known test sets that share inputs with the splits, and how many: "25 of 25"."""
+    used = {digest for split in splits for digest in digests(split, level, vocabulary)}
+    found: dict[str, tuple[str, str]] = {}
+    known = known_tests(level, splits[0].path.parent, vocabulary) if splits else ()
+    for path in known:
+        values = (value for _line, value, _problem in iterate_jsonl(path))
+        records = [one for one in values if one and input_problem(one, level) is None]
+        of_test = Split(path, sha256_file(path), records)
+        shared = sum(digest in used for digest in digests(of_test, level, vocabulary))
+        if shared:
+            found.setdefault(of_test.sha256, (str(path), f"{shared} of {len(records)}"))
+    return dict(found.values())
+
+
+def tests_warnings(tests: Mapping[str, str]) -> list[str]:
+    """A sentence for each test set whose inputs are trained on."""
+    return [
+        f"{count} inputs of {path} are in the training or validation data: figures that are"
+        " measured on them say nothing about other commands"
+        for path, count in tests.items()
+    ]
 
 
 def with_corrections(
@@ -139,6 +179,25 @@ def augmented(split: Split, level: Level, vocabulary: Vocabulary, seed: int, cou
         made = list(sample_missions(seed, count, vocabulary))
     named = [{**record, "id": f"augment-{record['id']}"} for record in made]
     return split.extended(named, "".join(compact_json(record) for record in made))
+
+
+def with_variants(
+    split: Split, level: Level, vocabulary: Vocabulary, seed: int, count: int
+) -> Split:
+    """The split with `count` copies of each record behind its own, with other values where it has
+    some. Raises PlannerError at task level.
+    """
+    from planner_ft.data.varying import varied
+
+    if level == "task":
+        raise PlannerError("--vary is for the mission level; --augment makes samples of both")
+    drawn = (
+        (number, record, varied(record, vocabulary, Random(f"{seed} {number} {record['id']}")))
+        for number in range(1, count + 1)
+        for record in split.records
+    )
+    made = [{**new, "id": f"varied-{n}-{old['id']}"} for n, old, new in drawn if new]
+    return split.extended(made, "".join(compact_json(record) for record in made))
 
 
 def render_split(

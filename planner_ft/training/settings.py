@@ -20,6 +20,7 @@ Schedule = Literal["cosine", "linear", "constant"]
 Optimizer = Literal["adamw", "adamw-8bit", "paged-adamw-8bit"]
 Checkpointing = Literal["auto", "on", "off"]
 Quantization = Literal["nf4", "none"]
+Select = Literal["loss", "f1"]
 
 _SHARED = {"learning_rate": 2e-4, "batch_size": 1, "quantization": "nf4"}
 PUBLISHED: dict[Level, dict[str, Any]] = {
@@ -55,7 +56,10 @@ class TrainSettings:
     seed: int = 0
     max_samples: int | None = None
     augment: int = 0
+    vary: int = 0
     max_steps: int | None = None
+    select: Select = "loss"
+    validation_answers: int = 25
 
     device: str = "auto"
     threads: int | None = None

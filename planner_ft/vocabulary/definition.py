@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import functools
-import tomllib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal, get_args
 
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_text, sha256_text
+from planner_ft.support.files import read_text, read_toml, sha256_text
 from planner_ft.vocabulary import checks
 from planner_ft.vocabulary.logic import LOGIC, Logic, build_logic
 from planner_ft.vocabulary.motion import MOTION, Motions, build_motions
@@ -132,6 +131,20 @@ class Vocabulary:
         """Skills by name."""
         return {skill.name: skill for skill in self.skills}
 
+    @property
+    def bundled(self) -> bool:
+        """Whether the definition ships with the package."""
+        return self.path is not None and self.path.parent == BUNDLED
+
+    @property
+    def data(self) -> Path:
+        """The folder of its data sets: data, data/NAME for another bundled vehicle, else that of
+        the definition.
+        """
+        if self.path is not None and not self.bundled:
+            return self.path.parent
+        return Path("data") / ("" if self.name == DEFAULT else self.name)
+
     def beside(self, ending: str) -> dict[str, Any]:
         """The file NAME + `ending` beside the definition ({} without). Raises PlannerError."""
         return _beside(self.path, ending) if self.path else {}
@@ -158,11 +171,10 @@ def load_vocabulary(source: str | Path = DEFAULT) -> Vocabulary:
             f"--vocabulary {source}: no such file, and no bundled vocabulary of that name"
             f" ({', '.join(bundled_vocabularies())})"
         )
-    text = read_text(path)
-    raw = _parse(path, text)
+    raw = read_toml(path)
     phrases, logic, motion = (_beside(path, ending) for ending in (PHRASES, LOGIC, MOTION))
     vocabulary = build_vocabulary(raw, phrases, str(path), logic=logic, motion=motion)
-    return replace(vocabulary, path=path, source=str(source), sha256=sha256_text(text))
+    return replace(vocabulary, path=path, source=str(source), sha256=sha256_text(read_text(path)))
 
 
 def build_vocabulary(
@@ -188,14 +200,7 @@ def build_vocabulary(
 
 def _beside(path: Path, ending: str) -> dict[str, Any]:
     beside = path.with_name(path.name.removesuffix(".toml") + ending)
-    return _parse(beside, read_text(beside)) if beside.is_file() else {}
-
-
-def _parse(path: Path, text: str) -> dict[str, Any]:
-    try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise PlannerError(f"{path}: not TOML: {error}") from None
+    return read_toml(beside) if beside.is_file() else {}
 
 
 def _build(raw: dict[str, Any], phrases: dict[str, Any]) -> Vocabulary:

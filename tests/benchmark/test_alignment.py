@@ -46,6 +46,26 @@ def test_parameters_that_are_all_right_come_before_everything() -> None:
     ).pairs == ((0, 2), (1, 1), (2, 0))
 
 
+def test_a_share_counts_the_keys_of_both() -> None:
+    """Nearness would take the first, which has the same key right and one more too many."""
+    expected = mission(("PerformOrbit", {"center": [1, 1], "radius": 20}))
+    more, fewer = {"radius": 20, "arc": 90, "speed": 2}, {"radius": 20, "center": [9, 9]}
+    predicted = mission(("PerformOrbit", more), ("PerformOrbit", fewer))
+    assert aligned("mission", expected, predicted).pairs == ((0, 1),)
+
+
+def test_keys_come_before_company_and_company_before_nearness() -> None:
+    expected = mission("KeepStation", ("PerformOrbit", {"center": [1, 1], "radius": 20}), "Hover")
+    less, more = {"radius": 20, "arc": 90, "speed": 2}, {"radius": 20, "center": [9, 9]}
+    by_keys = mission("KeepStation", ("PerformOrbit", less), "Hover", ("PerformOrbit", more))
+    assert (1, 3) in aligned("mission", expected, by_keys).pairs
+    far = ["Diagnostics"] * 8
+    by_company = mission(
+        "Hover", ("PerformOrbit", more), *far, "KeepStation", ("PerformOrbit", more)
+    )
+    assert (1, 11) in aligned("mission", expected, by_company).pairs
+
+
 @pytest.mark.parametrize("radius", [20, 20.2])
 def test_all_right_comes_before_shares_that_add_up_to_more(radius: float) -> None:
     all_of_it = {"center": [1, 1], "radius": 20, "arc": 360, "speed": 2}

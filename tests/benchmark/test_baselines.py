@@ -18,6 +18,7 @@ from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data
 from planner_ft.benchmark.submission import score_predictions
 from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.definition import BUNDLED
 
 
 def mission(name: str, prompt: str, *titles: str, **parameters: Any) -> dict[str, Any]:
@@ -161,7 +162,8 @@ def test_without_a_training_split_the_note_says_so(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    drone = load_vocabulary("inspection_drone")
+    (tmp_path / "mine.toml").write_text((BUNDLED / "inspection_drone.toml").read_text())
+    drone = load_vocabulary(tmp_path / "mine.toml")
     test = load_bench_data(
         write(tmp_path / "a" / "test.jsonl", [mission("x", "Fly.", next(iter(drone.task)))]),
         "mission",

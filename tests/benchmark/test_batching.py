@@ -1,4 +1,4 @@
-"""Batches: longest first, halved when memory runs out, doubled while there is room, nothing lost
+"""Batches: longest first, doubled until memory runs out, halved then, nothing lost
 and nothing asked twice without need.
 """
 
@@ -46,7 +46,7 @@ WHOLE = {index: f"answer {index}" for index in range(len(LENGTHS))}
 
 def test_longest_queries_come_first() -> None:
     device = Device(fits=100)
-    assert device.run(LENGTHS, BatchSize(4)) == WHOLE
+    assert device.run(LENGTHS, BatchSize(4, 4)) == WHOLE
     assert [[LENGTHS[index] for index in batch] for batch in device.batches] == [
         [9, 8, 7, 6],
         [5, 4, 3, 2],
@@ -56,7 +56,7 @@ def test_longest_queries_come_first() -> None:
 
 @pytest.mark.parametrize("early", [0, 1, 3])
 def test_the_size_is_halved_until_it_fits_and_answers_that_came_are_kept(early: int) -> None:
-    device, batch = Device(fits=2, early=early), BatchSize(8)
+    device, batch = Device(fits=2, early=early), BatchSize(8, 8)
     assert device.run(LENGTHS, batch) == WHOLE
     assert batch.size == 2
     assert [len(asked) for asked in device.batches[:2]] == [8, 4]
@@ -66,22 +66,28 @@ def test_the_size_is_halved_until_it_fits_and_answers_that_came_are_kept(early: 
 
 
 def test_a_size_that_did_not_fit_is_not_tried_again() -> None:
-    device, batch = Device(fits=3), BatchSize(4, room=lambda _size: True)
+    device, batch = Device(fits=3), BatchSize(4, 64)
     assert device.run(LENGTHS, batch) == WHOLE
     assert [len(asked) for asked in device.batches] == [4, 2, 2, 2, 2, 2]
 
 
-def test_the_size_is_doubled_while_there_is_room() -> None:
+def test_the_size_is_doubled_up_to_the_largest() -> None:
     device = Device(fits=100)
-    assert device.run([1] * 40, BatchSize(2, room=lambda size: size <= 8)) == {
+    assert device.run([1] * 40, BatchSize(2, 8)) == {
         index: f"answer {index}" for index in range(40)
     }
     assert [len(asked) for asked in device.batches] == [2, 4, 8, 8, 8, 8, 2]
 
 
+def test_the_size_is_doubled_until_memory_runs_out() -> None:
+    device = Device(fits=5)
+    assert len(device.run([1] * 20, BatchSize(2, 64))) == 20
+    assert [len(asked) for asked in device.batches] == [2, 4, 8, 4, 4, 4, 2]
+
+
 def test_a_single_query_that_does_not_fit_is_one_sentence() -> None:
     with pytest.raises(PlannerError, match="too little memory for a single query"):
-        Device(fits=0).run([1, 2], BatchSize(2))
+        Device(fits=0).run([1, 2], BatchSize(2, 2))
 
 
 def test_other_errors_are_not_taken_for_a_full_memory() -> None:
@@ -90,4 +96,4 @@ def test_other_errors_are_not_taken_for_a_full_memory() -> None:
         yield
 
     with pytest.raises(ValueError, match="rubbish"):
-        list(in_batches(broken, [1], BatchSize(1), lambda error: isinstance(error, MemoryError)))
+        list(in_batches(broken, [1], BatchSize(1, 1), lambda error: isinstance(error, MemoryError)))

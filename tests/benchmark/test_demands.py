@@ -9,7 +9,10 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from planner_ft.benchmark.demands import DEFAULT, DemandRow, judge_demands, load_demands
+from planner_ft.benchmark.demands import DEFAULT, demand_row, load_demands
+from planner_ft.benchmark.field.cases import Case
+from planner_ft.benchmark.field.checks import Outcome
+from planner_ft.benchmark.field.run import judge
 from planner_ft.cli.app import app
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
@@ -24,24 +27,28 @@ RECORD = {
 }
 
 
-def planned(_record: Any) -> dict[str, Any]:
+def planned(_case: Case) -> Outcome:
     one = step("GoToXY", {"x": 10, "y": 0})
     one["perception_skills"] = [{"name": "GetSeabedDepth", "parameters": {}}]
     made = document([task("BathymetryGridSurvey", {"center": [10, 10]}, [one])], command="Map it.")
     mark = {"step": 0, "role": "perception", "name": "GetSeabedDepth", "kind": "vehicle"}
     made["tasks"][0]["added"] = [mark]
     made["warnings"] = [{"kind": "data-not-planned", "text": "No video."}]
-    return made
+    return Outcome(made)
 
 
-def test_what_the_vehicle_adds_is_counted_apart_from_the_agents() -> None:
-    demands, warned = judge_demands([RECORD], planned, lambda _done, _total: None)
-    assert [(one.skill, one.agents, one.plan) for one in demands] == [
+def test_what_the_vehicle_adds_is_counted_apart_from_the_agents(tmp_path: Path) -> None:
+    path = tmp_path / "demands.jsonl"
+    path.write_text(json.dumps(RECORD) + "\n")
+    cases = load_demands(path, USV)
+    judged = judge(cases, planned, USV, lambda _label, _done, _total: None, "")
+    row = demand_row(("embedded", "lora"), judged, USV)
+    assert [(one["skill"], one["agents"], one["plan"]) for one in row.demands] == [
         ("GetSeabedDepth", False, True),
         ("SetStreamRecording", False, False),
     ]
-    rates = DemandRow("embedded", "lora", demands, 1, warned).rates()
-    assert [rate.value for rate in rates.values()] == [0, 0.5, 0] and warned == 1
+    assert [rate.value for rate in row.rates().values()] == [0, 0.5, 0]
+    assert (row.records, row.warned) == (1, 1)
 
 
 @pytest.mark.parametrize(
@@ -50,6 +57,7 @@ def test_what_the_vehicle_adds_is_counted_apart_from_the_agents() -> None:
         ({"id": "b"}, "a record with the texts id and prompt is expected"),
         ({**RECORD, "skils": []}, "unknown key 'skils'"),
         ({**RECORD, "skills": ["GoToXY"]}, "skills must be a list of"),
+        ({**RECORD, "skills": [{"task": "Transit", "skills": 7}]}, "skills must be a list of"),
         ({**RECORD, "skills": [{"task": "Sail", "skills": []}]}, "'Sail' is no task"),
         ({**RECORD, "skills": [{"task": "Transit", "skills": ["Dive"]}]}, "'Dive' is no skill"),
     ],

@@ -98,7 +98,7 @@ def test_a_bad_case_is_named_by_file_and_line(tmp_path: Path, case: Any, said: s
 
 def test_cases_are_run_from_the_shell(tmp_path: Path) -> None:
     wrong = {**GOOD, "id": "b", "kind": "limit", "expect": [{"lacks": "Transit"}], "danger": True}
-    lost = {**GOOD, "id": "c", "locate": {"reef": [1, 2]}, "expect": [{"warns": "reef"}]}
+    lost = {**GOOD, "id": "c", "locate": {"reef": [1, 2]}, "expect": [{"says": "reef"}]}
     cases, out = write(tmp_path / "cases.jsonl", GOOD, wrong, lost), tmp_path / "run"
     words = ["bench", "--field", str(cases), "--out", str(out)]
     done = CliRunner().invoke(app, words)

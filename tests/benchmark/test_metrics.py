@@ -16,7 +16,7 @@ from planner_ft.benchmark.metrics.failures import (
     strict_valid,
 )
 from planner_ft.benchmark.metrics.names import exact_sequence, set_counts
-from planner_ft.benchmark.metrics.parameters import Agreement, right_entries
+from planner_ft.benchmark.metrics.parameters import Parameters, compare_parameters
 from planner_ft.benchmark.metrics.values import values_agree
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.scoring import score_sample
@@ -50,9 +50,9 @@ def step(
     }
 
 
-def parameter_agreement(level: Level, plan: Any, expected: Any) -> Agreement:
+def parameter_agreement(level: Level, plan: Any, expected: Any) -> Parameters:
     entries = plan_entries(level, expected), plan_entries(level, plan)
-    return right_entries(level, align(level, *entries, USV), USV)
+    return compare_parameters(level, align(level, *entries, USV), USV)
 
 
 ORBIT = mission(

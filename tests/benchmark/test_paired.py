@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from planner_ft.benchmark.catalogue import Metric
-from planner_ft.benchmark.paired import exact_mcnemar, exact_swaps, holm, paired, swaps
-from planner_ft.benchmark.statistics import Estimate
+from planner_ft.benchmark.paired import ENUMERATED, exact_mcnemar, exact_swaps, holm, paired, swaps
+from planner_ft.benchmark.statistics import RESAMPLES, Estimate
 from planner_ft.benchmark.verdicts import adjusted, verdict
 
 RATE, MEAN, RATIO = (
@@ -115,6 +115,19 @@ def test_swaps_of_a_mean_agree_with_scipy() -> None:
         assert ours == pytest.approx(theirs.pvalue, abs=1e-9 if count == 9 else 0.015)
 
 
+def test_random_swaps_count_what_was_seen_as_one_of_them() -> None:
+    """No random swap comes near a difference of all of 60 families: p is never 0."""
+    ones = np.ones(60)
+    assert swaps(np.stack([0 * ones, ones, ones, ones], 1), 0) == 1 / (RESAMPLES + 1)
+
+
+@pytest.mark.parametrize("count", [ENUMERATED, ENUMERATED + 1])
+def test_swaps_are_all_tried_where_few_families_differ(count: int) -> None:
+    ones = np.ones(count)
+    exact = swaps(np.stack([0 * ones, ones, ones, ones], 1), 0) == 2 / 2**count
+    assert exact == (count == ENUMERATED)
+
+
 def test_a_ratio_is_pooled_and_paired() -> None:
     first = {"a": [{"id": "a", "hits": 1, "tries": 4}], "b": [{"id": "b", "hits": 2, "tries": 2}]}
     second = {"a": [{"id": "a", "hits": 3, "tries": 4}], "b": [{"id": "b", "hits": 0, "tries": 0}]}
@@ -171,12 +184,12 @@ def test_verdicts_know_which_way_is_better() -> None:
             system([value, 0.5 + value], metric),
             0,
         )
-        return verdict(found, p)
+        return verdict(metric, found.difference, p)
 
     assert said("f1", 0.4, 0.01) == "better" and said("f1", -0.4, 0.01) == "worse"
     assert said("hallucination", 0.4, 0.01) == "worse" and said("latency_s", -0.4, 0.01) == "better"
     assert said("tokens", 3.0, 0.01) == "higher"
     assert said("f1", 0.4, 0.05) == "not told apart" and said("f1", 0.01, 0.5) == "equal"
     assert said("latency_s", 0.01, 0.5) == "not told apart"
-    assert verdict(paired(MEAN, {}, {}, 0), None) == "not compared"
+    assert verdict(MEAN.name, paired(MEAN, {}, {}, 0).difference, None) == "not compared"
     assert paired(MEAN, {}, {}, 0).difference == Estimate(None)

@@ -10,18 +10,11 @@ import os
 import subprocess
 from pathlib import Path
 
-import pytest
-
-from planner_ft.benchmark.ranks import Ranks, part_name, take_in, take_in_abandoned
+from planner_ft.benchmark.ranks import Ranks
 from planner_ft.benchmark.records import RecordLog
 from planner_ft.benchmark.suite.units import command
-from planner_ft.support.errors import PlannerError
 
 NAME = "Llama-3.2-1B-Instruct"
-
-
-def record(name: str) -> dict[str, str]:
-    return {"key": "k", "id": name, "output": name}
 
 
 def test_every_item_is_in_one_share() -> None:
@@ -31,37 +24,15 @@ def test_every_item_is_in_one_share() -> None:
     assert max(map(len, shares)) - min(map(len, shares)) <= 1
 
 
-def test_parts_are_taken_in_once_however_often_it_is_tried(tmp_path: Path) -> None:
-    for rank, names in ((1, "bc"), (2, "d")):
-        (tmp_path / part_name(rank)).write_text(
-            "".join(json.dumps(record(name)) + "\n" for name in names)
-        )
-    with RecordLog(tmp_path / "predictions.jsonl") as log:
-        log.append(record("a"))
-        log.append(record("b"))
-        take_in(tmp_path, log)
-        take_in(tmp_path, log)
-    written = [
-        json.loads(line)["id"] for line in (tmp_path / "predictions.jsonl").read_text().splitlines()
-    ]
-    assert written == ["a", "b", "c", "d"]
-
-
-def test_what_killed_processes_left_is_kept_and_its_unfinished_line_dropped(tmp_path: Path) -> None:
-    (tmp_path / part_name(1)).write_text(json.dumps(record("a")) + '\n{"key":"k","id":"b","out')
-    with RecordLog(tmp_path / "predictions.jsonl") as log:
-        take_in_abandoned(tmp_path, log)
-        assert set(log.of_key("k")) == {"a"}
-    assert not (tmp_path / part_name(1)).exists()
-
-
-def test_a_part_that_somebody_writes_is_left_alone(tmp_path: Path) -> None:
-    with (
-        RecordLog(tmp_path / part_name(1)),
-        RecordLog(tmp_path / "predictions.jsonl") as log,
-        pytest.raises(PlannerError, match="another run is writing"),
-    ):
-        take_in_abandoned(tmp_path, log)
+def test_processes_add_to_one_log_and_read_what_the_others_wrote(tmp_path: Path) -> None:
+    path = tmp_path / "predictions.jsonl"
+    with RecordLog(path) as one, RecordLog(path) as other:
+        for name in "abc":
+            one.append({"key": "k", "id": name})
+            other.append({"key": "k", "id": name.upper()})
+        one.read()
+        assert set(one.of_key("k")) == set("abcABC")
+    assert len(path.read_text().splitlines()) == 6
 
 
 def test_two_processes_give_the_result_of_one(tmp_path: Path, models: Path) -> None:
@@ -114,4 +85,3 @@ def test_two_processes_give_the_result_of_one(tmp_path: Path, models: Path) -> N
             )
     assert outputs[0] == outputs[1]
     assert tables[0] == tables[1]
-    assert not list((tmp_path / "2").glob("predictions.part*"))

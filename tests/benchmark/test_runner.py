@@ -13,16 +13,21 @@ from typing import Any
 
 import pytest
 import typer
+from rich.console import Console
 from typer.testing import CliRunner
 
+from planner_ft.benchmark.plan import make_plan
 from planner_ft.benchmark.records import RecordLog
 from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.settings import BenchSettings
+from planner_ft.benchmark.terminal import print_warnings
 from planner_ft.cli.bench import bench, score
+from planner_ft.data.leakage import input_digest
 from planner_ft.decoding import engine as engine_module
 from planner_ft.decoding import generate as generate_module
 from planner_ft.decoding.engine import Engine
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import sha256_file
 
 NAME = "Llama-3.2-1B-Instruct"
 COUNT = 5
@@ -452,15 +457,6 @@ def test_a_prompt_longer_than_the_context_is_recorded_as_an_error(
     )
 
 
-def test_two_runs_do_not_share_a_folder(settings: Any, tmp_path: Path) -> None:
-    (tmp_path / "out").mkdir()
-    with (
-        RecordLog(tmp_path / "out" / "predictions.jsonl"),
-        pytest.raises(PlannerError, match="another run is writing"),
-    ):
-        run_bench(settings(resume=True))
-
-
 def test_a_full_disk_is_one_sentence_and_keeps_what_is_there(tmp_path: Path) -> None:
     class Full:
         def write(self, _line: bytes) -> int:
@@ -651,6 +647,15 @@ def test_a_limit_that_a_later_configuration_cannot_keep_is_refused_before_the_fi
     assert work["rows"] == 0
 
 
+def test_a_limit_that_a_later_candidate_cannot_keep_is_refused_before_the_first(
+    settings: Any, work: dict[str, int]
+) -> None:
+    strengths = {"configurations": ("base", "base+schema"), "adapters": (), "max_new_tokens": 213}
+    with pytest.raises(PlannerError, match=f"{NAME}: --max-new-tokens 213: at strength schema"):
+        run_bench(settings(candidates=("embedded", NAME), **strengths))
+    assert work == {"models": 0, "rows": 0}
+
+
 def test_a_read_only_or_impossible_output_folder_is_one_sentence(
     settings: Any, tmp_path: Path
 ) -> None:
@@ -769,3 +774,20 @@ def test_planning_is_timed_with_both_agents_and_only_once(
     assert lines(tmp_path / "out" / "planning.jsonl") == written
     with pytest.raises(PlannerError, match="--planning-samples"):
         BenchSettings(**{**common, "level": "task"})
+
+
+def test_an_adapter_that_was_trained_on_the_samples_is_said(
+    settings: Any, tmp_path: Path, data: Path, adapter: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = shutil.copytree(adapter, tmp_path / "trained")
+    (folder / "samples.txt").write_text(f"{input_digest('Go to 1, 1: and look  around')}\n")
+    done = run_bench(settings(adapters=(str(folder),), limit=2, latency_samples=0))
+    assert [one.to_json()["seen"] for one in done.rows] == [0, 1]
+    said = "1 of 2 samples were in its adapter's training or validation data"
+    assert said in (tmp_path / "out" / "table.md").read_text()
+    print_warnings(done, Console(stderr=True))
+    assert f"warning: {done.rows[1].name}: {said}" in capsys.readouterr().err
+    inputs = {"training": {"path": "copied.jsonl", "sha256": sha256_file(data)}}
+    (folder / "manifest.json").write_text(json.dumps({"inputs": inputs}))
+    plan = make_plan(settings(adapters=(str(folder),)))
+    assert [job.system.seen for job in plan.jobs] == [0, COUNT]

@@ -1,5 +1,5 @@
-"""Facts are followed from the command to parameters, task prompts and skills, and are seen to get
-lost where they do.
+"""Facts are followed from the command to parameters and task prompts, and are seen to get lost
+where they do.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ import pytest
 
 from planner_ft.benchmark.metrics.alignment import align, plan_entries
 from planner_ft.benchmark.metrics.facts import Reached, slot_propagation
-from planner_ft.benchmark.metrics.skill_slots import SkillSlots, skill_slots
 from planner_ft.facts import read_input
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -136,61 +135,3 @@ def test_at_task_level_stated_values_and_places_must_reach_the_right_skill() -> 
         ]
     }
     assert lost(follow(swapped, "task", record))[0] == Counter(coordinates=1)
-
-
-def pipeline(*sequences: list[tuple[str, dict[str, Any]]] | None) -> SkillSlots:
-    """The slots of the expected mission with these skills for its tasks."""
-    told = [
-        (
-            None
-            if skills is None
-            else [
-                {"navigation_skill": {"name": name, "parameters": given}} for name, given in skills
-            ]
-        )
-        for skills in sequences
-    ]
-    tasks = [
-        {**task, "skill_sequence": steps}
-        for task, steps in zip(EXPECTED["tasks"], told, strict=True)
-    ]
-    return skill_slots(RECORD, {"tasks": tasks}, USV)
-
-
-GOTO = [("GoToXY", {"x": 120, "y": -35})]
-HOME = [("GoToXY", {"x": 0, "y": 0})]
-RING = [
-    ("GoToXY", {"x": 145, "y": -35}),
-    ("GoToXY", {"x": 120, "y": -10}),
-    ("GoToXY", {"x": 95, "y": -35}),
-    ("GoToXY", {"x": 120, "y": -60}),
-]
-STARE = [("VisualStationKeep", {"target_id": "lamp"}), ("StationKeep", {"time": 120})]
-CARRIED = ALL - Counter(speeds=1)
-"""No skill has a speed."""
-
-
-def test_the_pipeline_carries_values_as_parameters_and_as_geometry() -> None:
-    assert pipeline(GOTO, RING, STARE, HOME) == SkillSlots(ALL, CARRIED, CARRIED, Counter())
-    turned = pipeline(GOTO, [("ArcTurn", {"radius": 25})], STARE, HOME)
-    assert turned.carried - turned.reached == Counter(coordinates=1)
-
-
-def test_values_that_the_skills_lost_or_another_task_has_are_not_reached() -> None:
-    mixed = pipeline(STARE, RING, GOTO, HOME)
-    assert mixed.carried - mixed.reached == Counter(coordinates=1, names=1, durations=1)
-    wider = [(name, {"x": 120 + 2 * (given["x"] - 120), "y": given["y"]}) for name, given in RING]
-    assert pipeline(GOTO, [*wider[:1], wider[2]], STARE, HOME).reached["lengths"] == 0
-
-
-def test_tasks_whose_place_is_open_wait() -> None:
-    found = pipeline(GOTO, None, STARE, HOME)
-    assert (found.waiting, found.carried - found.reached) == (
-        Counter(coordinates=1, lengths=1),
-        Counter(coordinates=1, lengths=1),
-    )
-
-
-def test_a_missing_task_loses_its_slots_in_the_pipeline() -> None:
-    found = skill_slots(RECORD, {"tasks": []}, USV)
-    assert (found.stated, found.reached) == (ALL, Counter())

@@ -22,7 +22,7 @@ from planner_ft.benchmark.suite import units as process_module
 from planner_ft.benchmark.suite.definition import load_suite
 from planner_ft.benchmark.suite.run import combine, run_suite
 from planner_ft.benchmark.suite.session import State, opened
-from planner_ft.benchmark.suite.units import Flags, Process
+from planner_ft.benchmark.suite.units import Process
 from planner_ft.cli.bench import bench
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import alone
@@ -191,7 +191,7 @@ def runs(monkeypatch: pytest.MonkeyPatch) -> Runs:
 @pytest.fixture
 def go(suite_file: Path, tmp_path: Path) -> Callable[..., Any]:
     def run(report: Callable[[State], None] = lambda _state: None, **values: Any) -> Any:
-        return run_suite(load_suite(suite_file), tmp_path / "out", Flags(), report, **values)
+        return run_suite(load_suite(suite_file), tmp_path / "out", {}, report, **values)
 
     return run
 
@@ -255,10 +255,10 @@ def test_a_failure_is_in_the_tables_and_the_others_go_on(
     runs.fails[("test", FIRST)] = "its process was ended by SIGKILL, most likely for want of memory"
     parts = go()
     assert len(runs.started) == 4
-    assert [(entry.candidate, entry.configuration) for entry in parts[0].failed] == [
+    assert [(entry["candidate"], entry["configuration"]) for entry in parts[0].failed] == [
         (FIRST, "base")
     ]
-    assert "want of memory (1 of 3 answers are kept)" in parts[0].failed[0].reason
+    assert "want of memory (1 of 3 answers are kept)" in parts[0].failed[0]["reason"]
     failed = [row for row in csv_rows(tmp_path / "out" / "table.csv") if row["status"] == "failed"]
     assert [(row["data"], row["candidate"], row["f1"]) for row in failed] == [("test", FIRST, "")]
     for name in ("table.md", "test/table.md", "test/table.csv", "test/table.tex", "table.tex"):
@@ -281,7 +281,9 @@ def test_weights_and_adapters_that_are_missing_cost_only_their_own_rows(
     )
     parts = go()
     assert runs.started == [("test", FIRST), ("more", FIRST)]
-    reasons = {(entry.candidate, entry.configuration): entry.reason for entry in parts[0].failed}
+    reasons = {
+        (entry["candidate"], entry["configuration"]): entry["reason"] for entry in parts[0].failed
+    }
     assert set(reasons) == {(FIRST, "lora"), ("org/nowhere", "base"), ("org/nowhere", "lora")}
     assert "no such adapter folder" in reasons[FIRST, "lora"]
     assert "not on this machine" in reasons["org/nowhere", "base"]
@@ -320,7 +322,7 @@ def test_a_process_that_gives_no_answer_is_ended(go: Any, runs: Runs, suite_file
     parts = go()
     assert 4 * 120 <= runs.now <= 4 * 130
     assert all(
-        "no new answer for 2 minutes" in entry.reason for part in parts for entry in part.failed
+        "no new answer for 2 minutes" in entry["reason"] for part in parts for entry in part.failed
     )
     assert sum(len(part.failed) for part in parts) == 4
 
@@ -361,9 +363,9 @@ def test_two_suites_do_not_share_a_folder(suite_file: Path, tmp_path: Path) -> N
 
 
 def test_what_is_not_run_yet_is_said(suite_file: Path, runs: Runs, tmp_path: Path) -> None:
-    session = opened(load_suite(suite_file), tmp_path / "out", Flags(), lambda _state: None)
+    session = opened(load_suite(suite_file), tmp_path / "out", {}, lambda _state: None)
     parts, _manifest = combine(session)
-    assert {entry.reason for part in parts for entry in part.failed} == {"not run yet"}
+    assert {entry["reason"] for part in parts for entry in part.failed} == {"not run yet"}
 
 
 @pytest.mark.parametrize(
@@ -372,11 +374,11 @@ def test_what_is_not_run_yet_is_said(suite_file: Path, runs: Runs, tmp_path: Pat
         ('title = "A suite"\n', "", "title is missing"),
         ('["base"]', '["magic"]', "configurations magic"),
         ('["base"]', "[]", "configurations is empty"),
-        ('level = "mission"', 'level = "both"', r"parts\[0\]: level 'both'"),
+        ('level = "mission"', 'level = "both"', r"parts\[0\]: --level both"),
         ('name = "more"', 'name = "test"', "two parts are named test"),
         ('name = "more"', 'name = "../more"', "becomes a folder"),
         ('data = "test.jsonl"', 'data = "none.jsonl"', "no such file"),
-        ("latency_samples = 1", "latency_samples = -1", "latency_samples must be at least 0"),
+        ("latency_samples = 1", "latency_samples = -1", r"parts\[0\]: --latency-samples -1"),
         ("latency_samples = 1", "speed = 1", "unknown key 'speed'"),
         (FIRST, "Lama", "unknown candidate"),
         (FIRST, SECOND.lower(), "two candidates are named"),
@@ -398,11 +400,11 @@ def test_the_shipped_suites_can_be_read() -> None:
     suites = {path.stem: load_suite(path) for path in root.glob("*.toml")}
     assert set(suites) == {"paper", "embedded", "ci"}
     assert len(suites["paper"].candidates) == 7
-    for suite in suites.values():
-        assert [part.apart for part in suite.parts] == [
-            part.data.name != "test.jsonl" for part in suite.parts
-        ]
-        assert all(part.data.is_file() for part in suite.parts if "data/task" not in str(part.data))
+    for part in (part for suite in suites.values() for part in suite.parts):
+        data = part.settings.data
+        assert data is not None
+        assert part.apart == (data.name != "test.jsonl")
+        assert data.is_file() or "data/task" in str(data)
 
 
 def test_a_process_that_fails_says_why(tmp_path: Path) -> None:
@@ -457,7 +459,7 @@ def test_a_suite_runs_in_real_processes(suite_file: Path, tmp_path: Path, models
     )
     suite_file.write_text(text[: text.index('[[parts]]\nname = "more"')])
     (part,) = run_suite(
-        load_suite(suite_file), tmp_path / "out", Flags(device="cpu", limit=1), lambda _state: None
+        load_suite(suite_file), tmp_path / "out", {"device": "cpu", "limit": 1}, lambda _state: None
     )
     assert not part.failed, part.failed
     assert [row.n for row in part.results.rows] == [1]

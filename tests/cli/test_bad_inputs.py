@@ -100,18 +100,98 @@ export --candidate nobody --out OUT
 export --candidate embedded --out OUT --merge --adapter /nowhere
 export --candidate embedded --out OUT --check-data /nowhere
 candidates nobody
+candidates --nobody
+doctor --nobody
+nobody
+bench --level mission --candidates embedded --data BINARY --out OUT
+bench --level mission --candidates embedded --data EMPTY --out OUT
+bench --level mission --candidates embedded --data DEEP --out OUT
+bench --level mission --candidates embedded --data LIST --out OUT
+bench --level mission --candidates embedded --data FOLDER --out OUT
+bench --level mission --candidates embedded --configurations base --out EMPTY/x
+bench --suite BINARY --out OUT
+bench --suite LIST --out OUT
+bench --gate BINARY --out OUT
+bench --gate FOLDER --out OUT
+bench --field BINARY --candidates embedded --out OUT
+bench --level mission --candidates FOLDER --out OUT
+score --level mission --predictions BINARY --out OUT
+score --level mission --predictions LIST --out OUT
+score --run FOLDER --out OUT
+compare BINARY
+compare FOLDER
+compare LIST
+report BINARY
+report FOLDER
+report FOLDER --card FOLDER
+gen-data --level mission --source FOLDER --out OUT
+gen-data --level task --out EMPTY/x
+gen-data --vocabulary BINARY --out OUT
+validate BINARY
+validate FOLDER
+vocabulary --vocabulary BINARY
+vocabulary --vocabulary FOLDER
+vocabulary --docs EMPTY/x
+vocabulary --schemas EMPTY/x
+train --level mission --candidate embedded --train-file BINARY --output OUT
+train --level mission --candidate embedded --train-file EMPTY --output OUT
+train --level mission --candidate embedded --train-file DEEP --output OUT
+train --level mission --candidate embedded --corrections BINARY --output OUT
+train --level mission --candidate embedded --output EMPTY/x
+train --level mission --candidate FOLDER --output OUT
+train --recipe BINARY
+train --recipe LIST
+plan x --vehicle BINARY
+plan x --locate-file BINARY
+plan x --locate-file LIST
+plan x --area BINARY
+plan x --area DEEP
+plan x --origin 91,0
+plan x --origin nan,0
+plan x --out EMPTY
+plan x --candidate FOLDER
+plan x --vocabulary BINARY
+review BINARY
+review DEEP
+review LIST
+review FOLDER
+review --harvest LIST --out OUT
+verify BINARY
+verify DEEP
+verify --log BINARY
+verify --log DEEP
+export BINARY --format qgc
+export DEEP --format qgc
+export FOLDER --format qgc
+export --candidate FOLDER --out OUT
+export --candidate embedded --out EMPTY/x
+plan
 """
+FILES = {"BINARY": b"\xff\xfe\x00", "EMPTY": b"", "DEEP": b"[" * 100_000, "LIST": b"[]\n"}
+"""Inputs that commands name, beside FOLDER, which is empty, and OUT, which does not exist."""
+
+
+@pytest.fixture(scope="module")
+def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("inputs")
+    for name, content in FILES.items():
+        (folder / name).write_bytes(content)
+    (folder / "FOLDER").mkdir()
+    return folder
 
 
 @pytest.mark.parametrize("command", COMMANDS.strip().splitlines())
 def test_it_is_refused_with_a_sentence(
     command: str,
+    inputs: Path,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    """OUT stands for a folder that does not exist."""
-    words = command.replace("OUT", str(tmp_path / "out")).split()
+    words = [
+        str(inputs / word) if word.split("/")[0] in {*FILES, "FOLDER"} else word
+        for word in command.replace("OUT", str(tmp_path / "out")).split()
+    ]
     monkeypatch.setattr(sys, "argv", ["plannerft", *words])
     with pytest.raises(SystemExit) as stop:
         main()
@@ -119,3 +199,4 @@ def test_it_is_refused_with_a_sentence(
     assert stop.value.code == 2, said
     assert "Traceback" not in said and said.strip()
     assert list(tmp_path.iterdir()) == []
+    assert {path.name for path in inputs.rglob("*")} == {*FILES, "FOLDER"}

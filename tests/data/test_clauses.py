@@ -81,7 +81,7 @@ def test_records_are_of_the_schema_and_splits_share_no_text(vehicle):
     [
         ("keep off", "keep_off", "no kind of limit and no skill"),
         ("keep off {T1}", "keep_out T1 distance", "distance stands in the plan and not"),
-        ("keep {distance} off {T1}", "keep_out T1", "belongs to no limit"),
+        ("keep {distance} off {T1}", "keep_out T1", "belongs to no task, limit or demand"),
         ("film", "SetStreamRecording scope=legs", "scope=legs: must be"),
         ("keep {colour} off", "keep_out colour", "keep_out needs distance and position"),
     ],

@@ -11,15 +11,19 @@ from typing import Any
 
 import datasets
 import pytest
+from typer.testing import CliRunner
 
+from planner_ft.cli.app import app
 from planner_ft.data.generate import GenerationSettings, generate
 from planner_ft.prompts.text import chat_messages
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl, sha256_file, write_jsonl
 from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.definition import BUNDLED
 
 ROOT = Path(__file__).parents[2]
 CURATED = ROOT / "data" / "mission"
+DRONE = ROOT / "data" / "inspection_drone" / "mission"
 SMALL: dict[str, Any] = {"train": 20, "validation": 5, "test": 6}
 
 
@@ -93,8 +97,10 @@ def test_in_place_the_curated_source_is_left_alone(tmp_path: Path, source: Path)
     assert {**contents(folder), **before} == contents(folder)
 
 
-def test_the_committed_card_and_report_are_up_to_date() -> None:
-    (result,) = generate(GenerationSettings(level="mission", out=ROOT / "data", source=CURATED))
+@pytest.mark.parametrize(("vehicle", "folder"), [("usv", CURATED), ("inspection_drone", DRONE)])
+def test_the_committed_card_and_report_are_up_to_date(vehicle: str, folder: Path) -> None:
+    settings = GenerationSettings("mission", folder.parent, vocabulary=vehicle)
+    (result,) = generate(settings)
     assert not result.written, "run: plannerft gen-data --level mission --overwrite"
 
 
@@ -160,6 +166,29 @@ def test_another_vehicle_has_its_task_set(tmp_path: Path) -> None:
             )
         )
     assert not (tmp_path / "all").exists()
+
+
+def test_the_second_vehicle_has_both_levels_in_its_own_folder() -> None:
+    arguments = ["gen-data", "--vocabulary", "inspection_drone"]
+    small = [f"--{name}={count}" for name, count in SMALL.items()]
+    result = CliRunner().invoke(app, [*arguments, *small], catch_exceptions=False)
+    assert result.exit_code == 0
+    made = Path("data/inspection_drone")
+    assert (made / "task" / "train.jsonl").is_file()
+    assert read_jsonl(made / "mission" / "test.jsonl") == read_jsonl(DRONE / "test.jsonl")[:6]
+
+
+def test_an_own_vehicle_has_its_set_beside_its_definition(tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text((BUNDLED / "inspection_drone.toml").read_text())
+    settings = GenerationSettings("mission", tmp_path, vocabulary=str(tmp_path / "mine.toml"))
+    with pytest.raises(PlannerError, match=f"not in {tmp_path / 'mission'}; give its folder"):
+        generate(settings)
+    for split in ("train", "validation", "test"):
+        records = read_jsonl(DRONE / f"{split}.jsonl")
+        write_jsonl(tmp_path / "mission" / f"{split}.jsonl", records[:2])
+    (result,) = generate(settings)
+    assert result.counts == {"train": 2, "validation": 2, "test": 2}
+    assert (tmp_path / "mission" / "README.md").is_file()
 
 
 def test_another_vehicle_takes_a_mission_set_of_its_own(tmp_path: Path) -> None:

@@ -8,11 +8,23 @@ from typing import Any
 
 import pytest
 
-from planner_ft.data.tags import ALWAYS_TAGGED, TAGS, TASKS_OF_TAG, coverage_problems, tag_problems
+from planner_ft.data.curated import curated_folder
+from planner_ft.data.leakage import leakage_report
+from planner_ft.data.missions import sample_missions
+from planner_ft.data.tags import (
+    ALWAYS_TAGGED,
+    TAGS,
+    TASKS_OF_TAG,
+    coverage_problems,
+    tag_problems,
+    tags_of,
+)
+from planner_ft.data.validation import validate_file
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.plans import plan_names
 
-USV = load_vocabulary()
+USV, DRONE = load_vocabulary(), load_vocabulary("inspection_drone")
 CURATED = {
     split: read_jsonl(Path(__file__).parents[2] / "data" / "mission" / f"{split}.jsonl")
     for split in ("train", "validation", "test")
@@ -28,12 +40,44 @@ def test_the_curated_set_covers_what_it_must(splits: dict[str, list[dict[str, An
     assert coverage_problems(splits, USV) == []
 
 
+def test_the_drones_curated_set_is_valid_and_covers_what_it_must() -> None:
+    folder = curated_folder(DRONE)
+    assert folder is not None
+    files = {split: folder / f"{split}.jsonl" for split in CURATED}
+    for path in files.values():
+        assert validate_file(path, DRONE, "mission", complete=True).problems == ()
+    drone = {split: read_jsonl(path) for split, path in files.items()}
+    assert coverage_problems(drone, DRONE) == []
+    drone["test"][0]["family"] = drone["train"][0]["family"]
+    assert len(coverage_problems(drone, DRONE)) == 1
+
+
+def test_the_drones_challenge_set_is_valid_and_apart() -> None:
+    folder = curated_folder(DRONE)
+    assert folder is not None
+    path = folder / "challenge.jsonl"
+    assert validate_file(path, DRONE, "mission").problems == ()
+    challenge = read_jsonl(path)
+    titles = {name for one in challenge for name in plan_names("mission", one["expected"])}
+    assert titles == set(DRONE.task) and len({one["group"] for one in challenge}) == 11
+    assert len(challenge) >= 100
+    known = [record for split in CURATED for record in read_jsonl(folder / f"{split}.jsonl")]
+    splits = {"train": [*known, *sample_missions(0, 60, DRONE)], "challenge": challenge}
+    (overlap,) = leakage_report("mission", splits)["overlaps"]
+    assert overlap["families"] == overlap["near"] == overlap["near_masked"] == 0
+
+
+def test_a_vehicle_has_the_tags_of_its_tasks() -> None:
+    assert {"which.roof-scan", "which.orbit", "rule.order"} <= set(tags_of(DRONE))
+    assert not {"which.glare", "rule.dock"} & set(tags_of(DRONE))
+    assert "which.roof-scan" not in tags_of(USV)
+
+
 def test_tables_name_known_tags_and_tasks() -> None:
     assert set(TASKS_OF_TAG) | set(ALWAYS_TAGGED.values()) <= set(TAGS)
-    assert {title for titles in TASKS_OF_TAG.values() for title in titles} | set(
-        ALWAYS_TAGGED
-    ) <= set(USV.task)
-    assert sum(tag.startswith("which.") for tag in TAGS) == 11
+    titles = {title for titles in TASKS_OF_TAG.values() for title in titles}
+    assert titles | set(ALWAYS_TAGGED) <= {*USV.task, *DRONE.task}
+    assert sum(tag.startswith("which.") for tag in tags_of(USV)) == 11
 
 
 def test_what_is_lacking_is_named(splits: dict[str, list[dict[str, Any]]]) -> None:

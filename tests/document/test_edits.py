@@ -109,6 +109,13 @@ def test_an_edited_parameter_takes_its_prompt_along_and_outdates_the_skills(
     )
 
 
+def test_a_place_is_forgotten_with_the_last_task_at_it(plan: PlanDocument) -> None:
+    placed = apply(plan, {"kind": "locate", "name": "green buoy", "position": [120, -35]}, USV)
+    fewer = apply(placed, {"kind": "remove", "task": "t2"}, USV)
+    assert fewer["located"] == {"green buoy": [120, -35]}
+    assert apply(fewer, {"kind": "remove", "task": "t3"}, USV)["located"] == {}
+
+
 def test_tasks_are_removed_moved_and_inserted(plan: PlanDocument) -> None:
     assert [
         entry["id"] for entry in apply(plan, {"kind": "remove", "task": "t4"}, USV)["tasks"]
@@ -197,6 +204,11 @@ def test_a_skill_can_be_set(plan: PlanDocument) -> None:
             "skills of t1",
         ),
         ({"kind": "prompt", "task": "t1", "text": "x" * 5000}, "at most 4000 characters"),
+        ({"kind": "prompt", "task": "t1", "text": "a\x00b"}, "control character '\\x00'"),
+        (
+            {"kind": "parameter", "task": "t1", "name": "target_description", "value": "\x1b[2J"},
+            "control character '\\x1b'",
+        ),
     ],
 )
 def test_what_cannot_be_is_one_sentence_and_changes_nothing(

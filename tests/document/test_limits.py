@@ -49,6 +49,15 @@ def test_a_filter_that_is_there_is_kept_when_it_is_as_strict() -> None:
         assert len(plan["tasks"][0]["skill_sequence"][0]["filter_skills"]) == count
 
 
+def test_a_filter_of_a_step_that_holds_on_to_a_target_takes_the_limit_too() -> None:
+    text = "The vehicle keeps at least 30 m from every obstacle."
+    follow, hold = step("VisualStationKeep"), step("StationKeep")
+    follow["filter_skills"] = [{"name": "ObstacleAvoidance", "parameters": {"min_distance": 15}}]
+    plan = document([task("FollowTarget", {"target_id": "9"}, [follow, hold])], constraints=[text])
+    kept, none = (one["filter_skills"] for one in plan["tasks"][0]["skill_sequence"])
+    assert [one["parameters"]["min_distance"] for one in kept] == [15, 30] and none == []
+
+
 def test_the_words_of_the_command_are_found() -> None:
     command = "Go to 100,50, but never leave the area 0,0 200,0 200,200 0,200, then come home."
     (limit,) = document([transit(100, 50)], command=command, constraints=[FENCE])["limits"]
@@ -156,7 +165,9 @@ def test_a_constraint_is_edited_and_its_filters_follow() -> None:
     assert own["name"] == "ObstacleAvoidance"
     assert [change.kind for change in differences(plan)].count("constraint") == 2
     assert undo(undo(plan, USV), USV)["constraints"] == ["Be careful.", FENCE]
-    for wrong in ({"at": 9}, {"at": 0, "text": " "}):
+    first = apply(plan, {"kind": "constraint", "at": 0, "text": "Hurry."}, USV)
+    assert first["constraints"][0] == "Hurry."
+    for wrong in ({"at": 9}, {"at": -1}, {"at": 0, "text": " "}):
         with pytest.raises(PlannerError, match="constraint"):
             apply(plan, {"kind": "constraint", **wrong}, USV)
 

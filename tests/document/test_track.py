@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from typing import Any
@@ -50,6 +51,7 @@ def test_an_arc_goes_round_the_task_s_centre_clockwise() -> None:
     )
     assert leg.metres == pytest.approx(10 * math.pi / 2)
     assert all(math.dist(point, (0, 100)) == pytest.approx(10, abs=0.01) for point in leg.points)
+    assert all(math.dist(*pair) < 3 for pair in itertools.pairwise(leg.points))
 
 
 def test_an_arc_from_the_centre_goes_out_to_the_circle_first() -> None:

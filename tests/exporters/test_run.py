@@ -276,5 +276,5 @@ def test_text_of_a_command_cannot_shape_the_report(tmp_path: Path) -> None:
     write_document(path, built([odd]))
     (done,) = export_plan(PlanExportSettings(path, ("qgc",), ORIGIN, draft=True))
     report = done.report.read_text(encoding="utf-8")
-    assert "\x1b" not in report and "a \\| b\\\\n\\# c \\\\x1b\\[31m\\<b\\>" in report
+    assert "\x1b" not in report and "a \\| b\\\\n\\# c \\\\u001b\\[31m\\<b\\>" in report
     assert all(line.count(" | ") == 2 for line in report.splitlines() if line.startswith("| t1"))

@@ -132,7 +132,8 @@ def test_bearings(text: str, angles: list[float]) -> None:
 @pytest.mark.parametrize(
     ("text", "angle"),
     [("half a circle", 180), ("three quarters of a circle", 270), ("two full orbits", 720),
-     ("twice round", 720), ("all the way round", 360), ("a third of the way round", 120)],
+     ("twice round", 720), ("all the way round", 360), ("a third of the way round", 120),
+     ("two thirds of a circle", 240)],
 )  # fmt: skip
 def test_turns(text: str, angle: float) -> None:
     assert any(turn.value == pytest.approx(angle) for turn in read(text).turns)
@@ -143,3 +144,8 @@ def test_degrees_with_minutes_and_seconds_are_read_whole() -> None:
     (place,) = facts.geographic
     assert (place.latitude, place.longitude) == pytest.approx((54.321667, 10.141667))
     assert facts.unread == () and facts.positions == ()
+
+
+def test_a_time_of_day_is_no_position() -> None:
+    text = "Do not leave [0, 100]. Be home by 16:00."
+    assert [(place.x, place.y) for place in read_positions(text)] == [(0, 100)]

@@ -4,19 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from planner_ft.facts import WAYPOINT, pieces, read
-from planner_ft.facts.variants import Variant, variants
+from planner_ft.facts import WAYPOINT, read
 from planner_ft.vocabulary import Parameter
 
 METRES, TEXT = Parameter("radius", "number", "m"), Parameter("what", "text")
 FILLER = "Look at the old pier and its ladder. "
-
-
-@pytest.mark.parametrize("text", ["", "a", "x" * 5000, FILLER * 200, " " * 4000, "word " * 999])
-def test_pieces_add_up_to_the_text(text: str) -> None:
-    found = list(pieces(text))
-    assert "".join(piece for _offset, piece in found) == text
-    assert all(text[offset : offset + len(piece)] == piece for offset, piece in found)
 
 
 def test_a_value_far_behind_is_found_where_it_stands() -> None:
@@ -32,19 +24,12 @@ def test_a_value_far_behind_is_found_where_it_stands() -> None:
     assert facts.evidence(78, METRES).kind == "nobody"
 
 
-def test_what_is_read_in_every_way_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Other readings of a text cost the most; a longer command must not have more of them."""
-    lengths: list[int] = []
-
-    def counted(text: str) -> tuple[Variant, ...]:
-        lengths.append(len(text))
-        return variants(text)
-
-    monkeypatch.setattr("planner_ft.facts.reading.variants", counted)
-    for length in (300, 3000):
-        lengths.clear()
-        read(f"{length} " + FILLER * length).evidence(5, METRES)
-        assert 0 < sum(lengths) <= 8000
+def test_spelling_is_put_right_in_a_bounded_part_of_a_text() -> None:
+    """Other spellings cost the most; a longer command must not have more of them."""
+    wanted, time = "hold two hous and five minutes. ", Parameter("time", "number", "s")
+    assert read(wanted + FILLER * 500).evidence(7200, time).given
+    behind = read(FILLER * 500 + wanted)
+    assert not behind.evidence(7200, time).given and behind.evidence(300, time).given
 
 
 @pytest.mark.parametrize(

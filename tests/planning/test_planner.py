@@ -75,15 +75,20 @@ def test_places_are_filled_in_before_the_task_agent_is_asked(known: Known) -> No
     assert "Located: green buoy at [120,-35]" in plan_tree(as_json(planned))
 
 
-def test_a_location_that_the_plan_does_not_leave_open_stops_before_the_task_agent(
+def test_a_location_that_the_plan_does_not_leave_open_is_a_note_and_the_others_are_used(
     known: Known,
 ) -> None:
-    engine = known()
-    with pytest.raises(
-        PlannerError, match='--locate lighthouse: no such place is open; there is "green buoy"'
-    ):
-        Planner.load(configuration="base").plan(COMMAND, {"lighthouse": (1.0, 2.0)})
-    assert len(engine.asked) == 1
+    known()
+    planned = Planner.load(configuration="base").plan(
+        COMMAND, {"lighthouse": (1.0, 2.0), "buoy": (120.0, -35.0), "green buoy": (3.0, 4.0)}
+    )
+    value = as_json(planned)
+    assert value["located"] == {"green buoy": [120, -35]} and value["complete"]
+    assert value["assumptions"][-2:] == [
+        'Not used: --locate lighthouse: no such place is open; there is "green buoy".',
+        'Not used: --locate green buoy: "green buoy" is located by "buoy" already; leave one of'
+        " them out.",
+    ]
 
 
 def test_who_watches_hears_of_the_tasks_before_any_skills_and_of_the_skills_one_by_one(
@@ -264,7 +269,7 @@ def test_the_tree_shows_steps_places_costs_and_that_no_adapter_is_used(known: Kn
 def test_no_control_character_of_a_command_reaches_a_terminal(known: Known) -> None:
     known()
     tree = plan_tree(as_json(Planner.load(configuration="base").plan("Go\x1b[2J home\r\nat once")))
-    assert tree.startswith("Go\\x1b[2J home\\r\\nat once\n")
+    assert tree.startswith("Go\\u001b[2J home\\r\\nat once\n")
 
 
 @pytest.mark.parametrize(

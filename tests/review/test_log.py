@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 
 from planner_ft.document import PlanDocument
 from planner_ft.review.approval import approve
-from planner_ft.review.log import append, check_log, head_file, log_beside, read_log
+from planner_ft.review.log import append, check_log, existing_log, head_file, log_beside, read_log
 from planner_ft.support.errors import PlannerError
 
 RECORDS = 6
@@ -104,6 +104,7 @@ def test_a_removed_line_is_named(whole: Path, number: int) -> None:
 def test_several_lines_cut_from_the_end_are_named(whole: Path) -> None:
     with copy_of(whole, lambda lines: lines[:3]) as log:
         assert "records 4 to 6 are known to the head file" in problem_of(log)
+        assert [problem.line for problem in check_log(log).problems] == [4]
         log.unlink()
         assert "records 1 to 6 are known to the head file" in problem_of(log)
 
@@ -169,6 +170,10 @@ def test_a_head_file_that_is_missing_or_older_is_an_error(tmp_path: Path) -> Non
     assert "ends at record 3, the log at record 5" in problem_of(log)
     head_file(log).unlink()
     assert "head file is missing" in problem_of(log)
+    assert [problem.line for problem in check_log(log).problems] == [0]
+    assert existing_log(log) == log
+    with pytest.raises(PlannerError, match="no such file"):
+        existing_log(tmp_path / "none.jsonl")
 
 
 @pytest.mark.parametrize("count", [1, 3])

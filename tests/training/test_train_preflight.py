@@ -227,3 +227,13 @@ def test_one_file_for_training_and_validation_is_rendered_as_two_splits(ask, tmp
     assert not [p for finding in run_preflight(request, prepared) for p in finding.problems]
     assert prepared.train and len(prepared.train.samples) == 5
     assert prepared.validation and len(prepared.validation.samples) == len(lines.splitlines())
+
+
+def test_training_on_a_test_set_is_said(ask, quiet, data, curated, write, tmp_path, capsys):
+    beside = [{**curated(1)[0], "prompt": f"  {curated(1)[0]['prompt'].upper()}"}, *curated(1, 20)]
+    write(data / "test.jsonl", beside)
+    manifest = train(ask(epochs=1, rank=1), quiet)
+    assert manifest["tests_trained_on"] == {str(data / "test.jsonl"): "1 of 2"}
+    warned = capsys.readouterr().err
+    assert f"warning: 1 of 2 inputs of {data / 'test.jsonl'} are in the training" in warned
+    assert f"1 of 2 inputs of {data / 'test.jsonl'}" in (tmp_path / "adapter/README.md").read_text()

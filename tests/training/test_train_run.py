@@ -37,6 +37,7 @@ def test_the_folder_of_a_finished_run(ask, quiet, tmp_path, short):
         "generation_config.json",
         "manifest.json",
         "README.md",
+        "samples.txt",
         "train_log.jsonl",
         "loss.png",
         "loss.svg",

@@ -143,6 +143,9 @@ def test_a_bundled_recipe_runs_by_its_first_line_and_says_every_setting(name):
             "max_samples",
             "max_steps",
             "augment",
+            "vary",
+            "select",
+            "validation_answers",
         ):
             assert request.resolved.origin[setting].endswith(f"{name}.toml"), setting
     assert request.resolved.departures(request.level) == []
@@ -163,3 +166,16 @@ def test_every_setting_is_a_flag():
     app.command()(train)
     flags = {flag for parameter in typer.main.get_command(app).params for flag in parameter.opts}
     assert {f"--{name.replace('_', '-')}" for name in FIELDS} <= flags
+
+
+def test_a_candidates_own_settings_hold_for_the_vocabulary_that_it_was_pretrained_on():
+    run = {"level": "mission", "candidate": "embedded"}
+    own, other = (
+        build_request({**run, "vocabulary": name}, {}).resolved
+        for name in ("usv", "inspection_drone")
+    )
+    assert own.origin["learning_rate"] == "embedded"
+    assert other.origin["learning_rate"] == "embedded for another vocabulary"
+    assert other.settings.learning_rate > 10 * own.settings.learning_rate
+    real = build_request({**run, "candidate": "Qwen2.5-3B", "vocabulary": "inspection_drone"}, {})
+    assert real.resolved.departures("mission") == []

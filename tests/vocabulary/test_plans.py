@@ -21,6 +21,7 @@ from planner_ft.vocabulary.plans import (
     check_level,
     plan_names,
     plan_problems,
+    value_problem,
 )
 from planner_ft.vocabulary.schema import plan_schema
 
@@ -213,6 +214,18 @@ def go(**more: Any) -> dict[str, Any]:
 )
 def test_problems_say_where_and_what(plan: Any, problem: str) -> None:
     assert problem in plan_problems("mission", plan, USV, strict=True)
+
+
+@pytest.mark.parametrize("vocabulary", [USV, DRONE], ids=["usv", "drone"])
+def test_bounds_belong_to_the_range(vocabulary: Vocabulary) -> None:
+    owners: list[Task | Skill] = [*vocabulary.tasks, *vocabulary.skills]
+    bounded = [one for owner in owners for one in owner.parameters if one.minimum is not None]
+    assert bounded
+    for one in bounded:
+        assert one.minimum is not None and one.maximum is not None
+        inside, outside = (one.minimum, one.maximum), (one.minimum - 1, one.maximum + 1)
+        assert [value_problem(value, one) for value in inside] == [None, None]
+        assert all(value_problem(value, one) for value in outside)
 
 
 def test_an_invented_name_is_schema_valid_but_not_strictly_valid() -> None:

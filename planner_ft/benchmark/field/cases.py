@@ -85,13 +85,14 @@ def _problem(value: Any, vocabulary: Vocabulary) -> str | None:
         where = found.json_path.removeprefix("$").lstrip(".") or "the case"
         return f"{where}: {found.message[:200]}"
     return next(
-        (text for check in value["expect"] for text in _check_problems(check, vocabulary)), None
+        (text for check in value["expect"] for text in check_problems(check, vocabulary)), None
     )
 
 
-def _check_problems(check: Check, vocabulary: Vocabulary) -> Iterator[str]:
+def check_problems(check: Check, vocabulary: Vocabulary) -> Iterator[str]:
+    """Names of a check that the vehicle has not, and bad regular expressions."""
     for inner in check.get("any", ()):
-        yield from _check_problems(inner, vocabulary)
+        yield from check_problems(inner, vocabulary)
     titles = [
         *check.get("titles", ()),
         *(check[key] for key in ("has", "lacks", "under") if key in check),

@@ -9,8 +9,7 @@ value in the wrong place is grounded, too.
 A slot is a value of the expected plan that the command states: coordinates, a stand-off, a
 duration, a name. A fact that several tasks need is as many slots. A slot has reached the parameters
 when the task (or skill) that is aligned with the expected one has the value; the task prompt when
-that task's prompt says it, in any unit and wording; the skills, in the two-agent pipeline, when
-they carry it out (`skill_slots`).
+that task's prompt says it, in any unit and wording.
 
 Values are judged by `planner_ft.facts`, which the decoding strength `grounded` holds answers to as
 well: the groundedness of `+grounded` configurations is 100 % by construction.
@@ -111,26 +110,13 @@ def _by_form(name: str, value: Any) -> Parameter:
     return Parameter(name, "text")
 
 
-def slot_kind(parameter: Parameter) -> str:
+def _slot_kind(parameter: Parameter) -> str:
     """What a slot is, by the type and unit of its parameter."""
     if parameter.type in ("position", "polygon"):
         return "coordinates"
     if parameter.type in ("number", "integer"):
         return BY_UNIT.get(parameter.unit or "", "numbers")
     return "names"
-
-
-def stated_slots(
-    level: Level, expected: Sequence[Entry], source: Input, vocabulary: Vocabulary
-) -> list[Given]:
-    """The values of an expected plan that the input states; home, the unresolved location and
-    derived waypoints are none.
-    """
-    return [
-        given
-        for given in given_values(level, expected, vocabulary)
-        if source.stated(given.value, given.parameter, SCORING).given
-    ]
 
 
 def slot_propagation(
@@ -145,8 +131,11 @@ def slot_propagation(
         for given in given_values(level, alignment.predicted, vocabulary)
     }
     reached = Reached(Counter(), Counter(), Counter())
-    for slot in stated_slots(level, alignment.expected, source, vocabulary):
-        kind = slot_kind(slot.parameter)
+    for slot in given_values(level, alignment.expected, vocabulary):
+        # Home, the unresolved location and derived waypoints are no slots.
+        if not source.stated(slot.value, slot.parameter, SCORING).given:
+            continue
+        kind = _slot_kind(slot.parameter)
         reached.stated[kind] += 1
         if slot.entry not in partner:
             continue
@@ -164,16 +153,7 @@ def _says(prompt: str, slot: Given) -> bool:
     """Whether a task prompt states a value: a number in any unit and wording, coordinates as a
     pair, every word of a text.
     """
-    if slot_kind(slot.parameter) != "names":
+    if _slot_kind(slot.parameter) != "names":
         return read(prompt).evidence(slot.value, slot.parameter, SCORING).given is True
-    return all(text_said(prompt, text) for text in listed(slot.value))
-
-
-def text_said(text: str, wanted: Any) -> bool:
-    """Whether a text has every word of another."""
-    return not missing_words(text, normalised(str(wanted)), misspelt=False)
-
-
-def listed(value: Any) -> list[Any]:
-    """A list as it is, and anything else as the one item of a list."""
-    return value if isinstance(value, list) else [value]
+    wanted = slot.value if isinstance(slot.value, list) else [slot.value]
+    return not any(missing_words(prompt, normalised(str(one)), misspelt=False) for one in wanted)

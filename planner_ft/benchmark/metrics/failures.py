@@ -11,7 +11,7 @@ from typing import Any, Literal, get_args
 
 from planner_ft.benchmark.metrics.alignment import Entry, align, plan_entries
 from planner_ft.benchmark.metrics.names import exact_sequence, name_sequence
-from planner_ft.benchmark.metrics.parameters import right_entries
+from planner_ft.benchmark.metrics.values import parameters_agree
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, list_key, named_entries, plan_problems
 
@@ -159,8 +159,12 @@ def _parameters_right(level: Level, plan: Plan, expected: Plan, vocabulary: Voca
 
 def _step_right(level: Level, expected: Step, predicted: Step, vocabulary: Vocabulary) -> bool:
     """Whether two steps with the same names have the same parameters."""
-    agreement = right_entries(level, align(level, expected, predicted, vocabulary), vocabulary)
-    return agreement.right == agreement.matched
+    pairs = align(level, expected, predicted, vocabulary).matched()
+    return all(
+        parameters_agree(level, ours.name, theirs.parameters, ours.parameters, vocabulary)
+        for ours, theirs in pairs
+        if ours.stated
+    )
 
 
 def _steps(level: Level, plan: Plan) -> list[Step]:

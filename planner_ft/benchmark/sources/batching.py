@@ -1,5 +1,5 @@
-"""Batches by length, with a size that finds itself: it is halved when memory runs out, and doubled
-while there is room.
+"""Batches by length, with a size that finds itself: it is doubled until memory runs out, and halved
+then.
 """
 
 from __future__ import annotations
@@ -12,41 +12,30 @@ from planner_ft.support.errors import PlannerError
 
 Answer = TypeVar("Answer")
 
-FIRST = 16
-"""The size to begin with: on a CPU larger ones gain nothing, and a killed process would be the only
-sign of too large ones.
+FIRST, LARGEST = 16, 256
+"""The size to begin with, and the largest on a GPU: on a CPU larger ones gain nothing, and a killed
+process would be the only sign of too large ones.
 """
-LARGEST = 256
-MARGIN = 0.7
-"""Share of the free memory that a batch may be expected to take."""
 
 
 @dataclass
 class BatchSize:
-    """The queries that are generated together. `room` says whether a batch of some size would fit,
-    before the size is doubled; None keeps it from growing.
-    """
+    """The queries that are generated together, and how many there may be at most."""
 
-    size: int = FIRST
-    room: Callable[[int], bool] | None = None
-    largest: int = LARGEST
+    size: int
+    largest: int
 
-    def fitted(self, used: int) -> None:
-        """A batch of `used` queries had enough memory."""
-        twice = 2 * used
-        if self.room and used == self.size and twice <= self.largest and self.room(twice):
-            self.size = twice
-
-    def overflowed(self, used: int) -> None:
-        """A batch of `used` queries did not have enough. Raises PlannerError when it was a single
-        one.
-        """
-        if used == 1:
+    def used(self, count: int, *, fitted: bool) -> None:
+        """Judge by a batch of `count` queries. Raises PlannerError when a single one did not fit."""
+        if fitted:
+            self.size = min(2 * count, self.largest) if count == self.size else self.size
+        elif count == 1:
             raise PlannerError(
                 "the device has too little memory for a single query; give a smaller candidate or"
                 " another --device (what is done is kept for --resume)"
             )
-        self.size = self.largest = used // 2
+        else:
+            self.size = self.largest = count // 2
 
 
 def in_batches(
@@ -72,10 +61,7 @@ def in_batches(
                 raise
             full = True
         # Out of the handler: the exception held the tensors of the batch.
-        if full:
-            batch.overflowed(len(asked))
-        else:
-            batch.fitted(len(asked))
+        batch.used(len(asked), fitted=not full)
         waiting = [index for index in waiting if index not in done]
 
 
@@ -92,24 +78,5 @@ def is_out_of_memory(error: BaseException) -> bool:
 def new_batch_size(asked: int | None, device: str) -> BatchSize:
     """The size that was asked for, or one that finds itself."""
     if asked is not None:
-        return BatchSize(asked)
-    return BatchSize(room=_cuda_room(device) if device.startswith("cuda") else None)
-
-
-def _cuda_room(name: str) -> Callable[[int], bool]:
-    """Judges by the memory that batches took at their peak beyond the model's own; called after a
-    batch of half the size, the largest so far.
-    """
-    import torch
-
-    device = torch.device(name)
-    model = torch.cuda.memory_allocated(device)
-    torch.cuda.reset_peak_memory_stats(device)
-
-    def room(_size: int) -> bool:
-        taken = torch.cuda.max_memory_allocated(device) - model
-        free, _total = torch.cuda.mem_get_info(device)
-        spare = torch.cuda.memory_reserved(device) - torch.cuda.memory_allocated(device)
-        return 2 * taken < MARGIN * (free + spare)
-
-    return room
+        return BatchSize(asked, asked)
+    return BatchSize(FIRST, LARGEST if device.startswith("cuda") else FIRST)

@@ -4,58 +4,46 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.toml_files import key_problems, read_toml
-from planner_ft.candidates.registry import Quantization
+from planner_ft.benchmark.settings import BenchSettings
+from planner_ft.benchmark.toml_files import Kind, key_problems, run_settings
 from planner_ft.decoding.configurations import parse_configuration
 from planner_ft.support.errors import PlannerError
-from planner_ft.vocabulary.plans import LEVELS, Level
+from planner_ft.support.files import read_toml
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
-COMMON: dict[str, type] = {"configurations": list, "latency_samples": int, "max_new_tokens": int}
-SUITE_KEYS: dict[str, type] = {
+OF_BOTH: dict[str, Kind] = {"configurations": [str], "latency_samples": int, "max_new_tokens": int}
+SHARED: dict[str, Kind] = {"candidates": [str], "vocabulary": str, "quantization": str, **OF_BOTH}
+SUITE_KEYS: dict[str, Kind] = {
+    **SHARED,
     "title": str,
-    "candidates": list,
-    "parts": list,
-    "vocabulary": str,
-    "quantization": str,
+    "parts": [dict],
     "stall_minutes": int,
     "adapters": dict,
-    **COMMON,
 }
-PART_KEYS: dict[str, type] = {
-    "name": str,
-    "level": str,
-    "data": str,
+PART_REQUIRED = ("name", "level", "data")
+PART_KEYS: dict[str, Kind] = {
+    **dict.fromkeys(PART_REQUIRED, str),
+    **OF_BOTH,
     "apart": bool,
     "limit": int,
     "planning_samples": int,
-    **COMMON,
 }
-LOWEST = {"limit": 1, "max_new_tokens": 1, "stall_minutes": 1}
 
 
 @dataclass(frozen=True)
 class Part:
-    """One data set of a suite. `apart` data is reported after the published-size splits, under a
-    heading of its own.
+    """One data set of a suite, with the settings of its runs, which name all candidates.
 
-    `latency_samples`, `max_new_tokens` and `planning_samples` are those of `plannerft bench`; None
-    leaves its default.
+    `apart` data is reported after the published-size splits, under a heading of its own.
     """
 
     name: str
-    level: Level
-    data: Path
-    apart: bool = False
-    limit: int | None = None
-    configurations: tuple[str, ...] = ()
-    latency_samples: int | None = None
-    max_new_tokens: int | None = None
-    planning_samples: int | None = None
+    settings: BenchSettings
+    apart: bool
 
 
 @dataclass(frozen=True)
@@ -70,10 +58,8 @@ class Suite:
     title: str
     candidates: tuple[str, ...]
     parts: tuple[Part, ...]
-    vocabulary: str = "usv"
-    quantization: Quantization | None = None
-    stall_minutes: int = 60
-    adapters: dict[str, dict[str, Path]] = field(default_factory=dict)
+    stall_minutes: int
+    adapters: dict[str, dict[str, Path]]
 
 
 def load_suite(path: Path) -> Suite:
@@ -81,65 +67,51 @@ def load_suite(path: Path) -> Suite:
     mistake.
     """
     raw, here = read_toml(path), path.parent
-    problems = _problems(raw, SUITE_KEYS, ("title", "candidates", "configurations", "parts"))
-    if raw.get("quantization") not in (None, "nf4", "none"):
-        problems.append("quantization must be nf4 or none")
-    parts = _listed(raw, "parts")
-    for index, part in enumerate(parts):
-        found = _part_problems(part) if isinstance(part, dict) else ["must be a table"]
+    required = ("title", "candidates", "configurations", "parts")
+    problems = key_problems(raw, SUITE_KEYS, required)
+    adapters = raw.get("adapters", {})
+    if not isinstance(adapters, dict) or not all(
+        isinstance(one, dict) for one in adapters.values()
+    ):
+        problems.append("adapters must be tables of folders by level, one per candidate")
+    if not problems and raw.get("stall_minutes", 1) < 1:
+        problems.append("stall_minutes must be at least 1")
+    parts: list[Part] = []
+    shared = {key: raw[key] for key in SHARED if key in raw}
+    for index, values in enumerate([] if problems else raw["parts"]):
+        found = key_problems(values, PART_KEYS, PART_REQUIRED)
+        try:
+            parts += [] if found else [_part(shared | values, here)]
+        except PlannerError as error:
+            found = [str(error)]
         problems += [f"parts[{index}]: {text}" for text in found]
-    names = Counter(str(part.get("name")) for part in parts if isinstance(part, dict))
+    names = Counter(part.name for part in parts)
     problems += [f"two parts are named {name}" for name, count in names.items() if count > 1]
     if problems:
         raise PlannerError(f"{path}: {'; '.join(problems)}")
-    vocabulary = raw.get("vocabulary", "usv")
     return Suite(
         path,
         raw["title"],
         tuple(dict.fromkeys(raw["candidates"])),
-        tuple(
-            _part({key: raw[key] for key in COMMON if key in raw} | part, here) for part in parts
-        ),
-        vocabulary=str(here / vocabulary) if vocabulary.endswith(".toml") else vocabulary,
-        quantization=raw.get("quantization"),
-        stall_minutes=raw.get("stall_minutes", Suite.stall_minutes),
-        adapters={
+        tuple(parts),
+        raw.get("stall_minutes", 60),
+        {
             candidate: {level: here / folder for level, folder in folders.items()}
-            for candidate, folders in raw.get("adapters", {}).items()
+            for candidate, folders in adapters.items()
         },
     )
 
 
 def _part(values: dict[str, Any], here: Path) -> Part:
+    if not NAME.fullmatch(values["name"]):
+        way = "becomes a folder: letters, digits, - and _ alone"
+        raise PlannerError(f"name {values['name']!r} {way}")
     names = dict.fromkeys(parse_configuration(text).name for text in values["configurations"])
-    return Part(**values | {"data": here / values["data"], "configurations": tuple(names)})
-
-
-def _problems(raw: dict[str, Any], types: dict[str, type], required: tuple[str, ...]) -> list[str]:
-    problems = key_problems(raw, types, required, LOWEST)
-    for key in ("candidates", "configurations"):
-        for value in _listed(raw, key):
-            if not isinstance(value, str):
-                problems.append(f"{key}: {value!r} is no text")
-            elif key == "configurations":
-                try:
-                    parse_configuration(value)
-                except PlannerError as error:
-                    problems.append(str(error).removeprefix("--"))
-    return problems
-
-
-def _part_problems(part: dict[str, Any]) -> list[str]:
-    problems = _problems(part, PART_KEYS, ("name", "level", "data"))
-    name, level = part.get("name"), part.get("level")
-    if isinstance(name, str) and not NAME.fullmatch(name):
-        problems.append(f"name {name!r} becomes a folder: letters, digits, - and _ alone")
-    if isinstance(level, str) and level not in LEVELS:
-        problems.append(f"level {level!r} must be {' or '.join(LEVELS)}")
-    if part.get("planning_samples") and level == "task":
-        problems.append("planning_samples belongs to a part of the mission level")
-    return problems
-
-
-def _listed(raw: dict[str, Any], key: str) -> list[Any]:
-    return raw[key] if isinstance(raw.get(key), list) else []
+    settings = run_settings(
+        values,
+        here,
+        candidates=tuple(values["candidates"]),
+        configurations=tuple(names),
+        quantization=values.get("quantization"),
+    )
+    return Part(values["name"], settings, values.get("apart", False))

@@ -7,19 +7,20 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.catalogue import METRIC, METRICS
 from planner_ft.benchmark.layout import lines
-from planner_ft.benchmark.records import measured_in, read_run
+from planner_ft.benchmark.records import RunRecord, measured_in, read_run
 from planner_ft.benchmark.results import Measured, Results, assemble, heading
 from planner_ft.benchmark.suite.definition import Part, Suite
 from planner_ft.benchmark.suite.session import Report, Session, State, opened
-from planner_ft.benchmark.suite.units import Flags, Unit
+from planner_ft.benchmark.suite.units import Unit, arguments
 from planner_ft.support.files import read_text, write_json, write_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import Table, TableRow, csv_text, latex_table, markdown_table, row
+from planner_ft.vocabulary import Vocabulary, load_vocabulary
 
 __all__ = ["State", "run_suite"]
 
@@ -32,51 +33,47 @@ HOW = (
 )
 
 
-class Failed(NamedTuple):
-    """A candidate in a configuration that could not be measured, and why."""
-
-    candidate: str
-    label: str
-    configuration: str
-    reason: str
-
-
 @dataclass(frozen=True)
 class PartResults:
-    """One data set of a suite with everything that was measured on it; `results` may have no
-    rows.
+    """One data set of a suite with everything that was measured on it; `results` may have no rows.
+
+    `failed` are candidates in configurations that could not be measured: candidate, label,
+    configuration, reason.
     """
 
     part: Part
     results: Results
-    failed: tuple[Failed, ...]
+    failed: tuple[dict[str, str], ...]
 
     def to_json(self) -> dict[str, Any]:
         return {
             "name": self.part.name,
             "apart": self.part.apart,
-            "level": self.part.level,
+            "level": self.results.level,
             "data": self.results.data,
             "rows": [one.to_json() for one in self.results.rows],
-            "failed": [one._asdict() for one in self.failed],
+            "failed": list(self.failed),
         }
 
 
 def run_suite(
     suite: Suite,
     out: Path,
-    flags: Flags,
+    changes: dict[str, Any],
     report: Report,
     *,
+    processes: int = 1,
     resume: bool = False,
     overwrite: bool = False,
 ) -> list[PartResults]:
-    """Run every unit of a suite that is not finished and write the tables of all into `out`.
+    """Run every unit of a suite that is not finished and write the tables of all into `out`;
+    `changes` are settings of the command line, and `processes` share each run.
 
     A unit that fails is named in the result and in the tables, and the others go on. Raises
     PlannerError for problems that keep the suite from starting.
     """
-    session = opened(suite, out, flags, report, resume=resume, overwrite=overwrite)
+    rerun = {"resume": resume, "overwrite": overwrite}
+    session = opened(suite, out, changes, report, processes=processes, **rerun)
     session.run()
     parts, manifest = combine(session)
     _write(out, suite.title, parts, manifest)
@@ -84,81 +81,82 @@ def run_suite(
 
 
 def combine(session: Session) -> tuple[list[PartResults], dict[str, Any]]:
-    """The results of every part, and the suite's manifest."""
-    manifest = _manifest(session)
-    return [_part(session, part, manifest) for part in session.suite.parts], manifest
-
-
-def _manifest(session: Session) -> dict[str, Any]:
-    """One manifest for all: the suite file, every data set, and what each unit was run with and
-    took.
+    """The results of every part, and one manifest for all: the suite file, every data set, and what
+    each unit was run with and took.
     """
-    suite, flags, seconds = session.suite, session.units[0].flags, session.seconds
-    units: dict[str, Any] = {}
-    for unit in session.units:
-        recorded = read_run(unit.folder) if (unit.folder / folder.RUN).is_file() else None
-        units[unit.name] = {
-            "arguments": unit.arguments(),
-            "seconds": round(seconds[unit.name], 1) if unit.name in seconds else None,
-            "finished_before": unit.name in session.skipped,
-            "jobs": recorded.jobs if recorded else {},
-            "costs": recorded.costs if recorded else {},
-        }
-    configuration = {
-        "title": suite.title,
-        "vocabulary": {"name": session.vocabulary.name, "sha256": session.vocabulary.sha256},
-        "device": flags.device,
-        "batch_size": flags.batch_size or "auto",
-        "limit": flags.limit,
-        "processes": flags.processes,
+    records = {
+        unit.name: read_run(unit.settings.folder)
+        for unit in session.units
+        if (unit.settings.folder / folder.RUN).is_file()
     }
-    inputs: dict[str, Path | str] = {
-        "suite": suite.path,
-        **{part.name: part.data for part in suite.parts},
-    }
-    return build_manifest(
-        "suite", seed=flags.seed, configuration=configuration, inputs=inputs, units=units
+    settings = session.units[0].settings
+    vocabulary = load_vocabulary(settings.vocabulary)
+    manifest = build_manifest(
+        "suite",
+        seed=settings.seed,
+        configuration={
+            "title": session.suite.title,
+            "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
+            "device": settings.device,
+            "batch_size": settings.batch_size or "auto",
+            "limit": session.changes.get("limit"),
+            "processes": session.processes,
+        },
+        inputs={
+            "suite": session.suite.path,
+            **{unit.part.name: unit.data.path for unit in session.units},
+        },
+        units={
+            unit.name: {
+                "arguments": arguments(unit.settings),
+                "seconds": session.seconds.get(unit.name),
+                "finished_before": unit.name in session.finished,
+                "jobs": records[unit.name].jobs if unit.name in records else {},
+                "costs": records[unit.name].costs if unit.name in records else {},
+            }
+            for unit in session.units
+        },
     )
+    parts = []
+    for part in session.suite.parts:
+        units = [unit for unit in session.units if unit.part.name == part.name]
+        parts.append(_part(session, units, records, vocabulary, manifest))
+    return parts, manifest
 
 
-def _part(session: Session, part: Part, manifest: dict[str, Any]) -> PartResults:
-    units = [unit for unit in session.units if unit.part is part]
+def _part(
+    session: Session,
+    units: Sequence[Unit],
+    records: dict[str, RunRecord],
+    vocabulary: Vocabulary,
+    manifest: dict[str, Any],
+) -> PartResults:
+    part, data = units[0].part, units[0].data
     found: list[Measured] = []
-    failed: list[Failed] = []
+    failed: list[dict[str, str]] = []
     for unit in units:
-        measured, n = _measured(unit), len(unit.data.samples)
-        for configuration in part.configurations:
-            candidate, entry = unit.candidate, measured.get(configuration)
-            answers = len(entry.predictions) if entry else 0
-            if entry is not None and answers >= n:
+        record = records.get(unit.name)
+        every = measured_in(unit.settings.folder, record) if record else []
+        measured = {one.system.configuration: one for one in every}
+        for name in part.settings.configurations:
+            entry, n = measured.get(name), len(data.samples)
+            answers = sum(sample.id in entry.predictions for sample in data.samples) if entry else 0
+            if entry is not None and answers == n:
                 found.append(entry)
                 continue
-            key = part.name, candidate.name, configuration
             kept = f" ({answers} of {n} answers are kept)" if answers else ""
-            reason = session.failures.get(key, "not run yet") + kept
-            failed.append(Failed(candidate.name, candidate.row_name, configuration, reason))
-    data, seed = units[0].data, units[0].flags.seed
+            reason = session.failures.get((unit.name, name), "not run yet") + kept
+            named = {"candidate": unit.candidate.name, "label": unit.candidate.row_name}
+            failed.append({**named, "configuration": name, "reason": reason})
     own = {
         **manifest,
         "inputs": {"data": {"path": str(data.path), "sha256": data.sha256}},
         "units": {unit.name: manifest["units"][unit.name] for unit in units},
     }
-    results = Results(part.level, data.summary(), (), own)
+    results = Results(data.level, data.summary(), (), own)
     if found:
-        results = assemble(data, session.vocabulary, found, seed=seed, manifest=own)
+        results = assemble(data, vocabulary, found, seed=manifest["seed"], manifest=own)
     return PartResults(part, results, tuple(failed))
-
-
-def _measured(unit: Unit) -> dict[str, Measured]:
-    """The answers in a unit's folder by configuration, of samples of its data alone."""
-    if not (unit.folder / folder.RUN).is_file():
-        return {}
-    known = {sample.id for sample in unit.data.samples}
-    found = {}
-    for entry in measured_in(unit.folder, read_run(unit.folder)):
-        own = {key: line for key, line in entry.predictions.items() if key in known}
-        found[entry.system.configuration] = replace(entry, predictions=own)
-    return found
 
 
 def _write(out: Path, title: str, parts: Sequence[PartResults], manifest: dict[str, Any]) -> None:
@@ -188,21 +186,23 @@ def _overview(parts: Sequence[PartResults]) -> Table:
     """F1, whole plans and latency of everything in one table, a section per data set."""
     rows: list[TableRow] = []
     for one in parts:
-        named = f"{one.part.name}: {one.part.level} level, n = {one.results.data['n']}"
+        named = f"{one.part.name}: {one.results.level} level, n = {one.results.data['n']}"
         rows.append(row(f"{named} ({GROUPS[one.part.apart]})", kind="section"))
         for found in lines(one.results, beside=False):
             cells = [replace(cell, mark="") for cell in found.cells(FIGURES)]
-            rows.append(row(found.model, found.configuration, *cells, kind=found.kind))
+            rows.append(row(found.system.label, found.configuration, *cells, kind=found.kind))
         for entry in one.failed:
             blank = [""] * (len(FIGURES) - 1)
-            rows.append(row(entry.label, heading(entry.configuration), "not measured", *blank))
+            rows.append(
+                row(entry["label"], heading(entry["configuration"]), "not measured", *blank)
+            )
     heads = ("Configuration", *(METRIC[name].title for name in FIGURES))
     return Table("overview", "", "", "Model", heads, tuple(rows), texts=1)
 
 
 def _failed(parts: Sequence[PartResults]) -> Table:
     rows = tuple(
-        row(one.part.name, entry.label, heading(entry.configuration), entry.reason)
+        row(one.part.name, entry["label"], heading(entry["configuration"]), entry["reason"])
         for one in parts
         for entry in one.failed
     )
@@ -215,11 +215,11 @@ def _not_measured(name: str, one: PartResults) -> str:
         return ""
     if name == "table.md":
         return f"\nNot measured:\n\n{markdown_table(_failed([one]))}"
-    missing = [(entry.label, heading(entry.configuration), entry.reason) for entry in one.failed]
+    rows = [[cell.plain() for cell in line.cells] for line in _failed([one]).rows]
     if name == "table.tex":
-        return "".join(f"% not measured: {', '.join(line[:2])}: {line[2]}\n" for line in missing)
+        return "".join(f"% not measured: {label}, {name}: {why}\n" for label, name, why in rows)
     n = one.results.data["n"]
-    return csv_text([(label, f"not measured: {why}", name, n) for label, name, why in missing])
+    return csv_text([(label, f"not measured: {why}", name, n) for label, name, why in rows])
 
 
 def _csv(parts: Sequence[PartResults]) -> Iterator[list[Any]]:
@@ -230,7 +230,7 @@ def _csv(parts: Sequence[PartResults]) -> Iterator[list[Any]]:
     figures = [f"{name}{end}" for name in METRICS for end in ("", "_low", "_high")]
     yield [*heads, "reason", *figures]
     for one in parts:
-        common = [one.part.name, one.part.level, int(one.part.apart), one.results.data["n"]]
+        common = [one.part.name, one.results.level, int(one.part.apart), one.results.data["n"]]
         for found in (*one.results.rows, *one.results.baselines):
             system = found.system
             status = "baseline" if system.is_baseline else "measured"
@@ -239,5 +239,5 @@ def _csv(parts: Sequence[PartResults]) -> Iterator[list[Any]]:
             named = [system.label, system.candidate, system.configuration, status, None]
             yield [*common, *named, *values]
         for entry in one.failed:
-            named = [entry.label, entry.candidate, entry.configuration, "failed", entry.reason]
-            yield [*common, *named, *[None] * len(figures)]
+            named = [entry[key] for key in ("label", "candidate", "configuration")]
+            yield [*common, *named, "failed", entry["reason"], *[None] * len(figures)]

@@ -7,31 +7,20 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.folder import RESULTS
+from planner_ft.benchmark.plan import Plan, make_plan
 from planner_ft.benchmark.samples import BenchData, load_bench_data
+from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.suite.definition import Part, Suite
 from planner_ft.candidates import Candidate, resolve_candidate
-from planner_ft.candidates.adapters import (
-    CONFIG,
-    WEIGHTS,
-    adapter_folder,
-    check_adapter,
-    find_adapter,
-)
-from planner_ft.candidates.loading import require_folder
-from planner_ft.candidates.location import weights_sha256
-from planner_ft.decoding.configurations import parse_configuration
-from planner_ft.prompts.render import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_json, sha256_tree, write_json
 from planner_ft.support.resources import end_with_parent
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary import load_vocabulary
 
-UNIT, LOG = "unit.json", "log.txt"
+LOG = "log.txt"
 PATIENCE = 20.0
 """Seconds that an ended process has to go by itself."""
 LAUNCH = (
@@ -41,98 +30,51 @@ LAUNCH = (
 
 
 @dataclass(frozen=True)
-class Flags:
-    """Flags that the command line adds to a suite; `processes` share each run."""
-
-    device: str = "auto"
-    batch_size: int | None = None
-    seed: int = 0
-    limit: int | None = None
-    latency_samples: int | None = None
-    processes: int = 1
-
-
-@dataclass(frozen=True)
 class Unit:
-    """One candidate on one data set. `configurations` are those that can be run, `failed` the
-    reasons for the others.
-    """
+    """One candidate on one data set, as the run that `settings` describe."""
 
-    suite: Suite
     part: Part
     candidate: Candidate
     data: BenchData
-    folder: Path
-    configurations: tuple[str, ...]
-    failed: dict[str, str]
-    adapter: Path | None
-    flags: Flags
+    settings: BenchSettings
 
     @property
     def name(self) -> str:
         return f"{self.part.name}, {self.candidate.name}"
 
     @property
-    def latency_samples(self) -> int:
-        """Samples whose queries are timed."""
-        asked = (self.flags.latency_samples, self.part.latency_samples, 50)
-        return min(next(one for one in asked if one is not None), len(self.data.samples))
+    def queries(self) -> int:
+        """Answers and timed queries."""
+        each = len(self.data.samples) + self.settings.latency_samples
+        return each * len(self.settings.configurations)
 
-    def arguments(self) -> list[str]:
-        """The arguments of `plannerft` that run this unit, also alone."""
-        folder, named = self.candidate.folder, self.candidate.name
-        values: dict[str, Any] = {
-            "level": self.part.level,
-            "candidates": folder if self.candidate.source == "path" else named,
-            "configurations": ",".join(self.configurations),
-            "data": self.part.data,
-            "out": self.folder,
-            "adapter": self.adapter,
-            "limit": _limit(self.part, self.flags),
-            "latency-samples": self.latency_samples,
-            "max-new-tokens": self.part.max_new_tokens,
-            "planning-samples": self.part.planning_samples,
-            "vocabulary": self.suite.vocabulary,
-            "quantization": self.suite.quantization,
-            "device": self.flags.device,
-            "batch-size": self.flags.batch_size or "auto",
-            "seed": self.flags.seed,
-        }
-        given = [(f"--{name}", str(value)) for name, value in values.items() if value is not None]
-        return ["bench", *(text for pair in given for text in pair), "--resume", "--no-report"]
-
-    def fingerprint(self, vocabulary: Vocabulary) -> dict[str, Any]:
-        """Everything that the figures of this unit depend on, apart from the code that scores."""
-        return {
-            "arguments": [text for text in self.arguments() if text != str(self.folder)],
-            "data": self.data.sha256,
-            "model": weights_sha256(require_folder(self.candidate)),
-            "adapter": sha256_tree(self.adapter, (WEIGHTS, CONFIG)) if self.adapter else None,
-            "vocabulary": vocabulary.sha256,
-            "prompt format": PROMPT_VERSION,
-        }
-
-    def finished(self, vocabulary: Vocabulary) -> bool:
-        """Whether an earlier session finished exactly this unit."""
-        if not all((self.folder / name).is_file() for name in (UNIT, RESULTS)):
-            return False
-        recorded = read_json(self.folder / UNIT).get("fingerprint")
-        return bool(recorded == self.fingerprint(vocabulary))
-
-    def finish(self, vocabulary: Vocabulary, seconds: float) -> None:
-        """Note that the unit is finished."""
-        recorded = {"fingerprint": self.fingerprint(vocabulary), "seconds": round(seconds, 1)}
-        write_json(self.folder / UNIT, recorded)
+    def planned(self) -> tuple[Plan | None, dict[str, str]]:
+        """The run of the configurations that can be run, and why the others cannot."""
+        settings, failed = self.settings, dict[str, str]()
+        try:
+            return make_plan(settings), failed
+        except PlannerError as error:
+            if len(settings.configurations) == 1:
+                return None, {settings.configurations[0]: str(error)}
+        for one in settings.configurations:
+            failed |= replace(self, settings=replace(settings, configurations=(one,))).planned()[1]
+        runs = tuple(name for name in settings.configurations if name not in failed)
+        return make_plan(replace(settings, configurations=runs)) if runs else None, failed
 
 
-def make_units(suite: Suite, vocabulary: Vocabulary, out: Path, flags: Flags) -> list[Unit]:
-    """Every candidate on every data set, a candidate's after one another. Raises PlannerError for
-    problems that no run could start with.
+def make_units(suite: Suite, out: Path, changes: dict[str, Any]) -> list[Unit]:
+    """Every candidate on every data set, a candidate's after one another; `changes` are settings of
+    the command line. Raises PlannerError for problems that no run could start with.
     """
-    data = {
-        part.name: load_bench_data(part.data, part.level, vocabulary, _limit(part, flags))
-        for part in suite.parts
-    }
+    parts: list[tuple[Part, BenchData]] = []
+    for part in suite.parts:
+        limits = (part.settings.limit, changes.get("limit"))
+        limit = min((one for one in limits if one is not None), default=None)
+        settings = replace(part.settings, **changes | {"limit": limit})
+        vocabulary = load_vocabulary(settings.vocabulary)
+        data = load_bench_data(settings.data or "", settings.level, vocabulary, limit)
+        timed = min(settings.latency_samples, len(data.samples))
+        parts.append((replace(part, settings=replace(settings, latency_samples=timed)), data))
     candidates: dict[str, Candidate] = {}
     for name in suite.candidates:
         # A folder relative to the suite file, else a name or a hub id.
@@ -144,38 +86,35 @@ def make_units(suite: Suite, vocabulary: Vocabulary, out: Path, flags: Flags) ->
         candidates[candidate.slug] = candidate
     units = []
     for slug, candidate in candidates.items():
-        for part in suite.parts:
-            adapter, failed = _adapter(suite, part, candidate, vocabulary)
-            runs = tuple(name for name in part.configurations if name not in failed)
-            where, samples = out / part.name / slug, data[part.name]
-            units.append(Unit(suite, part, candidate, samples, where, runs, failed, adapter, flags))
+        for part, data in parts:
+            adapter = suite.adapters.get(candidate.name, {}).get(part.settings.level)
+            settings = replace(
+                part.settings,
+                candidates=(
+                    str(candidate.folder) if candidate.source == "path" else candidate.name,
+                ),
+                adapters=(str(adapter),) if adapter else (),
+                out=out / part.name / slug,
+            )
+            units.append(Unit(part, candidate, data, settings))
     return units
 
 
-def _limit(part: Part, flags: Flags) -> int | None:
-    return min((one for one in (part.limit, flags.limit) if one is not None), default=None)
+def arguments(settings: BenchSettings) -> list[str]:
+    """The arguments of `plannerft` that make a run with these settings, or go on with it."""
+    found = ["bench"]
+    for one in fields(settings):
+        value = getattr(settings, one.name)
+        if value != one.default:
+            name = one.name.replace("_", "-").replace("adapters", "adapter")
+            found += [f"--{name}", ",".join(value) if isinstance(value, tuple) else str(value)]
+    return [*found, "--resume", "--no-report"]
 
 
-def _adapter(
-    suite: Suite, part: Part, candidate: Candidate, vocabulary: Vocabulary
-) -> tuple[Path | None, dict[str, str]]:
-    """The adapter of a candidate, if a configuration needs it, and why configurations cannot be
-    run.
-    """
-    needs = [name for name in part.configurations if parse_configuration(name).adapter]
-    concerned: list[str] = list(part.configurations)
-    try:
-        require_folder(candidate)
-        if not needs:
-            return None, {}
-        concerned = needs
-        given = suite.adapters.get(candidate.name, {}).get(part.level)
-        usual = adapter_folder(candidate, part.level)
-        adapter = given or find_adapter(candidate, part.level) or usual
-        check_adapter(adapter, candidate, level=part.level, vocabulary=vocabulary)
-    except PlannerError as error:
-        return None, dict.fromkeys(concerned, str(error))
-    return adapter, {}
+def fingerprint(plan: Plan) -> dict[str, Any]:
+    """Everything that the figures of a run depend on, apart from the code that scores."""
+    asked = replace(plan.settings, out=None)
+    return {"arguments": arguments(asked), "keys": {job.name: job.key for job in plan.jobs}}
 
 
 class Process:

@@ -252,7 +252,7 @@ class Prompt:
             raise Misfit
         drawing = Drawing(movement.clause(form), self.c)
         try:
-            movement.route = drawing.route()
+            movement.route = drawing.plan.route()
         except ValueError:
             raise Misfit from None
         return drawing.pieces()
@@ -271,7 +271,7 @@ class Prompt:
     def _call(self, run: Run, form: str) -> list[PIECE]:
         drawing = Drawing(run.clause(form), self.c)
         step = drawing.bound.everywhere
-        filters, perceptions = drawing.beside(step) if step else ([], [])
+        filters, perceptions = drawing.plan.beside(step) if step else ([], [])
         pieces = drawing.pieces()
         repeat = self.book.sentences.get("repeat")
         repeats = run.skill and self.book.skills[run.skill].repeats

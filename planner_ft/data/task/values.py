@@ -31,6 +31,15 @@ UNITS: dict[str, tuple[str | None, tuple[float, float]]] = {
 ROUND_SECONDS = (5, 8, 10, 12, 15, 20, 25, 30, 40, 45, 50, 60, 75, 80, 90, 100, 110)
 MINUTES = (1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 20, 25, 30, 40, 45)
 ODD_SECONDS = (90, 150, 210, 270, 3600, 5400, 7200, 10800, 200, 250, 400, 500)
+_BOX = ((0, 0), (1, 0), (1, 1), (0, 1))
+OUTLINES: tuple[tuple[tuple[float, float], ...], ...] = (
+    *(_BOX, _BOX, _BOX, _BOX, _BOX, _BOX, ((0, 0), (0, 1), (1, 1), (1, 0))),
+    *(((0, 0), (1, 0), (1, 1)), ((0, 0), (1, 0), (0, 1))),
+    ((0, 0), (1, 0), (1, 1), (0.5, 1.2), (0, 1)),
+    ((0, 0), (1, 0), (1.5, 0.5), (1, 1), (0, 1), (-0.5, 0.5)),
+    ((0, 0), (1, -0.1), (1.3, 0.6), (0.3, 1.1)),
+)
+"""Areas by their corners, for a width and a height of one."""
 SPAN = 220
 """Metres from home within which most positions lie."""
 
@@ -170,16 +179,9 @@ def draw_position(rng: random.Random) -> Value:
 
 
 def draw_polygon(rng: random.Random) -> list[Point]:
-    """The corners of a fence: mostly a rectangle, at times a triangle or a five-sided one."""
-    x, y = 10 * rng.randrange(-15, 10), 10 * rng.randrange(-15, 10)
-    width, height = 10 * rng.randrange(2, 20), 10 * rng.randrange(2, 20)
-    if rng.random() < 0.15:
-        height = width
-    corners = ((x, y), (x + width, y), (x + width, y + height), (x, y + height))
-    first, second, third, fourth = (point(*corner) for corner in corners)
-    roll = rng.random()
-    if roll < 0.2:
-        return [first, second, pick((third, fourth), rng)]
-    if roll < 0.3:
-        return [first, second, third, point(x + width // 2, y + height + 20), fourth]
-    return [first, fourth, third, second] if roll < 0.5 else [first, second, third, fourth]
+    """Three to six corners of a fence: mostly those of a rectangle, at times one at home."""
+    x, y = (0, 0) if rng.random() < 0.1 else (10 * rng.randrange(-15, 10) for _ in range(2))
+    width = 10 * rng.randrange(2, 30)
+    height = width if rng.random() < 0.15 else 10 * rng.randrange(2, 30)
+    outline = pick(OUTLINES, rng)
+    return [point(x + round(width * dx), y + round(height * dy)) for dx, dy in outline]

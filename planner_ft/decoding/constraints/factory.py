@@ -107,8 +107,11 @@ class Factory:
             moves = any(name in text for name in goes)
             return [*values.notes, *([free] if free and moves else [])]
 
-        # A mission's places are stated or unresolved, its other values can be left out.
+        # A mission's places are stated or unresolved, its other values can be left out. The lanes of
+        # a grid follow from the task's own parameters: the model is not left to write others.
         loose = script if self.level == "task" else None
+        if isinstance(loose, TaskScript) and loose.whole and loose.whole.whole:
+            loose = replace(loose, waypoints=loose.whole)
         return Answer(self.tokens, grounded, limit, self._reserve, notes, loose)
 
     @functools.cached_property

@@ -13,7 +13,6 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass, replace
 
-from planner_ft.data.rules import DOCKING
 from planner_ft.decoding.constraints.grammar import (
     IDENTIFIED,
     MOST_TASKS,
@@ -67,7 +66,7 @@ class MissionLogic(Logic):
 
     def _place(self, grammar: Grammar, task: Task, *, identified: bool) -> str | None:
         progress, unresolved, at = self._progress, self._vocabulary.unresolved, self._progress.here
-        unknown = not identified and (bool(progress.searched) or task.pattern == DOCKING)
+        unknown = not identified and (bool(progress.searched) or task.docks)
         if task.arrival == "transit":
             lost = at is None or (at == unresolved and not unknown)
             return None if at is None or lost else literal(written(at))

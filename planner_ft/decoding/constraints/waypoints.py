@@ -11,7 +11,7 @@ from __future__ import annotations
 import functools
 import itertools
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -19,6 +19,8 @@ from planner_ft.data.task.working import SUM
 from planner_ft.facts import geometry as g
 from planner_ft.facts import read_input
 from planner_ft.facts.derived import Ground
+from planner_ft.facts.inputs import Input
+from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.reading import ROUNDING
 from planner_ft.vocabulary import Vocabulary
 
@@ -28,6 +30,7 @@ Path = tuple[Point, ...]
 MOST_PATHS, MOST_WAYPOINTS = 4000, 64
 BEGUN = 3
 """Waypoints in a row that begin a path: two can look like the beginning of many."""
+SIZES = ("width", "length", "spacing")
 SHAPED = {"lawnmower": "sizes and lane spacing", "square": "radius"}
 """Patterns of tasks that are about one path of a shape, with what it follows from."""
 GRID = re.compile(r"\b(?:grid|lawn-?mow|lanes?|lines?|legs|runs|transect|strip|pass|row|box)", re.I)
@@ -122,6 +125,11 @@ def read_waypoints(record: dict[str, Any], vocabulary: Vocabulary) -> Waypoints 
     ground = source.ground
     if ground is None:
         return "The geometry of the command is not certain; the waypoints are the model's."
+    places = tuple(place for place in ground.places if place != vocabulary.unresolved)
+    begun = 2 if pattern in SHAPED else BEGUN
+    own = tuple(_own_lanes(source, places)) if pattern == "lawnmower" else ()
+    if own:
+        return Waypoints(places, ground.lengths, ground.bearings, own, begun=1, whole=True)
     grid = pattern == "lawnmower" or GRID.search(source.facts.text)
     found = itertools.chain(_grids(ground) if grid else (), _rings(ground))
     paths = tuple(dict.fromkeys(itertools.islice(found, MOST_PATHS)))
@@ -129,25 +137,38 @@ def read_waypoints(record: dict[str, Any], vocabulary: Vocabulary) -> Waypoints 
         return (
             f"The command states no {SHAPED[pattern]} for {title}; its waypoints are the model's."
         )
-    places = tuple(place for place in ground.places if place != vocabulary.unresolved)
-    begun = 2 if pattern in SHAPED else BEGUN
-    said = {number.value for number in source.facts.numbers("m")}
-    sizes = {source.parameters.get(name) for name in ("width", "length", "spacing")}
-    # A bare number may say how many lanes are meant: "the first three".
-    bare = set(source.facts.counts) - said - sizes - {axis for place in places for axis in place}
-    whole = pattern == "lawnmower" and None not in sizes and not bare
-    return Waypoints(places, ground.lengths, ground.bearings, paths, begun, whole=whole)
+    return Waypoints(places, ground.lengths, ground.bearings, paths, begun)
 
 
 def _grids(ground: Ground) -> Iterator[Path]:
-    """The lanes of every area, from any corner and in both directions."""
-    axes: tuple[g.Axis, ...] = ("y", "x")
+    """The lanes of every area."""
     for x, y, width, length in ground.areas:
-        for spacing, axis in itertools.product(ground.spacings(width, length), axes):
-            lanes = g.lane_count(width if axis == "y" else length, spacing) if spacing > 0 else None
-            if lanes is not None and 2 <= lanes <= MOST_WAYPOINTS // 2:
-                for corner in g.CORNERS:
-                    yield tuple(g.lawnmower((x, y), width, length, spacing, corner, axis))
+        for spacing in ground.spacings(width, length):
+            yield from _lanes((x, y), width, length, spacing)
+
+
+def _own_lanes(source: Input, places: Sequence[Point]) -> Iterator[Path]:
+    """The lanes of the area that a task's parameters give; none where a bare number of the text may
+    say how many of them are meant: "the first three".
+    """
+    assert source.task is not None
+    names = (source.task.position_parameter, *SIZES)
+    middle, width, length, spacing = (source.parameters.get(str(name)) for name in names)
+    known = {number.value for number in source.facts.numbers("m")} | {width, length, spacing}
+    known |= {axis for place in places for axis in place}
+    bare = {one.said for one in read_numbers(source.facts.text) if not one.unit}
+    if middle and width and length and spacing and bare <= known:
+        yield from _lanes((middle[0], middle[1]), width, length, spacing)
+
+
+def _lanes(middle: Point, width: float, length: float, spacing: float) -> Iterator[Path]:
+    """The lanes of an area, from any corner and in both directions."""
+    axes: tuple[g.Axis, ...] = ("y", "x")
+    for axis in axes:
+        lanes = g.lane_count(width if axis == "y" else length, spacing) if spacing > 0 else None
+        if lanes is not None and 2 <= lanes <= MOST_WAYPOINTS // 2:
+            for corner in g.CORNERS:
+                yield tuple(g.lawnmower(middle, width, length, spacing, corner, axis))
 
 
 def _rings(ground: Ground) -> Iterator[Path]:

@@ -12,7 +12,7 @@ from planner_ft.document.warnings.limits import limit_warnings
 from planner_ft.document.warnings.performed import performed_warnings
 from planner_ft.document.warnings.route import order_warnings, range_warnings, space_warnings
 from planner_ft.document.warnings.said import said_warnings
-from planner_ft.document.warnings.values import value_warnings
+from planner_ft.document.warnings.values import value_warnings, worked_out_warnings
 from planner_ft.document.warnings.warning import KINDS, NOTES, SERIOUS, Warning, named, warning
 from planner_ft.planning.frame import doubt, origin_of
 from planner_ft.vocabulary import Vocabulary
@@ -36,6 +36,8 @@ def warnings(document: Mapping[str, Any], vocabulary: Vocabulary, path: Track) -
         *said_warnings(document, vocabulary),
         *value_warnings(document, vocabulary),
     ]
+    if any(item["kind"] == "value-lost" for item in found):
+        found += worked_out_warnings(document, vocabulary)
     # Two of one id say the same: the first stays.
     unique = {item["id"]: item for item in reversed(found)}
     kept = [item for item in found if item is unique[item["id"]]]

@@ -1,15 +1,26 @@
-"""Instructions of the command that no task answers, and commands in unknown words."""
+"""Instructions of the command that no task answers or that contradict each other, and commands in
+unknown words.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.document.language import Clause, Language, language, read_clauses
+from planner_ft.document.track import place_of
 from planner_ft.document.warnings.warning import Warning, quoted, warning
 from planner_ft.facts import unknown_words
+from planner_ft.facts.numbers import read_numbers
+from planner_ft.facts.places import without_geographic
+from planner_ft.planning.frame import frame_of
+from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import step_skills
 
+STEM = 5
+"""First letters by which a word is found again."""
 UNKNOWN = 0.6
 """The share of unknown words from which a command may be in another language: of 1,000 commands in
 English, misspelt ones among them, three are above it.
@@ -19,6 +30,8 @@ English, misspelt ones among them, three are above it.
 def command_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
     """Doubts about the language, and instructions that the plan neither answers nor declines."""
     yield from _language_warning(document["command"])
+    if document["tasks"]:
+        yield from _instruction_warnings(document, vocabulary)
     planned, spoken = {task["title"] for task in document["tasks"]}, language(vocabulary)
     texts = [*document.get("constraints", ()), *document.get("assumptions", ())]
     declined = " ".join(text for text in texts if spoken.words["declined"].search(text)).casefold()
@@ -53,3 +66,89 @@ def _unanswered(clause: Clause, planned: set[str], spoken: Language) -> Iterator
     # A plan without tasks says itself why.
     if planned and impossible and clause.wants(clause.start):
         yield impossible[0], 0
+
+
+# ---------------------------------------------------------------- instructions in other words
+
+
+def _instruction_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
+    """Instructions beyond the plan's tasks that none of them speaks of, and home asked for and ruled
+    out.
+    """
+    text, spoken = without_geographic(frame_of(document).spoken), language(vocabulary)
+    clauses, tasks = read_clauses(text, vocabulary), document["tasks"]
+    instructions = [clause for clause in clauses if _instructs(clause, spoken)]
+    if len(instructions) > _own_tasks(tasks, vocabulary):
+        steps = [step for task in tasks for step in task.get("skill_sequence") or ()]
+        owners = [*tasks, *(skill for step in steps for _role, skill in step_skills(step))]
+        parts = [document.get("constraints", ()), document.get("assumptions", ())]
+        parts += [[task["task_prompt"] for task in tasks]]
+        parts += [list(owner["parameters"].values()) for owner in owners]
+        planned = compact_json(parts).casefold()
+        for clause in instructions:
+            yield from _lost_instruction(clause, spoken, planned)
+    yield from _home_and_not(clauses, spoken, document, vocabulary)
+
+
+def _instructs(clause: Clause, spoken: Language) -> bool:
+    """Whether a clause begins with an instruction that stands, other than to come home."""
+    begins = spoken.words["verb"].match(clause.text.strip())
+    stands = begins is not None and not clause.corrected and clause.excluded is None
+    return stands and not spoken.words["home"].search(clause.text)
+
+
+def _own_tasks(tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> int:
+    """The tasks that such an instruction stands for: not those that look for a place, go to one for
+    the task behind them, or go home.
+    """
+    behind = [vocabulary.task[task["title"]].arrival for task in tasks[1:]] + ["none"]
+    return sum(
+        task["title"] != vocabulary.locate
+        and place_of(task, vocabulary) != vocabulary.home
+        and not (task["title"] == vocabulary.transit and arrival == "transit")
+        for task, arrival in zip(tasks, behind, strict=True)
+    )
+
+
+def _lost_instruction(clause: Clause, spoken: Language, planned: str) -> Iterator[Warning]:
+    """An instruction of which no word and no fact is in the text of a plan."""
+    text = clause.text.strip()
+    verb = spoken.words["verb"].match(text)
+    known = [
+        spoken.words["impossible"],
+        spoken.words["home"],
+        spoken.words["here"],
+        spoken.sensors,
+        spoken.words["stay"],
+    ]
+    known += [ask.said for ask in spoken.asks]
+    if not verb or read_numbers(text):
+        return
+    if any(words.search(text) for words in known):
+        return
+    said_words = re.findall(r"[a-z]{4,}", text[verb.end() :].casefold())
+    empty = [spoken.words[name] for name in ("nothing", "water", "boundary", "determiner")]
+    named = [word for word in said_words if not any(one.fullmatch(word) for one in empty)]
+    if named and not any(word[:STEM] in planned for word in said_words):
+        said = f'The command asks: "{quoted(text)}"; no task of the plan does that.'
+        yield warning("not-planned", said, about=text.casefold())
+
+
+def _home_and_not(
+    clauses: Sequence[Clause], spoken: Language, document: Mapping[str, Any], vocabulary: Vocabulary
+) -> Iterator[Warning]:
+    """A command that asks for home and rules it out, and a plan that ends there."""
+    said = [
+        (clause.wants(clause.start + match.start()), clause)
+        for clause in clauses
+        if not clause.corrected
+        for match in spoken.words["home"].finditer(clause.text)
+    ]
+    last = document["tasks"][-1]
+    if {wanted for wanted, _clause in said} == {True, False}:
+        words = next(clause.text for wanted, clause in said if not wanted).strip(" ,;")
+        ends = (
+            "ends there" if place_of(last, vocabulary) == vocabulary.home else "does not end there"
+        )
+        text = f'The command speaks of coming home, and says "{quoted(words)}"; the plan {ends}.'
+        yield warning("contradiction", text, about="home")

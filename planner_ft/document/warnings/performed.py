@@ -1,4 +1,6 @@
-"""Whether the steps of a task perform it: a grid covers its area, a pass has its length."""
+"""Whether the steps of a task perform it: a grid covers its area, a pass has its length, a line ends
+where its course leads, a square keeps its stand-off, a panorama looks in all its directions.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +10,16 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from planner_ft.document.warnings.warning import Warning, named, warning
+from planner_ft.facts.geometry import offset
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import is_number
 
 Point = tuple[float, float]
 SIZE, SPACING = ("width", "length"), "spacing"
 """The parameters of a grid: extent along x and y, and between lanes."""
+COURSE = ("heading", "max_dist")
+"""Those of a line: its course and its length."""
+TURNS = ("turn-to", "turn-by")
 SLACK, SHARE = 0.5, 0.02
 """Metres, and the share of a length, by which waypoints may differ from it."""
 
@@ -53,11 +59,39 @@ def _geometry_problem(
     known, given = vocabulary.task[task["title"]], task["parameters"]
     if known.pattern == "lawnmower" and all(is_number(given.get(name)) for name in SIZE):
         return _grid_problem([given[name] for name in SIZE], given.get(SPACING, 0), points)
+    place = given.get(known.position_parameter or "")
+    if known.pattern == "line" and place and all(is_number(given.get(name)) for name in COURSE):
+        return _line_problem((place[0], place[1]), given[COURSE[0]], given[COURSE[1]], points)
+    if known.pattern == "square" and place and is_number(given.get("radius")):
+        return _square_problem((place[0], place[1]), given["radius"], points)
+    if known.pattern == "sectors" and is_number(count := given.get("sectors")):
+        names = [step["navigation_skill"]["name"] for step in task["skill_sequence"]]
+        motions = [vocabulary.motion.of(name) for name in names]
+        turns = sum(motion is not None and motion.kind in TURNS for motion in motions)
+        return f"it turns {turns} times for {count:g} sectors" if turns < count - 1 else None
     length = given.get(SIZE[1])
     if known.pattern == "pass" and is_number(length) and len(points) > 1:
         run = max(math.dist(*pair) for pair in itertools.combinations(points, 2))
         if run < length * (1 - SHARE) - SLACK:
             return f"its waypoints are {run:.3g} m apart, and its length is {length:g} m"
+    return None
+
+
+def _line_problem(start: Point, heading: float, run: float, points: list[Point]) -> str | None:
+    """The line ends at the length of its course from its start."""
+    end = offset(start, heading, run)
+    if not points or min(math.dist(end, one) for one in points) <= max(SLACK, SHARE * run):
+        return None
+    return f"no waypoint is at [{end[0]:g}, {end[1]:g}], {run:g} m on {heading:g} from its start"
+
+
+def _square_problem(center: Point, radius: float, points: list[Point]) -> str | None:
+    """Every waypoint lies on the square or the circle round the target."""
+    for point in points:
+        along_x, along_y = (abs(one - at) for one, at in zip(point, center, strict=True))
+        away = max(along_x, along_y), math.hypot(along_x, along_y)
+        if all(abs(one - radius) > max(SLACK, SHARE * radius) for one in away):
+            return f"its waypoint [{point[0]:g}, {point[1]:g}] is not {radius:g} m off its target"
     return None
 
 

@@ -6,26 +6,34 @@ Facts of the text are compared with values of the plan; which words limit or rep
 
 from __future__ import annotations
 
+import itertools
+import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.document.language import Clause, Language, language, read_clauses
-from planner_ft.document.track import place_of
-from planner_ft.document.warnings.warning import Warning, quoted, warning
-from planner_ft.facts import Number, Position, is_number, is_place, near
-from planner_ft.facts.numbers import read_numbers
+from planner_ft.document.ontology import named_places
+from planner_ft.document.warnings.warning import Warning, named, quoted, warning
+from planner_ft.facts import Input, Number, Position, is_number, is_place, near, read_input
+from planner_ft.facts.numbers import neighbours, read_numbers
 from planner_ft.facts.places import read_positions, without_geographic
 from planner_ft.planning.frame import frame_of
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
-PAIR = re.compile(r"[-−–]?\d+(?:\.\d+)?\s?,\s?[-−–]?\d+(?:\.\d+)?")
+PAIR = re.compile(r"[-−–]?\d+(?:\.\d+)?\s?[,/]\s?[-−–]?\d+(?:\.\d+)?")
 BESIDE = re.compile(r"[\s,;\])\[(]*(?:and|to|then)?[\s,;\])\[(]*")
 """What stands between the positions of a row."""
+COURSE = re.compile(r"\b(?:heading|bearing|course)(?: of)?\W{1,3}$", re.IGNORECASE)
+CLOCK = re.compile(r"\s*(?:o['’]?clock|am\b|pm\b|utc\b|gmt\b|zulu\b|local\b|ago\b)", re.IGNORECASE)
+MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORECASE)
+"""Words that are no time to be kept: "a second", "a good day"."""
+NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
+"""Stands between a value and its correction: "45 minutes, no, ten minutes"."""
 ROW = 3
-STEM = 5
-"""First letters by which a word is found again."""
+CORRECTED = 30
+"""Characters between a value and its correction."""
 FULL = 360.0
 REPEATED = 16
 """Characters behind a count in which the word for what is repeated stands."""
@@ -35,73 +43,69 @@ def said_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterat
     """One per limit, row, position and repeat that the plan lacks, and per contradiction."""
     if not document["tasks"]:
         return
-    text = without_geographic(frame_of(document).spoken)
+    command = read_input({"prompt": frame_of(document).spoken}, vocabulary)
+    text = without_geographic(command.facts.text)
     clauses, spoken = read_clauses(text, vocabulary), language(vocabulary)
-    plan, pairs = _Plan(document), _pairs(text)
+    plan, pairs = _Plan(document, command), _pairs(text)
+    if not command.facts.unread:
+        yield from _lost_measures(text, clauses, spoken, plan)
     rows = [row for row in _rows(text, pairs) if len(row) >= ROW]
     yield from _lost_rows(text, rows, clauses, spoken, plan)
     in_rows = {place for row in rows for place in row}
     for place in pairs:
-        clause = _clause_at(clauses, place.start)
-        wanted = clause is None or (clause.wants(place.start) and not clause.corrected)
+        wanted = _is_wanted(clauses, place.start)
         if wanted and place not in in_rows and not plan.has(place):
-            words = text[place.start : place.end]
-            said = f'The command says "{words}", and no task has it.'
-            yield warning("value-lost", said, about=words.casefold())
+            yield _lost(text[place.start : place.end])
     for clause in clauses:
         if not any(clause.start <= row[0].start < clause.end for row in rows):
             yield from _lost_limit(clause, text, pairs, spoken, plan)
-    instructions = [clause for clause in clauses if _instructs(clause, spoken)]
-    if len(instructions) > _own_tasks(document["tasks"], vocabulary):
-        for clause in instructions:
-            yield from _lost_instruction(clause, spoken, plan)
     yield from _lost_repeats(text, clauses, pairs, spoken, plan)
     yield from _there_and_not(clauses, pairs)
-    yield from _home_and_not(clauses, spoken, document, vocabulary)
+    yield from _misnamed(document, text, vocabulary)
 
 
 class _Plan:
     """The values of a plan: of tasks with their skills, of limits, and places in texts."""
 
-    def __init__(self, document: Mapping[str, Any]) -> None:
+    def __init__(self, document: Mapping[str, Any], command: Input) -> None:
         tasks, limits = document["tasks"], document.get("limits", ())
         steps = [step for task in tasks for step in task.get("skill_sequence") or ()]
         skills = [skill for step in steps for _role, skill in step_skills(step)]
-        own = [value for owner in (*tasks, *skills) for value in owner["parameters"].values()]
+        given = [owner["parameters"] for owner in (*tasks, *skills)]
+        own = [value for values in given for value in values.values()]
+        gone = [(values["x"], values["y"]) for values in given if {"x", "y"} <= values.keys()]
         self.limits = [value for limit in limits for value in limit["values"].values()]
         # Coordinates are places, not numbers: 40 east of one and 40 north of another say no place.
-        named = [
-            item
-            for owner in (*tasks, *skills)
-            for item in owner["parameters"].items()
-            if not ({"x", "y"} <= owner["parameters"].keys() and item[0] in ("x", "y"))
+        self.numbers = [
+            float(value)
+            for values in given
+            for name, value in values.items()
+            if is_number(value) and not (name in ("x", "y") and {"x", "y"} <= values.keys())
         ]
-        self.numbers = [float(value) for _name, value in named if is_number(value)]
         self.limited = [float(value) for value in self.limits if is_number(value)]
         self.polygons = [value for value in (*own, *self.limits) if _is_polygon(value)]
-        self.visited = [tuple(value) for value in own if is_place(value)]
-        gone = [
-            (values["x"], values["y"])
-            for values in (skill["parameters"] for skill in skills)
-            if {"x", "y"} <= values.keys()
+        places = [tuple(value) for value in own if is_place(value)]
+        self.often = [
+            *(gone or places),
+            *((task["title"], str(task["parameters"])) for task in tasks),
         ]
-        self.often: list[Any] = [*(gone or self.visited)]
-        self.often += [(task["title"], str(task["parameters"])) for task in tasks]
-        self.visited += gone
         texts = [*document.get("constraints", ()), *document.get("assumptions", ())]
         texts += [task["task_prompt"] for task in tasks]
-        read = [place for line in texts for place in read_positions(line)]
-        self.written = [(place.x, place.y) for place in read]
+        read = [(place.x, place.y) for line in texts for place in read_positions(line)]
+        corners = [tuple(corner) for polygon in self.polygons for corner in polygon]
+        self.places = [*places, *gone, *read, *corners, *filter(is_place, self.limits)]
+        spoken = [number for line in texts for number in read_numbers(line)]
+        self.anywhere = {*_flat(own), *(part for one in spoken for part in (one.value, one.said))}
+        self.anywhere |= set(_ways([*places, *read], command))
         self.timed = any(limit["kind"] in ("return", "duration") for limit in limits)
-        own_texts = [value for value in own if isinstance(value, str)]
-        lists = [item for value in own if isinstance(value, list) for item in value]
-        self.text = " ".join([*texts, *own_texts, *map(str, lists)]).casefold()
+
+    def says(self, value: float) -> bool:
+        """Whether a number is anywhere in the plan, or a way that it goes, up to its sign."""
+        return any(near(abs(value), abs(number)) for number in self.anywhere)
 
     def has(self, place: Position) -> bool:
         """Whether a position is anywhere in the plan, or its numbers are values of it."""
-        corners = [corner for polygon in self.polygons for corner in polygon]
-        known = [*self.visited, *corners, *self.written, *filter(is_place, self.limits)]
-        if any(_same(place, (other[0], other[1])) for other in known):
+        if any(_same(place, other) for other in self.places):
             return True
         return all(any(near(part, one) for one in self.numbers) for part in (place.x, place.y))
 
@@ -120,6 +124,23 @@ class _Plan:
             points = [item for item in self.often if is_number(item[0])]
             return all(sum(_same(at, one) for one in points) >= count for at in places)
         return any(self.often.count(item) >= count for item in set(self.often))
+
+
+def _flat(value: Any) -> Iterator[float]:
+    if is_number(value):
+        yield float(value)
+    elif isinstance(value, list):
+        for item in value:
+            yield from _flat(item)
+
+
+def _ways(places: Sequence[Sequence[float]], command: Input) -> Iterator[float]:
+    """The lengths by which places of a plan lie a stated way off stated ones."""
+    ground = command.ground
+    for (x, y), base in itertools.product(set(map(tuple, places)), ground.places if ground else ()):
+        away = x - base[0], y - base[1]
+        if ground and any(away) and (ground.is_way_off((x, y), base) or away in ground.places):
+            yield from (*away, math.hypot(*away))
 
 
 def _pairs(text: str) -> list[Position]:
@@ -148,6 +169,44 @@ def _rows(text: str, pairs: Sequence[Position]) -> Iterator[list[Position]]:
         row.append(place)
     if row:
         yield row
+
+
+def _lost(words: str) -> Warning:
+    said = f'The command says "{words}", and no task has it.'
+    return warning("value-lost", said, about=words.casefold())
+
+
+def _lost_measures(
+    text: str, clauses: Sequence[Clause], spoken: Language, plan: _Plan
+) -> Iterator[Warning]:
+    """Measures and courses, but for those that are ruled out, taken back or only told of."""
+    numbers = read_numbers(text)
+    for number, following in itertools.zip_longest(numbers, numbers[1:]):
+        if not _is_measure(text, number) or not _is_wanted(clauses, number.start):
+            continue
+        between = text[number.end : following.start] if following else ""
+        replaced = spoken.words["correction"].search(between) or NO.fullmatch(between)
+        if replaced and len(between) <= CORRECTED:
+            continue
+        wholes = [*neighbours(numbers, number.unit), number]
+        wholes = [one for one in wholes if one.start <= number.start and number.end <= one.end]
+        if not any(plan.says(one.value) for one in wholes):
+            yield _lost(text[wholes[0].start : wholes[0].end])
+
+
+def _is_measure(text: str, number: Number) -> bool:
+    """Whether a number is a measure or a course. Counts, ids, parts and times of day are none."""
+    moment = MOMENT.fullmatch(text, number.start, number.end)
+    if moment or number.unit == "%" or CLOCK.match(text, number.end):
+        return False
+    course = COURSE.search(text, max(0, number.start - 20), number.start)
+    return number.unit is not None or course is not None
+
+
+def _is_wanted(clauses: Sequence[Clause], place: int) -> bool:
+    """Whether words at a place are neither ruled out nor taken back."""
+    clause = _clause_at(clauses, place)
+    return clause is None or (clause.wants(place) and not clause.corrected)
 
 
 def _lost_rows(
@@ -219,7 +278,7 @@ def _lost_repeats(
         found |= {end: (count, start, end) for start, end in spans}
     for count, start, end in found.values():
         clause = _clause_at(clauses, start)
-        if not clause or clause.corrected or not clause.wants(start):
+        if not clause or not _is_wanted(clauses, start):
             continue
         places = [place for place in pairs if clause.start <= place.start < clause.end]
         if not plan.repeats(count, places):
@@ -231,50 +290,6 @@ def _lost_repeats(
 def _is_count(number: Number, text: str, until: int) -> bool:
     between = text[number.end : until].split()
     return number.value >= 2 and number.value.is_integer() and len(between) <= 1
-
-
-def _instructs(clause: Clause, spoken: Language) -> bool:
-    """Whether a clause begins with an instruction that stands, other than to come home."""
-    begins = spoken.words["verb"].match(clause.text.strip())
-    stands = begins is not None and not clause.corrected and clause.excluded is None
-    return stands and not spoken.words["home"].search(clause.text)
-
-
-def _own_tasks(tasks: Sequence[Mapping[str, Any]], vocabulary: Vocabulary) -> int:
-    """The tasks that such an instruction stands for: not those that look for a place, go to one for
-    the task behind them, or go home.
-    """
-    behind = [vocabulary.task[task["title"]].arrival for task in tasks[1:]] + ["none"]
-    return sum(
-        task["title"] != vocabulary.locate
-        and place_of(task, vocabulary) != vocabulary.home
-        and not (task["title"] == vocabulary.transit and arrival == "transit")
-        for task, arrival in zip(tasks, behind, strict=True)
-    )
-
-
-def _lost_instruction(clause: Clause, spoken: Language, plan: _Plan) -> Iterator[Warning]:
-    """An instruction of which no word and no fact is in the plan."""
-    text = clause.text.strip()
-    verb = spoken.words["verb"].match(text)
-    known = [
-        spoken.words["impossible"],
-        spoken.words["home"],
-        spoken.words["here"],
-        spoken.sensors,
-        spoken.words["stay"],
-    ]
-    known += [ask.said for ask in spoken.asks]
-    if not verb or read_numbers(text):
-        return
-    if any(words.search(text) for words in known):
-        return
-    said_words = re.findall(r"[a-z]{4,}", text[verb.end() :].casefold())
-    empty = [spoken.words[name] for name in ("nothing", "water", "boundary", "determiner")]
-    named = [word for word in said_words if not any(one.fullmatch(word) for one in empty)]
-    if named and not any(word[:STEM] in plan.text for word in said_words):
-        said = f'The command asks: "{quoted(text)}"; no task of the plan does that.'
-        yield warning("not-planned", said, about=text.casefold())
 
 
 def _there_and_not(clauses: Sequence[Clause], pairs: Sequence[Position]) -> Iterator[Warning]:
@@ -293,24 +308,17 @@ def _there_and_not(clauses: Sequence[Clause], pairs: Sequence[Position]) -> Iter
             yield warning("contradiction", text, about=f"{place.x:g},{place.y:g}")
 
 
-def _home_and_not(
-    clauses: Sequence[Clause], spoken: Language, document: Mapping[str, Any], vocabulary: Vocabulary
-) -> Iterator[Warning]:
-    """A command that asks for home and rules it out, and a plan that ends there."""
-    said = [
-        (clause.wants(clause.start + match.start()), clause)
-        for clause in clauses
-        if not clause.corrected
-        for match in spoken.words["home"].finditer(clause.text)
-    ]
-    last = document["tasks"][-1]
-    if {wanted for wanted, _clause in said} == {True, False}:
-        words = next(clause.text for wanted, clause in said if not wanted).strip(" ,;")
-        ends = (
-            "ends there" if place_of(last, vocabulary) == vocabulary.home else "does not end there"
-        )
-        text = f'The command speaks of coming home, and says "{quoted(words)}"; the plan {ends}.'
-        yield warning("contradiction", text, about="home")
+def _misnamed(document: Mapping[str, Any], text: str, vocabulary: Vocabulary) -> Iterator[Warning]:
+    """A task prompt that puts one thing of the command where the command has another."""
+    said = [(words.casefold(), place) for words, place in named_places(text, vocabulary)]
+    names = {words for words, _place in said}
+    for task in document["tasks"]:
+        for words, place in named_places(task["task_prompt"], vocabulary):
+            there = {name for name, at in said if _same(at, (place.x, place.y))}
+            if there and words.casefold() in names - there:
+                where = f"[{place.x:g}, {place.y:g}]"
+                text = f"{named(task)} speaks of {words} at {where}, and the command has"
+                yield warning("contradiction", f"{text} {min(there)} there.", task)
 
 
 def _clause_at(clauses: Sequence[Clause], place: int) -> Clause | None:

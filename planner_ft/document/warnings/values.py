@@ -1,21 +1,35 @@
-"""Values that nobody said, and values that the command says and no task has."""
+"""Values that nobody said."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from planner_ft.document.unused import unused_facts
 from planner_ft.document.warnings.command import UNKNOWN
-from planner_ft.document.warnings.warning import Warning, named, warning
-from planner_ft.facts import SCORING, WAYPOINT, Facts, Input, is_number, read_input, unknown_words
+from planner_ft.document.warnings.warning import Warning, named, quoted, warning
+from planner_ft.facts import (
+    SCORING,
+    WAYPOINT,
+    Evidence,
+    Facts,
+    Input,
+    is_number,
+    is_place,
+    read,
+    read_input,
+    unknown_words,
+)
 from planner_ft.planning.frame import frame_of
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
+BARE = re.compile(r"[-−–]?\d+(?:\.\d+)?")
+"""A number without a unit."""
+
 
 def value_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
-    """Values of tasks and skills that are the model's own, and stated ones that reached no task."""
+    """Values of tasks and skills that are the model's own."""
     command = frame_of(document).spoken
     source = read_input({"prompt": command}, vocabulary)
     said = source.facts
@@ -26,23 +40,57 @@ def value_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Itera
     for task in document["tasks"]:
         yield from _unsaid(task, source)
         yield from _unsaid_skills(task, _proposed(document, task), said, vocabulary)
-    if document["tasks"] and not said.unread:
-        texts = [task["task_prompt"] for task in document["tasks"]]
-        texts += [*document.get("assumptions", ()), *document.get("constraints", ())]
-        for words in unused_facts(command, document["tasks"], texts, vocabulary):
-            text = f'The command says "{words}", and no task has it.'
-            yield warning("value-lost", text, about=words.casefold())
 
 
 def _unsaid(task: Mapping[str, Any], command: Input) -> Iterator[Warning]:
     known = command.vocabulary.task[task["title"]].by_name
+    prompt = read(task["task_prompt"])
     for name, source in task.get("sources", {}).items():
-        if source["kind"] != "model" or name not in known:
+        if source["kind"] not in ("model", "command") or name not in known:
             continue
         value, parameter = task["parameters"][name], known[name]
-        if command.facts.evidence(value, parameter).given is False:
-            text = f"{name} is {_shown(value, parameter)}, which the command does not say."
+        text, evidence = _shown(value, parameter), command.facts.evidence(value, parameter)
+        if source["kind"] == "command" and is_number(value) and _is_coordinate(evidence, command):
+            text = f"{name} is {text}, which the command says as a coordinate alone."
             yield warning("value-not-said", f"{named(task)}: {text}", task, name)
+        elif source["kind"] == "command" and _contradicts(prompt, value, parameter):
+            text = f'{name} is {text}, and its prompt is "{quoted(task["task_prompt"])}".'
+            yield warning("contradiction", f"{named(task)}: {text}", task, name)
+        elif source["kind"] == "model" and evidence.given is False:
+            text = f"{name} is {text}, which the command does not say."
+            yield warning("value-not-said", f"{named(task)}: {text}", task, name)
+
+
+def _contradicts(prompt: Facts, value: Any, parameter: Parameter) -> bool:
+    """Whether a task prompt has another measure or place where the value of its task should be."""
+    if is_number(value):
+        unit = parameter.unit
+        other = any(number.unit == unit is not None for number in prompt.numbers(unit))
+    else:
+        other = is_place(value) and any(place.certain for place in prompt.positions)
+    return other and prompt.evidence(value, parameter, SCORING).given is False
+
+
+def _is_coordinate(evidence: Evidence, command: Input) -> bool:
+    """Whether a number stands in the command as a part of positions and nowhere else."""
+    text, places = command.facts.text, [one for one in command.facts.positions if one.certain]
+    return bool(evidence.mentions) and all(
+        BARE.fullmatch(text, start, end)
+        and any(place.start <= start and end <= place.end for place in places)
+        for spans in evidence.mentions
+        for start, end in spans
+    )
+
+
+def worked_out_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
+    """Places that are only worked out: in a plan that has lost a value they are hardly meant."""
+    for number, task in enumerate(document["tasks"], start=1):
+        for name, source in task.get("sources", {}).items():
+            value = task["parameters"].get(name)
+            known = not is_place(value) or "spans" in source or value == list(vocabulary.unresolved)
+            if source["kind"] == "derived" and not known:
+                text = f"task {number}, {task['title']}: {name} is {value}, which is worked out and"
+                yield warning("value-not-said", f"{text} not said.", task, name)
 
 
 # ---------------------------------------------------------------- skills

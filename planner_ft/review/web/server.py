@@ -22,6 +22,7 @@ from planner_ft.review.web.app import web_app
 from planner_ft.review.web.guard import Door, bracketed, is_wildcard
 from planner_ft.review.web.session import LOOPBACK, Session, WebSettings
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.terminal import show
 from planner_ft.vocabulary import load_vocabulary
 
 SLOWEST_REQUEST = 10.0
@@ -46,7 +47,7 @@ def serve(plan: Path | None, settings: WebSettings) -> None:
             _say_where(settings, door)
             _Server(session, door).run(sockets=[listener])
         except KeyboardInterrupt:
-            print(_farewell(session), flush=True)
+            show(_farewell(session))
         if not session.planning.ended(GRACE / 2):
             # The agents cannot be stopped at once, and tearing their thread down would crash.
             # All that counts is on the disk.
@@ -133,14 +134,14 @@ def _listening(settings: WebSettings) -> socket.socket:
 def _say_where(settings: WebSettings, door: Door) -> None:
     """Print the address, warn where others can reach it, and open it with the key for once."""
     if not settings.is_loopback:
-        print(
+        show(
             f"--host {settings.host}: others on the network can reach this page, and what it sends"
             " is not encrypted; who has the address below can approve plans",
-            file=sys.stderr,
+            error=True,
         )
     host = LOOPBACK if is_wildcard(settings.host) else settings.host
     base = f"http://{bracketed(host)}:{door.port}/?token="
-    print(f"Review at {base}{door.keys.session}\nCtrl-C ends it.", flush=True)
+    show(f"Review at {base}{door.keys.session}\nCtrl-C ends it.")
     # Without a screen a text browser would take the terminal.
     screen = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
     if settings.open_browser and (screen or sys.platform in ("darwin", "win32")):

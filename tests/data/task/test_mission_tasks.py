@@ -57,11 +57,24 @@ def test_a_survey_is_eight_waypoints_from_the_middle_of_the_east_side() -> None:
     assert [tuple(values.values()) for _name, values in found[:3]] == [(10, 0), (10, 10), (0, 10)]
 
 
-def test_a_grid_of_20_by_20_at_5_metres_has_ten_waypoints_and_without_spacing_none() -> None:
+def test_a_pass_runs_abreast_of_the_structure_that_its_prompt_places() -> None:
+    values = {"side_id": "west", "length": 60, "distance": 8}
+    entry = {"title": "ParallelStructurePass", "parameters": values}
+    entry["task_prompt"] = "Run along the west side of the quay at [40, 10] for 60 m, 8 m off."
+    record = task_record(entry, None, [0, 0], VOCABULARY, at=[40, 10])
+    assert record is not None
+    ends = [step["navigation_skill"]["parameters"] for step in record["expected"]["skill_sequence"]]
+    assert ends == [{"x": 32, "y": -20}, {"x": 32, "y": 40}]
+    assert task_record(entry, None, [0, 0], VOCABULARY, at=[70, 10]) is None
+
+
+def test_a_grid_of_20_by_20_at_5_metres_has_ten_waypoints_and_without_spacing_six() -> None:
     size = {"center": [0, 0], "width": 20, "length": 20}
     found = steps("BathymetryGridSurvey", {**size, "spacing": 5})
     assert found is not None and len(found) == 10 and found[0] == ("GoToXY", {"x": -10, "y": -10})
-    assert steps("BathymetryGridSurvey", size) is None
+    lanes_of_the_vehicle = steps("BathymetryGridSurvey", size)
+    assert lanes_of_the_vehicle is not None and len(lanes_of_the_vehicle) == 6
+    assert steps("BathymetryGridSurvey", {"center": [0, 0], "spacing": 5}) is None
 
 
 def test_another_vehicle_has_no_such_tasks(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from planner_ft.data.task.context import Context
 from planner_ft.data.task.phrasebook import gerund, phrasebook
 from planner_ft.data.task.prompts.draw import Drawing
 from planner_ft.data.templates.render import joined, plain, skeleton
-from planner_ft.data.wordlists import made_up_code, made_up_name
+from planner_ft.data.wordlists import WordLists, made_up_name
 from planner_ft.vocabulary import load_vocabulary
 
 USV = load_vocabulary()
@@ -26,7 +26,7 @@ def clause(phrase, *, ing=False, skill="StationKeep"):
     for seed in range(200):
         context = Context(BOOK, USV.task["KeepStation"], random.Random(seed))
         drawing = Drawing(skill_clause(BOOK, skill, phrase, ing), context)
-        yield plain(joined(drawing.pieces(), small=True)), drawing.route()[0][1], context
+        yield plain(joined(drawing.pieces(), small=True)), drawing.plan.route()[0][1], context
 
 
 def test_optional_parts_stand_exactly_when_their_slot_is_given():
@@ -112,4 +112,4 @@ def test_a_square_fence_may_be_said_by_its_half_side():
 def test_made_up_names_differ():
     rng = random.Random(1)
     assert len({made_up_name(rng) for _ in range(300)}) > 280
-    assert len({made_up_code(rng) for _ in range(300)}) > 250
+    assert len({WordLists().entry("code", rng) for _ in range(300)}) > 250

@@ -41,14 +41,20 @@ def test_a_grid_that_was_begun_is_gone_on_with() -> None:
 def test_a_grid_of_stated_size_is_done_at_its_end_alone() -> None:
     facts = waypoints("BathymetryGridSurvey", "Survey the depths around [0, 0].", **GRID)
     lanes = tuple(g.lawnmower((0, 0), 20, 20, 5))
-    assert [facts.unfinished(lanes[:at]) for at in (0, 1, 2, 8, 9, 10)] == [False] * 2 + [
-        *[True] * 3,
-        False,
-    ]
+    begun = [facts.unfinished(lanes[:at]) for at in (0, 1, 2, 8, 9, 10)]
+    assert begun == [False, *[True] * 4, False]
     assert facts.unfinished(lanes[:8], 1)
     assert not facts.unfinished(lanes[:9], 1)
     part = waypoints("BathymetryGridSurvey", "Run the first 3 lanes around [0, 0].", **GRID)
     assert not part.unfinished(lanes[:6])
+
+
+def test_a_limit_of_the_mission_leaves_a_grid_of_stated_size_as_it_is() -> None:
+    limits = "Keep at least 70 m from the platform at [100, 100]. Go no faster than 1.5 m/s."
+    facts = waypoints("BathymetryGridSurvey", f"Survey the depths around [0, 0]. {limits}", **GRID)
+    lanes = tuple(g.lawnmower((0, 0), 20, 20, 5))
+    assert facts.whole
+    assert set(facts.following(lanes[:1])) == {(-10, 10), (10, -10)}
 
 
 @pytest.mark.parametrize(

@@ -48,3 +48,28 @@ def test_a_pass_that_is_shorter_than_its_length_is_named() -> None:
     assert found("ParallelStructurePass", given, whole) == []
     (text,) = found("ParallelStructurePass", given, none)
     assert "0 m apart, and its length is 60 m" in text
+
+
+def test_a_line_that_leaves_its_course_is_named() -> None:
+    given = {"start": [20, 20], "heading": 45, "max_dist": 100}
+    ends = [step("GoToXY", {"x": x, "y": y}) for x, y in ((20, 20), (90.71, 90.71))]
+    assert found("SubseaCableTrack", given, ends) == []
+    (text,) = found("SubseaCableTrack", {**given, "heading": 90}, ends)
+    assert "no waypoint is at [120, 20], 100 m on 90 from its start" in text
+
+
+def test_a_waypoint_of_a_survey_that_is_off_its_square_is_named() -> None:
+    given = {"target_position": [0, 0], "radius": 10}
+    square = [
+        step("GoToXY", {"x": x, "y": y}) for x, y in ((10, 0), (10, 10), (0, 10), (-7.07, 7.07))
+    ]
+    assert found("SurveyTarget", given, square) == []
+    (text,) = found("SurveyTarget", given, [*square, step("GoToXY", {"x": -8, "y": 8})])
+    assert "waypoint [-8, 8] is not 10 m off its target" in text
+
+
+def test_a_panorama_that_does_not_look_round_is_named() -> None:
+    looks = [step("RotateToHeading", {"heading": heading}) for heading in (0, 120, 240)]
+    assert found("HorizontalPanorama", {"sectors": 3}, looks) == []
+    (text,) = found("HorizontalPanorama", {"sectors": 8}, looks)
+    assert "it turns 3 times for 8 sectors" in text

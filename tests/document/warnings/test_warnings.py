@@ -361,3 +361,52 @@ def test_another_vehicle() -> None:
     )
     plan = planned("Fly to [30, 40], orbit the tower and return.", there, vocabulary=DRONE)
     assert kinds(plan) == ["missing-return", "not-planned", "skill-value-not-said"]
+
+
+def test_a_thing_that_a_prompt_puts_where_the_command_has_another_is_named() -> None:
+    command = "Survey the pier at [40, 10], then film the ramp at [80, 10]."
+    survey = task(
+        "SurveyTarget", {"target_position": [40, 10]}, [], prompt="Survey the pier at [40, 10]."
+    )
+    go = task("Transit", {"target_position": [80, 10]}, [], prompt="Go to the pier at [80, 10].")
+    right = task("Transit", {"target_position": [80, 10]}, [], prompt="Go to the ramp at [80, 10].")
+    assert "contradiction" not in kinds(document([survey, right], command=command))
+    texts = [item["text"] for item in document([survey, go], command=command)["warnings"]]
+    assert (
+        "Task 2, Transit speaks of the pier at [80, 10], and the command has the ramp there."
+        in texts
+    )
+
+
+def test_a_place_that_is_worked_out_is_named_in_a_plan_that_has_lost_one() -> None:
+    command = (
+        "Go to [25, 75], then to [75, 75], follow the cable from [0, 50] heading 90 for 200 m."
+    )
+    cable = task("SubseaCableTrack", {"start": [0, 50], "heading": 90, "max_dist": 200}, [])
+    tasks = [
+        task("Transit", {"target_position": place}, []) for place in ([25, 75], [75, 75], [75, 275])
+    ]
+    assert "value-not-said" not in kinds(document([*tasks[:2], tasks[2], cable], command=command))
+    lost = document([tasks[0], tasks[2], cable], command=command)
+    assert "worked out and not said" in str(lost["warnings"])
+
+
+def test_a_number_that_the_command_says_as_a_coordinate_alone_is_named() -> None:
+    around = task(
+        "PerformOrbit", {"center": [200, 140], "radius": 140}, [], prompt="Circle at 140 m."
+    )
+    told = document([around], command="Circle the mussel lines at 200,140.")["warnings"]
+    assert "radius is 140 m, which the command says as a coordinate alone" in str(told)
+    told = document([around], command="Circle the lines at 200,140 at 140 m.")["warnings"]
+    assert "as a coordinate alone" not in str(told)
+
+
+def test_a_value_that_the_task_prompt_contradicts_is_named() -> None:
+    command = "Circle the tower at [200, 200] at 20 m."
+    given = {"center": [200, 200], "radius": 20}
+    right, wrong = (
+        document([task("PerformOrbit", given, [], prompt=text)], command=command)
+        for text in ("Circle [200, 200] at 20 m.", "Circle [200, 200] at 200 m.")
+    )
+    assert "contradiction" not in kinds(right)
+    assert 'radius is 20 m, and its prompt is "Circle' in str(wrong["warnings"])

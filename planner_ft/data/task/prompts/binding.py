@@ -105,6 +105,11 @@ def bind(template: Template, task: Task, book: Phrasebook) -> Bound:
         raise TemplateError(f"the label ?{name} stands only in the text or only in the steps")
     if not bound.steps:
         raise TemplateError("there is no step")
+    for slot in slots:
+        if slot.sign == "~" and slot.key not in bound.sources:
+            raise TemplateError(
+                f"{{~{slot.key}}} is another value of {{{slot.key}}}, which is missing"
+            )
     return bound
 
 

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Sequence
 from typing import Any
 
 from planner_ft.data.numbers import Value, angle, count_text, length, pick, rotation
 from planner_ft.data.task.context import Context
-from planner_ft.data.task.prompts.binding import XY, Bound, Source
+from planner_ft.data.task.prompts.binding import Bound, Source
 from planner_ft.data.task.prompts.shapes import DRAWS, SHAPES, grid_size
-from planner_ft.data.task.steps import Entry, entry_of, plan_step
-from planner_ft.data.task.steps import Step as Move
-from planner_ft.data.templates.grammar import Argument, Call, Part, Slot, Step, base_of, choose
+from planner_ft.data.task.steps import Entry, Plan
+from planner_ft.data.templates.grammar import Argument, Call, Part, Slot, base_of, choose
 from planner_ft.data.templates.render import PIECE, after_article, bare, joined
-from planner_ft.facts.geometry import tidy
 
 LINKED = 0.75  # share of stated values that the task's parameters hold too
 REFER = 0.3  # share of values of a clause that stand in the task's parameters alone
@@ -34,7 +31,7 @@ def draw_template(bound: Bound, context: Context) -> tuple[str, dict[str, Any], 
     drawing = Drawing(bound, context)
     text = joined(drawing.pieces(), small=drawing.small)
     try:
-        steps = drawing.steps()
+        steps = drawing.plan.steps()
     except (ValueError, ZeroDivisionError):
         return None
     beside = [step[key] for step in steps for key in ("filter_skills", "perception_skills")]
@@ -74,6 +71,7 @@ class Drawing:
         slots = [part for part in self.parts if isinstance(part, Slot)]
         self.labels = {slot.key for slot in slots if slot.sign == "?"}
         self.chosen = {slot.key for slot in slots if not slot.sign}
+        self.plan = Plan(bound, self.book, self.labels, self._value)
         for slot in slots:
             if not slot.sign and slot.key not in self.values:
                 self.values[slot.key] = self._draw(slot)
@@ -180,6 +178,9 @@ class Drawing:
                 said = self.referred.get(part.key) or self.context.refer(part.key)
                 follows = pieces and after_article(pieces[-1][0])
                 pieces.append((bare(said) if follows else said, False))
+            elif part.sign == "~":
+                wrong = self._new(part, self.bound.sources[part.key])
+                pieces.append((wrong.worded(part.options), True))
             elif not part.sign:
                 pieces.append((self._said(part, place), True))
         return pieces
@@ -202,90 +203,9 @@ class Drawing:
 
     # ------------------------------------------------------------ steps
 
-    def steps(self) -> list[Entry]:
-        """The steps of the plan. Raises ValueError when what was chosen makes no plan."""
-        everywhere = self.bound.everywhere
-        common = self.beside(everywhere) if everywhere else ([], [])
-        entries: list[Entry] = []
-        for step in self.bound.steps:
-            if not step.call.label or step.call.label in self.labels:
-                entries += self._expand(step, common)
-        return entries
-
-    def route(self) -> list[Move]:
-        """The movements of a clause. Raises ValueError when lanes do not fill."""
-        return [
-            move
-            for step in self.bound.steps
-            for one in self._moves(step.call)
-            for move in [one, *(self._moves(step.each.call) if step.each else ())]
-        ]
-
-    def _expand(self, step: Step, common: tuple[list[Entry], list[Entry]]) -> list[Entry]:
-        entries: list[Entry] = []
-        moves, vocabulary = self._moves(step.call), self.book.vocabulary
-        for number, (name, parameters) in enumerate(moves):
-            own = self.beside(step, number == 0, number == len(moves) - 1)
-            parts = (common, own) if self.bound.front else (own, common)
-            filters, perceptions = ([*first, *then] for first, then in zip(*parts, strict=True))
-            entries.append(plan_step(name, parameters, filters, perceptions, vocabulary))
-            if step.each:
-                entries += self._expand(step.each, common)
-        return entries
-
-    def beside(
-        self, step: Step, first: bool = True, last: bool = True
-    ) -> tuple[list[Entry], list[Entry]]:
-        """Filters and perception skills at this waypoint."""
-        at = {"": True, "first": first, "last": last}
-        filters, perceptions = (
-            [
-                entry_of(call.name, self._parameters(call), self.book.vocabulary)
-                for call in calls
-                if at[call.at] and (not call.label or call.label in self.labels)
-            ]
-            for calls in (step.filters, step.perceptions)
-        )
-        return filters, perceptions
-
-    def _moves(self, call: Call) -> Sequence[Move]:
-        """Navigation skills with their parameters. Raises ValueError when lanes do not fill."""
-        shape = SHAPES.get(call.name)
-        if shape is None:
-            return [(call.name, self._parameters(call))]
-        values = {argument.name: self._value(argument) for argument in call.arguments}
-        values = {name: value for name, value in values.items() if value is not None}
-        name = self.book.motions[shape.motion]
-        try:
-            found = shape.expand({**values, "home": self.book.vocabulary.home})
-        except KeyError as error:
-            raise ValueError(f"{call.name} has no {error}") from None
-        if shape.motion == "goto":
-            return [(name, {"x": x, "y": y}) for x, y in found]
-        key = self.book.skills[name].skill.parameters[0].name
-        return [(name, {key: value}) for value in found]
-
-    def _parameters(self, call: Call) -> dict[str, Any]:
-        parameters: dict[str, Any] = {}
-        known = self.book.vocabulary.skill[call.name].by_name
-        for argument in call.arguments:
-            value = self._value(argument)
-            if value is None:
-                continue
-            if argument.name == XY:
-                parameters["x"], parameters["y"] = value
-            else:
-                as_list = known[argument.name].type == "texts" and not isinstance(value, list)
-                parameters[argument.name] = [value] if as_list else value
-        return parameters
-
     def _value(self, argument: Argument) -> Any:
         """The value, or None for a slot of an alternative that was not chosen."""
-        if argument.kind == "literal":
-            value = argument.value
-            return tidy(value) if isinstance(value, float) else value
         key = str(argument.value)
-        if argument.kind == "slot" and key not in self.chosen:
-            return None
-        drawn = self.context.values[key] if argument.kind == "param" else self.values[key]
-        return -drawn.value if argument.negative else drawn.value
+        if argument.kind == "param":
+            return self.context.values[key].value
+        return self.values[key].value if key in self.chosen else None

@@ -79,6 +79,16 @@ def _line(values: Values) -> list[g.Point]:
     return g.straight_line(values["point"], values["heading"], values["length"])
 
 
+def _pass(values: Values) -> list[g.Point]:
+    """Along a side of a structure, from the south or the west."""
+    bearing = BEARINGS.get(values.get("side", ""), 45)
+    if bearing % 90:
+        raise ValueError("a pass needs one of the four sides")
+    middle = g.offset(values["point"], bearing, values["distance"])
+    start = g.offset(middle, (bearing + 90) % 180 + 180, values["length"] / 2)
+    return g.straight_line(start, (bearing + 90) % 180, values["length"])
+
+
 def _offset(values: Values) -> list[g.Point]:
     return [g.offset(values["point"], values["heading"], values["length"])]
 
@@ -94,6 +104,7 @@ SHAPES: Mapping[str, Shape] = {
     "Square": _shape("goto", "square", "point:center radius", "start turn", _square),
     "Ring": _shape("goto", "orbit", "point:center radius count", "start turn", _ring),
     "Line": _shape("goto", "line", "point:start heading length", "", _line),
+    "Pass": _shape("goto", "pass", "point length distance", "side", _pass),
     "Offset": _shape("goto", "GoToXY", "point:xy heading length", "", _offset),
     "Return": _shape("goto", "", "", "", lambda values: [values["home"]]),
     "Sectors": _shape("turn_to", "sectors", "count:sectors", "heading turn", _sectors),

@@ -61,6 +61,14 @@ def test_a_value_stands_in_the_text_and_in_its_step():
         assert [call["name"] for call in steps[1][3]] == ["GetGPSLocation"] and steps[0][3] == []
 
 
+def test_a_value_that_is_taken_back_is_another_one_and_stands_in_no_step():
+    for prompt, _parameters, [(_name, given, _filters, _calls)] in samples(
+        "KeepStation | Hold {~radius num} no {radius num}. => StationKeep radius", 10
+    ):
+        wrong, right = prompt.removeprefix("Hold ").rstrip(".").split(" no ")
+        assert wrong != right and list(given) == ["radius"]
+
+
 def test_a_slot_in_an_alternative_counts_only_when_it_was_chosen():
     seen = set()
     for prompt, _parameters, [(_name, given, _filters, _calls)] in samples(

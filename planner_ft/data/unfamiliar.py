@@ -9,7 +9,7 @@ from __future__ import annotations
 import functools
 import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -29,10 +29,13 @@ _ACCENTS: dict[str, str] = _TABLES["accents"]
 
 
 def with_unfamiliar_words(
-    record: dict[str, Any], vocabulary: Vocabulary, rng: Random
+    record: dict[str, Any], vocabulary: Vocabulary, rng: Random, *, own: bool = False
 ) -> dict[str, Any] | None:
-    """`record` with one or two words of its targets replaced everywhere; None without any."""
-    words = _shared_words(record, vocabulary)
+    """`record` with one or two words of its targets replaced everywhere; None without any.
+
+    Words are names, and things that the lists know; with `own` any, for a vehicle of its own.
+    """
+    words = _shared_words(record, vocabulary, own)
     if not words:
         return None
     rng.shuffle(words)
@@ -43,7 +46,7 @@ def with_unfamiliar_words(
         forms = {word + end: text + end for end in ("", "s")}
         forms |= {form[0].upper() + form[1:]: o[0].upper() + o[1:] for form, o in forms.items()}
         pattern = re.compile(rf"(?<!\w)({'|'.join(map(re.escape, forms))})(?!\w)")
-        changed = _replaced(changed, pattern, forms)
+        changed = replaced(changed, pattern, _by(forms))
     return changed
 
 
@@ -75,6 +78,10 @@ def _noun(rng: Random) -> str:
     return _accented(word, rng) if rng.random() < 0.25 else word
 
 
+def _by(forms: dict[str, str]) -> Callable[[re.Match[str]], str]:
+    return lambda match: forms[match[0]]
+
+
 def _accented(word: str, rng: Random) -> str:
     """`word` with one or two letters, not the first, that English does not have."""
     letters = list(word)
@@ -90,13 +97,13 @@ def _things() -> tuple[str, ...]:
     return tuple(word for word in long if not word.startswith(_UNCLEAR))
 
 
-def _shared_words(record: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
+def _shared_words(record: dict[str, Any], vocabulary: Vocabulary, own: bool) -> list[str]:
     """Things and names in the plan's parameters that the prompt has too, in the plan's order."""
     meant, things = _vocabulary_words(vocabulary), frozenset(_things())
     prompt = set(_WORD.findall(record["prompt"]))
     found = dict.fromkeys(w for text in _texts(record["expected"]) for w in _WORD.findall(text))
     shared = [word for word in found if word in prompt and word.lower() not in meant]
-    return [w for w in shared if w in things or (w[0].isupper() and not w.isupper())]
+    return [w for w in shared if own or w in things or (w[0].isupper() and not w.isupper())]
 
 
 @functools.cache
@@ -124,10 +131,10 @@ def _strings(value: Any) -> Iterator[str]:
             yield from _strings(item)
 
 
-def _replaced(value: Any, pattern: re.Pattern[str], forms: dict[str, str]) -> Any:
-    """`value` with its strings' words replaced; names of tasks and skills have no such word."""
+def replaced(value: Any, pattern: re.Pattern[str], new: Callable[[re.Match[str]], str]) -> Any:
+    """`value` with what the pattern finds in its strings replaced; names of tasks have no such."""
     if isinstance(value, str):
-        return pattern.sub(lambda match: forms[match[0]], value)
+        return pattern.sub(new, value)
     if isinstance(value, dict):
-        return {key: _replaced(item, pattern, forms) for key, item in value.items()}
-    return [_replaced(item, pattern, forms) for item in value] if isinstance(value, list) else value
+        return {key: replaced(item, pattern, new) for key, item in value.items()}
+    return [replaced(item, pattern, new) for item in value] if isinstance(value, list) else value

@@ -1,0 +1,146 @@
+"""Answers of a model in training to validation samples, scored: `train` shows them beside the
+loss.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from planner_ft.benchmark.catalogue import METRIC
+from planner_ft.benchmark.paired import Paired, paired
+from planner_ft.benchmark.samples import Sample
+from planner_ft.benchmark.scoring import score_sample
+from planner_ft.decoding.configurations import Limits
+from planner_ft.decoding.forward import SmallModel, small_model
+from planner_ft.decoding.generate import Generation, Method, Query, generate
+from planner_ft.decoding.passes import ModelDecoder
+from planner_ft.prompts import ends_of_answers, render_prompt
+from planner_ft.training.checkpoint import JUDGED, Answer, Run
+from planner_ft.training.model import SMALL_MODEL, autocast, evaluating
+from planner_ft.vocabulary.plans import without_working
+
+if TYPE_CHECKING:
+    from planner_ft.training.preflight import Prepared
+    from planner_ft.training.request import TrainRequest
+
+BATCH = 8
+ROOM = 1.5
+"""An answer that is this many times as long as the longest expected one is cut, and wrong."""
+
+
+class Judge:
+    """Free answers of the run's model to its first validation samples, with and without the
+    adapter.
+    """
+
+    def __init__(self, request: TrainRequest, prepared: Prepared, run: Run) -> None:
+        assert prepared.validation and prepared.tokenizer
+        self.request, self.run, self.tokenizer = request, run, prepared.tokenizer
+        count = request.settings.validation_answers
+        self.records = prepared.validation.records[:count]
+        longest = max(one.completion_length for one in prepared.validation.samples)
+        named = run.model.get_base_model().generation_config.eos_token_id
+        ends = tuple(ends_of_answers(self.tokenizer, named))
+        self.limits = Limits(ends, prepared.pad, int(ROOM * longest))
+
+    def answers(self, *, adapter: bool) -> list[Answer]:
+        """The scores of the answers; those of the base are prompted as a benchmark prompts it."""
+        model, level, vocabulary = self.run.model, self.request.level, self.request.vocabulary
+        told = not adapter and not self.request.candidate.knows(vocabulary)
+        queries = [
+            Query(
+                level,
+                record,
+                tuple(
+                    render_prompt(level, record, self.tokenizer, vocabulary, with_vocabulary=told)
+                ),
+            )
+            for record in self.records
+        ]
+        with evaluating(model):
+            decoder = small_form(model, adapter=adapter) if self.run.device.type == "cpu" else None
+            with contextlib.ExitStack() as stack:
+                if decoder is None:
+                    stack.enter_context(autocast(self.run.device, self.run.dtype))
+                    stack.enter_context(
+                        contextlib.nullcontext() if adapter else model.disable_adapter()
+                    )
+                found = generate(
+                    decoder or ModelDecoder(model, self.limits.pad_id),
+                    queries,
+                    self.limits,
+                    Method(),
+                    batch_size=BATCH,
+                )
+        return [
+            self._scored(record, answer) for record, answer in zip(self.records, found, strict=True)
+        ]
+
+    def _scored(self, record: dict[str, Any], answer: Generation) -> Answer:
+        ids = answer.ids[:-1] if answer.finish_reason == "stop" else answer.ids
+        text = self.tokenizer.decode(
+            list(ids), skip_special_tokens=False, clean_up_tokenization_spaces=False
+        )
+        sample = Sample(record["id"], str(record.get("family") or record["id"]), record)
+        output = {"output": without_working(str(text))[0]}
+        values = score_sample(self.request.level, sample, output, self.request.vocabulary).values
+        return {
+            "id": sample.id,
+            "family": sample.family,
+            **{name: float(values[name] or 0) for name in JUDGED},
+        }
+
+    def change(self, base: Sequence[Answer], best: Sequence[Answer]) -> str:
+        """What training changed, in a sentence, and where it is nothing, what to try next."""
+        seed, first = self.run.settings.seed, {one["id"]: [one] for one in base}
+        second = {one["id"]: [one] for one in best}
+        f1, exact = (paired(METRIC[name], first, second, seed) for name in ("f1", "exact_sequence"))
+        bounds = [(one.difference.low or 0, one.difference.high or 0) for one in (f1, exact)]
+        figures = f"F1 {_values(f1, 1)}, exact {_values(exact, 100)} %"
+        where = f"on {len(best)} validation samples"
+        if any(low > 0 for low, _high in bounds):
+            return f"better than the base {where}: {figures}"
+        worse = any(high < 0 for _low, high in bounds)
+        than = "worse than the base" if worse else "no better than the base"
+        return f"{than} {where}: {figures}; next: {self._lever()}"
+
+    def _lever(self) -> str:
+        state, settings = self.run.state, self.run.settings
+        losses = [entry["validation_loss"] for entry in state.history]
+        if losses and losses[-1] <= min(losses) and len(losses) > 1:
+            return f"more passes (--epochs {2 * settings.epochs}) or a higher --learning-rate"
+        lower = f"a lower --learning-rate (now {settings.learning_rate:g})"
+        more = "more samples: write some, or --vary 3" if not settings.vary else "more samples"
+        return f"{more}, or {lower}"
+
+
+def _values(pair: Paired, scale: int) -> str:
+    """Both values, and the difference with its interval."""
+    decimals = 2 if scale == 1 else 0
+    first, second = ((value or 0.0) * scale for value in (pair.first, pair.second))
+    low, high = ((value or 0.0) * scale for value in (pair.difference.low, pair.difference.high))
+    bounds = f"difference {low:+.{decimals}f} to {high:+.{decimals}f}"
+    return f"{first:.{decimals}f} to {second:.{decimals}f} ({bounds})"
+
+
+def small_form(model: Any, *, adapter: bool) -> SmallModel | None:
+    """The lean form of a small model in training, its adapter merged as `read_forms` merges it;
+    None for any other model.
+    """
+    base = model.get_base_model()
+    if base.num_parameters() >= SMALL_MODEL:
+        return None
+    stored = base.state_dict().items()
+    tensors = {name.replace(".base_layer", ""): v for name, v in stored if ".lora_" not in name}
+    if adapter:
+        for name, module in base.named_modules():
+            if hasattr(module, "lora_A"):
+                weight = tensors[f"{name}.weight"]
+                merged = weight.float() + module.get_delta_weight("default").float()
+                tensors[f"{name}.weight"] = merged.to(weight.dtype)
+    config = {
+        key: value for key, value in base.config.to_dict().items() if key != "quantization_config"
+    }
+    return small_model(config, tensors)

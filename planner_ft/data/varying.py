@@ -1,0 +1,149 @@
+"""Mission samples with other values: numbers, positions and things that command and plan share.
+
+A model that is trained on a hundred commands of a vehicle learns their values by heart. With other
+values in each copy of a command it learns to copy them. Numbers are found by `planner_ft.facts`,
+things by the plan's texts (`unfamiliar`), so this works for any vehicle.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from random import Random
+from typing import Any
+
+from planner_ft.data.numbers import in_words
+from planner_ft.data.unfamiliar import replaced, with_unfamiliar_words
+from planner_ft.facts.geometry import tidy
+from planner_ft.facts.numbers import Number, read_numbers
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import is_number, named_entries, plan_problems
+
+WORDS = 0.6
+"""Share of the copies with another thing or name, where there is one."""
+TRIES = 8
+_FIGURE = re.compile(r"[-−–]?\d+(?:\.\d+)?(?![\w:/.,]*\d)")
+_FIGURES = re.compile(r"(?<![\w.\-])-?\d+(?:\.\d+)?(?![\w:/]*\d)")
+Said = dict[float, float]
+
+
+def varied(record: dict[str, Any], vocabulary: Vocabulary, rng: Random) -> dict[str, Any] | None:
+    """A mission record with other values in prompt and plan alike; None where it has none."""
+    kept = {"prompt": record["prompt"], "expected": record["expected"]}
+    changed = _with_other_numbers(kept, vocabulary, rng) or kept
+    if rng.random() < WORDS:
+        changed = with_unfamiliar_words(changed, vocabulary, rng, own=True) or changed
+    if changed is kept or plan_problems("mission", changed["expected"], vocabulary, strict=True):
+        return None
+    return {**{key: record[key] for key in ("id", "family") if key in record}, **changed}
+
+
+def _with_other_numbers(
+    record: dict[str, Any], vocabulary: Vocabulary, rng: Random
+) -> dict[str, Any] | None:
+    """The record with every number of its prompt changed that is written plainly; None where the
+    plan has a number that comes from elsewhere, or no other one fits it.
+    """
+    prompt, expected = record["prompt"], record["expected"]
+    numbers = read_numbers(prompt)
+    own = {float(part) for place in (vocabulary.home, vocabulary.unresolved) for part in place}
+    for _ in range(TRIES if numbers else 0):
+        drawn: dict[float, float] = {}
+        said: Said = {}
+        pieces, end, clash = list[str](), 0, False
+        for number in numbers:
+            written = _written(prompt, number)
+            new = number.said
+            if written and number.said not in own:
+                new = drawn.setdefault(number.said, _drawn(number.said, written, rng))
+                text = in_words(int(new)) if written[0].isalpha() else str(tidy(new))
+                pieces += [prompt[end : number.start], text]
+                end = number.start + len(written)
+            for old, now in _values(number, new):
+                clash |= said.setdefault(old, now) != now
+        apart = len(set(drawn.values()) | own) == len(drawn) + len(own)
+        if clash or not apart or not drawn:
+            continue
+        if any(value not in said and value not in own for value in _numbers_of(expected)):
+            return None
+        changed = _changed(expected, said, own, drawn)
+        if not plan_problems("mission", changed, vocabulary, strict=True):
+            return {"prompt": "".join([*pieces, prompt[end:]]), "expected": changed}
+    return None
+
+
+def _written(prompt: str, number: Number) -> str:
+    """The figure or the word that says a number, without its unit; empty where it is put together
+    ("half an hour", "14:30").
+    """
+    if found := _FIGURE.match(prompt, number.start):
+        return (
+            found[0] if float(found[0].replace("−", "-").replace("–", "-")) == number.said else ""
+        )
+    if number.said != int(number.said) or not 2 <= number.said < 100:
+        return ""
+    word = in_words(int(number.said))
+    text = prompt[number.start : number.start + len(word)]
+    return text if text == word else ""
+
+
+def _drawn(said: float, written: str, rng: Random) -> float:
+    """Another number of about the same size, as round as the old one."""
+    if written[0].isalpha():
+        return rng.randrange(2, 13)
+    size, decimals = abs(said), len(written.partition(".")[2])
+    low, high = size / 2, 2 * size + (5 if size >= 1 and not decimals else 0)
+    new = round(rng.uniform(low, high), decimals)
+    if not decimals:
+        step = 5 if size % 5 == 0 and rng.random() < 0.6 else 1
+        new = max(step, step * round(new / step))
+    return -new if said < 0 else new
+
+
+def _values(number: Number, new: float) -> Iterator[tuple[float, float]]:
+    """What the number can be in the plan, before and now: as it is said, and in the base unit."""
+    yield number.said, new
+    if number.unit and number.factor not in (0.0, 1.0):
+        yield _rounded(number.value), _rounded(new * number.factor)
+
+
+def _rounded(value: float) -> float:
+    return round(value, 2)
+
+
+def _numbers_of(expected: dict[str, Any]) -> Iterator[float]:
+    ready = [parameters for _name, parameters in named_entries("mission", expected)]
+    values: list[Any] = [value for parameters in ready for value in parameters.values()]
+    while values:
+        value = values.pop()
+        if isinstance(value, list):
+            values += value
+        elif is_number(value):
+            yield value
+
+
+def _changed(expected: dict[str, Any], said: Said, own: set[float], drawn: Said) -> dict[str, Any]:
+    """The plan with its numbers changed, in parameters and texts."""
+
+    def changed(value: Any) -> Any:
+        if isinstance(value, dict):
+            return {key: changed(item) for key, item in value.items()}
+        if isinstance(value, list):
+            return [changed(item) for item in value]
+        return tidy(said.get(value, value)) if is_number(value) else value
+
+    def figure(match: re.Match[str]) -> str:
+        value = float(match[0])
+        return match[0] if value in own or value not in said else str(tidy(said[value]))
+
+    result = replaced(changed(expected), _FIGURES, figure)
+    whole = {old: new for old, new in drawn.items() if old == int(old) and 2 <= min(old, new) < 100}
+    words = {in_words(int(old)): in_words(int(new)) for old, new in whole.items() if new < 1000}
+    if words:
+        pattern = re.compile(rf"(?<![\w-])(?:{'|'.join(words)})(?![\w-])", re.IGNORECASE)
+        result = replaced(result, pattern, lambda match: _cased(match[0], words[match[0].lower()]))
+    return result  # type: ignore[no-any-return]
+
+
+def _cased(old: str, new: str) -> str:
+    return new[0].upper() + new[1:] if old[0].isupper() else new

@@ -1,0 +1,172 @@
+"""A vehicle of one's own: the files to start from, and what they lack for which command."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from planner_ft.data.curated import SPLITS, curated_folder
+from planner_ft.data.templates.checking import checked_templates
+from planner_ft.data.templates.records import template_files, templates
+from planner_ft.data.validation import validate_file
+from planner_ft.document.language import language
+from planner_ft.document.vehicle import load_vehicle
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import read_jsonl, read_text, write_text
+from planner_ft.vocabulary import Vocabulary, load_vocabulary
+from planner_ft.vocabulary.definition import BUNDLED, bundled_vocabularies
+from planner_ft.vocabulary.essentials import load_essentials
+from planner_ft.vocabulary.limits import load_limits
+from planner_ft.vocabulary.plans import plan_names
+
+SKELETON, EXAMPLE = BUNDLED / "skeleton", "my_vehicle"
+NAME = re.compile(r"[a-z][a-z0-9_]*")
+State = Literal["ready", "missing", "wrong"]
+SYNTHETIC = "gen-data --synthetic, train --augment"
+FILES: tuple[tuple[str, str, str, Callable[[Vocabulary], Any] | None], ...] = (
+    ("phrases", "gen-data --level task", "prompts use names and descriptions", None),
+    ("missions", SYNTHETIC, "there are no synthetic missions", None),
+    ("vehicle", "plan", "plan stops: give --vehicle FILE", lambda known: load_vehicle(None, known)),
+    ("essentials", "plan", "nothing is added to a task or asked", load_essentials),
+    ("ontology", "plan, review", "commands are checked less closely", language),
+    ("limits", "plan, review", "limits of a command are not checked", load_limits),
+    ("motion", "review, export", "there is no track, estimate or exported movement", None),
+    ("logic", "bench", "only places are checked when a plan is replayed", None),
+)
+"""Files beside a definition: the commands that read one, what is so without it, and what reads it
+where that is not done with the definition.
+"""
+
+
+@dataclass(frozen=True)
+class Part:
+    """A file of a vehicle, the commands that it serves, and how it is."""
+
+    file: str
+    serves: str
+    state: State
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.state:8} {self.file:28} {self.text} ({self.serves})"
+
+
+def new_vehicle(name: str, out: Path | None = None) -> list[Path]:
+    """Write the commented files of a vehicle, all or none, into `out`, by default a new folder NAME;
+    returns them. Raises PlannerError for a name or a folder that cannot be taken.
+    """
+    if not NAME.fullmatch(name) or name in bundled_vocabularies():
+        why = "a bundled vehicle has it" if NAME.fullmatch(name) else "a name has a-z, 0-9 and _"
+        raise PlannerError(f"{name}: {why}; take another one, such as my_rover")
+    folder = out or Path(name)
+    if folder.exists():
+        raise PlannerError(f"{folder} exists; give a new folder with --out")
+    staging = folder.with_name(f".{folder.name}.staging")
+    written = []
+    try:
+        for path in sorted(SKELETON.rglob("*.*")):
+            place = path.relative_to(SKELETON)
+            if place.parent == Path():
+                place = Path(f"{name}.{path.name}".replace(".definition.", "."))
+            text = read_text(path).replace(EXAMPLE, name)
+            write_text(
+                staging / place, text.replace(EXAMPLE.replace("_", " "), name.replace("_", " "))
+            )
+            written.append(folder / place)
+        staging.replace(folder)
+    except OSError as error:
+        raise PlannerError(f"--out {folder}: cannot be written ({error.strerror})") from None
+    finally:
+        shutil.rmtree(staging, ignore_errors=True)
+    return written
+
+
+def check_vehicle(source: str) -> list[Part]:
+    """Every file of a vehicle, with what is wrong or lacking. Raises PlannerError for a definition
+    that is not there.
+    """
+    try:
+        vocabulary = load_vocabulary(source)
+    except PlannerError as error:
+        if not Path(source).is_file():
+            raise
+        return [Part(Path(source).name, "every command", "wrong", str(error))]
+    path = vocabulary.path
+    assert path is not None
+    size = f"{len(vocabulary.tasks)} tasks, {len(vocabulary.skills)} skills"
+    return [
+        Part(path.name, "every command", "ready", size),
+        _mission_set(vocabulary),
+        _templates(vocabulary),
+        *_beside(vocabulary, path),
+    ]
+
+
+def _beside(vocabulary: Vocabulary, path: Path) -> Iterator[Part]:
+    for kind, serves, without, load in FILES:
+        file = path.with_suffix(f".{kind}.toml")
+        state: State = "ready" if file.is_file() else "missing"
+        text = "read" if file.is_file() else f"without it, {without}"
+        try:
+            vocabulary.beside(f".{kind}.toml")
+            if load and file.is_file():
+                load(vocabulary)
+        except PlannerError as error:
+            state, text = "wrong", str(error)
+        yield Part(file.name, serves, state, text)
+
+
+def _templates(vocabulary: Vocabulary) -> Part:
+    """The command and prompt templates, and the tasks that none asks for."""
+    file = f"{Path(vocabulary.source).stem}.commands.jsonl"
+    try:
+        checked = list(checked_templates(vocabulary))
+        problems = [str(error) for _template, _drawn, error in checked if error]
+        commands = [one for group in templates(vocabulary, "commands") for one in group]
+        asked = {step.call.name for one in commands for step in one.steps}
+    except PlannerError as error:
+        return Part(file, SYNTHETIC, "wrong", str(error))
+    if problems:
+        return Part(file, SYNTHETIC, "wrong", _first(problems))
+    if not template_files(vocabulary, "commands"):
+        return Part(file, SYNTHETIC, "missing", "without it, there are no synthetic missions")
+    prompts = sum(map(len, templates(vocabulary, "prompts")))
+    size = f"{len(commands)} command and {prompts} prompt templates"
+    return Part(file, SYNTHETIC, "ready", size + _unused(vocabulary, "no command asks for", asked))
+
+
+def _mission_set(vocabulary: Vocabulary) -> Part:
+    """The curated commands, and the tasks that are in none of them."""
+    folder = curated_folder(vocabulary) or vocabulary.data / "mission"
+    serves = "gen-data, train and bench --level mission"
+    paths = [folder / f"{split}.jsonl" for split in SPLITS]
+    absent = [path.name for path in paths if not path.is_file()]
+    if absent:
+        text = f"{', '.join(absent)}: commands with their plans, written by people"
+        return Part("mission/", serves, "missing", text)
+    try:
+        reports = [validate_file(path, vocabulary, "mission", complete=True) for path in paths]
+        problems = [str(problem) for report in reports for problem in report.problems]
+        if problems:
+            return Part("mission/", serves, "wrong", _first(problems))
+        records = [record for path in paths for record in read_jsonl(path)]
+    except PlannerError as error:
+        return Part("mission/", serves, "wrong", str(error))
+    found = Counter(name for one in records for name in plan_names("mission", one["expected"]))
+    text = f"{len(records)} commands" + _unused(vocabulary, "none has", found)
+    return Part("mission/", serves, "ready", text)
+
+
+def _unused(vocabulary: Vocabulary, words: str, used: Iterable[str]) -> str:
+    """The tasks beside those used; the transit follows from the rules."""
+    titles = [title for title in vocabulary.task if title not in {*used, vocabulary.transit}]
+    return f"; {words} {', '.join(titles)}" if titles else ""
+
+
+def _first(problems: list[str]) -> str:
+    return problems[0] + (f" (and {len(problems) - 1} more)" if len(problems) > 1 else "")
