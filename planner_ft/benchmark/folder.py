@@ -11,7 +11,7 @@ from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.tables import render_tables
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import (
-    check_writable,
+    make_folder,
     iterate_jsonl,
     read_json,
     write_json,
@@ -35,8 +35,7 @@ def check_folder(folder: Path, names: Sequence[str], hint: str) -> None:
     present = [name for name in names if (folder / name).exists()]
     if present:
         raise PlannerError(f"{folder / present[0]}: results are there already; {hint}")
-    check_writable(folder)
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder)
 
 
 def clear(folder: Path, names: Sequence[str] = ALL) -> None:

@@ -69,9 +69,20 @@ def check_writable(folder: Path) -> None:
     """Raise PlannerError when `folder` cannot be made or written: before the work, not after it."""
     existing = nearest_folder(folder)
     if not existing.is_dir():
-        raise PlannerError(f"--out {folder}: {existing} is no folder; give another --out")
+        raise PlannerError(f"--out {folder}: {existing} is a file; give a folder")
     if not os.access(existing, os.W_OK | os.X_OK):
         raise PlannerError(f"--out {folder}: {existing} cannot be written; give another --out")
+
+
+def make_folder(folder: Path) -> None:
+    """Make the folder if need be. Raises PlannerError when it cannot be made or written."""
+    check_writable(folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise PlannerError(
+            f"--out {folder}: cannot be made ({error.strerror}); give another --out"
+        ) from None
 
 
 @contextlib.contextmanager
