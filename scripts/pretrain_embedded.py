@@ -16,6 +16,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
+from planner_ft.pretraining.corpus import Mixture
 from planner_ft.pretraining.loop import PretrainSettings
 from planner_ft.support.files import write_json
 from planner_ft.support.manifest import source_commit
@@ -42,36 +43,35 @@ def tokenizer_of(work: Path, arguments: argparse.Namespace) -> Any:
     return PreTrainedTokenizerFast.from_pretrained(folder)
 
 
-def make_shard(job: tuple[Path, Path, int, int, float, int, float, float]) -> dict[str, int]:
+def make_shard(job: tuple[Path, Path, int, int, int, Mixture]) -> dict[str, int]:
     """Write one shard of the corpus (worker process)."""
     from transformers import PreTrainedTokenizerFast
 
     from planner_ft.pretraining.corpus import encode_shard
 
-    path, tokenizer, seed, count, share, longest, drill_share, unfamiliar_share = job
+    path, tokenizer, seed, count, longest, mixture = job
     return encode_shard(
         path,
         PreTrainedTokenizerFast.from_pretrained(tokenizer),
         load_vocabulary(),
         seed=seed,
         count=count,
-        mission_share=share,
+        mixture=mixture,
         longest=longest,
-        drill_share=drill_share,
-        unfamiliar_share=unfamiliar_share,
     )
 
 
 def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSettings) -> list[Path]:
     """The corpus as shard files, those that are missing written first."""
     paths = [work / "corpus" / f"shard-{index:03d}.npz" for index in range(arguments.shards)]
-    drawn = (
-        arguments.shard_samples,
+    mixture = Mixture(
         arguments.mission_share,
-        settings.longest,
         arguments.drill_share,
         arguments.unfamiliar_share,
+        arguments.vehicle_share,
+        arguments.vehicles,
     )
+    drawn = (arguments.shard_samples, settings.longest, mixture)
     jobs = [
         (path, work / "tokenizer", arguments.corpus_seed + index, *drawn)
         for index, path in enumerate(paths)
@@ -205,6 +205,18 @@ def main() -> None:
         type=float,
         default=0.0,
         help="samples whose targets go by words that the generators do not have",
+    )
+    parser.add_argument(
+        "--vehicles",
+        type=Path,
+        default=Path("data/vehicles"),
+        help="folder of other vehicles, NAME/NAME.toml with command templates beside it",
+    )
+    parser.add_argument(
+        "--vehicle-share",
+        type=float,
+        default=0.0,
+        help="missions of those vehicles among all missions",
     )
     parser.add_argument("--corpus-seed", type=int, default=1000)
     parser.add_argument("--tokenizer-samples", type=int, default=20_000)

@@ -11,8 +11,8 @@ from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.tables import render_tables
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import (
-    make_folder,
     iterate_jsonl,
+    make_folder,
     read_json,
     write_json,
     write_jsonl,

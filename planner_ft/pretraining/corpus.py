@@ -7,7 +7,7 @@ Only the training families of the generators are drawn: the curated mission set 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from random import Random
@@ -23,8 +23,9 @@ from planner_ft.data.task.working import working_of
 from planner_ft.data.unfamiliar import with_unfamiliar_words
 from planner_ft.prompts.render import render_sample
 from planner_ft.prompts.text import answer_text, user_text
+from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import atomic_writer
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level, without_working
 
 if TYPE_CHECKING:
@@ -66,40 +67,74 @@ class Rows:
     tokens: int
 
 
-def stream(
-    vocabulary: Vocabulary, seed: int, mission_share: float, unfamiliar_share: float = 0.0
-) -> Iterator[tuple[Level, dict[str, Any]]]:
-    """Endless mixed samples of both levels; some task inputs are those of synthetic missions.
+Drawn = tuple[Level, dict[str, Any], Vocabulary]
+"""A sample, and the vehicle that it is of."""
 
-    With a probability of `unfamiliar_share` a sample's target gets a name that the generators do
-    not know, where it has a word that can be changed.
+
+@dataclass(frozen=True)
+class Mixture:
+    """What the samples of a corpus are of, as shares of 0 to 1.
+
+    `missions` are mission samples among all, `vehicles` those of the vehicles in `folder` (a folder
+    with a definition and templates for each) among the missions. `unfamiliar` are samples of our
+    vehicle whose target gets a name that the generators do not know, where it has a word that can
+    be changed; `drills` come on top: sums alone, the beginnings of task answers, per sample.
     """
+
+    missions: float = 0.6
+    drills: float = 0.0
+    unfamiliar: float = 0.0
+    vehicles: float = 0.0
+    folder: Path | None = None
+
+
+def stream(vocabulary: Vocabulary, seed: int, mixture: Mixture) -> Iterator[Drawn]:
+    """Endless mixed samples of both levels; some task inputs are those of synthetic missions."""
     missions, tasks = (
         sample_missions(seed, None, vocabulary),
         sample_tasks(vocabulary, seed, None, "train"),
     )
     handed_down = mission_tasks(vocabulary, seed + HANDED_DOWN_SEED)
+    others = [
+        (one, sample_missions(seed, None, one))
+        for one in (vehicles_in(mixture.folder) if mixture.folder and mixture.vehicles else ())
+    ]
     draw, words = np.random.default_rng(seed), Random(f"{seed} unfamiliar")
+    vehicles = Random(f"{seed} vehicles")
     while True:
-        level: Level = "mission" if draw.random() < mission_share else "task"
+        level: Level = "mission" if draw.random() < mixture.missions else "task"
+        if others and level == "mission" and vehicles.random() < mixture.vehicles:
+            vehicle, samples = vehicles.choice(others)
+            yield level, next(samples), vehicle
+            continue
         source = missions
         if level == "task":
             source = handed_down if draw.random() < HANDED_DOWN else tasks
         record, changed = next(source), None
-        if words.random() < unfamiliar_share:
+        if words.random() < mixture.unfamiliar:
             changed = with_unfamiliar_words(record, vocabulary, words)
-        yield level, changed or record
+        yield level, changed or record, vocabulary
+
+
+def vehicles_in(folder: Path) -> Sequence[Vocabulary]:
+    """The vehicles FOLDER/NAME/NAME.toml, by name. Raises PlannerError for a wrong definition, or
+    where there are none.
+    """
+    paths = sorted(path for path in folder.glob("*") if path.is_dir())
+    if not paths:
+        raise PlannerError(f"{folder}: no vehicles; a vehicle is a folder NAME with NAME.toml")
+    return [load_vocabulary(path / f"{path.name}.toml") for path in paths]
 
 
 def tokenizer_texts(
     vocabulary: Vocabulary, seed: int, count: int, mission_share: float
 ) -> Iterator[str]:
     """Texts of `count` samples to train the tokenizer on: each input and each answer."""
-    samples = stream(vocabulary, seed, mission_share)
+    samples = stream(vocabulary, seed, Mixture(mission_share))
     for _ in range(count):
-        level, record = next(samples)
-        yield user_text(level, record, vocabulary)
-        yield answer_text(level, record, vocabulary)
+        level, record, vehicle = next(samples)
+        yield user_text(level, record, vehicle)
+        yield answer_text(level, record, vehicle)
 
 
 def encoded(
@@ -145,31 +180,29 @@ def encode_shard(
     *,
     seed: int,
     count: int,
-    mission_share: float,
+    mixture: Mixture,
     longest: int,
-    drill_share: float = 0.0,
-    unfamiliar_share: float = 0.0,
 ) -> dict[str, int]:
     """Write `count` tokenised samples as one .npz file; return counts.
 
     Samples over `longest` tokens are left out and counted. Of those with a working, some end behind
-    it (`CUT`); a drill follows each sample with a probability of `drill_share`, counted apart.
+    it (`CUT`); drills are counted apart.
     """
     draw = np.random.default_rng(seed)
     ids: list[NDArray[np.uint16]] = []
     prompts: list[int] = []
     left_out = drilled = 0
     practice = drills(tokenizer, vocabulary, seed=seed, longest=longest)
-    drawn = stream(vocabulary, seed, mission_share, unfamiliar_share)
-    for level, record in itertools.islice(drawn, count):
-        sample = encoded(tokenizer, vocabulary, level, record, longest)
+    drawn = stream(vocabulary, seed, mixture)
+    for level, record, vehicle in itertools.islice(drawn, count):
+        sample = encoded(tokenizer, vehicle, level, record, longest)
         if sample is None:
             left_out += 1
             continue
         kept = sample.worked if draw.random() < CUT else None
         ids.append(sample.ids[:kept].astype(np.uint16))
         prompts.append(sample.prompt)
-        if draw.random() < drill_share:
+        if draw.random() < mixture.drills:
             drill = next(practice)
             ids.append(drill.ids[: drill.worked].astype(np.uint16))
             prompts.append(drill.prompt)

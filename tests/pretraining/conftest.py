@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.pretraining.corpus import encode_shard, tokenizer_texts
+from planner_ft.pretraining.corpus import Mixture, encode_shard, tokenizer_texts
 from planner_ft.pretraining.tokenizer import train_tokenizer
 from planner_ft.vocabulary import load_vocabulary
 
@@ -37,7 +37,7 @@ def tokenizer() -> Any:
 def shard(tokenizer: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("corpus") / "shard.npz"
     counts = encode_shard(
-        path, tokenizer, VOCABULARY, seed=1, count=80, mission_share=0.5, longest=1024
+        path, tokenizer, VOCABULARY, seed=1, count=80, mixture=Mixture(0.5), longest=1024
     )
     assert counts["samples"] + counts["left_out"] == 80
     return path
