@@ -3,6 +3,7 @@
 import itertools
 import json
 import random
+import re
 from collections import Counter
 
 import jsonschema
@@ -78,12 +79,15 @@ def test_every_line_draws_commands_that_follow_the_label_rules(vehicle):
 
 @pytest.mark.parametrize("vehicle", VEHICLES, ids=lambda vehicle: vehicle.name)
 def test_records_are_of_the_schema_and_their_ids_of_their_file(vehicle):
-    check = jsonschema.Draft202012Validator(read_json("schemas/templates.schema.json"))
+    schema = read_json("schemas/templates.schema.json")
+    check = jsonschema.Draft202012Validator(schema)
+    ident = re.compile(schema["properties"]["id"]["pattern"])
     for kind in ("commands", "prompts"):
         seen = Counter()
         for path in template_files(vehicle, kind):
             for number, line in enumerate(path.read_text(encoding="utf-8").splitlines()):
                 record = json.loads(line)
+                assert ident.match(record["id"]), f"{path}: {record['id']}"
                 assert number % 9 or check.is_valid(record), f"{path}: {record['id']}"
                 if path.parent.name.endswith(kind):
                     assert record["id"].startswith(f"{path.stem}-")

@@ -2,14 +2,14 @@
 
 import { Dialog, Refusal } from "./dialog.js";
 import { count, same, shown } from "./format.js";
-import { html, useEffect, useRef, useState } from "./vendor.js";
+import { html, useLayoutEffect, useRef, useState } from "./vendor.js";
 
 export function NewCommand({ store, close }) {
   const { planner, busy, document } = store.plan;
   const [text, write] = useState("");
   const [refused, refuse] = useState(null);
   const field = useRef();
-  useEffect(() => field.current && field.current.focus(), []);
+  useLayoutEffect(() => field.current && field.current.focus(), []);
   const send = async (event) => {
     event.preventDefault();
     const sentence = await store.command(text);

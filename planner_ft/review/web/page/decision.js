@@ -2,7 +2,7 @@
 
 import { Dialog, Refusal } from "./dialog.js";
 import { count, when } from "./format.js";
-import { html, useEffect, useRef, useState } from "./vendor.js";
+import { html, useEffect, useLayoutEffect, useRef, useState } from "./vendor.js";
 
 function lacking(store, name) {
   const open = store.warnings.filter((warning) => !store.isAcknowledged(warning)).length;
@@ -48,7 +48,7 @@ function Reject({ store, name, setName, close }) {
   const [reason, write] = useState("");
   const [refused, refuse] = useState(null);
   const field = useRef();
-  useEffect(() => field.current.focus(), []);
+  useLayoutEffect(() => field.current.focus(), []);
   const send = async (event) => {
     event.preventDefault();
     const lack = !reason.trim() ? "your reason" : !name.trim() ? "your name" : null;

@@ -1,10 +1,11 @@
 // A modal dialog: the browser keeps the focus inside, Escape closes it, and the focus goes back to where it was.
 
-import { html, useEffect, useRef } from "./vendor.js";
+import { html, useLayoutEffect, useRef } from "./vendor.js";
 
 export function Dialog({ title, close, children, wide }) {
   const ref = useRef();
-  useEffect(() => {
+  // Before anything else happens: keys that are pressed right after a click belong to the dialog.
+  useLayoutEffect(() => {
     const before = document.activeElement;
     ref.current.showModal();
     return () => before && before.isConnected && before.focus();

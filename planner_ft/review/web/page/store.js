@@ -73,11 +73,11 @@ export class Store {
   /** Asks for a change of the plan shown. Returns null, or the sentence that says why it was refused. `label` names the change where it must be made again. */
   async change(path, body, label, { repeat = true, done = "" } = {}) {
     const asked = ++this.sent;
-    this.set({ changing: this.changing + 1 });
+    this.set({ changing: this.changing + 1, alert: null });
     try {
       const answer = await post(path, { revision: this.plan.revision, ...body });
       if (answer.document !== undefined) this.receive(answer, asked, "own");
-      this.set({ conflict: null, alert: null, notice: done });
+      this.set({ conflict: null, notice: done });
       return null;
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
@@ -140,10 +140,11 @@ export class Store {
 
   async ask(path, body, done) {
     const asked = ++this.sent;
+    this.set({ alert: null }); // now: agents may fail before the answer comes
     try {
       const answer = await post(path, body);
       if (answer.document !== undefined) this.receive(answer, asked, "own");
-      this.set({ alert: null, ...(done ? { notice: done } : {}) });
+      if (done) this.set({ notice: done });
       if (answer.document === undefined) this.refresh();
       return null;
     } catch (error) {

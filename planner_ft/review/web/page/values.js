@@ -2,7 +2,7 @@
 
 import { Refusal } from "./dialog.js";
 import { same, unitOf, withUnit } from "./format.js";
-import { html, useEffect, useRef, useState } from "./vendor.js";
+import { html, useLayoutEffect, useRef, useState } from "./vendor.js";
 
 const isUnresolved = (value, store) => same(value, store.plan.vocabulary.unresolved);
 
@@ -31,7 +31,7 @@ const HINTS = { position: "x, y in metres east and north of home", polygon: "one
 /** The field for one parameter. */
 export function Field({ parameter, value, id, onInput, onKeyDown, focus, describedby }) {
   const field = useRef();
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (!focus) return;
     field.current.focus();
     field.current.select();

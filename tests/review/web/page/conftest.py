@@ -142,8 +142,12 @@ class Agents:
 
     answers: queue.SimpleQueue[Any] = field(default_factory=queue.SimpleQueue)
 
-    def plan(self, command: str, _locations: Any, on_event: Callable[[Any], None]) -> Planned:
+    def plan(
+        self, command: str, _locations: Any, on_event: Callable[[Any], None], _origin: Any
+    ) -> Planned:
         tasks = self.answers.get(timeout=PATIENCE)
+        if isinstance(tasks, Exception):
+            raise tasks
         result = planned(command, tasks)
         on_event(
             TasksKnown(

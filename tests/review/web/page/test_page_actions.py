@@ -7,6 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from planner_ft.document import write_document
+from planner_ft.support.errors import PlannerError
 from tests.review.web.page.conftest import TASKS, Page, go, make_plan, step
 
 pytestmark = pytest.mark.browser
@@ -289,6 +290,36 @@ def test_a_new_command_is_watched_task_by_task_and_saved_beside_the_former(opene
         )
         >= 2
     )
+
+
+def test_agents_that_fail_before_the_command_is_answered_are_told(opened: Opened) -> None:
+    page = opened()
+    page.run(
+        """const real = window.fetch;
+      window.fetch = async (path, options) => { const answer = await real(path, options); if (path === '/api/plan') await new Promise((go) => { window.release = go; }); return answer; }"""
+    )
+    page.review.agents.answers.put(PlannerError("the agents are out of memory"))
+    page.press("New command")
+    page.keys("Go home slowly.")
+    page.press("Plan it")
+    page.says(".message.bad", "the agents are out of memory")
+    page.until("return Boolean(window.release)")
+    page.run("window.release()")
+    page.gone("dialog")
+    page.says(".message.bad", "the agents are out of memory")
+    page.gone(".progress")
+
+
+@pytest.mark.parametrize("button", ["New command", "Reject …"])
+def test_keys_right_after_a_click_belong_to_the_dialog(opened: Opened, button: str) -> None:
+    page = opened()
+    focused = page.run(
+        """[...document.querySelectorAll('button')].find((one) => one.textContent === arguments[0]).click();
+      return Promise.resolve().then(() => null).then(() =>
+        document.activeElement.closest('dialog') && document.activeElement.tagName)""",
+        button,
+    )
+    assert focused == "TEXTAREA"
 
 
 def test_another_plan_of_the_folder_is_opened(opened: Opened) -> None:
