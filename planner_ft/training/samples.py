@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 SHOWN = 5
 """Problems of one kind that are listed; the others are counted."""
+JOINED, PARTNERS = 0.4, 4
+"""Share of the varied copies that go on with another record, the first of so many that fits."""
 AUGMENT_SEED = 7_000_000
 """Far from the seeds of `gen-data`: no synthetic data set of a small seed has the same samples."""
 Record = dict[str, Any]
@@ -185,18 +187,23 @@ def with_variants(
     split: Split, level: Level, vocabulary: Vocabulary, seed: int, count: int
 ) -> Split:
     """The split with `count` copies of each record behind its own, with other values where it has
-    some. Raises PlannerError at task level.
+    some; a part of them goes on with another record. Raises PlannerError at task level.
     """
+    from planner_ft.data.joining import joined
     from planner_ft.data.varying import varied
 
     if level == "task":
         raise PlannerError("--vary is for the mission level; --augment makes samples of both")
-    drawn = (
-        (number, record, varied(record, vocabulary, Random(f"{seed} {number} {record['id']}")))
-        for number in range(1, count + 1)
-        for record in split.records
-    )
-    made = [{**new, "id": f"varied-{n}-{old['id']}"} for n, old, new in drawn if new]
+    made = []
+    for number in range(1, count + 1):
+        for record in split.records:
+            rng, longer = Random(f"{seed} {number} {record['id']}"), None
+            if rng.random() < JOINED:
+                others = rng.choices(split.records, k=PARTNERS)
+                tried = (joined(record, other, vocabulary, rng) for other in others)
+                longer = next(filter(None, tried), None)
+            if new := varied(longer or record, vocabulary, rng) or longer:
+                made.append({**new, "id": f"varied-{number}-{record['id']}"})
     return split.extended(made, "".join(compact_json(record) for record in made))
 
 
