@@ -69,13 +69,17 @@ class Waypoints:
 
     def following(self, before: Path) -> list[Point]:
         """The waypoints that may follow those `before`: the next one of a path that was begun, else
-        any that the facts give, but for the one where the vehicle is.
+        any that the facts give, but for the one where the vehicle is. Behind a path that is all of
+        its task follow only stated places, and a path anew: no further lane.
         """
         begun = self._begun(before)
         onward = dict.fromkeys(path[done] for path, done in begun if done < len(path))
         complete = any(done == len(path) for path, done in begun)
         if onward and not complete and begun[0][1] >= self.begun:
             return list(onward)
+        if complete and self.whole:
+            anew = dict.fromkeys((*self.places, *self._starts))
+            return [point for point in anew if point not in before[-1:]]
         away = (
             g.offset(base, bearing, length)
             for base in dict.fromkeys((*before[-1:], *self.places))

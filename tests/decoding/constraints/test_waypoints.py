@@ -49,6 +49,13 @@ def test_a_grid_of_stated_size_is_done_at_its_end_alone() -> None:
     assert not part.unfinished(lanes[:6])
 
 
+def test_behind_a_whole_grid_no_further_lane_follows() -> None:
+    facts = waypoints("BathymetryGridSurvey", "Survey it, 5 m lanes, then stop at (3, 4).", **GRID)
+    lanes = tuple(g.lawnmower((0, 0), 20, 20, 5))
+    corners = {(-10, -10), (-10, 10), (10, -10), (10, 10)}
+    assert set(facts.following(lanes)) == {(0, 0), (3, 4), *corners} - {lanes[-1]}
+
+
 def test_a_limit_of_the_mission_leaves_a_grid_of_stated_size_as_it_is() -> None:
     limits = "Keep at least 70 m from the platform at [100, 100]. Go no faster than 1.5 m/s."
     facts = waypoints("BathymetryGridSurvey", f"Survey the depths around [0, 0]. {limits}", **GRID)
