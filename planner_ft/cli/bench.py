@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from planner_ft.cli.options import command, given, typed
 from planner_ft.cli.progress import interruptible, resume_command, status
+from planner_ft.support.alone import alone
 from planner_ft.support.errors import IncompleteError, PlannerError
-from planner_ft.support.files import alone
 from planner_ft.support.terminal import show, terminal
 
 if TYPE_CHECKING:

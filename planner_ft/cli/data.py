@@ -9,8 +9,8 @@ import typer
 
 from planner_ft.cli.options import command
 from planner_ft.cli.progress import interruptible
+from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import alone
 from planner_ft.support.terminal import show, terminal
 
 

@@ -9,7 +9,6 @@ import typer
 
 from planner_ft.cli.options import command, typed
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import alone
 from planner_ft.support.terminal import show
 
 PLAN_FLAGS = ("format", "origin", "log", "draft")
@@ -92,8 +91,7 @@ def _export_plan(plan: Path, formats: tuple[str, ...], origin: str | None, *sett
 def _export_model(settings: Any) -> None:
     from planner_ft.model_export.run import export as run_export
 
-    with alone(settings.out, "--out", "an export"):
-        done = run_export(settings, lambda line: show(line, error=True))
+    done = run_export(settings, lambda line: show(line, error=True))
     check = done.check
     same = f"{check.same} of {check.count} answers as before"
     most = f"logits differ by at most {check.largest_logit_difference:.2g}"

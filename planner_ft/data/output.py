@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import json
-import os
-import shutil
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, sha256_file, sha256_text, write_json, write_text
 
@@ -93,23 +92,19 @@ def _write(folder: DataFolder, texts: dict[str, str]) -> None:
     """Stage all files beside the target, then move them in: a full disk leaves the target as it
     was.
     """
-    staging = folder.folder.parent / f".{folder.folder.name}.{os.getpid()}.staging"
+    names = [*(name for name in texts if name != MANIFEST), MANIFEST]
     try:
-        for name, text in texts.items():
-            if name != MANIFEST:
-                write_text(staging / name, text)
-        write_json(staging / MANIFEST, {**folder.manifest, "outputs": _digests(folder, texts)})
-        for name in (*(name for name in texts if name != MANIFEST), MANIFEST):
-            (folder.folder / name).parent.mkdir(parents=True, exist_ok=True)
-            (staging / name).replace(folder.folder / name)
+        with alone(folder.folder, "--out", "gen-data"), staging(folder.folder) as staged:
+            for name in names[:-1]:
+                write_text(staged / name, texts[name])
+            write_json(staged / MANIFEST, {**folder.manifest, "outputs": _digests(folder, texts)})
+            for name in names:
+                (folder.folder / name).parent.mkdir(parents=True, exist_ok=True)
+                (staged / name).replace(folder.folder / name)
     except OSError as error:
         raise PlannerError(
             f"{folder.folder}: cannot be written ({error.strerror or error}); choose another --out"
         ) from None
-    except PlannerError as error:
-        raise PlannerError(str(error).replace(str(staging), str(folder.folder))) from None
-    finally:
-        shutil.rmtree(staging, ignore_errors=True)
 
 
 def _digests(folder: DataFolder, texts: dict[str, str]) -> dict[str, str]:

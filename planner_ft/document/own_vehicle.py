@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ from planner_ft.data.templates.records import template_files, templates
 from planner_ft.data.validation import validate_file
 from planner_ft.document.language import language
 from planner_ft.document.vehicle import load_vehicle
+from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl, read_text, write_text
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
@@ -66,23 +66,19 @@ def new_vehicle(name: str, out: Path | None = None) -> list[Path]:
     folder = out or Path(name)
     if folder.exists():
         raise PlannerError(f"{folder} exists; give a new folder with --out")
-    staging = folder.with_name(f".{folder.name}.staging")
-    written = []
+    spaced, written = EXAMPLE.replace("_", " "), []
     try:
-        for path in sorted(SKELETON.rglob("*.*")):
-            place = path.relative_to(SKELETON)
-            if place.parent == Path():
-                place = Path(f"{name}.{path.name}".replace(".definition.", "."))
-            text = read_text(path).replace(EXAMPLE, name)
-            write_text(
-                staging / place, text.replace(EXAMPLE.replace("_", " "), name.replace("_", " "))
-            )
-            written.append(folder / place)
-        staging.replace(folder)
+        with alone(folder, "--out", "vehicle new"), staging(folder) as staged:
+            for path in sorted(SKELETON.rglob("*.*")):
+                place = path.relative_to(SKELETON)
+                if place.parent == Path():
+                    place = Path(f"{name}.{path.name}".replace(".definition.", "."))
+                text = read_text(path).replace(EXAMPLE, name)
+                write_text(staged / place, text.replace(spaced, name.replace("_", " ")))
+                written.append(folder / place)
+            staged.replace(folder)
     except OSError as error:
         raise PlannerError(f"--out {folder}: cannot be written ({error.strerror})") from None
-    finally:
-        shutil.rmtree(staging, ignore_errors=True)
     return written
 
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import secrets
-import shutil
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -20,6 +18,7 @@ from planner_ft.model_export.gguf_tokens import check_ids, token_table
 from planner_ft.model_export.merge import load_full, merged, save_full
 from planner_ft.model_export.settings import ExportSettings
 from planner_ft.prompts.text import prompt_messages
+from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, sha256_file, sha256_tree, write_json, write_text
 from planner_ft.support.manifest import build_manifest
@@ -46,23 +45,21 @@ def export(settings: ExportSettings, say: Say = lambda _line: None) -> Exported:
     """Write a candidate, with its adapter folded in, as a model folder and a GGUF file; nothing is
     written when its answers change. Raises PlannerError.
     """
-    work = _Work(settings, say)
     out = settings.out.resolve()
-    temporary = out.with_name(f".{out.name}.{secrets.token_hex(4)}.tmp")
-    try:
-        temporary.mkdir(parents=True)
-        check = work.write_model(temporary)
-        gguf = work.write_gguf(temporary) if settings.gguf else None
-        work.write_record(temporary, check, gguf)
-        if out.exists():  # an earlier export is removed only now
-            shutil.rmtree(out)
-        temporary.replace(out)
-    except OSError as error:
-        why = f"cannot be written ({error.strerror or error})"
-        way = "choose another folder or free some space"
-        raise PlannerError(f"{settings.out}: {why}; {way}") from error
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
+    with alone(settings.out, "--out", "an export"):
+        work = _Work(settings, say)
+        try:
+            with staging(out) as staged, staging(out) as former:
+                check = work.write_model(staged)
+                gguf = work.write_gguf(staged) if settings.gguf else None
+                work.write_record(staged, check, gguf)
+                if out.exists():  # an earlier export is removed only now
+                    out.replace(former / out.name)
+                staged.replace(out)
+        except OSError as error:
+            why = f"cannot be written ({error.strerror or error})"
+            way = "choose another folder or free some space"
+            raise PlannerError(f"{settings.out}: {why}; {way}") from error
     return Exported(settings.out, settings.out / gguf["file"] if gguf else None, check)
 
 

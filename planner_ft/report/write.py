@@ -37,7 +37,7 @@ def write_report(
     """
     if pictures not in PICTURES:
         raise PlannerError(f"--pictures {pictures}: must be all, overall or none")
-    if out.exists() and not out.is_dir():
+    if out not in runs and out.exists() and not out.is_dir():
         raise PlannerError(f"--out {out}: is a file; give a folder")
     if (out / PAGE).exists() and not overwrite:
         way = "give --overwrite or another --out"

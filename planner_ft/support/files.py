@@ -85,42 +85,6 @@ def make_folder(folder: Path) -> None:
         ) from None
 
 
-@contextlib.contextmanager
-def alone(folder: Path | None, flag: str, work: str) -> Iterator[None]:
-    """Refuse a second `work` ("a training") in `folder`, if any, beside the block.
-
-    The lock lies beside the folder, and a dead process holds none. Raises PlannerError.
-    """
-    if folder is None:
-        yield
-        return
-    from filelock import FileLock, Timeout  # 40 ms
-
-    folder, existing = folder.absolute(), nearest_folder(folder)
-    lock = FileLock(folder.parent / f".{folder.name}.lock")
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        lock.acquire(blocking=False)
-    except Timeout:
-        way_out = "wait for its end, or give another folder"
-        raise PlannerError(f"{flag} {folder}: {work} runs there; {way_out}") from None
-    except OSError:
-        pass  # whoever writes into the folder says why that cannot be done
-    try:
-        yield
-    finally:
-        with contextlib.suppress(OSError):
-            if lock.is_locked:
-                Path(lock.lock_file).unlink()
-        lock.release()
-        with contextlib.suppress(OSError):  # work that was refused leaves no empty folders
-            for empty in (folder, *folder.parents):
-                if empty == existing:
-                    break
-                if empty.exists():
-                    empty.rmdir()
-
-
 def write_text(path: Path | str, text: str) -> None:
     """Write `text` to `path` atomically."""
     with atomic_writer(path) as stream:

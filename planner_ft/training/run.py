@@ -11,8 +11,8 @@ import torch
 
 from planner_ft.candidates.loading import compute_dtype, load_model, load_tokenizer
 from planner_ft.candidates.location import weights_sha256
+from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import alone
 from planner_ft.support.terminal import show
 from planner_ft.training.checkpoint import Judging, Run, load_newest_checkpoint
 from planner_ft.training.loop import InterruptedRunError, train_loop

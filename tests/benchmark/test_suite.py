@@ -24,8 +24,8 @@ from planner_ft.benchmark.suite.run import combine, run_suite
 from planner_ft.benchmark.suite.session import State, opened
 from planner_ft.benchmark.suite.units import Process
 from planner_ft.cli.bench import bench
+from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import alone
 
 FIRST, SECOND = "Llama-3.2-1B", "Qwen2.5-3B"
 RIGHT = json.dumps(

@@ -300,7 +300,7 @@ def test_a_folder_that_cannot_be_written_is_named_before_the_work(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "file").write_text("")
-    with pytest.raises(PlannerError, match=r"--out file/data: .*file is no folder"):
+    with pytest.raises(PlannerError, match=r"--out file/data: .*file is a file; give a folder"):
         generate(GenerationSettings(out=Path("file") / "data"))
     monkeypatch.setattr(os, "access", lambda *_arguments: False)
     with pytest.raises(PlannerError, match=r"--out .*data: .* cannot be written"):

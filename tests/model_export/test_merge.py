@@ -177,3 +177,13 @@ def test_mistakes_are_one_sentence(
         main()
     said = capsys.readouterr().err
     assert ended.value.code == 2 and message in said and said.count("\n") == 1
+
+
+def test_the_next_export_removes_what_a_killed_one_left(
+    exported: Callable[..., Exported], tmp_path: Path
+) -> None:
+    left = tmp_path / ".out.1.00ff00.tmp"
+    left.mkdir()
+    (left / "model.safetensors").write_bytes(b"half")
+    done = exported(out=tmp_path / "out")
+    assert list(tmp_path.iterdir()) == [done.folder]

@@ -144,3 +144,13 @@ def test_new_results_remove_the_report_of_former_ones(run: Path, data: Path) -> 
         ),
     )
     assert not (run / "report.html").exists()
+
+
+def test_a_file_is_blamed_where_it_was_given(run: Path, tmp_path: Path) -> None:
+    file = run / "results.json"
+    for arguments, said in (
+        ([str(file)], f"{file}: no results.json in it"),
+        ([str(run), "--out", str(file)], f"--out {file}: is a file"),
+    ):
+        result = CliRunner().invoke(app, ["report", *arguments], standalone_mode=False)
+        assert str(result.exception).startswith(said)

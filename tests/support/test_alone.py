@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import json
+import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
 from planner_ft.cli import main
+from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import alone
 
 
 def test_a_second_one_is_refused_and_leaves_nothing(tmp_path: Path) -> None:
@@ -63,3 +64,43 @@ def test_every_long_command_leaves_a_running_ones_files_alone(
     assert stop.value.code == 2
     assert "runs there; wait for its end" in capsys.readouterr().err
     assert {path.name: path.read_text() for path in out.iterdir()} == kinds
+
+
+def test_the_next_one_removes_what_a_killed_one_was_staging(tmp_path: Path) -> None:
+    """`out` and `out.2` are two folders, and a file that merely looks alike is a user's."""
+    script = (
+        "import os, sys; from pathlib import Path; from planner_ft.support.alone import alone,"
+        " staging\n"
+        "held = []\n"
+        "for name in ('out', 'out.2'):\n"
+        "    folder = Path(sys.argv[1], name)\n"
+        "    held += [alone(folder, '--out', 'x'), staging(folder)]\n"
+        "    held[-2].__enter__(); (held[-1].__enter__() / 'half').write_text('h')\n"
+        "os.kill(os.getpid(), 9)"
+    )
+    subprocess.run([sys.executable, "-c", script, str(tmp_path)], check=False)
+    (tmp_path / ".out.notes.tmp").mkdir()
+    left = {path.name for path in tmp_path.glob(".*.tmp")}
+    assert len(left) == 3
+    with alone(tmp_path / "out", "--out", "x"), staging(tmp_path / "out") as staged:
+        kept = {path.name for path in tmp_path.glob(".*.tmp")} - {staged.name}
+    assert sorted(".".join(name.split(".")[:3]) for name in kept) == [".out.2", ".out.notes"]
+    assert not staged.exists()
+
+
+def test_a_link_to_a_folder_is_that_folder(tmp_path: Path) -> None:
+    (tmp_path / "real").mkdir()
+    (tmp_path / "link").symlink_to("real")
+    with (
+        alone(tmp_path / "real", "--out", "x"),
+        pytest.raises(PlannerError, match="link: x runs there"),
+        alone(tmp_path / "link", "--out", "x"),
+    ):
+        pass
+
+
+def test_errors_name_a_staged_file_as_it_is_to_be_called(tmp_path: Path) -> None:
+    with pytest.raises(PlannerError) as caught, staging(tmp_path / "out") as staged:
+        raise PlannerError(f"{staged / 'a.json'}: cannot be written")
+    assert str(caught.value) == f"{tmp_path / 'out' / 'a.json'}: cannot be written"
+    assert list(tmp_path.iterdir()) == []

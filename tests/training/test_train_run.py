@@ -16,8 +16,8 @@ import pytest
 import torch
 from safetensors.torch import load_file
 
+from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import alone
 from planner_ft.training import checkpoint, loop
 from planner_ft.training.loop import InterruptedRunError
 from planner_ft.training.model import adapter_tensors

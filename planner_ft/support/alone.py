@@ -1,0 +1,77 @@
+"""One process at a time in an output folder, and nothing left of those that were killed."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import secrets
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import nearest_folder
+
+
+@contextlib.contextmanager
+def alone(folder: Path | None, flag: str, work: str) -> Iterator[None]:
+    """Refuse a second `work` ("a training") in `folder`, if any, beside the block.
+
+    The lock lies beside the folder, and a dead process holds none; what dead ones were `staging`
+    is removed. Raises PlannerError.
+    """
+    if folder is None:
+        yield
+        return
+    from filelock import FileLock, Timeout  # 40 ms
+
+    given, folder = folder, Path(os.path.realpath(folder))
+    existing = nearest_folder(folder)
+    lock = FileLock(folder.parent / f".{folder.name}.lock")
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        lock.acquire(blocking=False)
+        _remove_staged(folder)
+    except Timeout:
+        way_out = "wait for its end, or give another folder"
+        raise PlannerError(f"{flag} {given}: {work} runs there; {way_out}") from None
+    except OSError:
+        pass  # whoever writes into the folder says why that cannot be done
+    try:
+        yield
+    finally:
+        with contextlib.suppress(OSError):
+            if lock.is_locked:
+                Path(lock.lock_file).unlink()
+        lock.release()
+        with contextlib.suppress(OSError):  # work that was refused leaves no empty folders
+            for empty in (folder, *folder.parents):
+                if empty == existing:
+                    break
+                if empty.exists():
+                    empty.rmdir()
+
+
+@contextlib.contextmanager
+def staging(folder: Path) -> Iterator[Path]:
+    """A new folder beside `folder`, on the same disk, to be filled and moved into its place.
+
+    Errors of the block name files as they are to be called.
+    """
+    staged = folder.with_name(f".{folder.name}.{os.getpid()}.{secrets.token_hex(3)}.tmp")
+    try:
+        staged.mkdir(parents=True)
+        yield staged
+    except PlannerError as error:
+        raise PlannerError(str(error).replace(str(staged), str(folder))) from error
+    finally:
+        shutil.rmtree(staged, ignore_errors=True)
+
+
+def _remove_staged(folder: Path) -> None:
+    """Only for who is alone in the folder: nobody alive is staging it."""
+    staged = re.compile(rf"\.{re.escape(folder.name)}\.[0-9]+\.[0-9a-f]{{6}}\.tmp")
+    for path in folder.parent.iterdir():
+        if staged.fullmatch(path.name):
+            shutil.rmtree(path, ignore_errors=True)
