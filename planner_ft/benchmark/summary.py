@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter, defaultdict
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from planner_ft.benchmark.catalogue import METRIC, Metric
@@ -23,13 +23,11 @@ Term = tuple[float, float, str]
 """Numerator, denominator and family."""
 
 
-def summarise(scores: Scores, seed: int) -> dict[str, Estimate]:
-    """Every metric over the scored samples, 95 %, families counted as such: Wilson intervals for
+def summarise(scores: Scores, seed: int, names: Iterable[str] = METRIC) -> dict[str, Estimate]:
+    """Every metric, or those named, over the scored samples, 95 %, families counted as such: Wilson intervals for
     rates, bootstrap for the others.
     """
-    return {
-        name: _estimate(metric, _terms(metric, scores), seed) for name, metric in METRIC.items()
-    }
+    return {name: _estimate(METRIC[name], _terms(METRIC[name], scores), seed) for name in names}
 
 
 def failure_counts(scores: Scores) -> dict[str, int]:

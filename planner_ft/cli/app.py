@@ -9,6 +9,7 @@ import typer
 from planner_ft.cli.bench import bench, score
 from planner_ft.cli.candidates import candidates, doctor
 from planner_ft.cli.compare import compare, report
+from planner_ft.cli.curve import learning_curve
 from planner_ft.cli.data import gen_data, validate, vehicle, vocabulary
 from planner_ft.cli.export import export
 from planner_ft.cli.plan import plan
@@ -50,7 +51,7 @@ def options(version: Annotated[bool, VERSION] = False) -> None:
     """Options of every command."""
 
 
-MEASURING = (candidates, train, bench, score, compare, report)
+MEASURING = (candidates, train, bench, score, compare, learning_curve, report)
 for command in (
     plan,
     review,

@@ -17,14 +17,22 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 
-def _with_settings(function: Callable[..., None]) -> Callable[..., None]:
-    """An option for every training setting, so that flags, recipes and settings cannot differ."""
-    own, keyword = inspect.signature(function).parameters.values(), inspect.Parameter.KEYWORD_ONLY
-    settings = (
-        inspect.Parameter(name, keyword, default=None, annotation=_option(name)) for name in FIELDS
-    )
-    set_parameters(function, [*own, *settings])
-    return function
+def with_settings(*without: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """An option for every training setting `without` some, so that flags, recipes and settings
+    cannot differ.
+    """
+
+    def decorate(function: Callable[..., None]) -> Callable[..., None]:
+        own, kind = inspect.signature(function).parameters.values(), inspect.Parameter.KEYWORD_ONLY
+        settings = (
+            inspect.Parameter(name, kind, default=None, annotation=_option(name))
+            for name in FIELDS
+            if name not in without
+        )
+        set_parameters(function, [*own, *settings])
+        return function
+
+    return decorate
 
 
 def _option(name: str) -> Any:
@@ -42,7 +50,7 @@ def _option(name: str) -> Any:
     ]
 
 
-@_with_settings
+@with_settings()
 @command
 def train(
     level: str | None = None,

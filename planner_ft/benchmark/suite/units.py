@@ -119,7 +119,8 @@ def fingerprint(plan: Plan) -> dict[str, Any]:
 
 class Process:
     """The process of a running unit: the same command line, ended with its parent, its output kept
-    in a log. Leaving the `with` block ends it if it has not ended itself.
+    in a log. Leaving the `with` block ends it if it has not ended itself. Ctrl-C reaches it as that
+    end alone.
     """
 
     def __init__(self, arguments: list[str], log: Path, processes: int = 1) -> None:
@@ -132,6 +133,7 @@ class Process:
                 stdout=stream,
                 stderr=subprocess.STDOUT,
                 preexec_fn=end_with_parent,
+                process_group=0,
             )
 
     def running(self) -> bool:

@@ -1,0 +1,1 @@
+"""`plannerft learning-curve`: what more training samples bring."""
