@@ -8,8 +8,8 @@ from typing import Any
 from planner_ft.cli.options import command, given
 from planner_ft.cli.progress import resume_command, status
 from planner_ft.cli.train import with_settings
+from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import alone
 from planner_ft.support.terminal import show
 
 NAMED = ("level", "candidate", "vocabulary", "data_dir")
