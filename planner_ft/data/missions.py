@@ -30,6 +30,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Parameter, Task, Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import MISSIONS
 from planner_ft.vocabulary.limits import load_limits
+from planner_ft.vocabulary.plans import value_problem
 
 FOREIGN = 0.03
 """Share of lengths and speeds in feet and knots."""
@@ -164,9 +165,12 @@ class MissionSampler:
             self.draws[key] = value_space(parameter, config, self.words), typical
         draw, (low, high) = self.draws[key]
         foreign = None
-        if parameter.unit in ("m", "m/s") and rng.random() < FOREIGN:
-            foreign = knots(rng) if parameter.unit == "m/s" else feet(rng, low, high)
-        return foreign or draw(rng)
+        measure = parameter.unit if parameter.type == "number" else None
+        if measure in ("m", "m/s") and rng.random() < FOREIGN:
+            foreign = knots(rng) if measure == "m/s" else feet(rng, low, high)
+        if foreign and value_problem(foreign.value, parameter) is None:
+            return foreign
+        return draw(rng)
 
 
 def _is_short(template: Template) -> bool:

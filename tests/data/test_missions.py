@@ -5,6 +5,8 @@ import json
 import random
 import re
 from collections import Counter
+from dataclasses import replace
+from pathlib import Path
 
 import jsonschema
 import pytest
@@ -16,7 +18,7 @@ from planner_ft.data.templates.render import plain
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
 from planner_ft.vocabulary import load_vocabulary
-from planner_ft.vocabulary.plans import plan_names, plan_problems
+from planner_ft.vocabulary.plans import plan_names, plan_problems, value_problem
 
 USV, DRONE = load_vocabulary(), load_vocabulary("inspection_drone")
 VEHICLES = [USV, DRONE]
@@ -305,3 +307,22 @@ def test_a_vehicle_without_templates_is_told_what_to_write(tmp_path):
     )
     with pytest.raises(PlannerError, match=r"write rover\.commands\.jsonl beside the definition"):
         next(sample_missions(0, 1, load_vocabulary(tmp_path / "rover.toml")))
+
+
+@pytest.mark.parametrize(
+    ("kind", "unit", "bounds"), [("polygon", "m", {}), ("number", "m/s", {"maximum": 1.0})]
+)
+def test_foreign_units_are_of_lengths_and_speeds_that_the_parameter_takes(kind, unit, bounds):
+    sampler, rng = MissionSampler(USV), random.Random(1)
+    parameter = replace(USV.tasks[1].parameters[0], name="x", type=kind, unit=unit, **bounds)
+    drawn = [sampler.value(USV.tasks[1], parameter, rng).value for _ in range(400)]
+    assert not [value for value in drawn if value_problem(value, parameter)]
+
+
+def test_invented_vehicles_draw_valid_missions():
+    folders = [path for path in sorted(Path("data/vehicles").iterdir()) if path.is_dir()]
+    assert len(folders) > 20
+    for folder in folders:
+        vehicle = load_vocabulary(folder / f"{folder.name}.toml")
+        for record in sample_missions(7, 12, vehicle):
+            assert plan_problems("mission", record["expected"], vehicle, strict=True) == []
