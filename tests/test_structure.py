@@ -32,7 +32,8 @@ ALLOWED = {package: set(ORDER[:place]) for place, package in enumerate(ORDER)} |
     "report": {*ORDER[: ORDER.index("planning") + 1], "benchmark"},
     "model_export": set(ORDER[: ORDER.index("decoding") + 1]),
     "pretraining": set(ORDER[: ORDER.index("training") + 1]),
-    "cli": {*ORDER, "benchmark", "report", "model_export", "pretraining"},
+    "simulation": {*ORDER, "benchmark"},
+    "cli": {*ORDER, "benchmark", "report", "model_export", "pretraining", "simulation"},
 }
 """What each package may import of the others."""
 

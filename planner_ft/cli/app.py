@@ -14,6 +14,7 @@ from planner_ft.cli.data import gen_data, validate, vehicle, vocabulary
 from planner_ft.cli.export import export
 from planner_ft.cli.plan import plan
 from planner_ft.cli.review import review, verify
+from planner_ft.cli.simulate import simulate
 from planner_ft.cli.train import train
 from planner_ft.support.terminal import show
 
@@ -56,6 +57,7 @@ for command in (
     plan,
     review,
     verify,
+    simulate,
     gen_data,
     validate,
     *MEASURING,

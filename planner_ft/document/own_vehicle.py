@@ -36,6 +36,12 @@ FILES: tuple[tuple[str, str, str, Callable[[Vocabulary], Any] | None], ...] = (
     ("ontology", "plan, review", "commands are checked less closely", language),
     ("limits", "plan, review", "limits of a command are not checked", load_limits),
     ("motion", "review, export", "there is no track, estimate or exported movement", None),
+    (
+        "simulation",
+        "simulate",
+        "figures are derived from the profile, skills measure nothing",
+        None,
+    ),
     ("logic", "bench", "only places are checked when a plan is replayed", None),
 )
 """Files beside a definition: the commands that read one, what is so without it, and what reads it

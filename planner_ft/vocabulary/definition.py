@@ -23,7 +23,8 @@ BUNDLED = Path(__file__).parent
 DEFAULT = "usv"
 PHRASES, VEHICLE, ONTOLOGY = ".phrases.toml", ".vehicle.toml", ".ontology.toml"
 MISSIONS, LIMITS, ESSENTIALS = ".missions.toml", ".limits.toml", ".essentials.toml"
-UNHASHED = (LOGIC, MOTION, VEHICLE, ONTOLOGY, MISSIONS, LIMITS, ESSENTIALS)
+SIMULATION = ".simulation.toml"
+UNHASHED = (LOGIC, MOTION, VEHICLE, ONTOLOGY, MISSIONS, LIMITS, ESSENTIALS, SIMULATION)
 """Files beside a definition that no prompt, schema or grammar, and so no adapter depends on."""
 
 

@@ -9,7 +9,7 @@ import pytest
 from planner_ft.document.own_vehicle import check_vehicle, new_vehicle
 from planner_ft.support.errors import PlannerError
 
-OPTIONAL = {"my_rover.phrases.toml", "my_rover.logic.toml"}
+OPTIONAL = {f"my_rover.{name}.toml" for name in ("phrases", "logic", "simulation")}
 
 
 @pytest.fixture

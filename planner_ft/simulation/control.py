@@ -1,0 +1,100 @@
+"""From commanded to actual motion: PID autopilot, and where the vehicle believes to be."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from planner_ft.simulation.fast import Bools, Floats, turned
+from planner_ft.simulation.vessel import Vessel
+
+FIX_SIGMA = 0.25
+"""Metres, of a GPS fix along each axis: ASSUMPTION, a receiver with corrections."""
+FIX_EVERY = 1.0
+"""Seconds between two fixes."""
+ALPHA, BETA = 0.25, 0.03
+"""Gains of the tracking filter for position and drift (Benedict and Bordner 1962)."""
+MOST_YAW = 0.7
+"""Share of the thrust that steering may take; going ahead has the rest."""
+
+
+class Pid:
+    """PID over a batch: error (B,) to output (B,). The integral is clamped to `most`, and emptied
+    where the error is not `small`.
+    """
+
+    def __init__(
+        self,
+        runs: int,
+        p: float,
+        i: float = 0.0,
+        d: float = 0.0,
+        most: float = 1.0,
+        small: float = np.inf,
+    ) -> None:
+        self.p, self.i, self.d, self.most, self.small = p, i, d, most, small
+        self.sum, self.last = np.zeros(runs), np.zeros(runs)
+
+    def __call__(self, error: Floats, seconds: float) -> Floats:
+        added = np.clip(self.sum + self.i * seconds * error, -self.most, self.most)
+        self.sum = np.where(np.abs(error) < self.small, added, 0.0)
+        slope, self.last = (error - self.last) / seconds, error
+        return self.p * error + self.sum + self.d * slope
+
+
+class Autopilot:
+    """Forces or thrusts that bring the vehicle to a commanded twist."""
+
+    def __init__(self, vessel: Vessel, runs: int) -> None:
+        self.vessel = vessel
+        self.speed = [Pid(runs, 1.5, 0.3, most=0.5, small=0.5) for _axis in range(3)]
+        self.rate = Pid(runs, 3.0, 1.0, most=0.3, small=0.2)
+
+    def __call__(self, command: Floats, twist: Floats, seconds: float, idle: Bools) -> Floats:
+        """Actuators of a simulator for commands and twists (B, 4); none for `idle` runs."""
+        own = self.vessel
+        drag = (own.drag[0], own.drag[1], own.drag[0])
+        ahead, aside, up = (
+            own.mass
+            * (drag[axis] * command[:, axis] + pid(command[:, axis] - twist[:, axis], seconds))
+            for axis, pid in enumerate(self.speed)
+        )
+        rate = self.rate(command[:, 3] - twist[:, 3], seconds)
+        moment = own.inertia * (own.drag[2] * command[:, 3] + rate)
+        if own.drive == "free":
+            limit = 2 * own.thrust
+            forces = [np.clip(force, -limit, limit) for force in (ahead, aside, up)]
+            made = np.stack([*forces, np.clip(moment, -limit, limit)], axis=1)
+        else:
+            steer = np.clip(moment / own.track, -MOST_YAW * own.thrust, MOST_YAW * own.thrust)
+            room = own.thrust - np.abs(steer)
+            drive = np.clip(ahead / 2, -room, room)
+            made = np.stack([drive - steer, drive + steer], axis=1)
+        return np.where(idle[:, None], 0.0, made)
+
+
+class Localiser:
+    """Position by GPS and dead reckoning; heading and speed through the water are measured.
+
+    `position` (B, 2) and the learnt `drift` (B, 2) of the water; `silent` (B,) are seconds since
+    the last fix, `fix` (B, 2) the last fix.
+    """
+
+    def __init__(self, place: Floats, generator: np.random.Generator) -> None:
+        self.position, self.drift = place.copy(), np.zeros_like(place)
+        self.fix, self.silent = place.copy(), np.zeros(len(place))
+        self.generator = generator
+
+    def step(
+        self, pose: Floats, twist: Floats, current: Floats, seconds: float, heard: bool, due: bool
+    ) -> None:
+        """Take one step; `heard`: the receiver works, `due`: a fix is due now."""
+        through = turned(twist[:, :2], pose[:, 3]) - current
+        self.position = self.position + seconds * (through + self.drift)
+        self.silent += seconds
+        if heard and due:
+            noise = self.generator.normal(0.0, FIX_SIGMA, self.position.shape)
+            self.fix = pose[:, :2] + noise
+            error = self.fix - self.position
+            self.position = self.position + ALPHA * error
+            self.drift = self.drift + BETA / FIX_EVERY * error
+            self.silent[:] = 0.0

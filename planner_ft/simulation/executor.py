@@ -1,0 +1,229 @@
+"""The executor: runs a plan's steps, each skill in closed loop, for all runs at once.
+
+Per step one movement runs with its filters and its perception and data skills, all at the same
+time. When its end condition holds, the others are switched off and the next step begins.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from planner_ft.simulation.fast import Bools, Runs
+from planner_ft.simulation.scene import Scene
+from planner_ft.simulation.skill import Job, Skill, make_skill
+
+RESERVE = 1.3
+"""How much more than the way home takes is kept of time and battery."""
+Outcome = Literal["running", "done", "returned", "stopped", "collision"]
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A step of the plan ready to run: its skills, its time-out in s, its failure modes."""
+
+    task: str
+    step: int
+    movement: Job
+    filters: tuple[Job, ...]
+    sensors: tuple[Job, ...]
+    patience: float
+    failures: tuple[str, ...]
+
+
+class Running:
+    """The skills of a stage, made when the first run comes to it."""
+
+    def __init__(self, stage: Stage, scene: Scene) -> None:
+        self.stage = stage
+        self.movement = make_skill(stage.movement, scene)
+        self.filters = [make_skill(job, scene) for job in stage.filters]
+        self.sensors = [make_skill(job, scene) for job in stage.sensors]
+
+    @property
+    def skills(self) -> list[Skill]:
+        return [self.movement, *self.filters, *self.sensors]
+
+    def start(self, runs: Runs) -> None:
+        for skill in self.skills:
+            skill.start(runs)
+
+    def step(self, runs: Runs, scene: Scene) -> None:
+        command = np.zeros((len(runs), 4))
+        for skill in self.skills:
+            command = skill.step(runs, command)
+        own = scene.vessel
+        fastest = np.maximum(1, np.linalg.norm(command[:, :2], axis=1) / own.speed)
+        command[:, :2] /= fastest[:, None]
+        command[:, 3] = np.clip(command[:, 3], -own.turn, own.turn)
+        scene.command[runs] = command
+
+    def done(self, runs: Runs) -> Bools:
+        done = self.movement.done(runs)
+        for sensor in self.sensors if self.movement.waits else ():
+            done = done & sensor.done(runs)
+        return done
+
+    def failures(self, runs: Runs) -> dict[int, tuple[str, str]]:
+        """(failure mode, sentence) of the runs in which a skill has failed or the step is late."""
+        found: dict[int, tuple[str, str]] = {}
+        for skill in self.skills:
+            for run in runs[skill.failed(runs)]:
+                found.setdefault(int(run), (skill.job.failure, skill.why))
+        late = runs[self.movement.elapsed(runs) > self.stage.patience]
+        for run in late:
+            waiting = self.sensors if self.movement.waits else []
+            silent = next((one for one in waiting if not one.done(np.array([run]))[0]), None)
+            mode, seconds = self.movement.job.failure, f"{self.stage.patience:.0f} s"
+            text = f"{silent.job.skill}: nothing found" if silent else self.movement.why
+            found.setdefault(int(run), (mode, f"{text} after {seconds}"))
+        return found
+
+    def stop(self, runs: Runs) -> None:
+        for skill in self.skills:
+            skill.stop(runs)
+
+
+class Executor:
+    """Carries out stages for all runs of a scene; the last stage is the way home, to which only a
+    failure leads.
+
+    `finished` is called with (stage, its skills, runs) when runs end a stage by its end condition,
+    `observed` after each time step with what ran, and which runs are active.
+    """
+
+    def __init__(
+        self,
+        stages: Sequence[Stage],
+        home: Stage,
+        scene: Scene,
+        finished: Callable[[Stage, Skill, Runs], None],
+        observed: Callable[[list[tuple[Running, Runs]], Bools], None],
+        most: float,
+    ) -> None:
+        self.stages, self.scene, self.most = [*stages, home], scene, most
+        self.finished, self.observed = finished, observed
+        self.at = np.zeros(scene.count, dtype=int)
+        self.outcome: list[Outcome] = ["running"] * scene.count
+        self.reason = [""] * scene.count
+        self.ended = np.zeros(scene.count)
+        """Steps that each run took."""
+        self.running: dict[int, Running] = {}
+
+    @property
+    def active(self) -> Bools:
+        return np.array([one == "running" for one in self.outcome])
+
+    def begin(self) -> None:
+        """Start every run on the first stage."""
+        self._enter(np.arange(self.scene.count), 0)
+
+    def step(self) -> bool:
+        """One time step of all runs; whether any still runs."""
+        active = self.active
+        if not active.any():
+            return False
+        groups = {int(at): np.flatnonzero(active & (self.at == at)) for at in set(self.at[active])}
+        for at, runs in groups.items():
+            self.running[at].step(runs, self.scene)
+        self.scene.advance(active)
+        self.observed([(self.running[at], runs) for at, runs in groups.items()], active)
+        for at, runs in groups.items():
+            self._judge(at, runs)
+        return True
+
+    def abort(self, runs: Runs, reason: str = "aborted") -> None:
+        """Stop runs at once."""
+        for run in runs:
+            if self.outcome[run] == "running":
+                self._end(int(run), "stopped", reason)
+
+    def _judge(self, at: int, runs: Runs) -> None:
+        """End what is over: steps, and runs that cannot go on."""
+        scene, stage, running = self.scene, self.stages[at], self.running[at]
+        returning = at == len(self.stages) - 1
+        hit = scene.world.nearest(scene.pose[runs, :2]) < scene.vessel.radius
+        empty = scene.charge[runs] <= 0
+        for run in runs[hit]:
+            self._end(int(run), "collision", f"hit a structure during {stage.movement.skill}")
+        for run in runs[empty & ~hit]:
+            self._end(int(run), "stopped", "the battery is empty")
+        runs = runs[~hit & ~empty]
+        failures, done = running.failures(runs), running.done(runs)
+        short = {} if returning else self._short(runs)
+        for run, is_done in zip(runs.tolist(), done, strict=True):
+            if run in failures:
+                self._fail(run, at, *failures[run])
+            elif run in short and not is_done:
+                self._home(run, at, short[run])
+        here = (self.at[runs] == at) & self.active[runs]
+        still = runs[here]
+        over = still[done[here]]
+        if not len(over):
+            return
+        running.stop(over)
+        self.finished(stage, running.movement, over)
+        if returning:
+            for run in over:
+                self._end(int(run), "returned", self.reason[run])
+        elif at + 2 == len(self.stages):
+            for run in over:
+                self._end(int(run), "done", "")
+        else:
+            self._enter(over, at + 1)
+
+    def _short(self, runs: Runs) -> dict[int, str]:
+        """The runs that must turn back now: time or battery is only enough for the way home."""
+        scene = self.scene
+        away = np.linalg.norm(scene.position[runs] - np.array(scene.world.home), axis=1)
+        seconds = RESERVE * away / scene.vessel.cruise
+        late = scene.time + seconds > self.most
+        hotel = scene.vessel.hotel
+        draw = np.maximum(scene.energy[runs] / scene.time + hotel, scene.vessel.draw)
+        weak = scene.charge[runs] < seconds * draw * RESERVE
+        why = {int(run): "the time is nearly over" for run in runs[late]}
+        return why | {int(run): "the battery is low" for run in runs[weak & ~late]}
+
+    def _fail(self, run: int, at: int, mode: str, reason: str) -> None:
+        """Home where the step names the failure mode and the position is known; else stop."""
+        if at == len(self.stages) - 1:
+            end = f"{self.reason[run]}; on the way home: {reason}"
+        elif self.scene.lost[run]:
+            end = f"{reason}; without a GPS fix it cannot return"
+        elif mode in self.stages[at].failures:
+            self._home(run, at, reason)
+            return
+        else:
+            end = f"{reason}; no failure mode of the step says more"
+        self._leave(run, at)
+        self._end(run, "stopped", end)
+
+    def _home(self, run: int, at: int, reason: str) -> None:
+        self._leave(run, at)
+        self.reason[run] = reason
+        self.scene.note(run, "event", {"text": f"returns home: {reason}"})
+        self._enter(np.array([run]), len(self.stages) - 1)
+
+    def _leave(self, run: int, at: int) -> None:
+        self.running[at].stop(np.array([run]))
+
+    def _enter(self, runs: Runs, at: int) -> None:
+        if at not in self.running:
+            self.running[at] = Running(self.stages[at], self.scene)
+        self.at[runs] = at
+        self.running[at].start(runs)
+        stage = self.stages[at]
+        skills = [job.skill for job in (stage.movement, *stage.filters, *stage.sensors)]
+        for run in runs:
+            where = {"task": stage.task, "step": stage.step + 1, "skills": skills}
+            self.scene.note(int(run), "step", where)
+
+    def _end(self, run: int, outcome: Outcome, reason: str) -> None:
+        self.outcome[run], self.reason[run] = outcome, reason
+        self.ended[run] = self.scene.steps
+        self.scene.idle[run] = True
+        text = outcome + (f": {reason}" if reason else "")
+        self.scene.note(run, "end", {"text": text})

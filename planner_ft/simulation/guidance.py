@@ -1,0 +1,169 @@
+"""Line-of-sight guidance on paths: what all movements share, going somewhere, and the way home.
+
+Guidance steers the course over ground to a point ahead on the path (line of sight, Fossen 2021,
+chapter 12); the sideslip that wind and current cause is measured and taken off, which is what the
+integral of ILOS estimates.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from planner_ft.document.clearance import way_round
+from planner_ft.simulation.control import Pid
+from planner_ft.simulation.fast import Bools, Floats, Runs, turned, wrapped
+from planner_ft.simulation.scene import Scene
+from planner_ft.simulation.skill import Job, Skill
+
+AHEAD = 4.0
+"""Metres that guidance looks ahead on the path."""
+NEAR = 3.0
+"""Tolerances within which a planned way is joined; from farther off the way begins anew."""
+SLOW = 0.4
+"""m/s at the goal, and 1/s by which the speed may grow with the distance from it."""
+STILL = 0.05
+"""m/s or rad/s below which the vehicle rests."""
+HEADING = math.radians(3)
+"""Angular error of a reached heading."""
+
+
+class Steering:
+    """PID on an error of heading or course: rad to rad/s."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.pid, self.scene = Pid(scene.count, 0.9, 0.02, 0.1, most=0.05, small=0.2), scene
+        self.error = np.zeros(scene.count)
+
+    def __call__(self, runs: Runs, error: Floats) -> Floats:
+        self.error[:] = 0.0
+        self.error[runs] = error
+        most = self.scene.vessel.turn
+        return np.clip(self.pid(self.error, self.scene.seconds)[runs], -most, most)
+
+
+class Movement(Skill):
+    """What all movements share."""
+
+    def __init__(self, job: Job, scene: Scene) -> None:
+        super().__init__(job, scene)
+        self.steering = Steering(scene)
+        self.free = scene.vessel.drive == "free"
+
+    def failed(self, runs: Runs) -> Bools:
+        return self.scene.lost[runs]
+
+    def toward(self, runs: Runs, velocity: Floats) -> Floats:
+        """The command (n, 4) for a velocity over ground (n, 2) in the world's axes."""
+        command, yaw = np.zeros((len(runs), 4)), self.scene.yaw[runs]
+        speed = np.linalg.norm(velocity, axis=1)
+        body = turned(velocity, -yaw)
+        ahead, aside = self.scene.twist[runs, 0], self.scene.twist[runs, 1]
+        slip = np.where(ahead > 0.3, np.arctan2(aside, np.maximum(ahead, 0.3)), 0.0)
+        error = wrapped(np.arctan2(velocity[:, 1], velocity[:, 0]) - yaw - (not self.free) * slip)
+        command[:, 3] = self.steering(runs, np.where(speed > STILL, error, 0.0))
+        if self.free:
+            command[:, :2] = body
+        else:
+            command[:, 0] = speed * np.clip(np.cos(error), 0, 1) ** 2
+        return command
+
+
+class Follow(Movement):
+    """Along a path, with an altitude and a heading at its end where they are stated."""
+
+    def __init__(self, job: Job, scene: Scene) -> None:
+        super().__init__(job, scene)
+        points = job.points if len(job.points) > 1 else (*job.points, *job.points)
+        self.paths = np.tile(np.array(points, dtype=float), (scene.count, 1, 1))
+        self.leg = np.zeros(scene.count, dtype=int)
+        self.last = np.full(scene.count, len(points) - 2)
+        """The last leg of each run's path."""
+        self.there = np.zeros(scene.count, dtype=bool)
+        altitude, heading = job.value("altitude"), job.value("heading")
+        self.altitude = None if altitude is None else float(altitude)
+        self.heading = None if heading is None else math.radians(90 - float(heading))
+
+    def start(self, runs: Runs) -> None:
+        super().start(runs)
+        here, planned = self.scene.position[runs], self.paths[runs, 0]
+        near = np.linalg.norm(planned - here, axis=1) < NEAR * self.job.tolerance
+        self.paths[runs, 0] = np.where(near[:, None], planned, here)
+        self.leg[runs], self.there[runs] = 0, False
+
+    def step(self, runs: Runs, command: Floats) -> Floats:
+        here = self.scene.position[runs]
+        aim, left = self._aim(runs, here)
+        to = aim - here
+        away = np.linalg.norm(to, axis=1)
+        self.there[runs] |= left < self.job.tolerance
+        speed = np.minimum(self.job.speed, SLOW + SLOW * left)
+        made = self.toward(runs, to / np.maximum(away, 1e-6)[:, None] * speed[:, None])
+        arrived = self.there[runs]
+        made[arrived, :2] = 0.0
+        if self.heading is not None:
+            error = wrapped(self.heading - self.scene.yaw[runs])
+            made[arrived, 3] = self.steering(runs, error)[arrived]
+        if self.altitude is not None:
+            most = self.scene.vessel.speed / 4
+            made[:, 2] = np.clip(self.altitude - self.scene.pose[runs, 2], -most, most)
+        return made
+
+    def _aim(self, runs: Runs, here: Floats) -> tuple[Floats, Floats]:
+        """The points to steer to (n, 2), and how far (n,) the goals are."""
+        paths, legs, last = self.paths[runs], self.leg[runs], self.last[runs]
+        index = np.arange(len(runs))
+        start, end = paths[index, legs], paths[index, legs + 1]
+        way = end - start
+        length = np.maximum(np.linalg.norm(way, axis=1), 1e-6)
+        unit = way / length[:, None]
+        along = ((here - start) * unit).sum(axis=1)
+        near = np.linalg.norm(end - here, axis=1) < self.job.tolerance
+        passed = (legs < last) & ((along > length) | near)
+        self.leg[runs] += passed
+        goal = np.linalg.norm(paths[:, -1] - here, axis=1)
+        rest = np.where(legs < last, np.maximum(goal, AHEAD), goal)
+        return self._ahead(paths, legs, np.clip(along, 0, length) + AHEAD), rest
+
+    def _ahead(self, paths: Floats, legs: Runs, along: Floats) -> Floats:
+        """Points (n, 2) so many metres along the paths, counted from the start of a leg."""
+        lengths = np.linalg.norm(np.diff(paths, axis=1), axis=2)
+        ends = np.cumsum(lengths, axis=1)
+        index = np.arange(len(paths))
+        far = np.minimum(along + ends[index, legs] - lengths[index, legs], ends[:, -1])
+        leg = np.minimum((ends < far[:, None] - 1e-9).sum(axis=1), lengths.shape[1] - 1)
+        part = 1 - (ends[index, leg] - far) / np.maximum(lengths[index, leg], 1e-9)
+        start, end = paths[index, leg], paths[index, leg + 1]
+        return np.asarray(start + part[:, None] * (end - start), dtype=float)
+
+    def done(self, runs: Runs) -> Bools:
+        done = self.there[runs]
+        if self.heading is not None:
+            done &= np.abs(wrapped(self.heading - self.scene.yaw[runs])) < HEADING
+        if self.altitude is not None:
+            done &= np.abs(self.altitude - self.scene.pose[runs, 2]) < self.job.tolerance
+        return done
+
+    def errors(self, runs: Runs) -> dict[str, Floats]:
+        goal = self.paths[runs, -1]
+        return {"waypoint": np.linalg.norm(self.scene.pose[runs, :2] - goal, axis=1)}
+
+
+class Home(Follow):
+    """Home, round the structures of the plan; no part of a plan, but what it falls back to."""
+
+    def __init__(self, job: Job, scene: Scene) -> None:
+        super().__init__(job, scene)
+        self.longest = 24
+        self.paths = np.tile(np.array([scene.world.home], float), (scene.count, self.longest, 1))
+
+    def start(self, runs: Runs) -> None:
+        known, home = self.scene.world.charted, self.scene.world.home
+        for run in runs:
+            here = float(self.scene.position[run, 0]), float(self.scene.position[run, 1])
+            way = way_round(here, home, known, lambda _start, _goal: True)
+            points = [here, *way[: self.longest - 2], home]
+            self.last[run] = len(points) - 2
+            self.paths[run] = points + [home] * (self.longest - len(points))
+        super().start(runs)

@@ -1,0 +1,182 @@
+"""What a run came to: errors, violations, energy and data, measured against the truth."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from planner_ft.benchmark.statistics import Estimate, bootstrap_mean, wilson
+from planner_ft.simulation.executor import Executor, Running, Stage
+from planner_ft.simulation.fast import Bools, Floats, Runs
+from planner_ft.simulation.scene import Scene
+from planner_ft.simulation.skill import Skill
+from planner_ft.simulation.world import PILE, Fence
+
+
+@dataclass(frozen=True)
+class Ring:
+    """The stand-off of a task: distance from a centre, along the axes for a square."""
+
+    center: tuple[float, float]
+    radius: float
+    square: bool
+
+    def off(self, places: Floats) -> Floats:
+        """Metres by which places (n, 2) are off the stand-off."""
+        away = np.abs(places - np.array(self.center))
+        reach = away.max(axis=1) if self.square else np.linalg.norm(away, axis=1)
+        return np.asarray(np.abs(reach - self.radius), dtype=float)
+
+
+@dataclass(frozen=True)
+class RunResult:
+    """One run: metres, seconds, N s; errors are means over what they are measured at, None where
+    there is none. `clearance` is the nearest that the vehicle came to a structure's surface.
+    """
+
+    run: int
+    outcome: str
+    reason: str
+    steps: int
+    seconds: float
+    length: float
+    waypoint_error: float | None
+    holding_error: float | None
+    standoff_error: float | None
+    fence_violations: int
+    clearance_violations: int
+    clearance: float | None
+    energy: float
+    charge_left: float
+    records: dict[str, int]
+    """Data records by task."""
+
+    @property
+    def success(self) -> bool:
+        """Whether every step ended by its own end condition."""
+        return self.outcome == "done"
+
+
+METRICS = (
+    *("steps", "seconds", "length", "waypoint_error", "holding_error", "standoff_error"),
+    *("fence_violations", "clearance_violations", "clearance", "energy"),
+)
+"""Figures of a run that have a mean."""
+
+
+class Observer:
+    """Watches an executor: pass `finished` and `observed` to it, and every record to `noted`."""
+
+    def __init__(
+        self,
+        scene: Scene,
+        fences: Sequence[Fence],
+        rings: Mapping[str, Ring],
+        close: frozenset[str],
+        tasks: Sequence[str],
+    ) -> None:
+        count = scene.count
+        self.scene, self.fences, self.rings, self.close = scene, fences, rings, close
+        self.tasks = tasks
+        self.waypoints: list[list[float]] = [[] for _run in range(count)]
+        self.holding, self.held = np.zeros(count), np.zeros(count)
+        self.standing, self.stood = np.zeros(count), np.zeros(count)
+        self.length, self.least = np.zeros(count), np.full(count, np.inf)
+        self.outside = np.zeros((count, len(fences)), dtype=bool)
+        structures = scene.world.structures
+        self.inside = np.zeros((count, len(structures)), dtype=bool)
+        self.fence_violations = np.zeros(count, dtype=int)
+        self.clearance_violations = np.zeros(count, dtype=int)
+        self.records: list[Counter[str]] = [Counter() for _run in range(count)]
+        self.reached: set[tuple[int, str]] = set()
+        self.last = scene.pose[:, :2].copy()
+        start = np.linalg.norm(self.last[:, None] - scene.world.piles[None], axis=-1)
+        limits = [one.standoff - one.slack for one in structures]
+        self.allowed = np.minimum(np.array(limits), start - PILE) if structures else start
+
+    def noted(self, run: int, line: Mapping[str, Any]) -> None:
+        """Count a record."""
+        if line["kind"] == "record":
+            self.records[run][line["task"]] += 1
+
+    def finished(self, stage: Stage, skill: Skill, runs: Runs) -> None:
+        """Take the errors at the end of a step."""
+        for run, error in zip(runs, skill.errors(runs).get("waypoint", ()), strict=False):
+            self.waypoints[run].append(float(error))
+        self.reached |= {(int(run), stage.task) for run in runs}
+
+    def observed(self, groups: Sequence[tuple[Running, Runs]], active: Bools) -> None:
+        """Take what is measured in a time step."""
+        scene, here = self.scene, self.scene.pose[:, :2]
+        self.length += np.linalg.norm(here - self.last, axis=1) * active
+        self.last = here.copy()
+        near = scene.world.nearest(here)
+        self.least = np.where(active, np.minimum(self.least, near), self.least)
+        for index, fence in enumerate(self.fences):
+            out = (fence.outside_by(here) > 0) & active
+            self.fence_violations += out & ~self.outside[:, index]
+            self.outside[:, index] = out
+        for running, runs in groups:
+            self._step(running, runs)
+
+    def _step(self, running: Running, runs: Runs) -> None:
+        stage, scene = running.stage, self.scene
+        here = scene.pose[runs, :2]
+        held = running.movement.errors(runs).get("holding")
+        if held is not None:
+            self.holding[runs] += held
+            self.held[runs] += 1
+        ring = self.rings.get(stage.task)
+        if ring is not None:
+            begun = np.array([(int(run), stage.task) in self.reached for run in runs])
+            self.standing[runs] += ring.off(here) * begun
+            self.stood[runs] += begun
+        if len(scene.world.piles) and stage.task not in self.close:
+            away = np.linalg.norm(here[:, None] - scene.world.piles[None], axis=-1)
+            close = away < self.allowed[runs]
+            self.clearance_violations[runs] += (close & ~self.inside[runs]).sum(axis=1)
+            self.inside[runs] = close
+
+    def results(self, executor: Executor) -> list[RunResult]:
+        """The result of every run so far."""
+        return [self._result(run, executor) for run in range(self.scene.count)]
+
+    def _result(self, run: int, executor: Executor) -> RunResult:
+        scene, seconds = self.scene, self.scene.seconds
+        steps = int(executor.ended[run]) or scene.steps
+        points = self.waypoints[run]
+        return RunResult(
+            run + 1,
+            executor.outcome[run],
+            executor.reason[run],
+            steps,
+            round(steps * seconds, 1),
+            round(float(self.length[run]), 1),
+            round(sum(points) / len(points), 3) if points else None,
+            _mean(self.holding[run], self.held[run]),
+            _mean(self.standing[run], self.stood[run]),
+            int(self.fence_violations[run]),
+            int(self.clearance_violations[run]),
+            round(float(self.least[run]), 2) if np.isfinite(self.least[run]) else None,
+            round(float(scene.energy[run]), 1),
+            round(float(scene.charge[run] / scene.vessel.capacity), 3),
+            {task: self.records[run][task] for task in self.tasks},
+        )
+
+
+def summary(results: Sequence[RunResult], seed: int) -> dict[str, Estimate]:
+    """Success (Wilson) and the means over runs (bootstrap) with their 95 % intervals."""
+    found = {"success": wilson(sum(one.success for one in results), len(results))}
+    for name in METRICS:
+        values = [asdict(one)[name] for one in results]
+        known = [float(value) for value in values if value is not None]
+        found[name] = bootstrap_mean(known, range(len(known)), seed) if known else Estimate(None)
+    return found
+
+
+def _mean(total: float, count: float) -> float | None:
+    return round(float(total / count), 3) if count else None

@@ -1,0 +1,159 @@
+"""An MCAP file with ROS 2 messages of one run (https://mcap.dev), for Foxglove and rosbag2.
+
+Frames by REP-103 and REP-105: map is the plan's local frame (x east, y north), odom the same, as
+there is no odometry of its own, and base_link the vehicle.
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+
+from planner_ft.document.track import Point
+from planner_ft.simulation.control import FIX_SIGMA
+from planner_ft.simulation.scene import Scene
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import compact_json
+
+EVERY = 1.0
+"""Seconds between two messages of a topic; odometry, commands and frames come in every step."""
+TOPICS = {
+    "/odom": "nav_msgs/Odometry",
+    "/fix": "sensor_msgs/NavSatFix",
+    "/cmd_vel": "geometry_msgs/TwistStamped",
+    "/plan": "nav_msgs/Path",
+    "/skill": "std_msgs/String",
+    "/tf": "tf2_msgs/TFMessage",
+    "/scan": "sensor_msgs/LaserScan",
+}
+BREAK = "=" * 80
+Message = dict[str, Any]
+
+
+class RosLog:
+    """Writes one run. What was written can be read after a kill: chunks are closed as they fill."""
+
+    def __init__(self, stream: IO[bytes], scene: Scene, run: int, way: Sequence[Point]) -> None:
+        try:
+            from mcap_ros2.writer import Writer
+        except ImportError:
+            raise PlannerError("--mcap: needs the extra; pip install planner_ft[sim]") from None
+        self.writer = Writer(stream, chunk_size=2**16)
+        self.stream, self.scene, self.run = stream, scene, run
+        self.schemas = {
+            name: self.writer.register_msgdef(name.replace("/", "/msg/"), definition(name))
+            for topic, name in TOPICS.items()
+            if topic != "/scan" or scene.vessel.rays
+        }
+        poses = [{"header": self._header("map"), "pose": _pose(*at, 0.0, 0.0)} for at in way]
+        self.write("/plan", {"header": self._header("map"), "poses": poses})
+
+    def note(self, line: Mapping[str, Any]) -> None:
+        """A line of the run's log on /skill, as JSON."""
+        self.write("/skill", {"data": compact_json(dict(line))})
+
+    def step(self) -> None:
+        """The messages of this time step."""
+        scene, run = self.scene, self.run
+        x, y, z, yaw = (float(one) for one in scene.pose[run])
+        surge, sway, climb, rate = (float(one) for one in scene.twist[run])
+        twist = _twist(surge, sway, climb, rate)
+        held: Message = {"covariance": [0.0] * 36}
+        odometry = {
+            "pose": {"pose": _pose(x, y, z, yaw), **held},
+            "twist": {"twist": twist, **held},
+        }
+        head = {"header": self._header("odom"), "child_frame_id": "base_link"}
+        self.write("/odom", {**head, **odometry})
+        wanted = _twist(*(float(one) for one in scene.command[run]))
+        self.write("/cmd_vel", {"header": self._header("base_link"), "twist": wanted})
+        frames = [
+            self._frame("map", "odom", 0, 0, 0, 0),
+            self._frame("odom", "base_link", x, y, z, yaw),
+        ]
+        self.write("/tf", {"transforms": frames})
+        if scene.steps % round(EVERY / scene.seconds) == 0:
+            self.write("/fix", self._fix())
+            if scene.vessel.rays:
+                self.write("/scan", self._scan())
+
+    def close(self) -> None:
+        """Finish the file."""
+        self.writer.finish()
+        self.stream.close()
+
+    def write(self, topic: str, message: Message) -> None:
+        """Write a message at the time of the scene."""
+        at = round(self.scene.time * 1e9)
+        self.writer.write_message(topic, self.schemas[TOPICS[topic]], message, at, at)
+
+    def _header(self, frame: str) -> Message:
+        nanoseconds = round(self.scene.time * 1e9)
+        stamp = {"sec": nanoseconds // 10**9, "nanosec": nanoseconds % 10**9}
+        return {"stamp": stamp, "frame_id": frame}
+
+    def _frame(self, parent: str, child: str, x: float, y: float, z: float, yaw: float) -> Message:
+        pose = _pose(x, y, z, yaw)
+        moved = {"translation": pose["position"], "rotation": pose["orientation"]}
+        return {"header": self._header(parent), "child_frame_id": child, "transform": moved}
+
+    def _fix(self) -> Message:
+        place, heard = self.scene.localiser.fix[self.run], self.scene.localiser.silent[self.run] < 2
+        latitude, longitude = self.scene.origin.to_geographic(float(place[0]), float(place[1]))
+        spread = [FIX_SIGMA**2 if index in (0, 4) else 0.0 for index in range(9)]
+        return {
+            "header": self._header("base_link"),
+            "status": {"status": 0 if heard else -1, "service": 1},
+            "latitude": latitude,
+            "longitude": longitude,
+            "altitude": float(self.scene.pose[self.run, 2]),
+            "position_covariance": spread,
+            "position_covariance_type": 2,
+        }
+
+    def _scan(self) -> Message:
+        ranges = self.scene.ranges(np.array([self.run]))[0]
+        return {
+            "header": self._header("base_link"),
+            "angle_min": 0.0,
+            "angle_max": 2 * math.pi * (1 - 1 / len(ranges)),
+            "angle_increment": 2 * math.pi / len(ranges),
+            "time_increment": 0.0,
+            "scan_time": EVERY,
+            "range_min": 0.0,
+            "range_max": self.scene.vessel.reach,
+            "ranges": ranges.tolist(),
+            "intensities": [],
+        }
+
+
+def definition(name: str) -> str:
+    """The definition of a message with those that it is made of, as MCAP wants it."""
+    known = tomllib.loads(Path(__file__).with_name("messages.toml").read_text("utf-8"))
+    parts = [known[name].strip()]
+    for used in dict.fromkeys(_used(name, known)):
+        parts.append(f"MSG: {used}\n{known[used].strip()}")
+    return f"\n{BREAK}\n".join(parts) + "\n"
+
+
+def _used(name: str, known: Mapping[str, str]) -> Iterator[str]:
+    for line in known[name].split("\n"):
+        kind = line.split("[")[0].split(" ")[0]
+        if kind in known:
+            yield kind
+            yield from _used(kind, known)
+
+
+def _pose(x: float, y: float, z: float, yaw: float) -> Message:
+    turn = {"x": 0.0, "y": 0.0, "z": math.sin(yaw / 2), "w": math.cos(yaw / 2)}
+    return {"position": {"x": float(x), "y": float(y), "z": float(z)}, "orientation": turn}
+
+
+def _twist(surge: float, sway: float, climb: float, rate: float) -> Message:
+    linear, angular = {"x": surge, "y": sway, "z": climb}, {"x": 0.0, "y": 0.0, "z": rate}
+    return {"linear": linear, "angular": angular}

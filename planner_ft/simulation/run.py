@@ -1,0 +1,289 @@
+"""Simulating an approved plan: read and check it, run it, write results, logs and reports."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+
+from planner_ft.document import read_document
+from planner_ft.document.track import Point
+from planner_ft.exporters.formats import PlanExport
+from planner_ft.planning.frame import origin_of
+from planner_ft.review.log import log_beside
+from planner_ft.review.verify import approval_of
+from planner_ft.simulation.executor import Executor
+from planner_ft.simulation.fast import SIMULATORS
+from planner_ft.simulation.faults import Faults
+from planner_ft.simulation.measures import Observer, RunResult
+from planner_ft.simulation.scene import Scene
+from planner_ft.simulation.staging import Staging
+from planner_ft.simulation.vessel import TOLERANCE, build_vessel, simulation_file
+from planner_ft.simulation.world import World
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import alone, check_writable, compact_json
+from planner_ft.support.geodesy import Origin
+from planner_ft.vocabulary import load_vocabulary
+
+MOST_RUNS = 500
+FLUSH = 5.0
+"""Seconds of a run between two writes of its log to the disk, and between two of its poses."""
+POSE = 1.0
+RESULTS, MANIFEST = "results.json", "manifest.json"
+OURS = (
+    "run-*.jsonl",
+    "run-*.mcap",
+    RESULTS,
+    MANIFEST,
+    "table.*",
+    "tracks.svg",
+    "report.*",
+    ".*.tmp",
+)
+"""Files of a simulation, which --overwrite may remove."""
+Report = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True)
+class SimulationSettings:
+    """What is simulated. `locations` say where objects truly stand, `starts` where runs begin in
+    turn (home without any); `mcap` is the number of runs with a ROS 2 log.
+    """
+
+    plan: Path
+    out: Path | None = None
+    runs: int = 20
+    seed: int = 0
+    simulator: str = "fast"
+    tolerance: float = TOLERANCE
+    locations: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    starts: tuple[Point, ...] = ()
+    faults: Faults = field(default_factory=Faults)
+    origin: Origin | None = None
+    mcap: int = 1
+    log: Path | None = None
+    draft: bool = False
+    vocabulary: str | None = None
+    overwrite: bool = False
+
+    def __post_init__(self) -> None:
+        """Raise PlannerError for numbers out of range and an unknown simulator."""
+        if not 1 <= self.runs <= MOST_RUNS:
+            raise PlannerError(f"--runs {self.runs}: must be from 1 to {MOST_RUNS}")
+        if not 0 < self.tolerance <= 100:
+            raise PlannerError(f"--tolerance {self.tolerance:g}: must be above 0 m, at most 100")
+        if not 0 <= self.mcap <= self.runs:
+            raise PlannerError(f"--mcap {self.mcap}: must be from 0 to the {self.runs} runs")
+        if self.simulator not in SIMULATORS:
+            known = ", ".join(SIMULATORS)
+            raise PlannerError(f"--simulator {self.simulator}: must be one of {known}")
+
+    @property
+    def folder(self) -> Path:
+        """The folder of the results: by default the plan's name with ".simulation"."""
+        return self.out or self.plan.with_suffix(".simulation")
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """A simulation that has ended: the plan, what was run, and the results."""
+
+    plan: PlanExport
+    settings: SimulationSettings
+    staging: Staging
+    scene: Scene
+    results: list[RunResult]
+    tracks: list[list[Point]]
+    log: list[dict[str, Any]]
+    """The log of run 1, without its poses."""
+
+
+def simulate(settings: SimulationSettings, report: Report | None = None) -> Simulated:
+    """Run an approved plan and write everything into the folder. Raises PlannerError."""
+    plan = read_plan(settings)
+    with alone(settings.folder, "--out", "a simulation"):
+        check_writable(settings.folder)
+        kept = [path.name for path in settings.folder.glob("*")] if settings.folder.exists() else []
+        if kept and not settings.overwrite:
+            hint = "give --overwrite to replace it, or another folder with --out"
+            raise PlannerError(f"--out {settings.folder}: holds {kept[0]}; {hint}")
+        prepared = _Prepared(plan, settings)
+        if kept:
+            _clear(settings.folder)
+        settings.folder.mkdir(parents=True, exist_ok=True)
+        done = prepared.run(report or (lambda _label, _done, _total: None))
+        from planner_ft.simulation.output import write_all
+
+        write_all(done)
+    return done
+
+
+def read_plan(settings: SimulationSettings) -> PlanExport:
+    """The plan, approved or a draft. Raises PlannerError for any other."""
+    vocabulary = load_vocabulary(settings.vocabulary) if settings.vocabulary else None
+    document = read_document(settings.plan, vocabulary)
+    approval = approval_of(document, settings.log or log_beside(settings.plan))
+    if approval.status == "altered":
+        hint = "look at it and approve it again with `plannerft review`"
+        raise PlannerError(f"{settings.plan}: {approval.text}; {hint}")
+    approved = approval.status == "approved"
+    if not approved and not settings.draft:
+        way = f"approve it with `plannerft review {settings.plan}`"
+        draft = "give --draft for results that are marked so"
+        raise PlannerError(f"{settings.plan}: {approval.text}; {way}, or {draft}")
+    vocabulary = vocabulary or load_vocabulary(document["vocabulary"]["name"])
+    words = f"{approval.text}; digest {approval.digest}" if approved else None
+    return PlanExport(document, vocabulary, settings.origin or origin_of(document), words)
+
+
+class _Prepared:
+    """A checked plan with its world, before anything is written."""
+
+    def __init__(self, plan: PlanExport, settings: SimulationSettings) -> None:
+        self.plan, self.settings = plan, settings
+        vocabulary, document = plan.vocabulary, plan.document
+        raw = simulation_file(vocabulary)
+        self.vessel = build_vessel(vocabulary, document["vehicle"])
+        one_sided = [one for one in settings.faults.all if one.kind in ("port", "starboard")]
+        if one_sided and self.vessel.drive != "differential":
+            problem = f"{vocabulary.name} has no port and starboard thrusters"
+            raise PlannerError(f"--fault {one_sided[0].text}: {problem}; leave it out")
+        self.staging = Staging(plan, self.vessel, raw, settings.tolerance)
+        starts = list(settings.starts) or [vocabulary.home]
+        charted, objects = self.staging.structures, self._objects()
+        true = {place: objects[name] for name, place in self._named().items()}
+        placed = [replace(one, position=true.get(one.position, one.position)) for one in charted]
+        self.staging.check_starts(starts, placed)
+        self.world = World(
+            self.vessel,
+            vocabulary.home,
+            charted,
+            placed,
+            objects,
+            self.staging.fences,
+            settings.faults,
+            settings.runs,
+            settings.seed,
+        )
+        count = settings.runs
+        poses = np.zeros((count, 4))
+        poses[:, :2] = [starts[run % len(starts)] for run in range(count)]
+        poses[:, 3] = np.random.default_rng([settings.seed, 3]).uniform(-math.pi, math.pi, count)
+        self.starts = poses
+
+    def _named(self) -> dict[str, Point]:
+        """Objects of the plan by name: located places, those of a chart, and structures."""
+        found = {one.name: one.position for one in self.staging.structures}
+        for key in ("structures", "located"):
+            for name, place in self.plan.document.get(key, {}).items():
+                found[name] = (float(place[0]), float(place[1]))
+        return found
+
+    def _objects(self) -> dict[str, Point]:
+        given = {
+            name: (float(place[0]), float(place[1]))
+            for name, place in self.settings.locations.items()
+        }
+        return {**self._named(), **given}
+
+    def run(self, report: Report) -> Simulated:
+        settings, staging = self.settings, self.staging
+        with contextlib.ExitStack() as stack:
+            writer = _Writer(settings, stack)
+            simulator = SIMULATORS[settings.simulator](self.vessel, settings.runs)
+            origin = self.plan.origin or Origin(0.0, 0.0)
+            scene = Scene(self.world, simulator, self.starts, origin, writer.write)
+            tasks = [task["id"] for task in self.plan.document["tasks"]]
+            observer = Observer(scene, staging.fences, staging.rings(), staging.close(), tasks)
+            writer.begin(scene, observer, self._way())
+            stages = list(staging.stages())
+            executor = Executor(
+                stages, staging.home(), scene, observer.finished, observer.observed, staging.seconds
+            )
+            executor.begin()
+            while executor.step():
+                writer.step(executor)
+                if scene.steps % 100 == 0:
+                    ended = settings.runs - int(executor.active.sum())
+                    report(f"simulation, {scene.time:.0f} s", ended, settings.runs)
+            report("simulation", settings.runs, settings.runs)
+            results = observer.results(executor)
+            return Simulated(
+                self.plan, settings, staging, scene, results, writer.tracks, writer.first
+            )
+
+    def _way(self) -> list[Point]:
+        return [point for leg in self.plan.track.legs for point in leg.points]
+
+
+class _Writer:
+    """The logs of all runs: lines of JSON, and ROS 2 messages of the first runs."""
+
+    def __init__(self, settings: SimulationSettings, stack: contextlib.ExitStack) -> None:
+        self.settings, self.stack = settings, stack
+        self.files: list[IO[str]] = []
+        self.first: list[dict[str, Any]] = []
+        self.tracks: list[list[Point]] = [[] for _run in range(settings.runs)]
+        for run in range(settings.runs):
+            path = settings.folder / f"{name_of(run)}.jsonl"
+            stream = open(path, "w", encoding="utf-8")  # noqa: SIM115
+            self.files.append(stack.enter_context(stream))
+        self.ros: list[Any] = []
+
+    def begin(self, scene: Scene, observer: Observer, way: Sequence[Point]) -> None:
+        from planner_ft.simulation.ros_log import RosLog
+
+        self.scene, self.observer = scene, observer
+        for run in range(self.settings.mcap):
+            stream = open(self.settings.folder / f"{name_of(run)}.mcap", "wb")  # noqa: SIM115
+            self.ros.append(RosLog(stream, scene, run, way))
+            self.stack.callback(self.ros[-1].close)
+
+    def write(self, run: int, line: dict[str, Any]) -> None:
+        """One line of the log of a run."""
+        if run == 0:
+            self.first.append(line)
+        self.observer.noted(run, line)
+        self.files[run].write(compact_json(line) + "\n")
+        if run < len(self.ros):
+            self.ros[run].note(line)
+
+    def step(self, executor: Executor) -> None:
+        """Poses, faults that begin or end, and ROS 2 messages of this time step."""
+        scene, active = self.scene, np.flatnonzero(executor.active)
+        for fault in self.settings.faults.all:
+            for at, words in ((fault.start, "begins"), (fault.end, "ends")):
+                if 0 <= scene.time - at < scene.seconds - 1e-9:
+                    for run in active:
+                        scene.note(int(run), "event", {"text": f"fault {fault.text} {words}"})
+        if scene.steps % round(POSE / scene.seconds) == 0:
+            for run in active:
+                x, y, _z, yaw = (round(float(one), 2) for one in scene.pose[run])
+                self.tracks[run].append((x, y))
+                line = {"t": round(scene.time, 1), "kind": "pose", "pose": [x, y, yaw]}
+                self.files[run].write(compact_json(line) + "\n")
+        for run in active[active < len(self.ros)]:
+            self.ros[run].step()
+        if scene.steps % round(FLUSH / scene.seconds) == 0:
+            for stream in self.files:
+                stream.flush()
+
+
+def name_of(run: int) -> str:
+    """The name of a run's files; `run` counts from 0."""
+    return f"run-{run + 1:02d}"
+
+
+def _clear(folder: Path) -> None:
+    """Remove the files of an earlier simulation. Raises PlannerError when others are there."""
+    ours = {path for pattern in OURS for path in folder.glob(pattern) if path.is_file()}
+    if foreign := sorted(set(folder.iterdir()) - ours):
+        problem = f"holds {foreign[0].name}, which is not of a simulation"
+        raise PlannerError(f"--out {folder}: {problem}; give another folder")
+    for path in ours:
+        path.unlink()

@@ -1,0 +1,139 @@
+"""The interface of a skill, and how one is found by its name.
+
+A skill of a package of one's own, such as a learnt policy, is an entry point of the group
+"planner_ft.skills" that names a subclass of `Skill`; [skill.NAME] in NAME.simulation.toml says
+`implementation = "that entry point"`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from importlib.metadata import EntryPoint, entry_points
+from typing import Any
+
+import numpy as np
+
+from planner_ft.document.track import Point
+from planner_ft.simulation.fast import Bools, Floats, Runs
+from planner_ft.simulation.scene import Scene
+from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.motion import Motion
+
+GROUP = "planner_ft.skills"
+PLACE = "planner_ft.simulation"
+BUNDLED = {
+    "go": f"{PLACE}.guidance:Follow",
+    "arc": f"{PLACE}.guidance:Follow",
+    "hold": f"{PLACE}.navigation:Hold",
+    "turn-to": f"{PLACE}.navigation:Turn",
+    "turn-by": f"{PLACE}.navigation:Turn",
+    "drift": f"{PLACE}.navigation:Drift",
+    "wait": f"{PLACE}.navigation:Wait",
+    "boundary": f"{PLACE}.filters:Boundary",
+    "clearance": f"{PLACE}.filters:Clearance",
+    "heading": f"{PLACE}.filters:Heading",
+    "home": f"{PLACE}.guidance:Home",
+    "measure": f"{PLACE}.sensing:Sensor",
+}
+"""Implementations by kind of motion (usv.motion.toml), and those without a motion."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """A skill of a step: its parameters, what it does, and what the plan says around it.
+
+    `points` is the planned way in metres, `seconds` the stated time of a stay, `center` what the
+    task goes round, `fences` what the plan keeps, `tolerance` in metres.
+    """
+
+    skill: str
+    parameters: Mapping[str, Any]
+    motion: Motion | None
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    task: str = ""
+    step: int = 0
+    points: tuple[Point, ...] = ()
+    seconds: float | None = None
+    speed: float = 1.0
+    center: Point | None = None
+    margin: float = 0.0
+    tolerance: float = 1.0
+    failure: str = "failed"
+
+    def value(self, role: str) -> Any:
+        """The value of a role of the motion or the settings; None where nothing says it."""
+        if self.motion and role in self.motion.parameters:
+            return self.motion.value(role, self.parameters)
+        return self.parameters.get(self.settings.get(role, ""))
+
+
+class Skill:
+    """One skill of one step for all runs that come to it; `runs` (n,) are numbers of runs.
+
+    `waits` says of a movement that it lasts until the perception of its step is done.
+    """
+
+    waits = False
+
+    def __init__(self, job: Job, scene: Scene) -> None:
+        self.job, self.scene = job, scene
+        self.begun = np.zeros(scene.count)
+        """When a run began, in s."""
+
+    def start(self, runs: Runs) -> None:
+        """The step begins."""
+        self.begun[runs] = self.scene.time
+
+    def step(self, runs: Runs, command: Floats) -> Floats:
+        """The command (n, 4) of this time step: surge, sway, climb, yaw rate. A movement makes it,
+        a filter limits it, and what perceives leaves it.
+        """
+        return command
+
+    def done(self, runs: Runs) -> Bools:
+        """Whether the end condition holds (n,)."""
+        return np.ones(len(runs), dtype=bool)
+
+    def failed(self, runs: Runs) -> Bools:
+        """Whether the failure mode holds (n,)."""
+        return np.zeros(len(runs), dtype=bool)
+
+    @property
+    def why(self) -> str:
+        """The sentence of a failure."""
+        return f"{self.job.skill}: {self.job.failure}"
+
+    def stop(self, runs: Runs) -> None:
+        """The step ends."""
+
+    def errors(self, runs: Runs) -> dict[str, Floats]:
+        """What is measured of these runs now (n,), in metres: at the end of a step "waypoint", in
+        every time step "holding".
+        """
+        return {}
+
+    def elapsed(self, runs: Runs) -> Floats:
+        """Seconds since the start (n,)."""
+        return self.scene.time - self.begun[runs]
+
+
+def make_skill(job: Job, scene: Scene) -> Skill:
+    """The implementation of a skill. Raises PlannerError where there is none."""
+    name = job.settings.get("implementation") or (job.motion.kind if job.motion else "measure")
+    known = {key: EntryPoint(key, place, GROUP) for key, place in BUNDLED.items()}
+    known |= {one.name: one for one in entry_points(group=GROUP)}
+    if name not in known:
+        problem = f"implementation = {name!r} is not installed; there is {', '.join(known)}"
+        raise PlannerError(f"[skill.{job.skill}]: {problem}")
+    made = known[name].load()(job, scene)
+    if not isinstance(made, Skill):
+        raise PlannerError(f"[skill.{job.skill}]: {known[name].value} is no Skill")
+    return made
+
+
+def settings_of(vocabulary: Vocabulary, raw: Mapping[str, Any], skill: str) -> Mapping[str, Any]:
+    """[skill.NAME] of the simulation file; {} for a skill that it does not name."""
+    found = raw.get("skill", {}).get(skill, {})
+    return found if isinstance(found, Mapping) and skill in vocabulary.skill else {}

@@ -1,0 +1,156 @@
+"""The simulated water: structures, objects, seabed, fences, current and wind, and what fails."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from planner_ft.document.clearance import Structure
+from planner_ft.document.track import Point
+from planner_ft.simulation.fast import Floats, Runs
+from planner_ft.simulation.faults import Faults
+from planner_ft.simulation.vessel import Vessel
+
+PILE = 0.5
+"""Metres: radius of a structure, which a plan knows as a point. ASSUMPTION."""
+CURRENT = (0.02, 0.08)
+"""m/s, drawn for each run with a direction (published)."""
+DEPTH, SLOPE, WAVES = 12.0, 0.02, ((1.5, 45.0), (0.6, 17.0))
+"""The seabed: metres below [0, 0], gradient along a drawn bearing, (height, length) of swells."""
+
+
+@dataclass(frozen=True)
+class Fence:
+    """A polygon that the vehicle must stay in, or out of."""
+
+    polygon: tuple[Point, ...]
+    inside: bool = True
+
+    def outside_by(self, places: Floats) -> Floats:
+        """Metres by which places (n, 2) break the fence; negative: how far they keep it."""
+        import shapely
+
+        area = shapely.Polygon(self.polygon)
+        points = shapely.points(places)
+        edge = shapely.distance(area.exterior, points)
+        held = shapely.covers(area, points) == self.inside
+        return np.asarray(np.where(held, -edge, edge), dtype=float)
+
+    def nearest(self, places: Floats) -> Floats:
+        """The nearest points of the edge (n, 2)."""
+        import shapely
+
+        edge = shapely.Polygon(self.polygon).exterior
+        points = shapely.points(places)
+        found = shapely.line_interpolate_point(edge, shapely.line_locate_point(edge, points))
+        return np.asarray(shapely.get_coordinates(found), dtype=float)
+
+
+class World:
+    """What stands in the water and what the water does, for B runs of one seed: `structures` where
+    they are, `charted` where the plan has them.
+    """
+
+    def __init__(
+        self,
+        vessel: Vessel,
+        home: Point,
+        charted: Sequence[Structure],
+        structures: Sequence[Structure],
+        objects: Mapping[str, Point],
+        fences: Sequence[Fence],
+        faults: Faults,
+        runs: int,
+        seed: int,
+    ) -> None:
+        self.vessel, self.home, self.charted = vessel, home, tuple(charted)
+        self.structures = tuple(structures)
+        self.objects, self.fences, self.faults = dict(objects), tuple(fences), faults
+        self.generator = np.random.default_rng([seed, 1])
+        speed = self.generator.uniform(*CURRENT, runs)
+        self.current = speed[:, None] * _unit(self.generator.uniform(0, 2 * np.pi, runs))
+        self._directions = self.generator.uniform(0, 2 * np.pi, runs)
+        swell = np.random.default_rng([seed, 2])
+        self._bearing, *self._phases = swell.uniform(0, 2 * np.pi, 1 + 2 * len(WAVES))
+        places = [one.position for one in structures] or np.zeros((0, 2))
+        self.piles = np.array(places, dtype=float).reshape(-1, 2)
+
+    def currents(self, time: float) -> Floats:
+        """The current (B, 2) in m/s: a fault's beside the drawn one."""
+        return self.current + self._flow(time, "current")
+
+    def winds(self, time: float) -> Floats:
+        """The wind (B, 2) in m/s, where it blows to."""
+        return self._flow(time, "wind")
+
+    def _flow(self, time: float, kind: str) -> Floats:
+        """Where water or air move to; a fault says where a wind comes from."""
+        total = np.zeros((len(self._directions), 2))
+        for fault in self.faults.active(kind, time):
+            if fault.bearing is None:
+                angle = self._directions
+            else:
+                compass = fault.bearing + (180 if kind == "wind" else 0)
+                angle = np.full(len(total), math.radians(90 - compass))
+            total += fault.value * _unit(angle)
+        return total
+
+    def depth(self, x: float, y: float) -> float:
+        """Metres of water: a slope with swells across it, the same for one seed."""
+        along = x * math.cos(self._bearing) + y * math.sin(self._bearing)
+        depth = DEPTH + SLOPE * along
+        for (height, length), phase, turn in zip(
+            WAVES, self._phases[::2], self._phases[1::2], strict=True
+        ):
+            across = x * math.cos(turn) + y * math.sin(turn)
+            depth += height * math.sin(2 * math.pi * across / length + phase)
+        return max(1.0, depth)
+
+    def ranges(self, pose: Floats, runs: Runs, time: float) -> Floats:
+        """LiDAR ranges (n, rays) of vehicles at `pose` (n, 4): counter-clockwise from the bow,
+        infinite where nothing is hit or the ray is lost.
+        """
+        own = self.vessel
+        found = np.full((len(pose), own.rays), np.inf)
+        if not own.rays or not len(self.piles):
+            return found
+        angles = pose[:, 3:4] + self.ray_angles
+        to = self.piles[None] - pose[:, None, :2]
+        ahead = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+        along = np.einsum("nrk,nsk->nrs", ahead, to)
+        off = (to**2).sum(-1)[:, None] - along**2
+        chord = PILE**2 - off
+        hit = np.where((chord > 0) & (along > 0), along - np.sqrt(np.maximum(chord, 0)), np.inf)
+        found = hit.min(axis=-1)
+        found[found > own.reach] = np.inf
+        for fault in self.faults.active("lidar", time):
+            found[self.generator.random(found.shape) < fault.value] = np.inf
+        return np.asarray(np.maximum(found, 0.0), dtype=float)
+
+    @property
+    def ray_angles(self) -> Floats:
+        """Angles of the rays from the bow in rad, counter-clockwise."""
+        return np.arange(self.vessel.rays) * 2 * np.pi / max(1, self.vessel.rays)
+
+    def nearest(self, places: Floats) -> Floats:
+        """Metres from places (n, 2) to the surface of the nearest structure."""
+        if not len(self.piles):
+            return np.full(len(places), np.inf)
+        away = np.linalg.norm(places[:, None] - self.piles[None], axis=-1)
+        return np.asarray(away.min(axis=1) - PILE, dtype=float)
+
+    def find(self, name: Any) -> tuple[str, Point] | None:
+        """The object of a name: the same, or one name part of the other; None without one."""
+        wanted = str(name).strip().lower()
+        exact = [key for key in self.objects if key.lower() == wanted]
+        part = [key for key in self.objects if key.lower() in wanted or wanted in key.lower()]
+        found = next(iter(exact or (part if wanted else [])), None)
+        return None if found is None else (found, self.objects[found])
+
+
+def _unit(angle: Floats) -> Floats:
+    return np.stack([np.cos(angle), np.sin(angle)], axis=1)

@@ -1,0 +1,251 @@
+"""Simulating plans: approval, files, faults, what is refused, and a run that is killed."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from planner_ft.cli import main
+from planner_ft.document import read_document, write_document
+from planner_ft.review import log_beside, reject
+from planner_ft.simulation.faults import read_faults
+from planner_ft.simulation.run import Simulated, SimulationSettings, simulate
+from planner_ft.support.errors import PlannerError
+from tests.documents import DRONE, USV, document, step, task
+
+from .conftest import Run
+from .plans import go, lines, saved, transit, using
+
+SHORT = [transit(10, 0), transit(0, 0)]
+FENCE = "The vehicle stays inside [{0}, -50], [90, -50], [90, 50], [{0}, 50]."
+
+
+def settings(path: Path, **more: Any) -> SimulationSettings:
+    return SimulationSettings(path, **{"runs": 2, "mcap": 0, **more})
+
+
+def command(monkeypatch: pytest.MonkeyPatch, *arguments: object) -> int:
+    monkeypatch.setattr(sys, "argv", ["plannerft", "simulate", *map(str, arguments)])
+    try:
+        main()
+    except SystemExit as left:
+        return int(left.code or 0)
+    return 0
+
+
+def test_everything_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
+) -> None:
+    look = [("SetStreamRecording", {}), ("CreateMapMarker", {"label": "a|b"})]
+    report = task("AutoGenerateReportSummary", {}, [using(step("StationKeep"), (), look)])
+    path = saved(tmp_path, [*SHORT, report], command="Go | there <b>.")
+    assert command(monkeypatch, path, "--runs", 3, "--mcap", 0) == 0
+    assert "3 of 3 runs: done" in capsys.readouterr().out
+    folder = tmp_path / "plan.simulation"
+    names = {"table.md", "table.csv", "tracks.svg", "report.md", "report.html"}
+    names |= {"results.json", "manifest.json", *(f"run-0{run}.jsonl" for run in (1, 2, 3))}
+    assert {one.name for one in folder.iterdir()} == names
+    results = json.loads((folder / "results.json").read_text())
+    assert results["approved"] and results["overall"]["success"]["value"] == 1
+    assert results["overall"]["success"]["low"] < 1 and len(results["runs"]) == 3
+    errors = [one["waypoint_error"] for one in results["runs"]]
+    assert len(set(errors)) == 3 and 0 < max(errors) < 1.5
+    assert all(one["energy"] > 0 and one["records"]["t3"] == 2 for one in results["runs"])
+    assert "mission 1 (published)" in (folder / "table.md").read_text()
+    text = (folder / "report.md").read_text()
+    assert "approved by Ada" in text and "label: a\\|b" in text and "&lt;b>" in text
+    page = (folder / "report.html").read_text()
+    assert (
+        "&lt;b&gt;" in page
+        and "data:image/svg+xml" in page
+        and "http:" not in page.split("<img")[0]
+    )
+    assert json.loads((folder / "manifest.json").read_text())["inputs"]["plan"]["sha256"]
+
+
+def test_a_published_mission_stands_beside_its_figures(run: Run) -> None:
+    from planner_ft.simulation.output import table
+
+    found = "Find Durius and collect data near the J-tubes. Summarize it, then come back."
+    columns = table(run(SHORT, how={"command": found})).columns
+    assert columns == ("fast", "mission 2 (published)", "mission 2 + survey (published)")
+
+
+def test_a_seed_gives_the_same_runs(run: Run) -> None:
+    results = [run(SHORT, seed=seed).results for seed in (1, 1, 2)]
+    assert results[0] == results[1] != results[2]
+
+
+def test_starts_are_taken_in_turn(run: Run) -> None:
+    done = run(SHORT, starts=((5.0, 5.0), (-5.0, -5.0)), runs=3)
+    assert [track[0][0] > 0 for track in done.tracks] == [True, False, True]
+
+
+def test_a_plan_without_approval_is_refused_or_a_marked_draft(tmp_path: Path) -> None:
+    path = tmp_path / "plan.json"
+    write_document(path, document(SHORT))
+    with pytest.raises(PlannerError, match=r"not approved.*plannerft review.*--draft"):
+        simulate(settings(path))
+    assert not (tmp_path / "plan.simulation").exists()
+    done = simulate(settings(path, draft=True))
+    for name in ("table.md", "report.md", "report.html", "results.json", "manifest.json"):
+        assert "DRAFT - NOT APPROVED" in (done.settings.folder / name).read_text()
+    reject(read_document(path), log_beside(path), "Ada", "no")
+    with pytest.raises(PlannerError, match="rejected by Ada"):
+        simulate(settings(path))
+
+
+@pytest.mark.parametrize("draft", [False, True])
+def test_an_altered_plan_is_refused(tmp_path: Path, draft: bool) -> None:
+    path = saved(tmp_path, SHORT)
+    content = json.loads(path.read_text())
+    content["tasks"][0]["skill_sequence"][0]["navigation_skill"]["parameters"]["x"] = 99
+    path.write_text(json.dumps(content))
+    with pytest.raises(PlannerError, match="altered since Ada approved it"):
+        simulate(settings(path, draft=draft))
+
+
+def test_another_vehicle_is_refused(tmp_path: Path) -> None:
+    path = saved(tmp_path, SHORT)
+    with pytest.raises(PlannerError, match="another vocabulary"):
+        simulate(settings(path, vocabulary="inspection_drone"))
+
+
+def test_what_cannot_run_is_refused_before_anything_is_written(tmp_path: Path) -> None:
+    unknown = task("Transit", {"target_position": [-99, -99]}, None, prompt="Go to the raft.")
+    endless = task("PerformOrbit", {"center": [20, 0]}, [using(step("ArcTurn"))])
+    cases: list[tuple[list[dict[str, Any]], dict[str, Any], dict[str, Any], str]] = [
+        ([unknown], {}, {}, "is not known, and t1 needs it"),
+        ([endless], {}, {}, "t1 PerformOrbit: its movement is not known in full"),
+        (SHORT, {"chart": {"buoy": (0.5, 0.0)}}, {}, r"would start in buoy, at \[0, 0\]"),
+        (SHORT, {"constraints": [FENCE.format(5)]}, {}, r"excludes the start \[0, 0\]"),
+        (SHORT, {}, {"starts": ((60.0, 0.0),), "runs": 0}, "--runs 0: must be from 1"),
+        (SHORT, {}, {"mcap": 3}, "--mcap 3"),
+        (SHORT, {}, {"tolerance": 0}, "--tolerance 0"),
+        (SHORT, {}, {"simulator": "sea"}, "--simulator sea: must be one of fast"),
+    ]
+    for number, (tasks, how, given, message) in enumerate(cases):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        path = saved(folder, tasks, **how)
+        with pytest.raises(PlannerError, match=message):
+            simulate(settings(path, **given))
+        assert not (folder / "plan.simulation").exists()
+
+
+def test_a_drone_has_no_port_thruster(tmp_path: Path) -> None:
+    hover = task("HoverWatch", {"duration": 5}, [step("Hover", {"time": 5})])
+    path = saved(tmp_path, [hover], DRONE)
+    with pytest.raises(PlannerError, match="has no port and starboard thrusters"):
+        simulate(settings(path, faults=read_faults(["port=0.5"])))
+
+
+def test_a_second_simulation_needs_its_own_folder(run: Run, tmp_path: Path) -> None:
+    done = run(SHORT)
+    before = (done.settings.folder / "results.json").read_bytes()
+    with pytest.raises(PlannerError, match=r"--out .* holds .*--overwrite"):
+        simulate(replace(done.settings, overwrite=False, seed=5))
+    assert (done.settings.folder / "results.json").read_bytes() == before
+    (done.settings.folder / "thesis.txt").write_text("mine")
+    with pytest.raises(PlannerError, match=r"holds thesis\.txt"):
+        simulate(done.settings)
+    assert (done.settings.folder / "results.json").read_bytes() == before
+
+
+KILL = """
+import os, signal, sys
+from pathlib import Path
+from planner_ft.simulation.run import SimulationSettings, simulate
+def report(label, done, total):
+    if label != "simulation, 20 s": return
+    os.kill(os.getpid(), signal.SIGKILL)
+simulate(SimulationSettings(Path(sys.argv[1]), runs=2, mcap=1), report)
+"""
+
+
+def test_the_logs_of_a_killed_simulation_can_be_read(tmp_path: Path) -> None:
+    path = saved(tmp_path, [transit(80, 0)])
+    killed = subprocess.run([sys.executable, "-c", KILL, str(path)], check=False)
+    assert killed.returncode == -9
+    told = (tmp_path / "plan.simulation" / "run-02.jsonl").read_text().splitlines()
+    times = [json.loads(line)["t"] for line in told]
+    assert 14 < max(times) <= 20 and len(times) > 14
+    with pytest.raises(PlannerError, match="--overwrite"):
+        simulate(settings(path))
+    assert simulate(settings(path, overwrite=True)).results[0].success
+
+
+def outcome(done: Simulated) -> tuple[set[str], set[str]]:
+    return {one.outcome for one in done.results}, {one.reason for one in done.results}
+
+
+FAR = [transit(60, 0, using(go(60, 0), (), [("GetGPSLocation", {})])), transit(0, 0)]
+
+
+def test_faults_are_told_and_lead_home_or_stop(run: Run) -> None:
+    assert outcome(run(FAR, faults=read_faults(["battery=0.03"]))) == (
+        {"returned"},
+        {"the battery is low"},
+    )
+    lost = run(FAR, faults=read_faults(["gps@10"]))
+    assert outcome(lost)[0] == {"stopped"} and "without a GPS fix" in lost.results[0].reason
+    texts = [line["text"] for line in lines(lost) if line["kind"] == "event"]
+    assert texts == ["fault gps@10 begins"]
+    limit = "The mission takes at most 60 s."
+    assert outcome(run(FAR, how={"constraints": [limit]})) == (
+        {"returned"},
+        {"the time is nearly over"},
+    )
+
+
+def test_wind_and_a_weak_thruster_are_felt(run: Run) -> None:
+    plain = run(FAR).results[0]
+    weak = run(FAR, faults=read_faults(["port=0.3"])).results[0]
+    windy = run(FAR, faults=read_faults(["wind=9/0"])).results[0]
+    assert plain.success and weak.success and windy.success
+    assert weak.seconds > plain.seconds and windy.energy > 1.3 * plain.energy
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("fog", "there is current, wind"),
+        ("current", "numbers are expected"),
+        ("current=9", "from 0 to 5"),
+        ("gps=1", "takes no value"),
+        ("port=0.5/90", "only current and wind have a bearing"),
+        ("gps@60-30", "before it ends"),
+        ("wind=nan", "from 0 to 40"),
+    ],
+)
+def test_a_fault_that_is_none_is_refused(text: str, message: str) -> None:
+    with pytest.raises(PlannerError, match=message):
+        read_faults([text])
+
+
+def test_violations_of_fences_are_counted(run: Run) -> None:
+    fence = FENCE.format(-5)
+    inside = run([transit(20, 0), transit(0, 0)], how={"constraints": [fence]})
+    assert [one.fence_violations for one in inside.results] == [0, 0]
+    close = run(
+        [transit(-4.9, 0)],
+        how={"constraints": [fence]},
+        tolerance=0.3,
+        faults=read_faults(["current=0.5/270"]),
+    )
+    assert sum(one.fence_violations for one in close.results) >= 1
+
+
+def test_bad_options_exit_with_2(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
+) -> None:
+    path = saved(tmp_path, SHORT, USV)
+    for arguments in (["--start", "here"], ["--fault", "fog"], ["--runs", "0"], ["--locate", "x"]):
+        assert command(monkeypatch, path, *arguments) == 2
+        assert arguments[0] in capsys.readouterr().err
