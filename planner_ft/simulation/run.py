@@ -25,8 +25,9 @@ from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.staging import Staging
 from planner_ft.simulation.vessel import TOLERANCE, build_vessel, simulation_file
 from planner_ft.simulation.world import World
+from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import alone, check_writable, compact_json
+from planner_ft.support.files import check_writable, compact_json
 from planner_ft.support.geodesy import Origin
 from planner_ft.vocabulary import load_vocabulary
 
