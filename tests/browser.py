@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-SCRIPT_SECONDS = 30
+SCRIPT_SECONDS = 300
 
 
 def headless_chromium(*reachable: str) -> Iterator[Any]:

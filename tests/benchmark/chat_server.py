@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import threading
-import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
@@ -112,21 +111,22 @@ class Handler(BaseHTTPRequestHandler):
         self.wfile.flush()
         self.close_connection = True
 
-    def drip(self, seconds: float) -> None:
-        """Send a byte now and then, for so long."""
+    def hang(self) -> bool:
+        """Answer nothing for as long as the server runs."""
+        return self.server.over.wait()
+
+    def drip(self) -> bool:
+        """Send a byte now and then, for as long as somebody reads them."""
         self.send_response(200)
         self.send_header("Content-Type", "application/json")
         self.send_header("Content-Length", "100000")
         self.end_headers()
-        until = time.monotonic() + seconds
-        try:
-            while time.monotonic() < until:
+        with contextlib.suppress(OSError):
+            while not self.server.over.wait(0.02):
                 self.wfile.write(b" ")
                 self.wfile.flush()
-                time.sleep(0.02)
-        except OSError:
-            pass
         self.close_connection = True
+        return True
 
 
 class ChatServer(ThreadingHTTPServer):
@@ -143,6 +143,7 @@ class ChatServer(ThreadingHTTPServer):
         self.act: Act = lambda _handler, _body: False
         self.greet: Act = lambda _handler, _body: False
         self.lock = threading.Lock()
+        self.over = threading.Event()
         self.requests: list[Body] = []
         self.open = self.most_open = 0
 
@@ -151,7 +152,7 @@ class ChatServer(ThreadingHTTPServer):
         return f"http://127.0.0.1:{self.server_port}/v1"
 
 
-@contextmanager
+@contextlib.contextmanager
 def chat_server() -> Iterator[ChatServer]:
     server = ChatServer()
     thread = threading.Thread(
@@ -161,6 +162,7 @@ def chat_server() -> Iterator[ChatServer]:
     try:
         yield server
     finally:
+        server.over.set()
         server.shutdown()
         server.server_close()
 

@@ -53,7 +53,7 @@ def data(tmp_path: Path) -> Path:
 def settings(server: ChatServer, data: Path, tmp_path: Path) -> Any:
     def make(endpoint: dict[str, Any] | None = None, **changes: Any) -> BenchSettings:
         served = EndpointSettings(
-            **{"url": server.url, "model": "tiny", "timeout": 5.0, **(endpoint or {})}
+            **{"url": server.url, "model": "tiny", "timeout": 600.0, **(endpoint or {})}
         )
         values: dict[str, Any] = {
             "configurations": ("base",),

@@ -4,22 +4,26 @@ and what came is kept.
 
 from __future__ import annotations
 
+import itertools
 import json
 import re
 import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Iterator
+from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from planner_ft.benchmark.settings import EndpointSettings
 from planner_ft.benchmark.sources import chat_client
+from planner_ft.benchmark.sources.chat_client import ChatClient
 from planner_ft.cli import main
+from planner_ft.support.errors import PlannerError
 
 from .chat_server import PLAN, Act, Body, ChatServer, Handler, asked, chat_server, completion
 
@@ -74,7 +78,7 @@ def run(server: ChatServer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cap
             "--api-key-env",
             "THE_KEY",
             "--timeout",
-            "0.3",
+            "600",
             "--retries",
             "2",
             "--concurrency",
@@ -104,18 +108,8 @@ def _status(status: int, message: str = "no", **headers: str) -> Act:
     )
 
 
-def _hang(_handler: Handler, _body: Body) -> bool:
-    time.sleep(1.0)
-    return True
-
-
 def _drop(handler: Handler, _body: Body) -> bool:
     handler.drop()
-    return True
-
-
-def _drip(handler: Handler, _body: Body) -> bool:
-    handler.drip(3.0)
     return True
 
 
@@ -124,8 +118,6 @@ def _raw(content: bytes) -> Act:
 
 
 RETRIED: list[tuple[str, Act, str]] = [
-    ("hangs", _hang, r"did not answer within 0.3 s \(3 times in a row\)"),
-    ("drips", _drip, "did not finish its answer in time"),
     ("drops", _drop, "dropped the connection"),
     ("rubbish", _raw(b"<html>busy</html>"), "something that is not JSON: <html>busy</html>"),
     ("no choices", _raw(b'{"choices": []}'), "answered without choices"),
@@ -198,6 +190,48 @@ def test_a_server_that_fails_for_good_is_one_sentence_and_what_came_is_kept(
     assert len(server.requests) - before == COUNT - len(kept)
 
 
+BODY: Body = {"model": "tiny", "messages": [{"role": "user", "content": "go"}]}
+
+
+def test_a_server_that_hangs_is_one_sentence(server: ChatServer) -> None:
+    server.act = lambda handler, _body: handler.hang()
+    client = ChatClient(EndpointSettings(server.url, "tiny", timeout=0.1, retries=2))
+    with pytest.raises(PlannerError, match=r"did not answer within 0.1 s \(3 times in a row\)"):
+        client.complete(BODY)
+    client.close()
+
+
+def test_a_server_that_hangs_for_a_while_is_asked_again(
+    server: ChatServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The client has all the time of the world as soon as a request has hung."""
+    monkeypatch.setattr(chat_client, "LONGEST_PAUSE", 0.001)
+    client = ChatClient(EndpointSettings(server.url, "tiny", timeout=0.1))
+
+    def hang_once(handler: Handler, _body: Body) -> bool:
+        if client.settings.timeout == 600:
+            return False
+        client.settings, client.http.timeout = replace(client.settings, timeout=600), 600
+        return handler.hang()
+
+    server.act = hang_once
+    reply = client.complete(BODY, retries=10_000)
+    client.close()
+    assert json.loads(reply.text) == PLAN and reply.attempts > 1
+
+
+def test_a_server_that_never_ends_its_answer_is_one_sentence(
+    server: ChatServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A thousand seconds pass whenever the client looks at its clock."""
+    monkeypatch.setattr(chat_client.time, "perf_counter", itertools.count(step=1000).__next__)
+    server.act = lambda handler, _body: handler.drip()
+    client = ChatClient(EndpointSettings(server.url, "tiny", timeout=600, retries=2))
+    with pytest.raises(PlannerError, match=r"did not finish its answer in time \(3 times"):
+        client.complete(BODY)
+    client.close()
+
+
 def test_a_server_cannot_write_on_the_terminal(server: ChatServer, run: Any) -> None:
     server.act = lambda handler, body: _status(400, "no\x1b[2J\x00\nway")(handler, body)
     status, said, _kept = run()
@@ -253,10 +287,8 @@ def test_the_pause_is_the_one_that_the_server_asks_for(
 
 
 def test_pauses_grow(monkeypatch: pytest.MonkeyPatch) -> None:
-    from planner_ft.benchmark.settings import EndpointSettings
-
     monkeypatch.setattr(chat_client, "FIRST_PAUSE", 0.5)
-    client = chat_client.ChatClient(EndpointSettings("http://127.0.0.1:9/v1", "tiny"))
+    client = ChatClient(EndpointSettings("http://127.0.0.1:9/v1", "tiny"))
     waited: list[float] = []
     monkeypatch.setattr(client.stopped, "wait", lambda timeout: waited.append(timeout))
     for attempt in range(1, 10):
@@ -326,10 +358,9 @@ def test_ctrl_c_does_not_wait_for_a_server_that_hangs(server: ChatServer, tmp_pa
     )
     hanging = threading.Event()
 
-    def hang(_handler: Handler, _body: Body) -> bool:
+    def hang(handler: Handler, _body: Body) -> bool:
         hanging.set()
-        time.sleep(30)
-        return True
+        return handler.hang()
 
     server.act = hang
     flags = [

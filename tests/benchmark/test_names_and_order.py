@@ -155,3 +155,8 @@ def test_the_same_skill_twice_in_a_step_is_compared_in_any_order() -> None:
     assert not whole_plan_unordered(
         "task", steps(step("StationKeep", perception=(high, high))), expected, USV
     )
+
+
+def test_precision_counts_what_was_predicted_and_recall_what_was_expected() -> None:
+    counts = Counts(2, 3, 4)
+    assert (counts.precision, counts.recall, counts.f1) == (2 / 3, 2 / 4, 4 / 7)

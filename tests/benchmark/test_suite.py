@@ -424,13 +424,13 @@ def test_a_process_ends_with_the_suite_that_started_it(
     monkeypatch.setattr(
         process_module,
         "command",
-        lambda _arguments, _processes: [sys.executable, "-c", "import time; time.sleep(60)"],
+        lambda _arguments, _processes: [sys.executable, "-c", "import time; time.sleep(1e4)"],
     )
 
     def suite() -> None:
         with Process([], tmp_path / "log.txt") as process:
             (tmp_path / "pid").write_text(str(process.child.pid))
-            time.sleep(60)
+            time.sleep(1e4)
 
     parent = multiprocessing.get_context("fork").Process(target=suite)
     parent.start()

@@ -51,6 +51,10 @@ RIGHT = [
         "Sound 80 by 50 around [5, 5].",
         plan(("BathymetryGridSurvey", {"center": [5, 5], "width": 80, "length": 50})),
     ),
+    (
+        "Find the red buoy and the green barrel, then hold five minutes at the one and the other.",
+        plan(find("red buoy"), find("green barrel"), go(*HERE), HOLD, go(*HERE), HOLD),
+    ),
 ]
 WRONG = [
     ("Inspect the green barrel.", plan(SURVEY), "no SearchAndDetect comes before"),
@@ -126,6 +130,16 @@ WRONG = [
         plan(("BathymetryGridSurvey", {"center": [5, 5], "width": 50, "length": 80})),
         "not the other way round",
     ),
+    (
+        "Sound 80 by 50.",
+        plan(("BathymetryGridSurvey", {"width": 50, "length": 80})),
+        "not the other way round",
+    ),
+    (
+        "Find the green barrel, hold there for five minutes, then hold again.",
+        plan(find("green barrel"), go(*HERE), HOLD, go(*HERE), HOLD),
+        "at [-99, -99] already",
+    ),
 ]
 
 
@@ -150,6 +164,15 @@ def test_spelling_put_right_needs_the_tag_where_a_record_has_tags() -> None:
     assert rule_problems(expected, USV, prompt) == []
     assert rule_problems(expected, USV, prompt, ["param.spelling"]) == []
     assert any("param.spelling" in text for text in rule_problems(expected, USV, prompt, []))
+
+
+@pytest.mark.parametrize(
+    ("tasks", "right"),
+    [([HOLD], False), ([HOLD, go(0, 0)], True), ([("DockingApproach", {})], True)],
+)
+def test_a_tagged_return_is_a_way_home_or_a_docking(tasks: Any, right: bool) -> None:
+    problems = rule_problems(plan(*tasks), USV, "Hold five minutes and come home.", ["rule.return"])
+    assert any("the tag rule.return needs" in text for text in problems) != right
 
 
 def test_an_exception_is_believed_by_its_tag_alone() -> None:

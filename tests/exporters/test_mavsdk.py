@@ -5,7 +5,6 @@ is connected.
 from __future__ import annotations
 
 import json
-import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -40,10 +39,12 @@ def importer() -> Iterator[Any]:
     heartbeat = vehicle.heartbeat_encode(
         ardupilotmega.MAV_TYPE_SURFACE_BOAT, ardupilotmega.MAV_AUTOPILOT_ARDUPILOTMEGA, 0, 0, 3
     )
-    for _beat in range(3):
+    for _beat in range(1000):
         station.pass_received_raw_bytes(heartbeat.pack(vehicle))
-        time.sleep(0.1)
-    yield MissionRaw(station.first_autopilot(10.0))
+        if (found := station.first_autopilot(0.1)) is not None:
+            break
+    assert found is not None
+    yield MissionRaw(found)
     station.destroy()
 
 

@@ -12,7 +12,7 @@ from planner_ft.benchmark.metrics.facts import given_values
 from planner_ft.data.missions import sample_missions
 from planner_ft.data.task.sampler import Split, sample_tasks
 from planner_ft.facts import SCORING, WAYPOINT, read_input
-from planner_ft.facts.derived import turned
+from planner_ft.facts.derived import Ground, turned
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import Parameter, load_vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -122,3 +122,20 @@ def test_turns_of_a_list_that_takes_them_up_are_bounded() -> None:
     values += itertools.islice(turned(values, {4}), 1000)
     assert len(values) < 100
     assert len(list(turned([float(angle) for angle in range(500)], {4, 36}))) < 1000
+
+
+def test_points_of_an_area_follow_from_its_middle_its_corners_and_its_lanes() -> None:
+    nothing = {"places": (), "centres": (), "lengths": (), "bearings": (), "counts": ()}
+    between = Ground(**nothing | {"centres": ((0, 0), (20, 10))}, sizes=())
+    assert between.areas == [(10, 5, 20, 10)]
+    cornered = Ground(**nothing | {"places": ((0, 0),)}, sizes=((20, 10),), corners=True)
+    quarters = {(x, y, 20, 10) for x in (10, -10) for y in (5, -5)}
+    assert set(cornered.areas) == {(0, 0, 20, 10), *quarters}
+    middle = Ground(**nothing | {"places": ((0, 0),)}, sizes=((20, 10),), spacing=5)
+    assert middle.spacings(20, 10) == (5,)
+    ends = {(x, y) for x in range(-20, 21, 5) for y in range(-20, 21, 5)}
+    lanes = {(x, y) for x in (-10, -5, 0, 5, 10) for y in (-5, 5)}
+    lanes |= {(x, y) for x in (-10, 10) for y in (-5, 0, 5)}
+    assert {end for end in ends if middle.has_shape_through(end)} == lanes
+    shared = Ground(**nothing | {"counts": (5,)}, sizes=())
+    assert shared.spacings(20, 10) == (5, 2.5)

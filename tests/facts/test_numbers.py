@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from planner_ft.facts import read
+from planner_ft.facts import WAYPOINT, read
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.vocabulary import Parameter
 
@@ -39,6 +39,8 @@ def states(text: str, value: float, unit: str | None) -> str:
         ("3m30s", [(210, "s")]),
         ("9 minutes and half an hour", [(540, "s"), (1800, "s")]),
         ("two five-minute holds", [(2, None), (300, "s")]),
+        ("hold two-five minutes", [(1500, "s")]),
+        ("hold two-three minutes", [(2, None), (180, "s")]),
         ("2/3 of it", [(2 / 3, None)]),
         ("5/5 and 5/35", [(5, None), (5, None), (5, None), (35, None)]),
         (".5 m/s", [(0.5, "m/s")]),
@@ -221,3 +223,19 @@ def test_scoring_allows_two_per_cent_and_the_document_none() -> None:
 )
 def test_values_that_words_stand_for(text: str, value: float, unit: str) -> None:
     assert states(text, value, unit) in ("stated", "converted", "derived")
+
+
+def test_scoring_allows_half_a_metre_of_a_place_at_most() -> None:
+    for place, allowed in (([10.2, 0], True), ([10.3, 0], False)):
+        found = read("go to [10, 0]").evidence(place, WAYPOINT, tolerance=0.02)
+        assert (found.kind == "stated") == allowed
+    for place, allowed in (([1000.5, 0], True), ([1000.6, 0], False)):
+        found = read("go to [1000, 0]").evidence(place, WAYPOINT, tolerance=0.02)
+        assert (found.kind == "stated") == allowed
+
+
+def test_a_misspelt_word_behind_a_number_is_a_unit() -> None:
+    """The likeliest correction of "fet" is "get"; where no number stands before it, it may be."""
+    radius = Parameter("radius", "number", "m")
+    assert read("keep 30 fet off").evidence(9.144, radius).given
+    assert not read("keep 30 m off and fet it").evidence(9.144, radius).given

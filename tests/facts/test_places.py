@@ -149,3 +149,16 @@ def test_degrees_with_minutes_and_seconds_are_read_whole() -> None:
 def test_a_time_of_day_is_no_position() -> None:
     text = "Do not leave [0, 100]. Be home by 16:00."
     assert [(place.x, place.y) for place in read_positions(text)] == [(0, 100)]
+
+
+def test_a_latitude_without_a_partner_takes_none_of_the_next_position() -> None:
+    (place,) = read("34.12345 then at -33.85678, 151.21534").geographic
+    assert (place.latitude, place.longitude) == (-33.85678, 151.21534)
+
+
+def test_a_unit_of_coordinates_holds_for_its_sentence() -> None:
+    text = "Go to [7, 8]. Fence corners, in kilometres: [1, 2] and [3, 4]. Hold at [5, 6]."
+    for place in ([7, 8], [1000, 2000], [3000, 4000], [5, 6]):
+        assert stated(text, place), place
+    for place in ([7000, 8000], [5000, 6000]):
+        assert not stated(text, place), place

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from planner_ft.facts import corrections, is_known, missing_words, read
+from planner_ft.facts import corrections, is_known, missing_words, read, unknown_words
 from planner_ft.facts.words import known_words
 
 
@@ -59,3 +59,9 @@ def test_a_phrase_is_where_it_stands_or_where_its_words_are() -> None:
     assert [text[start:end] for start, end in spans("green barrel")[0]] == ["green barrel"]
     assert [text[start:end] for start, end in spans("red buoy")[0]] == ["buoys", "red"]
     assert spans("yellow whale") == []
+
+
+def test_unknown_words_are_counted_without_letters_and_designations() -> None:
+    text = "Go to x 5 and inspect the zorbl of mast-qwrt, tag b2."
+    assert unknown_words(text) == (["zorbl", "mast-qwrt"], 2 / 9)
+    assert unknown_words("") == ([], 0)

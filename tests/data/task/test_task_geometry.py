@@ -81,3 +81,15 @@ def test_circle_points_from_a_bearing_on():
 def test_sector_headings():
     assert g.sector_headings(6) == [0, 60, 120, 180, 240, 300]
     assert g.sector_headings(4, 45, clockwise=False) == [45, 315, 225, 135]
+
+
+def test_a_circle_goes_the_way_that_is_asked_for_and_headings_too():
+    right = [(0, 10), (10, 0), (0, -10), (-10, 0)]
+    assert g.circle((0, 0), 10, 4, 0, clockwise=True) == right
+    assert g.circle((0, 0), 10, 4, 0, clockwise=False) == [right[0], *right[:0:-1]]
+    assert g.sector_headings(4, 45) == [45, 135, 225, 315]
+    assert g.sector_headings(4, 45, clockwise=False) == [45, 315, 225, 135]
+
+
+def test_lanes_are_counted_where_the_spacing_divides_the_side():
+    assert (g.lane_count(20, 5), g.lane_count(0.6, 0.2), g.lane_count(20, 6)) == (5, 4, None)

@@ -31,7 +31,7 @@ from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import load_vocabulary
 from tests.browser import headless_chromium
 
-PATIENCE = 60
+PATIENCE = 300
 """Seconds after which what a test waits for does not come."""
 COMMAND = (
     "Find the green buoy, circle it at 12 m with video, survey depths over 20 by 20 m at [60, -30]"
