@@ -13,7 +13,7 @@ INSTALLED := $(VENV)/.planner_ft-installed
 export HF_HUB_OFFLINE ?= 1
 export TOKENIZERS_PARALLELISM ?= false
 
-.PHONY: demo test install lint types gate peers-test server-test clean
+.PHONY: demo test install lint types gate peers-test server-test calibrate clean
 
 install: $(INSTALLED)
 
@@ -54,6 +54,11 @@ server-test: install
 	test -x $(SERVER_VENV)/bin/python || $(PYTHON) -m venv $(SERVER_VENV)
 	CMAKE_ARGS="-DLLAVA_BUILD=OFF $(CMAKE_ARGS)" $(SERVER_VENV)/bin/python -m pip install --quiet --disable-pip-version-check -c benchmarks/server.txt "llama-cpp-python[server]"
 	PLANNERFT_SERVER_PYTHON=$(SERVER_VENV)/bin/python $(BIN)/python -m pytest -m server tests/model_export/test_server.py
+
+# How sure the embedded candidate's agents are, on the development sets; never on test data (task_unseen, data/mission/challenge).
+calibrate: install
+	$(BIN)/plannerft calibrate --level mission eval/challenge/mission*.jsonl
+	$(BIN)/plannerft calibrate --level task $(filter-out %unseen.jsonl,$(wildcard eval/challenge/task*.jsonl))
 
 clean:
 	rm -rf build $(VENV)

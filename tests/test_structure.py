@@ -18,6 +18,7 @@ ORDER = [
     "vocabulary",
     "facts",
     "data",
+    "confidence",
     "candidates",
     "prompts",
     "training",
@@ -41,7 +42,15 @@ EXCEPTIONS: set[tuple[str, str]] = set()
 """Imports against the direction that are still there: this set must shrink to nothing."""
 
 HEAVY = {"torch", "transformers", "peft", "bitsandbytes", "accelerate"}
-LIGHT = ("support", "vocabulary", "facts", "data", "benchmark.metrics", "benchmark.scoring")
+LIGHT = (
+    "support",
+    "vocabulary",
+    "facts",
+    "data",
+    "confidence",
+    "benchmark.metrics",
+    "benchmark.scoring",
+)
 
 
 def imported(nodes: list[ast.AST], deep: bool) -> Iterator[str]:

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from planner_ft.benchmark.metrics.alignment import substitutions
+from planner_ft.benchmark.metrics.confidence import confidence_figures
 from planner_ft.benchmark.metrics.facts import KINDS
 from planner_ft.benchmark.metrics.failures import FAILURES
 from planner_ft.benchmark.metrics.names import Counts, counts_by_name, counts_by_role
@@ -32,7 +33,8 @@ def breakdown(scores: Scores) -> Breakdown:
     omitted, `expected` null: added). `failure_examples`: ids by kind of failure. `stops`: answers
     that cannot be carried out, by the condition that does not hold and the title of the first task
     that stops. `slots`: facts that the inputs state, by kind, and those that reached parameters and
-    task prompts.
+    task prompts. `confidence`, where it is known of any answer: the figures of `confidence_figures`,
+    `not_known` answers, and whether it is `calibrated`.
     """
     families = [score.family for score in scores]
     entries = [(score.alignment.predicted, score.alignment.expected) for score in scores]
@@ -54,7 +56,21 @@ def breakdown(scores: Scores) -> Breakdown:
         "stops": _stops(scores),
         "slots": _slots(scores, families),
         "ungrounded_examples": ungrounded[:SHOWN],
+        **_confidence(scores),
     }
+
+
+def _confidence(scores: Scores) -> dict[str, Any]:
+    found = [
+        (score.details["confidence"], score.failure is None)
+        for score in scores
+        if score.details.get("confidence") is not None
+    ]
+    if not found:
+        return {}
+    calibrated = any(score.details.get("calibrated") for score in scores)
+    beside = {"calibrated": calibrated, "not_known": len(scores) - len(found)}
+    return {"confidence": {**beside, **confidence_figures(*zip(*found, strict=True))}}
 
 
 def _failure_examples(scores: Scores) -> dict[str, list[str]]:

@@ -29,6 +29,7 @@ from planner_ft.candidates.loading import (
 )
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import Quantization
+from planner_ft.confidence.calibration import Calibration, calibration_file, read_calibration
 from planner_ft.data.leakage import input_digest
 from planner_ft.decoding.configurations import Configuration, parse_configuration
 from planner_ft.decoding.constraints.factory import constraint_factory
@@ -73,6 +74,24 @@ class Job:
     def name(self) -> str:
         repeat = f" #{self.sampling.repeat}" if self.sampling else ""
         return f"{self.candidate.name} {self.configuration.name}{repeat}"
+
+    def calibration(self) -> Calibration | None:
+        """What turns its log-probabilities into confidence, where it was calibrated. Raises
+        PlannerError for a damaged file.
+        """
+        folder = self.adapter or self.candidate.folder
+        if folder is None or self.sampling is not None:
+            return None
+        level, configuration = self.parts["level"], self.configuration.name
+        agent = {
+            "candidate": self.candidate.name,
+            "configuration": configuration,
+            "quantization": self.quantization,
+            "weights_sha256": self.parts["model"],
+            "adapter_sha256": self.parts["adapter"],
+            "vocabulary_sha256": self.parts["vocabulary"],
+        }
+        return read_calibration(calibration_file(folder, level, configuration), agent)[0]
 
     def named(self) -> dict[str, Any]:
         """The fields of a record that name the job."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
@@ -30,6 +31,8 @@ from planner_ft.benchmark.metrics.names import (
 )
 from planner_ft.benchmark.metrics.parameters import Parameters, compare_parameters
 from planner_ft.benchmark.samples import Sample
+from planner_ft.confidence.choices import from_json
+from planner_ft.confidence.parts import parts
 from planner_ft.facts import read_input
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import ROLES
@@ -141,7 +144,25 @@ def score_sample(
         "forward_passes": timed.get("forward_passes"),
     }
     named = sample.id, sample.family, sample.group
+    details |= _confidence(answer, prediction)
     return SampleScore(*named, failure, values, answer.alignment, found.types, details)
+
+
+def _confidence(answer: Answer, prediction: Mapping[str, Any]) -> Details:
+    """`confidence`: how sure the system is of its plan, between 0 and 1, None where that is not
+    known; `calibrated`, or else the probability of the plan's tokens as the model has it. What does
+    not parse is known to be wrong.
+    """
+    held, text = prediction.get("confidence"), prediction.get("output")
+    choices = from_json(prediction.get("logprobs"), text) if isinstance(text, str) else None
+    if isinstance(held, int | float) and 0 <= held <= 1:
+        return {"confidence": float(held), "calibrated": True}
+    if choices is None:
+        return {"confidence": None}
+    if answer.plan is None:
+        return {"confidence": 0.0}
+    plan = parts(answer.level, str(text), choices)[0]
+    return {"confidence": math.exp(plan.features()["total"])}
 
 
 def _published(answer: Answer) -> Values:

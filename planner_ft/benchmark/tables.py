@@ -78,6 +78,7 @@ def detail_tables(results: Results) -> Iterator[Table]:
         yield from names_tables(of_candidate)
         yield from counted_tables(of_candidate)
         yield from examples_tables(of_candidate)
+    yield from confidence_tables(ours)
     yield from cost_tables({one.name: one.costs for one in results.rows if one.costs})
     yield from difference_tables(results.contrasts)
     yield from repeat_tables({one.name: one.repeats for one in results.rows if one.repeats})
@@ -146,6 +147,28 @@ def examples_tables(rows: Sequence[Row]) -> Iterator[Table]:
     ]
     if kinds:
         yield _table("Examples of wrong answers", [one.name for one in rows], body, texts=len(rows))
+
+
+def confidence_tables(rows: Sequence[Row]) -> Iterator[Table]:
+    """Whether a system knows when it is wrong, where it says how sure it is."""
+    body = []
+    for one in rows:
+        if found := one.breakdown.get("confidence"):
+            area, by_chance = found["aurc"], found["aurc_random"]
+            cells = [
+                figure(found["ece"], decimals=3),
+                figure(area, decimals=3),
+                figure(area / by_chance if by_chance else None),
+                figure(found["least_sure_tenth"], scale=100, decimals=0),
+                figure(found["approved_99"], scale=100, decimals=0),
+            ]
+            how = "calibrated" if found["calibrated"] else "not calibrated"
+            body.append(row(one.name, how, str(found["n"]), str(found["wrong"]), *cells))
+    if body:
+        heads = ["n", "wrong", "Calibration error ↓", "Area under risk-coverage ↓"]
+        heads += ["of random order ↓", "Wrong plans in the least sure tenth (%) ↑"]
+        heads += ["To approve at 99 % right (%) ↑"]
+        yield _table("How sure", ("", *heads), body, texts=1)
 
 
 def _estimate(found: Figures | None, scale: float = 1, decimals: int = 2) -> Cell:

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from planner_ft.cli.bench import bench, score
+from planner_ft.cli.calibrate import calibrate
 from planner_ft.cli.candidates import candidates, doctor
 from planner_ft.cli.compare import compare, report
 from planner_ft.cli.curve import learning_curve
@@ -52,7 +53,7 @@ def options(version: Annotated[bool, VERSION] = False) -> None:
     """Options of every command."""
 
 
-MEASURING = (candidates, train, bench, score, compare, learning_curve, report)
+MEASURING = (candidates, train, calibrate, bench, score, compare, learning_curve, report)
 for command in (
     plan,
     review,

@@ -79,6 +79,7 @@ def _plan(
     from planner_ft.document import build
     from planner_ft.document.ontology import check
     from planner_ft.document.vehicle import check_area, load_vehicle
+    from planner_ft.document.warnings.command import other_language
     from planner_ft.planning.chart import read_area, read_places
     from planner_ft.planning.locations import parse_locations
     from planner_ft.planning.planner import Planner, check_command, read_command
@@ -97,6 +98,8 @@ def _plan(
     ):
         profile = load_vehicle(vehicle, planner.vocabulary)
         profile = replace(profile, area=corners) if corners else profile
+        if doubt := other_language(text):
+            show(doubt, error=True)
         for question in check(text, planner.vocabulary)["questions"]:
             show(f"the command does not say: {question}", error=True)
         planned = planner.plan(text, locations, origin=origin, chart=chart)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import functools
-from collections.abc import Hashable, Iterator, Mapping, Sequence
+import itertools
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from planner_ft.candidates.loading import load_model, load_tokenizer, require_fo
 from planner_ft.candidates.location import read_config
 from planner_ft.candidates.registry import Quantization
 from planner_ft.candidates.tokenizer import FileTokenizer
+from planner_ft.confidence.choices import Choice, Choices
 from planner_ft.decoding.configurations import MAX_NEW_TOKENS, Configuration, Limits, Strength
 from planner_ft.decoding.constraints.factory import Factory, constraint_factory
 from planner_ft.decoding.constraints.grammar import TASK_OPENS
@@ -197,8 +199,34 @@ class Engine:
         """The sums that a model wrote before a skill sequence (planner_ft.data.task.working)."""
         return without_working(self._whole_text(answer))[1]
 
+    def choices(self, answer: Generation) -> Choices | None:
+        """The tokens of `text(answer)` with what the model itself held of them; None where that is
+        not known.
+        """
+        ids, text = _said(answer), self._whole_text(answer)
+        scores = [scored for scored in answer.scores[: len(ids)] if scored is not None]
+        if len(scores) < len(ids):
+            return None
+        hidden = 1, 1 + len(text) - len(without_working(text)[0])
+        ends, start, found = self._ends(ids, text), 0, []
+        for end, scored in zip(ends, scores, strict=True):
+            cut = max(0, min(end, hidden[1]) - max(start, hidden[0]))
+            others = tuple((self._piece(token), logprob) for token, logprob in scored.others)
+            found.append(Choice(end - start - cut, scored.logprob, others))
+            start = end
+        return tuple(found)
+
+    def _ends(self, ids: Sequence[int], text: str) -> list[int]:
+        """Where the tokens of a text end in it."""
+        ends = list(itertools.accumulate(len(self._piece(token)) for token in ids))
+        if ends[-1:] == [len(text)] or not ids:
+            return ends
+        # Some tokens are parts of a letter, or are written otherwise when they stand alone.
+        parts = (self._decoded(ids[: count + 1]) for count in range(len(ids)))
+        return [len(part.rstrip("\ufffd")) for part in parts]
+
     def _whole_text(self, answer: Generation) -> str:
-        return self._decoded(answer.ids[:-1] if answer.finish_reason == "stop" else answer.ids)
+        return self._decoded(_said(answer))
 
     def _decoded(self, ids: Sequence[int]) -> str:
         return str(
@@ -271,6 +299,16 @@ class Engine:
             return decode([token]).strip().lower() or token
 
         return likeness
+
+    @functools.cached_property
+    def _piece(self) -> Callable[[int], str]:
+        """The text of a token that stands alone."""
+        return functools.cache(lambda token: self._decoded([token]))
+
+
+def _said(answer: Generation) -> tuple[int, ...]:
+    """The ids of an answer without the token that ended it."""
+    return answer.ids[:-1] if answer.finish_reason == "stop" else answer.ids
 
 
 def _levels(queries: Sequence[Query]) -> set[Level]:

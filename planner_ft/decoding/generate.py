@@ -18,6 +18,7 @@ from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.constraints import RAN_ON
 from planner_ft.decoding.constraints.factory import Factory
 from planner_ft.decoding.lookup import Likeness, Lookup
+from planner_ft.decoding.odds import Score, odds
 from planner_ft.decoding.passes import Decoder
 from planner_ft.decoding.sampling import Sampling
 from planner_ft.decoding.sequence import FinishReason, SequenceState
@@ -49,7 +50,8 @@ class Generation:
     `finish_reason`: "stop" (an end-of-turn token), "length" (cut at the limit) or "error" (`error`
     says why). `first_token_s` is the time from the batch's begin until its first tokens were known.
     `forward_passes` are those that the answer took part in, those of answers that it was compared
-    with included; `alternatives` counts these. `notes` and `cut` are the constraint's.
+    with included; `alternatives` counts these. `notes` and `cut` are the constraint's. `scores` are
+    those of `ids`, None where no pass has decided a token.
     """
 
     ids: tuple[int, ...]
@@ -61,6 +63,7 @@ class Generation:
     cut: bool = False
     first_token_s: float | None = None
     alternatives: int = 0
+    scores: tuple[Score | None, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -259,15 +262,12 @@ def _run(
     while passes and states:
         fed = [state.feed(wide=passes.wide) for state in states.values()]
         wanted = [count for _ids, count in fed]
-        logits = passes.run([ids for ids, _count in fed], wanted)
+        logits = passes.run([ids for ids, _count in fed], wanted).float()
         # Reading the tokens waits for the device, so the time below is that of the whole step.
-        best = torch.split(logits.argmax(-1), wanted)
-        wrong = [
-            state.choose(chosen.tolist(), rows)
-            for state, chosen, rows in zip(
-                states.values(), best, torch.split(logits, wanted), strict=True
-            )
-        ]
+        best, places, wrong, at = logits.argmax(-1).tolist(), odds(logits), [], 0
+        for state, count in zip(states.values(), wanted, strict=True):
+            rows = slice(at, at := at + count)
+            wrong.append(state.choose(best[rows], logits[rows], places[rows]))
         now = time.perf_counter()
         first = first or now - began
         share, began = share + (now - began) / len(states), now
@@ -293,4 +293,5 @@ def _generation(state: SequenceState, seconds: float, first: float) -> Generatio
         notes=tuple(constraint.notes) if constraint else (),
         cut=constraint.cut if constraint else False,
         first_token_s=first,
+        scores=tuple(state.scores),
     )

@@ -13,6 +13,7 @@ from torch import Tensor
 
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.lookup import LONGEST_DRAFT, Lookup
+from planner_ft.decoding.odds import Odds, Score, score
 from planner_ft.decoding.sampling import Sampler
 
 if TYPE_CHECKING:
@@ -38,7 +39,8 @@ class SequenceState:
     `pending`, and `draft` stands behind them: with `fast_forward` what the constraint says must
     follow, then what `lookup` finds likely. Choices are the most probable tokens, or drawn by
     `sampler`. `diverged` is the place of the first token that the model without the constraint
-    would not have chosen. Where `enough(ids)` holds, the answer is left as it is.
+    would not have chosen. `scores` are those of `ids`, None where no pass has decided a token.
+    Where `enough(ids)` holds, the answer is left as it is.
     """
 
     def __init__(
@@ -58,6 +60,7 @@ class SequenceState:
         self.constraint, self.lookup, self.sampler = constraint, lookup, sampler
         self.fast_forward, self._enough, self._wide = fast_forward, enough, True
         self.ids: list[int] = []
+        self.scores: list[Score | None] = []
         self.finished: FinishReason | None = None
         self.diverged: int | None = None
         self.forward_passes = 0
@@ -76,16 +79,16 @@ class SequenceState:
             self.draft.clear()
         return self.pending + self.draft, 1 + len(self.draft)
 
-    def choose(self, best: Sequence[int], logits: Tensor) -> int:
+    def choose(self, best: Sequence[int], logits: Tensor, places: Sequence[Odds] = ()) -> int:
         """Take what the pass decided: the most probable tokens (`best`) of its wanted logits, shape
-        (wanted, tokens), where they are allowed.
+        (wanted, tokens), where they are allowed. `places` are the odds of these logits.
 
         Returns how many of the fed tokens were a wrong draft.
         """
         right, draft = 0, self.draft
         while True:
             token = self._choice(best[right], logits[right])
-            self._add(token)
+            self._add(token, score(token, places[right], logits[right]) if places else None)
             complete = self.constraint is not None and self.constraint.ended
             if complete and self.fast_forward and not self.finished:
                 self._add(self.end_ids[0])
@@ -118,9 +121,10 @@ class SequenceState:
         self.diverged = len(self.ids) if self.diverged is None else self.diverged
         return token
 
-    def _add(self, token: int) -> None:
+    def _add(self, token: int, scored: Score | None = None) -> None:
         """A token joins the answer."""
         self.ids.append(token)
+        self.scores.append(scored)
         if self.constraint is not None:
             self.constraint.accept(token)
         if token in self.end_ids:

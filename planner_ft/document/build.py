@@ -11,7 +11,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
+from planner_ft.confidence.judgement import Judgement
 from planner_ft.document.clearance import cleared
+from planner_ft.document.confidence import (
+    choices,
+    kept_confidence,
+    open_choices,
+    plan_confidence,
+    task_confidence,
+)
 from planner_ft.document.limits import carried, with_words
 from planner_ft.document.ontology import check
 from planner_ft.document.sources import sources
@@ -36,7 +44,8 @@ LARGEST = 2**53 - 1
 def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = None) -> PlanDocument:
     """The document of a planned command; `vehicle` is by default the vocabulary's."""
     plan = planned.mission.plan or {"tasks": []}
-    tasks = [_task(number, task) for number, task in enumerate(planned.tasks, start=1)]
+    judged = planned.mission.judged
+    tasks = [_task(number, task, judged) for number, task in enumerate(planned.tasks, start=1)]
     places: dict[str, Any] = {}
     for place in open_places(plan, vocabulary):
         for task in (tasks[number - 1] for number in place.tasks):
@@ -50,6 +59,7 @@ def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = No
         "assumptions": [*plan.get("assumptions", []), *planned.mission.notes],
         "constraints": list(plan.get("constraints", [])),
         "located": places,
+        **({"choices": choices(planned.doubts)} if planned.doubts else {}),
     }
     document = {
         "format": FORMAT,
@@ -59,7 +69,8 @@ def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = No
         "vehicle": (vehicle or load_vehicle(None, vocabulary)).as_json(),
         **({"origin": asdict(planned.origin)} if planned.origin else {}),
         **({"structures": _structures(planned.chart)} if planned.chart else {}),
-        **proposal,
+        **{key: value for key, value in proposal.items() if key != "choices"},
+        "confidence": plan_confidence(planned),
         **_problems(planned.mission),
         "edits": [],
         "usage": {agent: asdict(use) for agent, use in planned.usage.items()},
@@ -76,7 +87,7 @@ def made_safe(document: PlanDocument, vocabulary: Vocabulary) -> list[dict[str, 
     return cleared({**document, "tasks": carried(document, vocabulary)}, vocabulary)
 
 
-def _task(number: int, task: PlannedTask) -> dict[str, Any]:
+def _task(number: int, task: PlannedTask, judged: Judgement) -> dict[str, Any]:
     entry: dict[str, Any] = {"id": f"t{number}", "title": task.title}
     entry |= {"parameters": task.parameters, "task_prompt": task.task_prompt}
     entry |= {"defaults": task.defaults} if task.defaults else {}
@@ -86,6 +97,8 @@ def _task(number: int, task: PlannedTask) -> dict[str, Any]:
         entry |= {"added": list(answer.added)} if answer.added else {}
         entry |= {"assumptions": list(answer.notes)} if answer.notes else {}
         entry |= _problems(answer)
+    if found := task_confidence(number, task, judged):
+        entry["confidence"] = found
     return copy.deepcopy(entry)
 
 
@@ -102,7 +115,10 @@ def _problems(answer: Answer) -> dict[str, Any]:
 
 def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
     """The document with derived keys, validity and digest made anew."""
-    tasks = [_ordered_task(task, vocabulary) for task in document["tasks"]]
+    was = {task["id"]: task for task in document["proposed"]["tasks"]}
+    tasks = [
+        _ordered_task(task, was.get(task["id"], task), vocabulary) for task in document["tasks"]
+    ]
     places = places_of(tasks, vocabulary)
     for place in places:
         for number in place.tasks:
@@ -114,7 +130,7 @@ def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
             questions.append(text)
     valid = not any("problems" in part for part in (document, *tasks))
     revised = {
-        **{key: value for key, value in document.items() if key != "limits"},
+        **{key: value for key, value in document.items() if key not in ("limits", "choices")},
         "tasks": tasks,
         "valid": valid,
         "complete": valid
@@ -126,6 +142,8 @@ def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
     }
     if limits := with_words(revised, vocabulary):
         revised["limits"] = limits
+    if asking := list(open_choices(revised, vocabulary)):
+        revised["choices"] = asking
     for task, found in zip(tasks, sources(revised, vocabulary), strict=True):
         task["sources"] = found
     path = track(revised, vocabulary)
@@ -136,10 +154,13 @@ def revise(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
     return {**ordered, "digest": document_digest(ordered)}
 
 
-def _ordered_task(task: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
+def _ordered_task(
+    task: dict[str, Any], proposed: dict[str, Any], vocabulary: Vocabulary
+) -> dict[str, Any]:
     """A task without what derives, its parameters in the order of the definition."""
     known = vocabulary.task.get(task["title"])
     marks = {"defaults": kept_defaults(task), "added": kept_additions(task)}
+    marks["confidence"] = kept_confidence(task, proposed)
     kept = {key: value for key, value in without_derived(task).items() if key not in marks}
     kept |= {key: value for key, value in marks.items() if value}
     return {**kept, "parameters": canonical_parameters(task["parameters"], known)}

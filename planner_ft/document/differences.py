@@ -12,7 +12,7 @@ from planner_ft.support.files import compact_json
 Tasks = Sequence[dict[str, Any]]
 MISSING = "nothing"
 Kind = Literal[
-    "added", "removed", "moved", "parameter", "prompt", "skills", "located", "constraint"
+    "added", "removed", "moved", "title", "parameter", "prompt", "skills", "located", "constraint"
 ]
 
 
@@ -65,6 +65,10 @@ def compare(before: dict[str, Any], after: dict[str, Any]) -> list[Difference]:
 
 def _within(where: str, old: dict[str, Any], new: dict[str, Any]) -> Iterator[Difference]:
     name = new["id"]
+    if old["title"] != new["title"]:
+        before, after = old["title"], new["title"]
+        text = f"{where}was {before}"
+        yield Difference(name, "title", "title", before, after, text)
     yield from _changes(name, "parameter", where, old["parameters"], new["parameters"])
     before, after = old["task_prompt"], new["task_prompt"]
     if before != after:

@@ -22,6 +22,7 @@ from planner_ft.document.build import (
     without_derived,
 )
 from planner_ft.document.limits import without_filters
+from planner_ft.planning.doubts import renamed
 from planner_ft.planning.frame import frame_of
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
@@ -152,6 +153,24 @@ def _parameter(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> No
     _forget_places(document)
 
 
+def _title(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
+    task, title = _task(document, edit), edit["title"]
+    if title not in vocabulary.task:
+        known = ", ".join(vocabulary.task)
+        raise PlannerError(f"{_short(title)}: is no task of this vehicle; there is {known}")
+    given = renamed(task, title, vocabulary)
+    if given is None:
+        problem = f"{title} needs more than the parameters of {task['title']}"
+        raise PlannerError(f"{task['id']}: {problem}; insert it as a task of its own")
+    place = vocabulary.task[title].position_parameter or ""
+    name = next(iter(task.pop("located", {}).values()), None)
+    task |= {"title": title, "parameters": given}
+    if name is not None and place in given:
+        task["located"] = {place: name}
+    _outdate(task)
+    _forget_places(document)
+
+
 def _prompt(document: PlanDocument, edit: Edit, _vocabulary: Vocabulary) -> None:
     task = _task(document, edit)
     task["task_prompt"] = _prompt_text(edit["text"])
@@ -202,6 +221,11 @@ def _skills(document: PlanDocument, edit: Edit, vocabulary: Vocabulary) -> None:
         task["defaults"] = {**task.get("defaults", {}), name: value}
     if edit.get("added"):
         task["added"] = edit["added"]
+    before = {key: one for key, one in task.get("confidence", {}).items() if key != "skills"}
+    if found := before | edit.get("confidence", {}):
+        task["confidence"] = found
+    else:
+        task.pop("confidence", None)
     index = document["tasks"].index(task)
     document["tasks"][index] = made_safe(document, vocabulary)[index]
 
@@ -261,17 +285,19 @@ TEXT, WHOLE = (str, "a text"), (int, "a whole number")
 TASK: Keys = {"task": (str, "the id of a task")}
 STEPS, TASKS = (list, "a list of steps"), (list, "a list of tasks")
 PLACE = (list, "a position [x, y]")
+SKILLS = ("assumptions", "defaults", "added", "confidence")
 SKILL: Keys = {**TASK, "step": WHOLE, "role": TEXT, "index": WHOLE, "name": TEXT}
 KINDS: dict[str, tuple[Keys, tuple[str, ...], Callable[[PlanDocument, Edit, Vocabulary], None]]] = {
     "locate": ({"name": TEXT, "position": PLACE}, (), _locate),
     "origin": ({"place": TEXT}, (), _origin),
     "constraint": ({"at": WHOLE}, ("text",), _constraint),
     "parameter": ({**TASK, "name": TEXT}, ("value",), _parameter),
+    "title": ({**TASK, "title": TEXT}, (), _title),
     "prompt": ({**TASK, "text": TEXT}, (), _prompt),
     "remove": (TASK, (), _remove),
     "move": ({**TASK, "to": WHOLE}, (), _move),
     "insert": ({"title": TEXT, "at": WHOLE}, ("parameters", "task_prompt", "id"), _insert),
-    "skills": ({**TASK, "skill_sequence": STEPS}, ("assumptions", "defaults", "added"), _skills),
+    "skills": ({**TASK, "skill_sequence": STEPS}, SKILLS, _skills),
     "replace": ({"tasks": TASKS}, (), _replace),
     "skill": (SKILL, ("value",), _skill),
     "drop": ({**TASK, "name": TEXT}, ("step",), _drop),

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.build import PlanDocument
+from planner_ft.document.confidence import choice_lines, confidence_lines, doubtful_text
 from planner_ft.planning.essentials import added_text
 from planner_ft.planning.frame import origin_of
 from planner_ft.support.files import compact_json
@@ -14,6 +15,8 @@ from planner_ft.support.terminal import plain
 from planner_ft.vocabulary.plans import step_skills
 
 INDENT = "   "
+LANGUAGE = "unknown-language"
+CHOICES = "What is meant? (type the number and letter in the review)"
 SHOWN_PROBLEMS, SHOWN_TEXT = 5, 400
 """Problems and characters of an answer that is not valid."""
 SIGNS = {"navigation": "", "filter": " | ", "perception": " + "}
@@ -28,19 +31,26 @@ def _lines(document: PlanDocument) -> Iterator[str]:
     yield document["command"]
     if origin := origin_of(document):
         yield f"Origin of [0, 0]: {origin}"
+    yield from (one["text"] for one in document["warnings"] if one["kind"] == LANGUAGE)
+    yield from confidence_lines(document)
     yield from task_tree(document)
     places = []
     for place in document["open_places"]:
         numbers = ", ".join(map(str, place["tasks"]))
         places.append(f"{place['name']}: task{'s' * (len(place['tasks']) > 1)} {numbers}")
     sections = {
+        CHOICES: list(choice_lines(document)),
         "Assumptions": document["assumptions"],
         "Constraints": list(constraint_lines(document)),
         "Questions (answer in the command, or in the review as TASK.PARAMETER=VALUE)": [
             *document.get("questions", ())
         ],
         'Open places (fill in with --locate "NAME=x,y")': places,
-        "Warnings": [one["text"] for one in document["warnings"] if one["kind"] != "value-asked"],
+        "Warnings": [
+            one["text"]
+            for one in document["warnings"]
+            if one["kind"] not in ("value-asked", LANGUAGE)
+        ],
     }
     for heading, items in sections.items():
         yield from (f"{heading}:", *(f" - {item}" for item in items)) if items else ()
@@ -81,6 +91,8 @@ def _task_lines(number: int, task: dict[str, Any]) -> Iterator[str]:
     yield f"{INDENT}{task['task_prompt']}"
     if added := added_text(task):
         yield f"{INDENT}(the vehicle's: {added})"
+    if doubtful := doubtful_text(task):
+        yield f"{INDENT}(how sure: {doubtful})"
     if "asks" in task:
         yield f"{INDENT}(skills wait for {' and '.join(task['asks'])})"
     if "waits_for" in task:

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.candidates.loading import resolve_device
+from planner_ft.confidence.calibration import Calibration, read_calibration
+from planner_ft.confidence.choices import known
+from planner_ft.confidence.judgement import judge_answer
 from planner_ft.planning.result import AgentUse, Answer
 from planner_ft.planning.settings import Agent
 from planner_ft.support.resources import peak_memory
@@ -47,6 +51,7 @@ class Agents:
         self.load_seconds: dict[Level, float] = dict.fromkeys(agents, 0.0)
         self._engine: Engine | None = None
         self._serves: tuple[Level, ...] = ()
+        self._calibrations: dict[Level, tuple[Calibration | None, str]] = {}
 
     def load(self, level: Level) -> Engine:
         """The engine that answers for an agent, loaded if it is not. Raises PlannerError."""
@@ -71,7 +76,19 @@ class Agents:
         query = engine.query(level, record, with_vocabulary=agent.with_vocabulary)
         generation = engine.answer(query, agent.configuration)
         text, prompt_tokens = engine.text(generation), len(query.prompt)
-        return read_answer(level, text, generation, prompt_tokens, self.vocabulary)
+        answer = read_answer(level, text, generation, prompt_tokens, self.vocabulary)
+        if answer.plan is None:
+            return answer
+        choices = known(engine.choices(generation), text)
+        return replace(answer, judged=judge_answer(*self._calibration(level), text, choices))
+
+    def _calibration(self, level: Level) -> tuple[Calibration | None, str]:
+        """The calibration of an agent, or why there is none."""
+        if level not in self._calibrations:
+            agent = self.agents[level]
+            found = read_calibration(agent.calibration, agent.held_for(self.vocabulary))
+            self._calibrations[level] = found
+        return self._calibrations[level]
 
     def use(self, level: Level, answers: Sequence[Answer]) -> AgentUse:
         """What the agent did to give these answers."""

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.planning.agents import Agents, Progress, silent
+from planner_ft.planning.doubts import Doubt, doubts
 from planner_ft.planning.essentials import asked, missing_defaults, with_defaults, with_essentials
 from planner_ft.planning.frame import agents_frame
 from planner_ft.planning.limits import with_limits, without_limits
@@ -96,7 +97,9 @@ class Planner:
         check_command(command)
         frame = agents_frame(command, origin)
         mission = self._mission(frame.spoken)
+        unsure: list[Doubt] = []
         if mission.plan is not None:
+            unsure = doubts(frame.spoken, mission.plan, mission.judged, self.vocabulary)
             told = frame.restored(mission.plan, self.vocabulary)
             mission = replace(mission, plan=with_limits(told, self.vocabulary, command))
         tasks: tuple[PlannedTask, ...] = ()
@@ -115,7 +118,8 @@ class Planner:
         agents, manifest = self.agents, self._manifest()
         use: dict[str, AgentUse] = {of: agents.use(of, answers[of]) for of in agents.agents}
         what = command, mission, tasks, tuple(places), located
-        return Planned(*what, use, agents.peak_memory(), manifest, origin, dict(chart or {}))
+        measured = use, agents.peak_memory(), manifest
+        return Planned(*what, *measured, origin, dict(chart or {}), tuple(unsure))
 
     def skills(self, task: Mapping[str, Any]) -> Answer:
         """The Task Agent's answer, valid or not, for `title`, `parameters` and `task_prompt`.

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
+from planner_ft.confidence.judgement import NOT_JUDGED, Judgement
+from planner_ft.planning.doubts import Doubt
 from planner_ft.planning.locations import OpenPlace, Position
 from planner_ft.support.geodesy import Origin
 
@@ -14,7 +16,8 @@ class Answer:
     """One answer of an agent and its cost.
 
     `plan` is None unless the text is a strictly valid plan (see `problems`); `cut`: it met the
-    token limit; `seconds` from prompt ids to the complete answer. `defaults` and `added` are what
+    token limit; `seconds` from prompt ids to the complete answer. `judged` says how sure the agent
+    is of a plan, by the paths of its own answer. `defaults` and `added` are what
     the vehicle added to the task and to its steps (planner_ft.planning.essentials).
     """
 
@@ -29,6 +32,7 @@ class Answer:
     cut: bool = False
     defaults: dict[str, Any] = field(default_factory=dict)
     added: tuple[dict[str, Any], ...] = ()
+    judged: Judgement = NOT_JUDGED
 
 
 @dataclass(frozen=True)
@@ -65,8 +69,8 @@ class PlannedTask:
 class Planned:
     """A command with its plan: the mission answer as it was, tasks with `located` places filled in.
 
-    `origin` is where [0, 0] lies,
-    `chart` has structures by name. `peak_memory` is in bytes, of the process or the GPU.
+    `origin` is where [0, 0] lies, `chart` has structures by name, `doubts` are the choices that the
+    Mission Agent is least sure of. `peak_memory` is in bytes, of the process or the GPU.
     """
 
     command: str
@@ -79,6 +83,7 @@ class Planned:
     manifest: dict[str, Any] = field(default_factory=dict)
     origin: Origin | None = None
     chart: dict[str, Position] = field(default_factory=dict)
+    doubts: tuple[Doubt, ...] = ()
 
     @property
     def valid(self) -> bool:

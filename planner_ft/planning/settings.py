@@ -11,6 +11,7 @@ from planner_ft.candidates.adapters import CONFIG, WEIGHTS, check_adapter, find_
 from planner_ft.candidates.loading import require_folder
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import Quantization
+from planner_ft.confidence.calibration import AGENT, calibration_file
 from planner_ft.decoding.configurations import STRENGTHS, Configuration, parse_configuration
 from planner_ft.prompts.render import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
@@ -80,6 +81,17 @@ class Agent:
             "prompt_format": PROMPT_VERSION,
             "vocabulary_in_the_prompt": self.with_vocabulary,
         }
+
+    @property
+    def calibration(self) -> Path:
+        """The file of its calibration (planner_ft.confidence), whether there is one or not."""
+        folder = self.adapter or require_folder(self.candidate)
+        return calibration_file(folder, self.level, self.configuration.name)
+
+    def held_for(self, vocabulary: Vocabulary) -> dict[str, Any]:
+        """What its calibration holds for."""
+        fields = {**self.record(), "vocabulary_sha256": vocabulary.sha256}
+        return {key: fields[key] for key in AGENT}
 
 
 def choose_agents(settings: PlanSettings, vocabulary: Vocabulary) -> dict[Level, Agent]:

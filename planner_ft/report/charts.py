@@ -21,6 +21,7 @@ from planner_ft.support.tables import NOTHING, Cell, Table, TableRow, row
 from planner_ft.vocabulary.plans import list_key
 
 F1 = ("f1", "latency_s")
+POINTS = 40  # of a curve, at most
 HEATS = 6  # shades of a count, beside none
 WORDS: Record = tomllib.loads(Path(__file__).with_name("figures.toml").read_text("utf-8"))
 LEVELS: Record = WORDS["levels"]
@@ -51,7 +52,8 @@ class Chart:
 
 def charts(tests: TestSet) -> list[Chart]:
     """The figures over all systems for which the runs hold something, in the order of the page."""
-    makers = (_f1, _failures, _stops, _latency, _planning, _latency_by_size)
+    first = (_f1, _failures, _stops, _reliability, _risk_coverage)
+    makers = (*first, _latency, _planning, _latency_by_size)
     return [chart for maker in makers if (chart := maker(tests)).table.rows]
 
 
@@ -203,6 +205,32 @@ def _latency_by_size(tests: TestSet) -> Chart:
     unit = LEVELS[tests.level]["unit"]
     heads = ("Line", f"{unit} in the expected plan", "seconds", "samples")
     return Chart("lines", _table(tests, "latency-by-size", heads, rows))
+
+
+def _reliability(tests: TestSet) -> Chart:
+    """Share of right plans by confidence, and what would be entirely honest."""
+    rows = [
+        row(system.name, cell(held), cell(share), str(n))
+        for system in tests.results.rows
+        for held, share, n in system.breakdown.get("confidence", {}).get("bins") or ()
+    ]
+    rows += [row("as sure as right", cell(at), cell(at), NOTHING) for at in (0, 1) if rows]
+    heads = ("Line", "confidence", "share of right plans", "plans")
+    return Chart("lines", _table(tests, "reliability", heads, rows))
+
+
+def _risk_coverage(tests: TestSet) -> Chart:
+    """Share of wrong plans among the surest, by their share of all, and in random order."""
+    rows = []
+    for system in tests.results.rows:
+        found = system.breakdown.get("confidence", {})
+        curve, n = found.get("curve") or [], found.get("n")
+        shown = range(0, len(curve), -(-len(curve) // POINTS) or 1)
+        rows += [row(system.name, cell((at + 1) / n), cell(curve[at]), str(at + 1)) for at in shown]
+        label, risk = f"{system.name}, random order", found.get("aurc_random")
+        rows += [row(label, cell(at), cell(risk), NOTHING) for at in (0, 1) if curve]
+    heads = ("Line", "share of plans, the surest first", "share of wrong plans", "plans")
+    return Chart("lines", _table(tests, "risk-coverage", heads, rows))
 
 
 def _names(tests: TestSet, system: Row) -> Chart:

@@ -184,7 +184,8 @@ def _lines(figure: Any, chart: Chart, width: float) -> tuple[float, float]:
     axes.set(xlabel=chart.table.columns[0], ylabel=chart.table.columns[1])
     axes.set_ylim(bottom=0)
     ticks = sorted(places)
-    axes.set_xticks(ticks if len(ticks) <= 12 else ticks[:: len(ticks) // 8])
+    if all(float(tick).is_integer() for tick in ticks):
+        axes.set_xticks(ticks if len(ticks) <= 12 else ticks[:: len(ticks) // 8])
     axes.grid()
     height = 290 if width <= NARROW else 360
     return width, height + _legend(figure, handles, labels, width)

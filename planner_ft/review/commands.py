@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.document import PlanDocument
+from planner_ft.document.confidence import LETTERS
 from planner_ft.planning.locations import parse_location
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text
@@ -20,6 +21,7 @@ Edit = dict[str, Any]
 
 HELP: dict[str, str] = tomllib.loads(read_text(Path(__file__).with_name("commands.toml")))
 """Examples of edits, with their effect."""
+CHOICE = re.compile(rf"(\d)([{LETTERS}])")
 VALUE = re.compile(r"(\d+(?:\.[\w#]+)+)\s*=\s*(.*)", re.DOTALL)
 
 
@@ -32,6 +34,8 @@ def parse_edit(text: str, document: PlanDocument, vocabulary: Vocabulary) -> Edi
     assigned = VALUE.fullmatch(text)
     if assigned:
         return _assignment(assigned[1].split("."), assigned[2].strip(), document, vocabulary)
+    if chosen := CHOICE.fullmatch(text):
+        return _choice(int(chosen[1]), chosen[2], document)
     word, rest = [*text.split(maxsplit=1), "", ""][:2]
     match word.lower():
         case "remove":
@@ -55,6 +59,22 @@ def parse_edit(text: str, document: PlanDocument, vocabulary: Vocabulary) -> Edi
         case "undo":
             raise PlannerError(f"{text}: takes the last edit back and needs nothing after it")
     raise PlannerError(f"{text!r}: is no edit; there is {', '.join(HELP)}")
+
+
+def _choice(number: int, letter: str, document: PlanDocument) -> Edit:
+    """The alternative of a question."""
+    asked = document.get("choices", [])
+    if not 1 <= number <= len(asked):
+        there = f"there are {len(asked)}" if asked else "there are none"
+        raise PlannerError(f"{number}{letter}: is no question of the plan; {there}")
+    choice, at = asked[number - 1], LETTERS.index(letter)
+    if at >= len(choice["others"]):
+        last = f"{number}{LETTERS[len(choice['others']) - 1]}"
+        raise PlannerError(f"{number}{letter}: the question has no such answer; the last is {last}")
+    value, task = choice["others"][at], choice["task"]
+    if choice["parameter"] is None:
+        return {"kind": "title", "task": task, "title": value}
+    return {"kind": "parameter", "task": task, "name": choice["parameter"], "value": value}
 
 
 # ---------------------------------------------------------------- NUMBER.NAME=VALUE

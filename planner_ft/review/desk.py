@@ -8,6 +8,7 @@ from typing import Any
 
 from planner_ft import document as plans
 from planner_ft.document import PlanDocument, altered, document_digest, read_document
+from planner_ft.document.confidence import skills_confidence
 from planner_ft.document.differences import Difference, compare
 from planner_ft.document.files import vocabulary_of
 from planner_ft.planning.planner import Planner
@@ -111,6 +112,8 @@ def skills_edit(task: str, plan: Mapping[str, Any], answer: Answer) -> dict[str,
     given = {"skill_sequence": plan["skill_sequence"], "assumptions": list(answer.notes)}
     given |= {"defaults": answer.defaults} if answer.defaults else {}
     given |= {"added": list(answer.added)} if answer.added else {}
+    sure = skills_confidence(answer.judged)
+    given |= {"confidence": sure} if sure else {}
     return {"kind": "skills", "task": task, **given}
 
 

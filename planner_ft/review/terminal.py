@@ -10,6 +10,7 @@ from rich.console import Console
 from rich.text import Text
 
 from planner_ft.document import PlanDocument, altered, differences
+from planner_ft.document.confidence import choice_lines, confidence_lines
 from planner_ft.document.differences import Difference
 from planner_ft.document.track import track
 from planner_ft.document.tree import constraint_lines, task_tree
@@ -51,6 +52,8 @@ def review_lines(
         text = "the file was altered by hand: its content is not what its digest says"
         yield f"{text}; --adopt takes the changes over as an edit", "bold red"
     yield from _warnings(document)
+    yield from ((text, "bold") for text in confidence_lines(document))
+    yield from ((f" ? {text}", "yellow") for text in choice_lines(document))
     tasks = [task["id"] for task in document["tasks"]]
     course = track(document, vocabulary)
     sections: dict[str, Iterable[str]] = {

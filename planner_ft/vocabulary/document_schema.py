@@ -14,7 +14,8 @@ FORMAT = "planner_ft plan"
 VERSION = 1
 TASK_KEYS = (
     *("id", "title", "parameters", "defaults", "task_prompt", "skill_sequence", "added", "stale"),
-    *("waits_for", "asks", "located", "sources", "assumptions", "problems", "output"),
+    *("waits_for", "asks", "located", "sources", "confidence", "assumptions", "problems"),
+    "output",
 )
 """The keys of a document's task in their order."""
 

@@ -15,7 +15,7 @@ import pytest
 
 from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.settings import BenchSettings, EndpointSettings
-from planner_ft.benchmark.sources.endpoint import PROBE_ANSWER, served_schema
+from planner_ft.benchmark.sources.endpoint import GREETING, PROBE_ANSWER, served_schema
 from planner_ft.cli import main
 from planner_ft.prompts.text import system_text
 from planner_ft.support.errors import PlannerError
@@ -398,3 +398,51 @@ def test_the_usual_answer_is_a_valid_plan() -> None:
     jsonschema.Draft202012Validator(
         plan_schema("mission", load_vocabulary("usv"), strict=True)
     ).validate(PLAN)
+
+
+def told(text: str, logprob: float) -> dict[str, Any]:
+    """A reply with the log-probabilities of two tokens."""
+    tokens = [
+        {"token": part, "logprob": logprob, "top_logprobs": [{"token": "x", "logprob": -4.0}]}
+        for part in (text[:9], text[9:])
+    ]
+    reply = completion(text)
+    reply["choices"][0]["logprobs"] = {"content": tokens}
+    return reply
+
+
+@pytest.mark.parametrize(
+    ("logprob", "asks"), [(-0.05, True), (0.7, False), (float("nan"), False), (0.0, False)]
+)
+def test_log_probabilities_of_a_server_are_kept_unless_they_cannot_be(
+    server: ChatServer, settings: Any, logprob: float, asks: bool
+) -> None:
+    def tell(handler: Handler, body: dict[str, Any]) -> bool:
+        text = "Hello there!" if asked(body) == GREETING else json.dumps(PLAN)
+        told_of = "logprobs" in body and not body.get("stream")
+        handler.send(200, told(text, logprob) if told_of else completion(text))
+        return True
+
+    server.act = server.greet = tell
+    results = run_bench(settings())
+    assert {"logprobs" in body for body in server.requests if not body.get("stream")} == {asks}
+    written = lines(settings().folder / "predictions.jsonl")
+    assert {"logprobs" in line for line in written} == {asks}
+    found = results.rows[0].breakdown.get("confidence")
+    assert (found is not None) == asks
+    if found:
+        assert (found["n"], found["calibrated"]) == (len(written), False)
+
+
+def test_a_server_that_lies_about_one_answer_alone_is_not_believed_there(
+    server: ChatServer, settings: Any
+) -> None:
+    def tell(handler: Handler, body: dict[str, Any]) -> bool:
+        honest = asked(body) == GREETING or len(server.requests) % 2
+        text = "Hello there!" if asked(body) == GREETING else json.dumps(PLAN)
+        handler.send(200, told(text, -0.05 if honest else 3.0))
+        return True
+
+    server.act = server.greet = tell
+    found = run_bench(settings({"concurrency": 1})).rows[0].breakdown["confidence"]
+    assert found["n"] and found["not_known"]

@@ -69,6 +69,9 @@ class KnownAnswers:
             }
         )
 
+    def choices(self, _answer: Generation) -> None:
+        """No log-probabilities."""
+
     def text(self, _answer: Generation) -> str:
         level = self.asked[-1][0]
         given = [asked for asked, _record in self.asked if asked == level]

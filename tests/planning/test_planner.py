@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import jsonschema
 import pytest
 
+from planner_ft.confidence.judgement import NO_LOGPROBS
 from planner_ft.document import build
 from planner_ft.document.tree import plan_tree
 from planner_ft.planning.planner import Planner, SkillsKnown, TasksKnown
@@ -246,6 +247,7 @@ def test_the_tree_shows_steps_places_costs_and_that_no_adapter_is_used(known: Kn
     known()
     assert plan_tree(as_json(Planner.load(configuration="base").plan(COMMAND))).startswith(
         f"""{COMMAND}
+How sure: not known (Mission Agent: {NO_LOGPROBS})
  1 SearchAndDetect(target_description="green buoy")
    Find the green buoy.
     1. StationKeep(time=30) + DetectObjects(class_list=["buoy"])

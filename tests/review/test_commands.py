@@ -190,6 +190,7 @@ def test_every_example_of_the_help_can_be_read(usv: Vocabulary) -> None:
         task("Transit", {"target_position": [0, 0]}),
     ]
     document = mission_document("Circle the green buoy.", tasks, {2: skills}, usv)
+    document["choices"] = [{"task": "t2", "parameter": "radius", "value": 12, "others": [15]}]
     for example in HELP:
         parse_edit(example, document, usv)
 

@@ -14,6 +14,7 @@ from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from planner_ft.benchmark.settings import CHAT, ROOT, EndpointSettings
+from planner_ft.confidence.choices import Choice, Choices, known
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.tables import printable
 
@@ -63,7 +64,8 @@ class Passing(Exception):
 @dataclass(frozen=True)
 class Reply:
     """An answer. `seconds` is the time from the question to its end, `first_token_s` to the first
-    text (streams alone); `problem` says why there is no text.
+    text (streams alone); `problem` says why there is no text. `choices` are the log-probabilities that
+    the server gives and that can be believed.
     """
 
     text: str
@@ -74,6 +76,7 @@ class Reply:
     first_token_s: float | None = None
     attempts: int = 1
     problem: str | None = None
+    choices: Choices | None = None
 
 
 class ChatClient:
@@ -268,7 +271,9 @@ def _read_whole(chunks: Iterable[bytes], started: float) -> Reply:
         raise Passing(f"answered without a message: {_excerpt(body)}")
     seconds, reason = time.perf_counter() - started, str(choice.get("finish_reason") or "stop")
     if isinstance(message.get("content"), str):
-        return Reply(_text(message), seconds, reason, *_usage(value))
+        text = _text(message)
+        choices = known(_choices(choice.get("logprobs")), text)
+        return Reply(text, seconds, reason, *_usage(value), choices=choices)
     ended, problem = reason if reason == "length" else "error", "the server sent no content"
     return Reply("", seconds, ended, *_usage(value), problem=problem)
 
@@ -323,6 +328,27 @@ def _text(message: dict[str, Any]) -> str:
     """The text of a message; models that refuse or think first have none for a while."""
     content = message.get("content")
     return content if isinstance(content, str) else ""
+
+
+def _choices(value: Any) -> list[Choice] | None:
+    """The tokens of a reply as the chat completions API gives them; a token's own is not among its
+    alternatives here.
+    """
+    try:
+        return [
+            Choice(
+                len(token["token"]),
+                token["logprob"],
+                tuple(
+                    (other["token"], other["logprob"])
+                    for other in token.get("top_logprobs") or ()
+                    if other["token"] != token["token"]
+                ),
+            )
+            for token in value["content"]
+        ]
+    except (AttributeError, KeyError, TypeError):
+        return None
 
 
 def _usage(value: dict[str, Any]) -> tuple[int | None, int | None]:

@@ -14,6 +14,7 @@ from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import EndpointSettings
 from planner_ft.benchmark.sources import Fields, timed
 from planner_ft.benchmark.sources.chat_client import ChatClient, Rejected, Reply, Unanswerable
+from planner_ft.confidence.choices import as_json
 from planner_ft.prompts.text import prompt_messages
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
@@ -26,6 +27,10 @@ if TYPE_CHECKING:
 UNPENALISED = {"repeat_penalty": 1.0}
 """llama.cpp's Python server punishes repetition unless it is told not to: no greedy decoding, and
 the end of every JSON. Not all servers take the field.
+"""
+LOGPROBS = {"logprobs": True, "top_logprobs": 3}
+"""How servers are asked for the log-probabilities of an answer; those that know them no better go
+without.
 """
 GREETING = "Greet me in one word."
 FORMS = ("json_schema", "json_object")
@@ -57,7 +62,9 @@ class EndpointSource:
             # A server that does not answer at all is said to be so here.
             self.client.complete(self._greeting(1))
             heeded = self._heeded(self._greeting(1, **UNPENALISED)) is not None
-            self.fields: dict[str, Any] = UNPENALISED if heeded else {}
+            self.fields: dict[str, Any] = dict(UNPENALISED if heeded else {})
+            # Streams time an answer: what is asked for beside it would be timed, too.
+            self.asked: dict[str, Any] = LOGPROBS if self._tells() else {}
             held = any(job.configuration.strength == "schema" for job in jobs)
             self.schema_form = self._accepted_form() if held else None
         except BaseException:
@@ -69,7 +76,7 @@ class EndpointSource:
         """Several questions at a time; answers that came are yielded also when another question
         failed for good.
         """
-        bodies = [self.request(job, sample) for sample in samples]
+        bodies = [{**self.request(job, sample), **self.asked} for sample in samples]
         yield from self.client.complete_all(self._answered, bodies)
 
     def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
@@ -91,7 +98,7 @@ class EndpointSource:
             "load_s": round(self.seconds, 3),
             "endpoint": self.endpoint.root,
             "models": self.models,
-            "request_fields": self.fields,
+            "request_fields": {**self.fields, **self.asked},
             "schema_form": self.schema_form,
         }
 
@@ -133,6 +140,7 @@ class EndpointSource:
             "error": error or reply.problem,
             "prompt_tokens": reply.prompt_tokens,
             "attempts": reply.attempts,
+            **({"logprobs": as_json(reply.choices)} if reply.choices else {}),
         }
 
     def _streamed(self, body: dict[str, Any]) -> Reply:
@@ -172,6 +180,15 @@ class EndpointSource:
         problem = "the server does not hold answers to a JSON schema (response_format)"
         way = "leave out the configurations with +schema"
         raise PlannerError(f"{self.endpoint.root}: {problem}; {way}")
+
+    def _tells(self) -> bool:
+        """Whether the server gives log-probabilities that can be believed."""
+        try:
+            return (
+                self.client.complete(self._greeting(4, **LOGPROBS), retries=1).choices is not None
+            )
+        except (PlannerError, Unanswerable):
+            return False
 
     def _heeded(self, body: dict[str, Any]) -> str | None:
         """The answer to a request with a field that the server may not know, None where it fails:

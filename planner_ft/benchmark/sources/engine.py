@@ -10,6 +10,8 @@ from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.sources import Fields, timed
 from planner_ft.benchmark.sources.batching import in_batches, is_out_of_memory, new_batch_size
 from planner_ft.candidates.loading import resolve_device
+from planner_ft.confidence.calibration import plan_confidence
+from planner_ft.confidence.choices import as_json, known
 from planner_ft.decoding.configurations import Configuration
 from planner_ft.decoding.engine import Engine
 from planner_ft.support.resources import peak_memory, reset_peak_memory
@@ -60,12 +62,20 @@ class EngineSource:
                 chosen, job.configuration, batch_size=size, sampling=sampling
             )
 
+        calibration = job.calibration()
         for index, answer, size in in_batches(ask, lengths, self.batch, is_out_of_memory):
-            extra = {"alternatives": answer.alternatives, "working": self.engine.working(answer)}
+            text = self.engine.text(answer)
+            choices = known(self.engine.choices(answer), text)
+            extra: dict[str, Any] = {
+                "alternatives": answer.alternatives,
+                "working": self.engine.working(answer),
+                "logprobs": as_json(choices),
+                "confidence": plan_confidence(calibration, text, choices),
+            }
             yield (
                 index,
                 {
-                    "output": self.engine.text(answer),
+                    "output": text,
                     "tokens": len(answer.ids),
                     "forward_passes": answer.forward_passes,
                     "time_s": round(answer.seconds, 4),
@@ -73,7 +83,7 @@ class EngineSource:
                     "error": answer.error,
                     "prompt_tokens": lengths[index],
                     "batch": size,
-                    **{name: value for name, value in extra.items() if value},
+                    **{name: value for name, value in extra.items() if value not in (None, 0, "")},
                 },
             )
 

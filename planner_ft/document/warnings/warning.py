@@ -8,8 +8,15 @@ from typing import Any
 Warning = dict[str, Any]
 """{"id", "kind", "task", "parameter", "text"}; edits elsewhere leave the id as it is."""
 SERIOUS = (
-    *("invalid-answer", "structure-close", "limit-broken", "limit-lost", "contradiction"),
-    *("doubtful-origin", "unknown-language", "repeat-lost"),
+    *(
+        "unknown-language",
+        "invalid-answer",
+        "structure-close",
+        "limit-broken",
+        "limit-lost",
+        "contradiction",
+    ),
+    *("doubtful-origin", "repeat-lost"),
     *("unresolved-location", "value-asked", "used-before-found", "not-at-place"),
     *("position-missing", "outside-boundary", "outside-area", "out-of-reach", "over-endurance"),
     *("missing-return", "not-planned", "data-not-planned", "not-performed"),

@@ -37,6 +37,7 @@ EDITS = (
     "locate",
     "origin",
     "constraint",
+    "title",
     "parameter",
     "prompt",
     "remove",

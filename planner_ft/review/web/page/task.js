@@ -3,6 +3,7 @@
 import { Refusal } from "./dialog.js";
 import { count, metres, same, seconds, shown, withUnit } from "./format.js";
 import { Steps } from "./steps.js";
+import { Level, leastSure } from "./sure.js";
 import { html, useState } from "./vendor.js";
 import { Add, Value, unknownParameter } from "./values.js";
 
@@ -24,7 +25,7 @@ export function Task({ store, task, index, last, tab, keys, move, remove, open, 
       <span class="handle" title="Drag to another place in the order" aria-hidden="true" ...${handle}>⠿</span>
       <button class="head" tabindex=${tab} aria-expanded=${open} aria-current=${chosen ? "true" : null} onClick=${() => (chosen || !open ? toggle() : null) || store.select({ task: task.id })} onKeyDown=${(event) => keys(event, task, index)}>
         <span class="number">${number}</span> <span class="title">${task.title}</span> <span class="id" title="The name of this task in warnings and in the file">${task.id}</span> <span class="category">${[kind?.category || "not in the definition", way > 0 && metres(way), time > 0 && seconds(time)].filter(Boolean).join(" · ")}</span>
-        ${warnings.length > 0 && html` <span class="flag">${count(warnings.length, "warning")}</span>`}
+        <${Level} of=${leastSure(task)} />${warnings.length > 0 && html` <span class="flag">${count(warnings.length, "warning")}</span>`}
       </button>
       <span class="tools">
         <button aria-label=${`Earlier: ${label}`} title="Earlier (Alt+↑)" disabled=${index === 0} onClick=${() => move(task, index, index - 1)}>↑</button>
@@ -71,7 +72,7 @@ function Parameter({ store, task, name, value, known, label }) {
   const change = (next) => store.edit({ kind: "parameter", task: task.id, name, value: next }, `${label}, ${name} ${next === null ? "left out" : shown(next)}`);
   return html`<div class=${`parameter ${chosen ? "chosen" : ""}`} data-parameter=${name} onMouseEnter=${light} onMouseLeave=${dark} onfocusin=${light} onfocusout=${dark}>
     <dt>${name}</dt>
-    <dd><${Value} store=${store} label=${label} parameter=${known} value=${value} change=${change} />
+    <dd><${Level} of=${task.confidence?.values?.[name]} /><${Value} store=${store} label=${label} parameter=${known} value=${value} change=${change} />
       ${source && html`<span class=${`source ${source.kind}`} title=${source.note || ""}>${source.kind === "located" && source.note ? source.note : html`${KINDS[source.kind] || source.kind}${words && html` <q>${words}</q>`}${!words && source.note && !changed ? `: ${source.note}` : ""}`}
         ${changed && html` <span class="was">proposed ${withUnit(proposed, known.unit)}</span>`}</span>`}</dd>
   </div>`;

@@ -1,6 +1,7 @@
 // What the reviewer must know before anything moves, each to be acknowledged.
 
 import { count } from "./format.js";
+import { Sureness } from "./sure.js";
 import { html } from "./vendor.js";
 
 export function Warnings({ store }) {
@@ -11,6 +12,7 @@ export function Warnings({ store }) {
     <h2 id="warnings-title">${title}</h2>
     ${!document.valid && html`<p class="refusal">An agent's answer is not valid, so this plan cannot be approved as it is.</p>`}
     ${store.warnings.length === 0 && html`<p class="soft">The checks found nothing. They do not replace reading the plan.</p>`}
+    <${Sureness} store=${store} />
     <ul>${store.warnings.map((warning) => html`<${Warning} key=${warning.id} store=${store} warning=${warning} />`)}</ul>
   </section>`;
 }

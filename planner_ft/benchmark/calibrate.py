@@ -1,0 +1,203 @@
+"""Calibration: answers to validation data are made, scored, and turned into the probability that a
+part of a plan is right (planner_ft.confidence).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from planner_ft.benchmark.folder import PREDICTIONS, RUN
+from planner_ft.benchmark.metrics.confidence import confidence_figures
+from planner_ft.benchmark.metrics.values import agreeing_keys, parameters_agree
+from planner_ft.benchmark.records import records_by_key
+from planner_ft.benchmark.runner import Progress, run_bench
+from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data
+from planner_ft.benchmark.scoring import SampleScore, score_sample
+from planner_ft.benchmark.settings import BenchSettings
+from planner_ft.confidence.calibration import KINDS, Calibration, Curve, log_features
+from planner_ft.confidence.choices import from_json
+from planner_ft.confidence.parts import Kind, Part, parts
+from planner_ft.planning.agents import silent
+from planner_ft.planning.settings import PlanSettings, choose_agents
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import (
+    compact_json,
+    read_json,
+    read_text,
+    sha256_file,
+    sha256_text,
+    write_json,
+    write_text,
+)
+from planner_ft.support.manifest import build_manifest
+from planner_ft.vocabulary import Vocabulary, load_vocabulary
+from planner_ft.vocabulary.plans import Level
+
+EVERY = ("lowest", "total", "margin", "overruled", "tokens")
+FEATURES: dict[Kind, tuple[str, ...]] = {"plan": EVERY, "entry": EVERY, "value": EVERY}
+"""What tells right parts from wrong ones, chosen on the development sets (docs/metrics.md)."""
+LEAST = 20
+"""Answers below which nothing is fitted."""
+FOLDS = 5
+DATA = "data.jsonl"
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A part of an answer, whether it is right, and the family of its sample."""
+
+    part: Part
+    right: bool
+    family: str
+
+
+def calibrate(
+    level: Level, data: Sequence[Path], out: Path, progress: Progress = silent, **named: Any
+) -> tuple[Path, dict[str, Any]]:
+    """Calibrate an agent on files of validation data and write the calibration beside its adapter,
+    or in its candidate's folder; returns the file and the figures of `manifest`.
+
+    `named` are those of PlanSettings. Answers are kept in `out`, and those that are there are not
+    made again. Raises PlannerError.
+    """
+    settings = PlanSettings(**named)
+    vocabulary = load_vocabulary(settings.vocabulary)
+    agent = choose_agents(settings, vocabulary)[level]
+    held_for = agent.held_for(vocabulary)
+    named_by = [held_for, *(sha256_file(path) for path in _files(data))]
+    folder = out / f"{agent.candidate.slug}-{level}-{sha256_text(compact_json(named_by))[:12]}"
+    joined = folder / "in" / DATA
+    write_text(joined, "".join(f"{read_text(path).rstrip()}\n" for path in data))
+    samples = load_bench_data(joined, level, vocabulary, None)
+    adapters = (str(agent.adapter),) if agent.adapter else ()
+    run = BenchSettings(
+        level,
+        (settings.candidate,),
+        (agent.configuration.name,),
+        data=joined,
+        out=folder / "run",
+        adapters=adapters,
+        vocabulary=settings.vocabulary,
+        device=settings.device,
+        quantization=agent.quantization,
+        latency_samples=0,
+        resume=True,
+    )
+    run_bench(run, progress)
+    calibration = fitted(level, samples, _lines(run.folder), vocabulary)
+    manifest = build_manifest(
+        "calibrate",
+        seed=None,
+        configuration={"level": level, "features": FEATURES},
+        inputs={str(path): path for path in data},
+        agent=held_for,
+        **calibration.manifest,
+    )
+    path = agent.calibration
+    write_json(path, Calibration(level, calibration.curves, manifest).to_json())
+    return path, manifest
+
+
+def fitted(
+    level: Level, data: BenchData, lines: dict[str, dict[str, Any]], vocabulary: Vocabulary
+) -> Calibration:
+    """The curves of predictions by sample id; the manifest has the figures of plans that were not
+    fitted on, out of FOLDS folds that no phrasing family crosses. Raises PlannerError where too few
+    answers have log-probabilities.
+    """
+    judged = [one for sample in data.samples for one in judge(level, sample, lines, vocabulary)]
+    of_kind = {kind: [one for one in judged if one.part.kind == kind] for kind in KINDS}
+    if len(of_kind["plan"]) < LEAST:
+        known = f"{len(of_kind['plan'])} of {len(data.samples)} answers have log-probabilities"
+        way = f"at least {LEAST} are needed: give more data, or another candidate"
+        raise PlannerError(f"{data.path}: {known}; {way}")
+    curves = {kind: _curve(found, FEATURES[kind]) for kind, found in of_kind.items()}
+    figures = {kind: _held_out(found, FEATURES[kind]) for kind, found in of_kind.items()}
+    return Calibration(level, curves, {"n": len(of_kind["plan"]), "held_out": figures})
+
+
+def judge(
+    level: Level, sample: Sample, lines: dict[str, dict[str, Any]], vocabulary: Vocabulary
+) -> Iterator[Judged]:
+    """The parts of an answer, as far as its log-probabilities are known and it can be read."""
+    line = lines.get(sample.id, {})
+    choices = from_json(line.get("logprobs"), line.get("output", ""))
+    if choices is None or line.get("parsed") is None:
+        return
+    score = score_sample(level, sample, line, vocabulary)
+    of_entries = _right_entries(level, score, vocabulary)
+    entry = -1
+    for part in parts(level, line["output"], choices):
+        if part.kind == "plan":
+            yield Judged(part, score.failure is None, sample.family)
+            continue
+        entry += part.kind == "entry"
+        if entry < len(of_entries):
+            whole, values = of_entries[entry]
+            named = part.path[-1] in values
+            yield Judged(part, whole if part.kind == "entry" else named, sample.family)
+
+
+def _right_entries(
+    level: Level, score: SampleScore, vocabulary: Vocabulary
+) -> list[tuple[bool, set[str]]]:
+    """Per predicted entry whether name and parameters are right, and the names of right values."""
+    found: list[tuple[bool, set[str]]] = [(False, set()) for _ in score.alignment.predicted]
+    for ours, theirs in score.alignment.pairs:
+        wanted, given = score.alignment.expected[ours], score.alignment.predicted[theirs]
+        judged = level, given.name, given.parameters, wanted.parameters, vocabulary
+        values = {"title" if level == "mission" else "name", *agreeing_keys(*judged)}
+        found[theirs] = parameters_agree(*judged), values
+    return found
+
+
+def _table(judged: Sequence[Judged], names: Sequence[str]) -> tuple[list[list[float]], list[bool]]:
+    features = [log_features(one.part) for one in judged]
+    return [[row[name] for name in names] for row in features], [one.right for one in judged]
+
+
+def _curve(judged: Sequence[Judged], names: Sequence[str]) -> Curve:
+    from sklearn.linear_model import LogisticRegression
+
+    table, right = _table(judged, names)
+    share = sum(right) / len(right)
+    if share in (0, 1):
+        # Nothing to tell apart: Laplace's rule of succession.
+        odds = (sum(right) + 1) / (len(right) - sum(right) + 1)
+        return Curve({}, math.log(odds), len(right), share)
+    model = LogisticRegression(max_iter=1000).fit(table, right)
+    weights = dict(zip(names, map(float, model.coef_[0]), strict=True))
+    return Curve(weights, float(model.intercept_[0]), len(right), share)
+
+
+def _held_out(judged: Sequence[Judged], names: Sequence[str]) -> dict[str, Any]:
+    """The figures of parts by curves that were fitted on the other folds."""
+    families = sorted({one.family for one in judged})
+    fold = {family: place % FOLDS for place, family in enumerate(families)}
+    found: list[tuple[float, bool]] = []
+    for number in range(min(FOLDS, len(families))):
+        inside = [one for one in judged if fold[one.family] == number]
+        outside = [one for one in judged if fold[one.family] != number]
+        curve = _curve(outside or inside, names)
+        found += [(curve.probability(one.part), one.right) for one in inside]
+    figures = confidence_figures(*zip(*found, strict=True)) if found else {}
+    return {name: value for name, value in figures.items() if name not in ("curve", "bins")}
+
+
+def _files(data: Sequence[Path]) -> Sequence[Path]:
+    """The files themselves. Raises PlannerError where there are none."""
+    if not data:
+        raise PlannerError("name at least one file of validation data")
+    for one in data:
+        if not one.is_file():
+            raise PlannerError(f"{one}: no such file")
+    return data
+
+
+def _lines(folder: Path) -> dict[str, dict[str, Any]]:
+    (key,) = read_json(folder / RUN)["keys"].values()
+    return records_by_key(folder / PREDICTIONS).get(key, {})

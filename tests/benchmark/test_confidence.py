@@ -1,0 +1,124 @@
+"""Whether a system knows when it is wrong, and calibration on validation data."""
+
+from __future__ import annotations
+
+import json
+import math
+import random
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from planner_ft.benchmark.calibrate import FEATURES, LEAST, fitted
+from planner_ft.benchmark.metrics.confidence import confidence_figures
+from planner_ft.benchmark.samples import BenchData, Sample
+from planner_ft.benchmark.scoring import score_sample
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import compact_json
+from planner_ft.vocabulary import load_vocabulary
+
+USV = load_vocabulary("usv")
+
+
+def plan(radius: int) -> dict[str, Any]:
+    given = {"center": [4, -2], "radius": radius}
+    one = {"title": "PerformOrbit", "parameters": given, "task_prompt": "Circle."}
+    return {"tasks": [one], "assumptions": [], "constraints": []}
+
+
+def line(name: str, radius: int, logprob: float) -> dict[str, Any]:
+    """An answer whose doubt is in the radius."""
+    text = compact_json(plan(radius))
+    at, size = text.index(str(radius)), len(str(radius))
+    margin = logprob - math.log(1 - math.exp(logprob))
+    tokens = [[at, -0.001, 7.0], [size, logprob, margin], [len(text) - at - size, -0.001, 7.0]]
+    return {"id": name, "output": text, "parsed": json.loads(text), "logprobs": tokens}
+
+
+def answers(count: int) -> tuple[BenchData, dict[str, dict[str, Any]]]:
+    """Two of three answers are right; the wrong ones are doubted, and so are a few right ones."""
+    samples, lines, rng = [], {}, random.Random(1)
+    for number in range(count):
+        name, wrong = f"s{number}", number % 3 == 0
+        samples.append(
+            Sample(name, f"f{number // 2}", {"prompt": "Circle it.", "expected": plan(12)})
+        )
+        doubted = wrong != (rng.random() < 0.1)
+        lines[name] = line(name, 15 if wrong else 12, -1.2 if doubted else -0.05)
+    return BenchData(Path(), "", "mission", tuple(samples), frozenset(lines)), lines
+
+
+def test_perfect_order_random_order_and_worst_order() -> None:
+    right = [True] * 90 + [False] * 10
+    best = confidence_figures([1 - index / 100 for index in range(100)], right)
+    none = confidence_figures([0.5] * 100, right)
+    worst = confidence_figures([index / 100 for index in range(100)], right)
+    assert best["aurc"] < 0.01 < none["aurc"] < worst["aurc"]
+    assert none["aurc"] == pytest.approx(0.1)
+    assert (best["least_sure_tenth"], best["approved_99"]) == (1.0, 0.9)
+    assert none["least_sure_tenth"] == pytest.approx(0.1)
+    assert none["approved_99"] == worst["approved_99"] == 0.0
+    assert none["aurc_random"] == 0.1
+
+
+def test_calibration_error_is_nothing_for_the_honest() -> None:
+    right = [True, True, True, False]
+    assert confidence_figures([0.75] * 4, right)["ece"] == 0
+    assert confidence_figures([1.0] * 4, right)["ece"] == pytest.approx(0.25)
+
+
+def test_calibration_finds_the_doubt_in_every_part_that_has_it() -> None:
+    data, lines = answers(90)
+    found = fitted("mission", data, lines, USV)
+    assert set(found.curves) == set(FEATURES)
+    assert (found.curves["plan"].n, found.curves["plan"].right) == (90, pytest.approx(2 / 3))
+    # Title and centre are always right, the radius as often as the plan.
+    assert found.curves["value"].n == 270
+    for kind, figures in found.manifest["held_out"].items():
+        assert figures["aurc"] < 0.5 * figures["aurc_random"], kind
+    assert json.loads(json.dumps(found.to_json()))["curves"]["plan"]["n"] == 90
+
+
+def test_too_few_answers_or_none_with_log_probabilities_is_one_sentence() -> None:
+    data, lines = answers(LEAST - 1)
+    with pytest.raises(PlannerError, match=f"at least {LEAST} are needed"):
+        fitted("mission", data, lines, USV)
+    data, lines = answers(60)
+    bare = {name: {**one, "logprobs": None} for name, one in lines.items()}
+    with pytest.raises(PlannerError, match="0 of 60 answers have log-probabilities"):
+        fitted("mission", data, bare, USV)
+
+
+def test_a_system_that_is_always_right_is_calibrated_too() -> None:
+    data, lines = answers(60)
+    right = {name: line(name, 12, -0.05) for name in lines}
+    curve = fitted("mission", data, right, USV).curves["plan"]
+    assert not curve.weights and 0 < curve.intercept < 10
+
+
+@pytest.mark.parametrize(
+    ("fields", "confidence"),
+    [
+        ({"confidence": 0.7}, 0.7),
+        ({"confidence": 7}, None),
+        ({"confidence": "sure"}, None),
+        ({}, None),
+    ],
+)
+def test_a_score_takes_what_can_be_believed(
+    fields: dict[str, Any], confidence: float | None
+) -> None:
+    data, lines = answers(3)
+    given = {**lines["s1"], "logprobs": None, **fields}
+    found = score_sample("mission", data.samples[1], given, USV)
+    assert found.details["confidence"] == confidence
+
+
+def test_without_calibration_the_probability_of_the_tokens_counts() -> None:
+    data, _lines = answers(3)
+    sure, unsure = (
+        score_sample("mission", data.samples[1], line("s1", 12, logprob), USV).details["confidence"]
+        for logprob in (-0.05, -1.2)
+    )
+    assert unsure == pytest.approx(0.3006, abs=1e-3) and sure > 0.9
