@@ -6,7 +6,7 @@ from pathlib import Path
 
 from planner_ft.cli.options import command
 from planner_ft.cli.progress import interruptible
-from planner_ft.support.files import alone
+from planner_ft.support.alone import alone
 from planner_ft.support.terminal import show
 
 SHOWN = {"plan": "plans", "entry": "tasks or skills", "value": "values"}
