@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import shlex
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,6 +13,7 @@ from planner_ft.cli.options import command, set_parameters
 from planner_ft.cli.progress import resume_command
 from planner_ft.support.terminal import terminal
 from planner_ft.training.settings import ABOUT, FIELDS, default_text, kind_of
+from planner_ft.vocabulary.definition import DEFAULT
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -112,9 +114,22 @@ def _result(request: Any, result: dict[str, Any]) -> list[str]:
         *([f"the adapter is {result['change']}"] if "change" in result else []),
         f"adapter: {request.output} ({result['adapter_bytes'] / 1e6:.1f} MB); loss curve in"
         " loss.png, log in train_log.jsonl",
-        f"next: plannerft bench --level {request.level} --candidates {request.candidate.name}"
-        f" --configurations base,lora --adapter {request.output}",
+        f"next: plannerft bench {shlex.join(_next(request))}",
     ]
+
+
+def _next(request: Any) -> list[str]:
+    """The arguments of `bench` for the trained adapter: this vehicle's, on the data trained on."""
+    vocabulary, candidate = request.vocabulary, request.candidate
+    named = str(candidate.folder) if candidate.source == "path" else candidate.name
+    words = ["--level", request.level, "--candidates", named, "--configurations", "base,lora"]
+    words += ["--adapter", str(request.output)]
+    if vocabulary.source != DEFAULT:
+        words += ["--vocabulary", vocabulary.source]
+    tests = request.train_file.parent / "test.jsonl"
+    if tests.is_file() and tests != vocabulary.data / request.level / "test.jsonl":
+        words += ["--data", str(tests)]
+    return words
 
 
 def _preview(request: Any, sample_id: str | None, console: Console) -> None:

@@ -22,6 +22,7 @@ from planner_ft.training.samples import (
     Sample,
     Split,
     augmented,
+    contradictions,
     read_split,
     render_split,
     shortened,
@@ -126,6 +127,8 @@ def check_data(request: TrainRequest, prepared: Prepared, finding: Finding) -> N
         train = with_corrections(train, request.corrections, level, vocabulary, problems)
         count = len(train.records) - own
         added.append(f"{count} of the training samples from {request.corrections}")
+    if train:
+        problems += shortened(contradictions(train, level, vocabulary))
     if train and settings.vary:
         own = len(train.records)
         train = with_variants(train, level, vocabulary, settings.seed, settings.vary)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
 from pathlib import Path
@@ -16,7 +16,7 @@ from planner_ft.prompts.text import user_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, iterate_jsonl, sha256_file, sha256_text
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import Level, plan_problems
+from planner_ft.vocabulary.plans import Level, list_key, plan_problems
 
 if TYPE_CHECKING:
     from rich.text import Text
@@ -163,6 +163,21 @@ def with_corrections(
     """
     added = read_split(path, level, vocabulary, problems, known=split)
     return split.extended(added.records, added.sha256) if added else split
+
+
+def contradictions(split: Split, level: Level, vocabulary: Vocabulary) -> Iterator[str]:
+    """Records of the same input with different plans; how a task prompt is worded is no difference."""
+    first: dict[str, Record] = {}
+    for record, digest in zip(split.records, digests(split, level, vocabulary), strict=True):
+        known = first.setdefault(digest, record)
+        if _labels(level, known) != _labels(level, record):
+            same = f"{known['id']} and {record['id']} are the same input with different plans"
+            yield f"{split.path}: {same}; keep the right one"
+
+
+def _labels(level: Level, record: Record) -> list[Record]:
+    entries: list[Record] = record["expected"][list_key(level)]
+    return [{key: one for key, one in entry.items() if key != "task_prompt"} for entry in entries]
 
 
 def augmented(split: Split, level: Level, vocabulary: Vocabulary, seed: int, count: int) -> Split:

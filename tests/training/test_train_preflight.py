@@ -237,3 +237,25 @@ def test_training_on_a_test_set_is_said(ask, quiet, data, curated, write, tmp_pa
     warned = capsys.readouterr().err
     assert f"warning: 1 of 2 inputs of {data / 'test.jsonl'} are in the training" in warned
     assert f"1 of 2 inputs of {data / 'test.jsonl'}" in (tmp_path / "adapter/README.md").read_text()
+
+
+def test_two_plans_for_one_command_are_named(ask, data, write, curated):
+    first, second = curated(2)
+    write(data / "train.jsonl", [first, {**second, "prompt": first["prompt"]}])
+    finding = next(one for one in run_preflight(ask(), Prepared()) if one.title == "data")
+    (problem,) = finding.problems
+    assert f"{first['id']} and {second['id']} are the same input with different plans" in problem
+    write(data / "train.jsonl", [first, {**first, "id": "again"}])
+    finding = next(one for one in run_preflight(ask(), Prepared()) if one.title == "data")
+    assert finding.problems == []
+
+
+def test_one_sample_and_labels_of_another_vehicle(ask, data, write, curated):
+    write(data / "train.jsonl", curated(1))
+    assert not any(one.problems for one in run_preflight(ask(), Prepared()))
+    finding = next(
+        one
+        for one in run_preflight(ask(vocabulary="inspection_drone"), Prepared())
+        if one.title == "data"
+    )
+    assert "is no task title of the vocabulary" in finding.problems[0]

@@ -429,3 +429,12 @@ def test_the_task_level_trains(ask, quiet, write, tmp_path):
     manifest = train(ask(level="task", data_dir=str(tmp_path / "task")), quiet)
     assert manifest["level"] == "task"
     assert (manifest["configuration"]["rank"], manifest["result"]["steps"]) == (8, 8)
+
+
+def test_the_next_command_names_vehicle_and_data(ask, data, write, curated):
+    from planner_ft.cli.train import _next
+
+    assert not {"--vocabulary", "--data"} & set(_next(ask()))
+    tests = write(data / "test.jsonl", curated(1))
+    drone = _next(ask(vocabulary="inspection_drone"))
+    assert drone[-4:] == ["--vocabulary", "inspection_drone", "--data", str(tests)]

@@ -22,7 +22,7 @@ DIGITS = "0123456789"
 _MARK = re.compile(r"\\(.?)|\{([^}]*)\}|([(\[{|)\]}])")
 _SLOT = re.compile(r"(param\.|[~_?]?)([A-Za-z]\w*)(?::(\w*))?((?: +\w+)*) *", re.ASCII)
 _WORD = re.compile(r"""(?:[^\s"';]|"[^"]*"|(?<==)'[^']*'|')+|;""")
-_HEAD = re.compile(r"[+&]?([A-Za-z_]+)(?:\?([^@]*))?(?:@(first|last))?")
+_HEAD = re.compile(r"""[+&]?("[^"]+"|[\w-]+)(?:\?([^@]*))?(?:@(first|last))?""")
 _ARGUMENT = re.compile(
     r"""(?:(?P<name>\w+)=)?(?:(?P<quote>["'])(?P<text>.*)(?P=quote)|~(?P<unused>.+)"""
     r"""|(?P<minus>-?)(?:param\.(?P<param>\w+)|(?P<slot>[A-Za-z][\w-]*))|(?P<number>-?[\d.]+))""",
@@ -267,7 +267,9 @@ def _call(words: list[str]) -> Call:
     if head is None:
         raise TemplateError(f"{words[0]!r} is no name of a task, skill or shape")
     name, label, at = head.groups()
-    return Call(name, tuple(_argument(word) for word in words[1:]), label or "", at or "")
+    return Call(
+        name.strip('"'), tuple(_argument(word) for word in words[1:]), label or "", at or ""
+    )
 
 
 def _argument(word: str) -> Argument:
