@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from planner_ft.cli.options import command
+from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.terminal import show, terminal
 
@@ -35,15 +36,16 @@ def compare(
     if same and against is not None:
         kinds = f"--same compares rows of the same name and --against {against} one row with all"
         raise PlannerError(f"{kinds}: give one of them")
-    if out is not None:
-        former = () if overwrite else ("comparison.json",)
-        check_folder(out, former, "give --overwrite or another --out")
     metrics = tuple(metric or DEFAULT_METRICS)
-    report = compare_runs(CompareSettings(tuple(runs), metrics, against, same, common, seed))
-    if out is not None:
-        for name, text in render_report(report).items():
-            write_text(out / name, text)
-        write_json(out / "comparison.json", report.to_json())
+    with alone(out, "--out", "a comparison"):
+        if out is not None:
+            former = () if overwrite else ("comparison.json",)
+            check_folder(out, former, "give --overwrite or another --out")
+        report = compare_runs(CompareSettings(tuple(runs), metrics, against, same, common, seed))
+        if out is not None:
+            for name, text in render_report(report).items():
+                write_text(out / name, text)
+            write_json(out / "comparison.json", report.to_json())
     if json:
         show(indented_json(report.to_json()), end="")
     else:
@@ -72,8 +74,9 @@ def report(
     from planner_ft.report.write import write_report
 
     target, samples = out or runs[0], data or ()
-    written = write_report(
-        runs, target, data=samples, overwrite=overwrite, title=title, pictures=pictures
-    )
+    with alone(target, "--out", "a report"):
+        written = write_report(
+            runs, target, data=samples, overwrite=overwrite, title=title, pictures=pictures
+        )
     counts = [sum(path.parent.name == name for path in written) for name in ("figures", "tables")]
     show(f"{target}/: report.html, figures/ ({counts[0]} files), tables/ ({counts[1]} files)")

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from planner_ft.document import apply
-from planner_ft.document.clearance import structures, way_off, way_round
+from planner_ft.document.clearance import fence, structures, way_off, way_round
 from planner_ft.document.track import track
 from tests.documents import USV, document, step, task
 
@@ -132,3 +132,11 @@ def test_a_way_leads_round_many_structures_and_none_through_a_fence() -> None:
     assert waypoints(plan) == [[100, 0]]
     assert kinds(plan)[0] == "structure-close"
     assert way_round((0, 0), (1, 0), [], lambda _start, _goal: True) == []
+
+
+def test_the_vehicles_area_is_a_fence_of_every_plan() -> None:
+    plan = document([task("Transit", {"target_position": [9, 9]}, None)])
+    area = [[-50, -50], [50, -50], [50, 50], [-50, 50]]
+    within = fence({**plan, "vehicle": {**plan["vehicle"], "area": area}}, USV)
+    assert within((0, 0), (40, 40)) and not within((0, 0), (60, 0))
+    assert fence(plan, USV)((0, 0), (60, 0))

@@ -285,3 +285,19 @@ def test_undo_gives_every_state_back(plan: PlanDocument, edits: list[dict[str, A
         assert now == state
     with pytest.raises(PlannerError, match="no edit to take back"):
         undo(now, USV)
+
+
+def test_a_skill_is_dropped_from_one_step_or_from_all(plan: PlanDocument) -> None:
+    look = {"name": "DetectObjects", "parameters": {}}
+    going = step("GoToXY", {"x": 0, "y": 0})
+    steps = [{**going, "perception_skills": [look]}, going, {**going, "perception_skills": [look]}]
+    known = apply(plan, {"kind": "skills", "task": "t5", "skill_sequence": steps}, USV)
+
+    def left(**edit: Any) -> list[int]:
+        after = apply(known, {"kind": "drop", "task": "t5", "name": "DetectObjects", **edit}, USV)
+        return [len(one["perception_skills"]) for one in by_id(after, "t5")["skill_sequence"]]
+
+    assert left() == [0, 0, 0] and left(step=0) == [0, 0, 1] and left(step=2) == [1, 0, 0]
+    for number, sentence in ((1, "t5 step 2: has no filter or perc"), (3, "one of the task's 3")):
+        with pytest.raises(PlannerError, match=sentence):
+            left(step=number)

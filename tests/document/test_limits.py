@@ -43,7 +43,7 @@ def test_a_filter_that_is_there_is_kept_when_it_is_as_strict() -> None:
     moving = transit(100, 50)
     strict = {"name": "ObstacleAvoidance", "parameters": {"min_distance": 15}}
     moving["skill_sequence"][0]["filter_skills"] = [strict]
-    for metres, count in ((5, 1), (25, 2)):
+    for metres, count in ((5, 1), (15, 1), (25, 2)):
         text = f"The vehicle keeps at least {metres} m from every obstacle."
         plan = document([moving], constraints=[text])
         assert len(plan["tasks"][0]["skill_sequence"][0]["filter_skills"]) == count
@@ -64,6 +64,13 @@ def test_the_words_of_the_command_are_found() -> None:
     assert limit["words"] == "never leave the area 0,0 200,0 200,200 0,200"
     start, end = limit["spans"][0]
     assert command[start:end] == limit["words"]
+
+
+def test_the_words_of_a_limit_reach_from_its_first_value_to_its_last() -> None:
+    command = "Go to 100,50. Keep at least 70 m, and I mean it, from the platform at 260,80. Hurry."
+    (limit,) = document([transit(100, 50)], command=command, constraints=[PLATFORM])["limits"]
+    assert limit["words"].startswith("Keep at least 70 m") and "260,80" in limit["words"]
+    assert "100,50" not in limit["words"] and "Hurry" not in limit["words"]
 
 
 @pytest.mark.parametrize(

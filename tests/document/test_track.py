@@ -164,3 +164,21 @@ def test_the_estimate_sums_what_is_known_and_names_the_rest() -> None:
         ]
     )
     assert estimate(plan, track(plan, USV)) == {"length": 50, "seconds": 33, "open": ["t2", "t3"]}
+
+
+def test_a_located_place_is_a_target_where_a_task_is_at_it() -> None:
+    plan = document([transit(3, 4), transit(30, 40), transit(30, 40)])
+    plan = {**plan, "located": {"buoy": [30, 40], "wreck": [7, 7]}}
+    found = [(one.name, one.position, one.task) for one in track(plan, USV).targets]
+    assert found == [("buoy", (30, 40), "t2")]
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_arcs_one_after_the_other_go_on_smoothly(side: int) -> None:
+    def drawn(*angles: int) -> Track:
+        arcs = [step("ArcTurn", {"radius": 10, "delta_yaw": side * angle}) for angle in angles]
+        return of(task("VisualDockingApproach", {"target_feature": "name board"}, arcs))
+
+    whole, parts = drawn(180), drawn(60, 120)
+    assert parts.legs[-1].points[-1] == pytest.approx(whole.legs[-1].points[-1])
+    assert math.dist(*(whole.legs[-1].points[place] for place in (0, -1))) == pytest.approx(20)

@@ -44,6 +44,8 @@ def test_files_of_the_run_stay(tmp_path: Path) -> None:
         "bench --suite eval/suites/ci.toml --out OUT",
         "gen-data --out OUT --overwrite",
         "export --candidate embedded --out OUT --overwrite",
+        "compare eval --out OUT --overwrite",
+        "report eval --out OUT --overwrite",
     ],
 )
 def test_every_long_command_leaves_a_running_ones_files_alone(

@@ -10,6 +10,7 @@ import pytest
 from planner_ft.document import PlanDocument, apply, revise
 from planner_ft.document.vehicle import check_area
 from planner_ft.document.warnings import KINDS, NOTES
+from planner_ft.document.warnings.route import MOST_LISTED
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import Vocabulary
 
@@ -248,6 +249,23 @@ def test_unknown_parts_are_told_when_the_known_part_is_long() -> None:
         "Hold for 4000 s.",
     )
     assert "endurance-open" in kinds(planned("Hold for 4000 s.", hold), notes=True)
+
+
+def test_a_plan_may_last_as_long_as_the_vehicle_and_names_what_is_not_known() -> None:
+    plan = document([THERE, HOME], command="Go to [30, 40] and come home.")
+    lasts = {"endurance": plan["estimate"]["seconds"]}
+    assert kinds(revise({**plan, "vehicle": {**plan["vehicle"], **lasts}}, USV)) == []
+    follow = task("KeepStation", {}, [step("VisualStationKeep")], "Hold.")
+    for count, words in ((MOST_LISTED, "and 1 more"), (MOST_LISTED + 2, "and 2 more tasks")):
+        plan = document([THERE, *[follow] * count, HOME], command="Go to [30, 40] and come home.")
+        short = {**plan, "vehicle": {**plan["vehicle"], "endurance": 1}}
+        assert (words in text_of(revise(short, USV), "over-endurance")) == (count > MOST_LISTED)
+
+
+def test_an_unsaid_value_of_a_skill_is_told_once_for_a_task() -> None:
+    hold = step("StationKeep", {"time": 45})
+    wrong = {**THERE, "skill_sequence": [GO, hold, hold]}
+    assert kinds(planned("Go to [30, 40] and come home.", wrong, HOME)) == ["skill-value-not-said"]
 
 
 def test_a_return_that_is_missing() -> None:
