@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import sys
 
@@ -20,6 +21,10 @@ def main() -> None:
     if debug:
         sys.argv.remove("--debug")
     try:
+        for option, value in itertools.pairwise(sys.argv[1:]):
+            # A variable of a shell that is not set; as a path, it would be the working folder.
+            if option.startswith("--") and not value:
+                raise PlannerError(f"{option}: is empty; give a value or leave the option out")
         app()
     except PlannerError as error:
         if debug:
@@ -30,3 +35,9 @@ def main() -> None:
         # The reader (head, less) closed the pipe: nothing is wrong.
         sys.stderr.close()
         sys.exit(0)
+    except OSError as error:
+        if debug or error.filename is None:
+            raise
+        problem = f"cannot be used ({error.strerror})"
+        show(f"plannerft: {error.filename}: {problem}; give another path", error=True)
+        sys.exit(2)

@@ -166,7 +166,26 @@ export FOLDER --format qgc
 export --candidate FOLDER --out OUT
 export --candidate embedded --out EMPTY/x
 plan
+compare FOLDER --out LONG
+compare FOLDER --out NOTHING
+report FOLDER --out LONG
+report FOLDER --out NOTHING
+score --run LONG
+score --level mission --predictions LIST --out NOTHING
+gen-data --level task --out LONG
+gen-data --level task --out NOTHING
+vehicle new my_rover --out LONG
+vehicle new my_rover --out NOTHING
+train --level mission --candidate embedded --output LONG
+train --level mission --candidate embedded --output NOTHING
+export LONG --format qgc
+export --candidate embedded --out LONG
+bench --level mission --candidates embedded --out LONG
+bench --level mission --candidates embedded --out NOTHING
+plan x --locate-file NOTHING
 """
+WORDS = {"LONG": "x" * 300, "NOTHING": ""}
+"""A name that no file can have, and what an unset variable of a shell leaves."""
 FILES = {"BINARY": b"\xff\xfe\x00", "EMPTY": b"", "DEEP": b"[" * 100_000, "LIST": b"[]\n"}
 """Inputs that commands name, beside FOLDER, which is empty, and OUT, which does not exist."""
 
@@ -189,7 +208,7 @@ def test_it_is_refused_with_a_sentence(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     words = [
-        str(inputs / word) if word.split("/")[0] in {*FILES, "FOLDER"} else word
+        str(inputs / word) if word.split("/")[0] in {*FILES, "FOLDER"} else WORDS.get(word, word)
         for word in command.replace("OUT", str(tmp_path / "out")).split()
     ]
     monkeypatch.setattr(sys, "argv", ["plannerft", *words])
