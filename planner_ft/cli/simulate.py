@@ -54,6 +54,8 @@ def simulate(
     terminal().print(terminal_table(table(done, narrow=True)))
     for line in outcome_lines(done.results):
         show(line)
+    if any("nothing found" in one.reason for one in done.results):
+        show("what is to be found is placed with --locate NAME=x,y", error=True)
     show(f"{settings.folder}: table.md, tracks.svg, report.html, results.json and a log per run")
 
 

@@ -78,8 +78,8 @@ class Running:
             waiting = self.sensors if self.movement.waits else []
             silent = next((one for one in waiting if not one.done(np.array([run]))[0]), None)
             mode, seconds = self.movement.job.failure, f"{self.stage.patience:.0f} s"
-            text = f"{silent.job.skill}: nothing found" if silent else self.movement.why
-            found.setdefault(int(run), (mode, f"{text} after {seconds}"))
+            what = f"{silent.job.skill}: nothing found" if silent else self.movement.why
+            found.setdefault(int(run), (mode, f"{what} after {seconds}"))
         return found
 
     def stop(self, runs: Runs) -> None:

@@ -21,8 +21,10 @@ AHEAD = 4.0
 """Metres that guidance looks ahead on the path."""
 NEAR = 3.0
 """Tolerances within which a planned way is joined; from farther off the way begins anew."""
-SLOW = 0.4
-"""m/s at the goal, and 1/s by which the speed may grow with the distance from it."""
+SLOW, BRAKE = 0.1, 0.125
+"""m/s at the goal, and m/s^2 at which the vehicle slows down before it."""
+TANGENT = 1.0
+"""Metres of the path that say its direction."""
 STILL = 0.05
 """m/s or rad/s below which the vehicle rests."""
 HEADING = math.radians(3)
@@ -98,7 +100,7 @@ class Follow(Movement):
         to = aim - here
         away = np.linalg.norm(to, axis=1)
         self.there[runs] |= left < self.job.tolerance
-        speed = np.minimum(self.job.speed, SLOW + SLOW * left)
+        speed = np.minimum(self.job.speed, SLOW + np.sqrt(2 * BRAKE * left))
         made = self.toward(runs, to / np.maximum(away, 1e-6)[:, None] * speed[:, None])
         arrived = self.there[runs]
         made[arrived, :2] = 0.0
@@ -119,12 +121,17 @@ class Follow(Movement):
         length = np.maximum(np.linalg.norm(way, axis=1), 1e-6)
         unit = way / length[:, None]
         along = ((here - start) * unit).sum(axis=1)
-        near = np.linalg.norm(end - here, axis=1) < self.job.tolerance
-        passed = (legs < last) & ((along > length) | near)
+        passed = (legs < last) & (along > length - np.minimum(self.job.tolerance, length / 4))
         self.leg[runs] += passed
         goal = np.linalg.norm(paths[:, -1] - here, axis=1)
-        rest = np.where(legs < last, np.maximum(goal, AHEAD), goal)
-        return self._ahead(paths, legs, np.clip(along, 0, length) + AHEAD), rest
+        along = np.clip(along, 0, length)
+        on, next_on = (self._ahead(paths, legs, along + more) for more in (0.0, TANGENT))
+        direction = next_on - on
+        step = np.maximum(np.linalg.norm(direction, axis=1), 1e-6)[:, None]
+        closing = legs == last
+        near = closing & (goal < AHEAD)
+        aim = np.where(near[:, None], paths[:, -1], on + direction / step * AHEAD)
+        return aim, np.where(closing, goal, np.maximum(goal, AHEAD))
 
     def _ahead(self, paths: Floats, legs: Runs, along: Floats) -> Floats:
         """Points (n, 2) so many metres along the paths, counted from the start of a leg."""
@@ -162,7 +169,7 @@ class Home(Follow):
         known, home = self.scene.world.charted, self.scene.world.home
         for run in runs:
             here = float(self.scene.position[run, 0]), float(self.scene.position[run, 1])
-            way = way_round(here, home, known, lambda _start, _goal: True)
+            way = way_round(here, home, known, self.job.settings["allowed"])
             points = [here, *way[: self.longest - 2], home]
             self.last[run] = len(points) - 2
             self.paths[run] = points + [home] * (self.longest - len(points))

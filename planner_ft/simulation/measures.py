@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 
 from planner_ft.benchmark.statistics import Estimate, bootstrap_mean, wilson
+from planner_ft.document.clearance import SAME
 from planner_ft.simulation.executor import Executor, Running, Stage
 from planner_ft.simulation.fast import Bools, Floats, Runs
 from planner_ft.simulation.scene import Scene
-from planner_ft.simulation.skill import Skill
+from planner_ft.simulation.skill import Job, Skill
 from planner_ft.simulation.world import PILE, Fence
 
 
@@ -30,6 +31,12 @@ class Ring:
         away = np.abs(places - np.array(self.center))
         reach = away.max(axis=1) if self.square else np.linalg.norm(away, axis=1)
         return np.asarray(np.abs(reach - self.radius), dtype=float)
+
+    def holds(self, movement: Job) -> bool:
+        """Whether a planned way keeps it: its ends lie on it, but for the way to an arc."""
+        arc = movement.motion is not None and movement.motion.kind == "arc"
+        points = np.array(movement.points[1 if arc else 0 :], dtype=float).reshape(-1, 2)
+        return bool(len(points) and self.off(points).max() < SAME)
 
 
 @dataclass(frozen=True)
@@ -92,7 +99,8 @@ class Observer:
         self.fence_violations = np.zeros(count, dtype=int)
         self.clearance_violations = np.zeros(count, dtype=int)
         self.records: list[Counter[str]] = [Counter() for _run in range(count)]
-        self.reached: set[tuple[int, str]] = set()
+        self.reached: dict[str, Bools] = {}
+        """Per task the runs that have come to its stand-off."""
         self.last = scene.pose[:, :2].copy()
         start = np.linalg.norm(self.last[:, None] - scene.world.piles[None], axis=-1)
         limits = [one.standoff - one.slack for one in structures]
@@ -107,7 +115,6 @@ class Observer:
         """Take the errors at the end of a step."""
         for run, error in zip(runs, skill.errors(runs).get("waypoint", ()), strict=False):
             self.waypoints[run].append(float(error))
-        self.reached |= {(int(run), stage.task) for run in runs}
 
     def observed(self, groups: Sequence[tuple[Running, Runs]], active: Bools) -> None:
         """Take what is measured in a time step."""
@@ -131,10 +138,11 @@ class Observer:
             self.holding[runs] += held
             self.held[runs] += 1
         ring = self.rings.get(stage.task)
-        if ring is not None:
-            begun = np.array([(int(run), stage.task) in self.reached for run in runs])
-            self.standing[runs] += ring.off(here) * begun
-            self.stood[runs] += begun
+        if ring is not None and ring.holds(stage.movement):
+            off, reached = ring.off(here), self.reached.setdefault(stage.task, self.held < 0)
+            reached[runs] |= off < stage.movement.tolerance
+            self.standing[runs] += off * reached[runs]
+            self.stood[runs] += reached[runs]
         if len(scene.world.piles) and stage.task not in self.close:
             away = np.linalg.norm(here[:, None] - scene.world.piles[None], axis=-1)
             close = away < self.allowed[runs]

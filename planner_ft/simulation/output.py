@@ -22,19 +22,19 @@ COLUMNS = {
     "success": ("success % ↑", 100, 1),
     "steps": ("steps", 1, 0),
     "seconds": ("seconds", 1, 1),
-    "waypoint_error": ("waypoint error m ↓", 1, 3),
-    "holding_error": ("station keeping m ↓", 1, 3),
-    "standoff_error": ("stand-off error m ↓", 1, 3),
-    "fence_violations": ("fence violations ↓", 1, 2),
-    "clearance_violations": ("clearance violations ↓", 1, 2),
+    "waypoint_error": ("waypoint m ↓", 1, 3),
+    "holding_error": ("holding m ↓", 1, 3),
+    "standoff_error": ("stand-off m ↓", 1, 3),
+    "fence_violations": ("fences crossed ↓", 1, 2),
+    "clearance_violations": ("stand-offs cut ↓", 1, 2),
     "energy": ("thrust kN s ↓", 1e-3, 2),
 }
 """Columns by figure: heading, factor and decimals."""
 CAPTION = (
-    "Means over runs with 95 % intervals (success: Wilson; means: bootstrap over runs). Waypoint"
-    " error: distance at the end of a step that goes somewhere; station keeping: mean distance"
-    " during a hold. Published figures are quoted from the published study: its own simulator,"
-    " structures and starts, so that steps and seconds depend on another distance."
+    "Means over runs with 95 % intervals (success: Wilson; means: bootstrap over runs). Waypoint:"
+    " distance at the end of a step that goes somewhere; holding: mean distance during a hold."
+    " Published figures are quoted from the published study: its own simulator, structures and"
+    " starts, so that steps and seconds depend on another distance."
 )
 
 

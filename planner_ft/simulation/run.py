@@ -211,8 +211,8 @@ class _Prepared:
                 writer.step(executor)
                 if scene.steps % 100 == 0:
                     ended = settings.runs - int(executor.active.sum())
-                    report(f"simulation, {scene.time:.0f} s", ended, settings.runs)
-            report("simulation", settings.runs, settings.runs)
+                    report("runs ended", ended, settings.runs)
+            report("runs ended", settings.runs, settings.runs)
             results = observer.results(executor)
             return Simulated(
                 self.plan, settings, staging, scene, results, writer.tracks, writer.first

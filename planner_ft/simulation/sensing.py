@@ -185,17 +185,15 @@ def pose(scene: Scene, run: int, values: Values) -> dict[str, Any]:
     return {"distance_m": round(math.dist(here, place), 1), "bearing_deg": round(toward)}
 
 
-def offset(scene: Scene, run: int, values: Values) -> dict[str, Any] | None:
-    """Pixels from the middle of the picture; None while the target is not in it."""
+def offset(scene: Scene, run: int, values: Values) -> dict[str, Any]:
+    """Pixels from the middle of the picture; null where the target is not in it."""
     place = _target(scene, run, values)
     if place is None:
-        return None
+        return {"offset_px": None}
     here = float(scene.position[run, 0]), float(scene.position[run, 1])
     off = (bearing(here, place) - 90 + math.degrees(scene.yaw[run]) + 180) % 360 - 180
-    pixels = (
-        math.tan(math.radians(off)) / math.tan(VIEW / 2) * PIXELS / 2 if abs(off) < 30 else None
-    )
-    return {"offset_px": None if pixels is None else round(pixels)}
+    pixels = math.tan(math.radians(off)) / math.tan(VIEW / 2) * PIXELS / 2
+    return {"offset_px": round(pixels) if abs(off) <= math.degrees(VIEW) / 2 else None}
 
 
 def recording(scene: Scene, run: int, values: Values) -> dict[str, Any]:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from planner_ft.document.clearance import ROUND, Structure, structures
+from planner_ft.document.clearance import ROUND, Structure, fence, structures
 from planner_ft.document.limits import limits_of
 from planner_ft.document.track import Leg, Point, place_of
 from planner_ft.exporters.formats import PlanExport
@@ -102,8 +102,8 @@ class Staging:
                 if math.dist(start, one.position) < PILE + self.vessel.radius:
                     problem = f"the vehicle would start in {one.name}, at {shown}"
                     raise PlannerError(f"{problem}; give --start x,y or another place of it")
-            for fence in self.fences:
-                if fence.outside_by(np.array([start]))[0] > 0:
+            for polygon in self.fences:
+                if polygon.outside_by(np.array([start]))[0] > 0:
                     problem = f"a fence of the plan excludes the start {shown}"
                     raise PlannerError(f"{problem}; plan with another fence, or give --start x,y")
 
@@ -115,17 +115,20 @@ class Staging:
                 yield self._stage(task, number, step, own[1] if own else None)
 
     def home(self) -> Stage:
-        """The way home, with the filter that keeps clear where the vehicle has one."""
-        motion, place = Motion("go", {}), self.vocabulary.home
+        """The way home, with the vehicle's filters that keep clear and inside."""
+        kept = {"implementation": "home", "allowed": fence(self.document, self.vocabulary)}
         movement = Job(
-            *("way home", {}, motion, {"implementation": "home"}, "home", 0, (place,)),
+            *("way home", {}, Motion("go", {}), kept, "home", 0, (self.vocabulary.home,)),
             speed=min(self.vessel.cruise, self.speed),
             tolerance=self.tolerance,
             failure="home not reached",
         )
-        names = [one for one in self.vocabulary.motion.skills.items() if one[1].kind == "clearance"]
-        margin = self.document["vehicle"]["stand_off"]
-        filters = [Job(name, {}, kind, {}, "home", 0, margin=margin) for name, kind in names[:1]]
+        margin, known = self.document["vehicle"]["stand_off"], self.vocabulary.motion.skills
+        filters = [
+            Job(name, {}, motion, {}, "home", 0, margin=margin)
+            for name, motion in known.items()
+            if motion.kind == "clearance" or (motion.kind == "boundary" and self.fences)
+        ]
         return Stage("home", 0, movement, tuple(filters), (), self.seconds, ())
 
     def _stage(

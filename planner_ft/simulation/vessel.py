@@ -25,7 +25,7 @@ class Vessel:
     """Metres, kg, m/s, rad/s, N; `drag` of surge, sway and yaw in 1/s; `thrust` of one thruster.
 
     `cruise` is the profile's speed, `endurance` (s) how long the battery lasts at it, `hotel` (N)
-    what the electronics take as if it were thrust. `rays` is 0 without a LiDAR.
+    what the electronics take as if it were thrust, `steering` (N) what turns take on average. `rays` is 0 without a LiDAR.
     """
 
     drive: Literal["differential", "free"]
@@ -41,6 +41,7 @@ class Vessel:
     track: float = 1.0
     windage: float = 0.1
     hotel: float = 5.0
+    steering: float = 5.0
     rays: int = 0
     reach: float = 0.0
 
@@ -56,13 +57,13 @@ class Vessel:
 
     @property
     def capacity(self) -> float:
-        """N s of a full battery: thrust at cruise speed and hotel load over the endurance."""
+        """N s of a full battery: thrust on a mission and hotel load over the endurance."""
         return self.endurance * self.draw
 
     @property
     def draw(self) -> float:
-        """N that are drawn at cruise speed in still water."""
-        return self.mass * self.drag[0] * self.cruise + self.hotel
+        """N that are drawn at cruise speed on a mission."""
+        return self.mass * self.drag[0] * self.cruise + self.steering + self.hotel
 
 
 def simulation_file(vocabulary: Vocabulary) -> dict[str, Any]:

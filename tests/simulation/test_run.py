@@ -74,7 +74,7 @@ def test_a_published_mission_stands_beside_its_figures(run: Run) -> None:
 
     found = "Find Durius and collect data near the J-tubes. Summarize it, then come back."
     columns = table(run(SHORT, how={"command": found})).columns
-    assert columns == ("fast", "mission 2 (published)", "mission 2 + survey (published)")
+    assert columns == ("fast", "mission 2 (published)", "2 + survey (published)")
 
 
 def test_a_seed_gives_the_same_runs(run: Run) -> None:
@@ -163,7 +163,6 @@ import os, signal, sys
 from pathlib import Path
 from planner_ft.simulation.run import SimulationSettings, simulate
 def report(label, done, total):
-    if label != "simulation, 20 s": return
     os.kill(os.getpid(), signal.SIGKILL)
 simulate(SimulationSettings(Path(sys.argv[1]), runs=2, mcap=1), report)
 """
@@ -189,7 +188,7 @@ FAR = [transit(60, 0, using(go(60, 0), (), [("GetGPSLocation", {})])), transit(0
 
 
 def test_faults_are_told_and_lead_home_or_stop(run: Run) -> None:
-    assert outcome(run(FAR, faults=read_faults(["battery=0.03"]))) == (
+    assert outcome(run(FAR, faults=read_faults(["battery=0.01"]))) == (
         {"returned"},
         {"the battery is low"},
     )
