@@ -42,6 +42,8 @@ class Running:
         self.movement = make_skill(stage.movement, scene)
         self.filters = [make_skill(job, scene) for job in stage.filters]
         self.sensors = [make_skill(job, scene) for job in stage.sensors]
+        self.wrong: dict[int, str] = {}
+        """The runs in which a skill, such as a learnt policy, gave no finite command."""
 
     @property
     def skills(self) -> list[Skill]:
@@ -55,6 +57,9 @@ class Running:
         command = np.zeros((len(runs), 4))
         for skill in self.skills:
             command = skill.step(runs, command)
+            wrong = ~np.isfinite(command).all(axis=1)
+            self.wrong |= {int(run): skill.job.skill for run in runs[wrong]}
+            command[wrong] = 0.0
         own = scene.vessel
         fastest = np.maximum(1, np.linalg.norm(command[:, :2], axis=1) / own.speed)
         command[:, :2] /= fastest[:, None]
@@ -69,7 +74,8 @@ class Running:
 
     def failures(self, runs: Runs) -> dict[int, tuple[str, str]]:
         """(failure mode, sentence) of the runs in which a skill has failed or the step is late."""
-        found: dict[int, tuple[str, str]] = {}
+        text = "its command is not finite"
+        found = {run: ("", f"{name}: {text}") for run, name in self.wrong.items() if run in runs}
         for skill in self.skills:
             for run in runs[skill.failed(runs)]:
                 found.setdefault(int(run), (skill.job.failure, skill.why))

@@ -22,6 +22,8 @@ from planner_ft.support.files import compact_json
 
 EVERY = 1.0
 """Seconds between two messages of a topic; odometry, commands and frames come in every step."""
+CHUNK = 2**14
+"""Bytes of messages that a kill may cost."""
 TOPICS = {
     "/odom": "nav_msgs/Odometry",
     "/fix": "sensor_msgs/NavSatFix",
@@ -43,7 +45,7 @@ class RosLog:
             from mcap_ros2.writer import Writer
         except ImportError:
             raise PlannerError("--mcap: needs the extra; pip install planner_ft[sim]") from None
-        self.writer = Writer(stream, chunk_size=2**16)
+        self.writer = Writer(stream, chunk_size=CHUNK)
         self.stream, self.scene, self.run = stream, scene, run
         self.schemas = {
             name: self.writer.register_msgdef(name.replace("/", "/msg/"), definition(name))
@@ -81,6 +83,10 @@ class RosLog:
             self.write("/fix", self._fix())
             if scene.vessel.rays:
                 self.write("/scan", self._scan())
+
+    def flush(self) -> None:
+        """Have the finished chunks in the file."""
+        self.stream.flush()
 
     def close(self) -> None:
         """Finish the file."""

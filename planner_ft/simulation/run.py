@@ -271,7 +271,7 @@ class _Writer:
         for run in active[active < len(self.ros)]:
             self.ros[run].step()
         if scene.steps % round(FLUSH / scene.seconds) == 0:
-            for stream in self.files:
+            for stream in (*self.files, *self.ros):
                 stream.flush()
 
 

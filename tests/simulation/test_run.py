@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import subprocess
 import sys
@@ -9,12 +10,17 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from mcap.exceptions import McapError
+from mcap.stream_reader import StreamReader
 
 from planner_ft.cli import main
 from planner_ft.document import read_document, write_document
 from planner_ft.review import log_beside, reject
+from planner_ft.simulation.executor import Executor
 from planner_ft.simulation.faults import read_faults
+from planner_ft.simulation.navigation import Turn
 from planner_ft.simulation.run import Simulated, SimulationSettings, simulate
 from planner_ft.support.errors import PlannerError
 from tests.documents import DRONE, USV, document, step, task
@@ -175,9 +181,44 @@ def test_the_logs_of_a_killed_simulation_can_be_read(tmp_path: Path) -> None:
     told = (tmp_path / "plan.simulation" / "run-02.jsonl").read_text().splitlines()
     times = [json.loads(line)["t"] for line in told]
     assert 14 < max(times) <= 20 and len(times) > 14
+    kinds = set()
+    log = tmp_path / "plan.simulation" / "run-01.mcap"
+    # The file ends in the middle: its last record is no footer.
+    with open(log, "rb") as stream, contextlib.suppress(McapError):
+        for record in StreamReader(stream).records:
+            kinds.add(type(record).__name__)
+    assert "Message" in kinds and "Footer" not in kinds
     with pytest.raises(PlannerError, match="--overwrite"):
         simulate(settings(path))
     assert simulate(settings(path, overwrite=True)).results[0].success
+
+
+def test_a_command_that_is_no_number_stops_the_run(
+    run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(self: Turn, runs: Any, command: Any) -> Any:
+        return np.full((len(runs), 4), np.where(self.scene.time > 1, np.nan, 0.1))
+
+    monkeypatch.setattr(Turn, "step", broken)
+    turn = using(step("RotateToHeading", {"heading": 90}))
+    done = run([transit(0, 0, turn)])
+    text = "RotateToHeading: its command is not finite; no failure mode of the step says more"
+    assert outcome(done) == ({"stopped"}, {text})
+    assert np.isfinite(done.scene.pose).all()
+
+
+def test_a_run_is_aborted_at_once(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    going = Executor.step
+
+    def stepping(self: Executor) -> bool:
+        if self.scene.time >= 4:
+            self.abort(np.array([0]))
+        return going(self)
+
+    monkeypatch.setattr(Executor, "step", stepping)
+    first, second = run(SHORT).results
+    assert (first.outcome, first.reason, first.seconds) == ("stopped", "aborted", 4.0)
+    assert second.success
 
 
 def outcome(done: Simulated) -> tuple[set[str], set[str]]:
