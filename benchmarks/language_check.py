@@ -17,7 +17,7 @@ from planner_ft.facts import unknown_words
 from planner_ft.support.files import read_jsonl
 
 EVAL = Path(__file__).parents[1] / "eval"
-THRESHOLDS = (0.3, 0.4, 0.5, 0.6, 0.7)
+THRESHOLDS = (0.4, 0.5, 0.55, 0.6, 0.7)
 
 
 def main() -> None:
@@ -32,7 +32,7 @@ def main() -> None:
             f"{name} {sum(one >= threshold for one in of)}/{len(of)}" for name, of in shares.items()
         )
         mark = " (in use)" if threshold == UNKNOWN else ""
-        print(f"{threshold:.1f}{mark}: {', '.join(told)}")
+        print(f"{threshold:.2f}{mark}: {', '.join(told)}")
 
 
 if __name__ == "__main__":

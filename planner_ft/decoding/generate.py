@@ -8,11 +8,12 @@ leave the batch, and every answer is handed over the moment that it is complete.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import torch
+from torch import Tensor
 
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.constraints import RAN_ON
@@ -264,10 +265,12 @@ def _run(
         wanted = [count for _ids, count in fed]
         logits = passes.run([ids for ids, _count in fed], wanted).float()
         # Reading the tokens waits for the device, so the time below is that of the whole step.
-        best, places, wrong, at = logits.argmax(-1).tolist(), odds(logits), [], 0
-        for state, count in zip(states.values(), wanted, strict=True):
-            rows = slice(at, at := at + count)
-            wrong.append(state.choose(best[rows], logits[rows], places[rows]))
+        best, wrong = logits.argmax(-1).tolist(), []
+        of_rows = torch.split(logits, wanted)
+        for state, rows in zip(states.values(), of_rows, strict=True):
+            wrong.append(state.choose(best[: len(rows)], rows))
+            del best[: len(rows)]
+        _rate(states.values(), of_rows)
         now = time.perf_counter()
         first = first or now - began
         share, began = share + (now - began) / len(states), now
@@ -280,6 +283,15 @@ def _run(
             passes.forget(wrong)
             if len(kept) < len(wanted):
                 passes.select(kept)
+
+
+def _rate(states: Collection[SequenceState], of_rows: Sequence[Tensor]) -> None:
+    """Score the tokens that a pass decided; what stood behind a wrong draft has no odds."""
+    decided = [rows[: state.decided] for state, rows in zip(states, of_rows, strict=True)]
+    places = odds(torch.cat(decided))
+    for state, rows in zip(states, decided, strict=True):
+        state.rate(places[: len(rows)], rows)
+        del places[: len(rows)]
 
 
 def _generation(state: SequenceState, seconds: float, first: float) -> Generation:

@@ -39,8 +39,8 @@ class SequenceState:
     `pending`, and `draft` stands behind them: with `fast_forward` what the constraint says must
     follow, then what `lookup` finds likely. Choices are the most probable tokens, or drawn by
     `sampler`. `diverged` is the place of the first token that the model without the constraint
-    would not have chosen. `scores` are those of `ids`, None where no pass has decided a token.
-    Where `enough(ids)` holds, the answer is left as it is.
+    would not have chosen. `scores` are those of `ids`, None where no pass has decided a token, and
+    `decided` is how many tokens the last one did. Where `enough(ids)` holds, the answer is left as it is.
     """
 
     def __init__(
@@ -61,6 +61,7 @@ class SequenceState:
         self.fast_forward, self._enough, self._wide = fast_forward, enough, True
         self.ids: list[int] = []
         self.scores: list[Score | None] = []
+        self.decided = 0
         self.finished: FinishReason | None = None
         self.diverged: int | None = None
         self.forward_passes = 0
@@ -79,27 +80,32 @@ class SequenceState:
             self.draft.clear()
         return self.pending + self.draft, 1 + len(self.draft)
 
-    def choose(self, best: Sequence[int], logits: Tensor, places: Sequence[Odds] = ()) -> int:
+    def choose(self, best: Sequence[int], logits: Tensor) -> int:
         """Take what the pass decided: the most probable tokens (`best`) of its wanted logits, shape
-        (wanted, tokens), where they are allowed. `places` are the odds of these logits.
+        (wanted, tokens), where they are allowed.
 
         Returns how many of the fed tokens were a wrong draft.
         """
-        right, draft = 0, self.draft
+        right, draft, self._begun = 0, self.draft, len(self.ids)
         while True:
             token = self._choice(best[right], logits[right])
-            self._add(token, score(token, places[right], logits[right]) if places else None)
+            self._add(token)
             complete = self.constraint is not None and self.constraint.ended
             if complete and self.fast_forward and not self.finished:
                 self._add(self.end_ids[0])
             if self.finished or draft[right : right + 1] != [token]:
                 break
             right += 1
-        self.pending = [token]
+        self.pending, self.decided = [token], right + 1
         if self._enough is not None and not self.finished and self._enough(self.ids):
             self.finished = "stop"
         self._propose()
         return len(draft) - right
+
+    def rate(self, places: Sequence[Odds], logits: Tensor) -> None:
+        """Take the odds of the places that the last pass decided, and their logits."""
+        for at, (place, row) in enumerate(zip(places, logits, strict=True), self._begun):
+            self.scores[at] = score(self.ids[at], place, row)
 
     def _choice(self, best: int, logits: Tensor) -> int:
         """The token that the model takes, `best` where it may."""
@@ -121,10 +127,10 @@ class SequenceState:
         self.diverged = len(self.ids) if self.diverged is None else self.diverged
         return token
 
-    def _add(self, token: int, scored: Score | None = None) -> None:
+    def _add(self, token: int) -> None:
         """A token joins the answer."""
         self.ids.append(token)
-        self.scores.append(scored)
+        self.scores.append(None)
         if self.constraint is not None:
             self.constraint.accept(token)
         if token in self.end_ids:

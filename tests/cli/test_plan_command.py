@@ -50,7 +50,8 @@ def test_a_command_becomes_a_tree(
     status = run(monkeypatch, COMMAND, "--configuration", "base+schema", "--device", "cpu")
     shown = capsys.readouterr()
     assert status == 0, shown.err
-    assert shown.out.startswith(f"{COMMAND}\n 1 Transit(target_position=[30,-12])\n")
+    assert shown.out.startswith(f"{COMMAND}\nHow sure: ")
+    assert "\n 1 Transit(target_position=[30,-12])\n" in shown.out
     assert "    1. GoToXY(x=30, y=-12)" in shown.out
     assert (
         "Mission Agent  embedded base+schema, no adapter: 1 answer, " in shown.out

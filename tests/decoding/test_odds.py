@@ -54,7 +54,7 @@ def test_a_score_needs_no_pass(decoder: Decoder, monkeypatch: pytest.MonkeyPatch
         return [answer.forward_passes for answer in answers]
 
     with_scores = passes()
-    monkeypatch.setattr(generate_module, "odds", lambda logits: [])
+    monkeypatch.setattr(generate_module, "_rate", lambda states, of_rows: None)
     assert passes() == with_scores
     assert generate(decoder, QUERIES, LIMITS)[0].scores[0] is None
 

@@ -21,7 +21,7 @@ from planner_ft.vocabulary.plans import step_skills
 
 STEM = 5
 """First letters by which a word is found again."""
-UNKNOWN = 0.5
+UNKNOWN = 0.55
 """The share of unknown words from which a command may be in another language
 (benchmarks/language_check.py).
 """

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 
-from planner_ft.document import write_document
+from planner_ft.confidence.judgement import Judgement
+from planner_ft.document import build, write_document
+from planner_ft.planning.doubts import Doubt
 from planner_ft.support.errors import PlannerError
-from tests.review.web.page.conftest import TASKS, Page, go, make_plan, step
+from tests.documents import USV
+from tests.review.web.page.conftest import COMMAND, TASKS, Page, go, make_plan, planned, step
 
 pytestmark = pytest.mark.browser
 Opened = Callable[..., Page]
@@ -55,6 +59,23 @@ def test_approving_needs_every_warning_and_a_name_and_says_which_is_lacking(open
     assert {warning["id"] for warning in record["acknowledged"]} == {
         warning["id"] for warning in page.review.document()["warnings"]
     }
+
+
+def test_a_question_is_answered_with_one_button(opened: Opened) -> None:
+    asked = planned(COMMAND, TASKS)
+    doubts = (Doubt(2, "radius", 12, (15,)),)
+    held = {(): 0.4, ("tasks", 2): 0.5, ("tasks", 2, "parameters", "radius"): 0.5}
+    mission = replace(asked.mission, judged=Judgement("", held))
+    tasks = tuple(replace(task, answer=None) for task in asked.tasks)
+    page = opened(build(replace(asked, mission=mission, tasks=tasks, doubts=doubts), USV))
+    page.says(".sureness", "How sure the agents were: unsure")
+    page.says(".sureness", "Task 3, PerformOrbit: radius 12 m or 15 m?")
+    assert page.text('#task-t3 [data-parameter="radius"] .level') == "unsure"
+    assert page.text("#task-t3 .head .level") == "unsure"
+    page.press("Task 3, PerformOrbit: radius 12 m or 15 m? 15", ".sureness")
+    page.says('#task-t3 [data-parameter="radius"]', "15")
+    assert not page.all(".sureness li")
+    assert page.review.document()["tasks"][2]["parameters"]["radius"] == 15
 
 
 def test_a_warning_that_changes_is_to_be_acknowledged_again(opened: Opened) -> None:
