@@ -67,6 +67,13 @@ def test_circles_and_boundaries_are_drawn_around_what_they_enclose() -> None:
     assert sum(letter not in " " for letter in middle[middle.index("1") :]) >= 3
 
 
+def test_a_boundary_is_closed_whichever_corner_it_begins_with() -> None:
+    corners = ((0, -60), (120, -60), (120, 60), (0, 60))
+    turned = [corners[first:] + corners[:first] for first in range(4)]
+    drawings = [sketch(path(boundaries=(Boundary("t1", 0, one),)))[0] for one in turned]
+    assert drawings[0] and all(drawing == drawings[0] for drawing in drawings)
+
+
 def test_targets_without_a_place_stand_below_by_name() -> None:
     targets = (Target("green buoy", None, "t1"), Target("pier", (30.0, 4.5), "t2"))
     drawing, legend = sketch(path((0, 0), (50, 0), targets=targets))

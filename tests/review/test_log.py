@@ -264,3 +264,19 @@ def test_a_log_that_cannot_be_written_is_one_sentence(tmp_path: Path) -> None:
     (tmp_path / "folder.jsonl").mkdir()
     with pytest.raises(PlannerError, match="cannot be read"):
         read_log(tmp_path / "folder.jsonl")
+
+
+def test_a_refusal_says_how_many_more_problems_there_are(whole: Path) -> None:
+    seen = set()
+    for broken in ([0], [0, 2], [0, 2, 3]):
+
+        def change(lines: list[bytes], broken: list[int] = broken) -> list[bytes]:
+            return [b"{}\n" if number in broken else line for number, line in enumerate(lines)]
+
+        with copy_of(whole, change) as log:
+            more = len(check_log(log).problems) - 1
+            with pytest.raises(PlannerError) as caught:
+                read_log(log)
+        seen.add(more > 0)
+        assert (f"(and {more} more; plannerft verify" in str(caught.value)) == (more > 0)
+    assert True in seen
