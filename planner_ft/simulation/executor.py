@@ -14,7 +14,7 @@ import numpy as np
 
 from planner_ft.simulation.fast import Bools, Runs
 from planner_ft.simulation.scene import Scene
-from planner_ft.simulation.skill import Job, Skill, make_skill
+from planner_ft.simulation.skill import Job, Skill, implementation_of
 
 RESERVE = 1.3
 """How much more than the way home takes is kept of time and battery."""
@@ -39,9 +39,9 @@ class Running:
 
     def __init__(self, stage: Stage, scene: Scene) -> None:
         self.stage = stage
-        self.movement = make_skill(stage.movement, scene)
-        self.filters = [make_skill(job, scene) for job in stage.filters]
-        self.sensors = [make_skill(job, scene) for job in stage.sensors]
+        self.movement = implementation_of(stage.movement)(stage.movement, scene)
+        self.filters = [implementation_of(job)(job, scene) for job in stage.filters]
+        self.sensors = [implementation_of(job)(job, scene) for job in stage.sensors]
         self.wrong: dict[int, str] = {}
         """The runs in which a skill, such as a learnt policy, gave no finite command."""
 

@@ -17,7 +17,6 @@ import numpy as np
 from planner_ft.document.track import Point
 from planner_ft.simulation.control import FIX_SIGMA
 from planner_ft.simulation.scene import Scene
-from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 
 EVERY = 1.0
@@ -41,10 +40,8 @@ class RosLog:
     """Writes one run. What was written can be read after a kill: chunks are closed as they fill."""
 
     def __init__(self, stream: IO[bytes], scene: Scene, run: int, way: Sequence[Point]) -> None:
-        try:
-            from mcap_ros2.writer import Writer
-        except ImportError:
-            raise PlannerError("--mcap: needs the extra; pip install planner_ft[sim]") from None
+        from mcap_ros2.writer import Writer
+
         self.writer = Writer(stream, chunk_size=CHUNK)
         self.stream, self.scene, self.run = stream, scene, run
         self.schemas = {

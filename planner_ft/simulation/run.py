@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import importlib.util
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -155,6 +156,11 @@ class _Prepared:
             problem = f"{vocabulary.name} has no port and starboard thrusters"
             raise PlannerError(f"--fault {one_sided[0].text}: {problem}; leave it out")
         self.staging = Staging(plan, self.vessel, raw, settings.tolerance)
+        if settings.mcap and importlib.util.find_spec("mcap_ros2") is None:
+            ways = "pip install planner_ft[sim], or give --mcap 0"
+            raise PlannerError(f"--mcap {settings.mcap}: ROS 2 logs need an extra; {ways}")
+        self.stages, self.home = list(self.staging.stages()), self.staging.home()
+        self.staging.check_skills([*self.stages, self.home])
         starts = list(settings.starts) or [vocabulary.home]
         charted, objects = self.staging.structures, self._objects()
         true = {place: objects[name] for name, place in self._named().items()}
@@ -202,9 +208,8 @@ class _Prepared:
             tasks = [task["id"] for task in self.plan.document["tasks"]]
             observer = Observer(scene, staging.fences, staging.rings(), staging.close(), tasks)
             writer.begin(scene, observer, self._way())
-            stages = list(staging.stages())
             executor = Executor(
-                stages, staging.home(), scene, observer.finished, observer.observed, staging.seconds
+                self.stages, self.home, scene, observer.finished, observer.observed, staging.seconds
             )
             executor.begin()
             while executor.step():

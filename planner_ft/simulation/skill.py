@@ -119,18 +119,25 @@ class Skill:
         return self.scene.time - self.begun[runs]
 
 
-def make_skill(job: Job, scene: Scene) -> Skill:
-    """The implementation of a skill. Raises PlannerError where there is none."""
+def implementation_of(job: Job) -> type[Skill]:
+    """The class of a skill. Raises PlannerError where there is none."""
     name = job.settings.get("implementation") or (job.motion.kind if job.motion else "measure")
     known = {key: EntryPoint(key, place, GROUP) for key, place in BUNDLED.items()}
     known |= {one.name: one for one in entry_points(group=GROUP)}
+    where = f"[skill.{job.skill}]"
     if name not in known:
-        problem = f"implementation = {name!r} is not installed; there is {', '.join(known)}"
-        raise PlannerError(f"[skill.{job.skill}]: {problem}")
-    made = known[name].load()(job, scene)
-    if not isinstance(made, Skill):
-        raise PlannerError(f"[skill.{job.skill}]: {known[name].value} is no Skill")
-    return made
+        problem = f"implementation = {name!r} is not installed"
+        raise PlannerError(f"{where}: {problem}; there is {', '.join(known)}")
+    try:
+        found = known[name].load()
+    except (ImportError, AttributeError) as error:
+        hint = "install what it needs, or the package that adds it anew"
+        raise PlannerError(
+            f"{where}: {known[name].value} cannot be loaded ({error}); {hint}"
+        ) from None
+    if not (isinstance(found, type) and issubclass(found, Skill)):
+        raise PlannerError(f"{where}: {known[name].value} is no Skill; ask whoever wrote it")
+    return found
 
 
 def settings_of(vocabulary: Vocabulary, raw: Mapping[str, Any], skill: str) -> Mapping[str, Any]:

@@ -12,10 +12,12 @@ from planner_ft.document.track import Leg, Point, place_of
 from planner_ft.exporters.formats import PlanExport
 from planner_ft.simulation.executor import Stage
 from planner_ft.simulation.measures import Ring
-from planner_ft.simulation.skill import Job, settings_of
+from planner_ft.simulation.sensing import MEASURES
+from planner_ft.simulation.skill import Job, implementation_of, settings_of
 from planner_ft.simulation.vessel import Vessel
 from planner_ft.simulation.world import PILE, Fence
 from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary.definition import SIMULATION
 from planner_ft.vocabulary.motion import Motion
 
 PATIENCE, SLACK = 3.0, 60.0
@@ -113,6 +115,16 @@ class Staging:
             own = self.plan.hold_time(index)
             for number, step in enumerate(task["skill_sequence"]):
                 yield self._stage(task, number, step, own[1] if own else None)
+
+    def check_skills(self, stages: Sequence[Stage]) -> None:
+        """Raise PlannerError for a skill without implementation and an unknown measure."""
+        for stage in stages:
+            for job in (stage.movement, *stage.filters, *stage.sensors):
+                implementation_of(job)
+                if (measure := job.settings.get("measure")) not in (None, *MEASURES):
+                    where = f"{self.vocabulary.name}{SIMULATION}: [skill.{job.skill}]"
+                    problem = f"measure = {measure!r} must be one of {', '.join(MEASURES)}"
+                    raise PlannerError(f"{where}: {problem}")
 
     def home(self) -> Stage:
         """The way home, with the vehicle's filters that keep clear and inside."""

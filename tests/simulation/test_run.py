@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import shutil
 import subprocess
 import sys
 from dataclasses import replace
@@ -23,6 +24,8 @@ from planner_ft.simulation.faults import read_faults
 from planner_ft.simulation.navigation import Turn
 from planner_ft.simulation.run import Simulated, SimulationSettings, simulate
 from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.definition import BUNDLED
 from tests.documents import DRONE, USV, document, step, task
 
 from .conftest import Run
@@ -145,9 +148,56 @@ def test_what_cannot_run_is_refused_before_anything_is_written(tmp_path: Path) -
         assert not (folder / "plan.simulation").exists()
 
 
+def test_ros_logs_need_their_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "mcap_ros2", None)
+    path = saved(tmp_path, SHORT)
+    with pytest.raises(PlannerError, match=r"planner_ft\[sim\], or give --mcap 0"):
+        simulate(settings(path, mcap=1))
+    assert not (tmp_path / "plan.simulation").exists()
+
+
+HOVER = task("HoverWatch", {"duration": 5}, [step("Hover", {"time": 5})])
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("[skill.Hover]\nimplementation = 'none'", r"implementation = 'none' is not installed"),
+        ("[skill.Hover]\nmeasure = 'smell'", r"\[skill.Hover\]: measure = 'smell' must be one of"),
+        ("[skill.Swim]", "is no skill of inspection_drone"),
+        ("[vessel]\nwheels = 4", "has no key 'wheels'"),
+        ("[vessel]\nspeed = -1", "speed = -1 must be above 0"),
+        ("[vessel]\ndrive = 'sail'", "must be differential or free"),
+        ("[sails]", r"unknown table \[sails\]"),
+    ],
+)
+def test_a_wrong_simulation_file_is_refused(tmp_path: Path, content: str, message: str) -> None:
+    vocabulary = vehicle_of_ones_own(tmp_path)
+    vocabulary.with_suffix(".simulation.toml").write_text(content)
+    path = saved(tmp_path, [HOVER], load_vocabulary(vocabulary))
+    with pytest.raises(PlannerError, match=message):
+        simulate(settings(path, vocabulary=str(vocabulary)))
+    assert not (tmp_path / "plan.simulation").exists()
+
+
+def test_a_vehicle_without_a_simulation_file_flies_by_its_profile(tmp_path: Path) -> None:
+    vocabulary = vehicle_of_ones_own(tmp_path)
+    look = using(step("Hover", {"time": 5}), (), [("TakePhoto", {"note": "x"})])
+    path = saved(tmp_path, [{**HOVER, "skill_sequence": [look]}], load_vocabulary(vocabulary))
+    done = simulate(settings(path, vocabulary=str(vocabulary)))
+    assert all(one.success and one.records == {"t1": 1} for one in done.results)
+    assert done.scene.vessel.drive == "free" and done.scene.vessel.speed == 7.5
+
+
+def vehicle_of_ones_own(folder: Path) -> Path:
+    """The drone's files but for that of the simulation."""
+    for name in ("", ".motion", ".vehicle"):
+        shutil.copy(BUNDLED / f"inspection_drone{name}.toml", folder / f"mine{name}.toml")
+    return folder / "mine.toml"
+
+
 def test_a_drone_has_no_port_thruster(tmp_path: Path) -> None:
-    hover = task("HoverWatch", {"duration": 5}, [step("Hover", {"time": 5})])
-    path = saved(tmp_path, [hover], DRONE)
+    path = saved(tmp_path, [HOVER], DRONE)
     with pytest.raises(PlannerError, match="has no port and starboard thrusters"):
         simulate(settings(path, faults=read_faults(["port=0.5"])))
 
