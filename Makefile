@@ -1,4 +1,4 @@
-# make demo   data, a mission adapter for the embedded candidate and its benchmark table, from nothing
+# make demo   a new vehicle from data to plan: adapter, benchmark, one table, one figure, three sentences (build/demo)
 # make test   lint, types, tests and the CI gate
 # make peers-test   our benchmark inside lm-evaluation-harness, and TRL on our data, in an environment of its own
 #
@@ -24,10 +24,20 @@ $(INSTALLED): pyproject.toml $(wildcard $(CONSTRAINTS))
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c $(CONSTRAINTS) -e ".[dev]"
 	touch $@
 
+# The drone is a vehicle that the embedded base was not made for; its adapter is trained here. The surface vehicle's planner ships.
+DRONE := --level mission --vocabulary inspection_drone
 demo: install
-	$(BIN)/plannerft gen-data --level all --out build/demo/data --overwrite
-	$(BIN)/plannerft train --level mission --candidate embedded --data-dir build/demo/data/mission --output build/demo/adapter --overwrite
-	$(BIN)/plannerft bench --level mission --candidates embedded --configurations base,lora --adapter build/demo/adapter --data build/demo/data/mission/test.jsonl --out build/demo/bench --overwrite
+	$(BIN)/plannerft gen-data --level mission --out build/demo/data/usv --overwrite
+	$(BIN)/plannerft gen-data $(DRONE) --out build/demo/data/drone --overwrite
+	$(BIN)/plannerft train $(DRONE) --candidate embedded --data-dir build/demo/data/drone/mission --output build/demo/adapter --overwrite
+	$(BIN)/plannerft bench $(DRONE) --candidates embedded --configurations base,lora,lora+schema,lora+grounded --adapter build/demo/adapter \
+	    --data data/inspection_drone/mission/challenge.jsonl --max-new-tokens 400 --latency-samples 0 --no-report --out build/demo/drone --overwrite
+	$(BIN)/plannerft bench --level mission --candidates embedded --configurations lora+grounded \
+	    --data data/mission/challenge.jsonl --limit 40 --latency-samples 0 --no-report --out build/demo/surface --overwrite
+	$(BIN)/plannerft plan "Circle the chimney at [40, 25] at eight metres and come home." \
+	    --vocabulary inspection_drone --mission-adapter build/demo/adapter --mission-only
+	$(BIN)/plannerft plan "Find the rusty mooring buoy, film its shackle for two minutes, then come home." --locate "mooring buoy=120,-35"
+	$(BIN)/python scripts/demo.py build/demo
 
 test: lint types
 	$(BIN)/python -m pytest -n 2
