@@ -81,7 +81,9 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
     with ProcessPoolExecutor(2) as pool:
         for job, counts in zip(jobs, pool.map(make_shard, jobs), strict=True):
             print(f"{job[0].name}: {counts}", flush=True)
-            write_json(job[0].with_suffix(".json"), {**counts, "commit": commit})
+            shares = {**dataclasses.asdict(mixture), "folder": str(mixture.folder)}
+            made = {**counts, "mixture": shares, "commit": commit}
+            write_json(job[0].with_suffix(".json"), made)
     return paths
 
 
@@ -153,15 +155,20 @@ def export(
 
 
 def corpus_summary(work: Path) -> dict[str, Any]:
-    """Samples and tokens of the corpus in all, and the commits of the generators that wrote it:
-    shards may be replaced while a run goes on.
+    """Samples and tokens of the corpus in all, and the mixtures and commits of the generators that
+    wrote it: shards may be replaced while a run goes on.
     """
     parts = [json.loads(path.read_text()) for path in sorted((work / "corpus").glob("*.json"))]
     sums = {
         key: sum(part.get(key, 0) for part in parts)
         for key in ("samples", "tokens", "left_out", "drills")
     }
-    return {**sums, "generators": sorted({part["commit"] for part in parts if part.get("commit")})}
+    mixtures = [part["mixture"] for part in parts if "mixture" in part]
+    return {
+        **sums,
+        "mixtures": [one for at, one in enumerate(mixtures) if one not in mixtures[:at]],
+        "generators": sorted({part["commit"] for part in parts if part.get("commit")}),
+    }
 
 
 def main() -> None:
