@@ -100,6 +100,7 @@ class AdapterDefaults:
     epochs: float | None = None
     batch_size: int | None = None
     quantization: Quantization | None = None
+    vary: int | None = None
 
 
 @dataclass(frozen=True)
