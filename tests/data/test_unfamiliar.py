@@ -6,7 +6,7 @@ from random import Random
 from typing import Any
 
 from planner_ft.data.unfamiliar import unfamiliar_word, with_unfamiliar_words
-from planner_ft.pretraining.corpus import stream
+from planner_ft.pretraining.corpus import Mixture, stream
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems
 
@@ -83,15 +83,15 @@ def test_names_stay_names_and_articles_right() -> None:
 
 
 def test_the_corpus_stays_valid_and_the_same_for_a_seed() -> None:
-    samples = list(islice(stream(VOCABULARY, 8, 0.5, 1.0), 120))
-    assert samples == list(islice(stream(VOCABULARY, 8, 0.5, 1.0), 120))
+    samples = list(islice(stream(VOCABULARY, 8, Mixture(0.5, unfamiliar=1.0)), 120))
+    assert samples == list(islice(stream(VOCABULARY, 8, Mixture(0.5, unfamiliar=1.0)), 120))
     assert not [
         problem
-        for level, record in samples
+        for level, record, _vehicle in samples
         for problem in plan_problems(level, record["expected"], VOCABULARY, strict=True)
     ]
-    plain = list(islice(stream(VOCABULARY, 8, 0.5), 120))
-    assert [level for level, _record in plain] == [level for level, _record in samples], (
+    plain = list(islice(stream(VOCABULARY, 8, Mixture(0.5)), 120))
+    assert [level for level, *_ in plain] == [level for level, *_ in samples], (
         "the samples drawn are the same ones"
     )
     assert 20 < sum(one != other for one, other in zip(plain, samples, strict=True)) < 120
