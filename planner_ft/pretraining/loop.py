@@ -95,7 +95,9 @@ def batches(
             drawn: list[Rows | Row] = [*batched(samples, settings.batch_tokens, pad, seed)]
             drawn += rows_of_packs(packs, settings.batch_tokens, np.random.default_rng(seed + 1))
             if packs:
-                drawn = [drawn[at] for at in np.random.default_rng(seed + 2).permutation(len(drawn))]
+                drawn = [
+                    drawn[at] for at in np.random.default_rng(seed + 2).permutation(len(drawn))
+                ]
             for rows in drawn:
                 number += 1
                 if number > skip:
@@ -103,7 +105,9 @@ def batches(
         epoch += 1
 
 
-def completion_loss(model: Any, body: Any, rows: Rows | Row, rank: int = 0, world: int = 1) -> Tensor:
+def completion_loss(
+    model: Any, body: Any, rows: Rows | Row, rank: int = 0, world: int = 1
+) -> Tensor:
     """Mean cross-entropy over the answer tokens of a batch, of this rank's rows where several run.
 
     The sum over the ranks is the loss of the batch.

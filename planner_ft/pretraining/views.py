@@ -18,7 +18,31 @@ from planner_ft.vocabulary import Task, Vocabulary
 
 KEPT, DESCRIBED = 0.2, 0.65
 """Share of the names that stay, and of all that stay or are made of words of the description."""
-SMALL = frozenset("a an and at by for in into is it its of off on or that the to up what with".split())
+SMALL = frozenset(
+    [
+        "a",
+        "an",
+        "and",
+        "at",
+        "by",
+        "for",
+        "in",
+        "into",
+        "is",
+        "it",
+        "its",
+        "of",
+        "off",
+        "on",
+        "or",
+        "that",
+        "the",
+        "to",
+        "up",
+        "what",
+        "with",
+    ]
+)
 STYLES: tuple[Callable[[Sequence[str]], str], ...] = (
     lambda words: "".join(word.capitalize() for word in words),
     lambda words: "".join(word.capitalize() for word in words),
@@ -68,7 +92,10 @@ class View:
 
 
 def view(
-    vocabulary: Vocabulary, records: Sequence[dict[str, Any]], others: Sequence[Vocabulary], rng: Random
+    vocabulary: Vocabulary,
+    records: Sequence[dict[str, Any]],
+    others: Sequence[Vocabulary],
+    rng: Random,
 ) -> View:
     """The vehicle under other names, with the tasks of `records` and some of the rest; `others`
     lend it the name of a vehicle and of a frame.
@@ -79,13 +106,8 @@ def view(
     if rng.random() < 0.7:
         rng.shuffle(tasks)
     titles = _names([(task.title, task.description) for task in tasks], rng)
-    keys = _names(
-        [(one.name, one.description) for task in tasks for one in task.parameters], rng
-    )
-    places = {
-        vocabulary.home: rng.choice(HOMES),
-        vocabulary.unresolved: rng.choice(UNRESOLVED),
-    }
+    keys = _names([(one.name, one.description) for task in tasks for one in task.parameters], rng)
+    places = {vocabulary.home: rng.choice(HOMES), vocabulary.unresolved: rng.choice(UNRESOLVED)}
     renamed = replace(
         vocabulary,
         title=rng.choice(others).title,
