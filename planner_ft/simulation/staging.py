@@ -43,7 +43,8 @@ class Staging:
         way_out = "give its place with `plannerft review` or --locate of `plannerft plan`"
         for place in self.document["open_places"]:
             numbers = ", ".join(f"t{number}" for number in place["tasks"])
-            problem = f"where {place['name']} is, is not known, and {numbers} needs it"
+            verb = "need" if len(place["tasks"]) > 1 else "needs"
+            problem = f"where {place['name']} is, is not known, and {numbers} {verb} it"
             raise PlannerError(f"{problem}; {way_out}")
         for task in self.document["tasks"]:
             if not task["skill_sequence"] or task.get("stale"):
