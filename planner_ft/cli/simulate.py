@@ -19,6 +19,9 @@ def simulate(
     locate: list[str] | None = None,
     start: list[str] | None = None,
     fault: list[str] | None = None,
+    goto: str = "guidance",
+    survey: str = "waypoints",
+    outline: list[str] | None = None,
     tolerance: float = 1.0,
     mcap: int = 1,
     origin: str | None = None,
@@ -31,6 +34,7 @@ def simulate(
     """Run an approved plan in a simulator."""
     from planner_ft.planning.locations import parse_locations
     from planner_ft.simulation.faults import read_faults
+    from planner_ft.simulation.outlines import read_outlines
     from planner_ft.simulation.output import outcome_lines, table
     from planner_ft.simulation.run import SimulationSettings
     from planner_ft.simulation.run import simulate as run
@@ -48,6 +52,9 @@ def simulate(
         draft=draft,
         vocabulary=vocabulary,
         overwrite=overwrite,
+        goto=goto,
+        survey=survey,
+        outlines=read_outlines(outline or []),
     )
     with interruptible(lambda: f"{settings.folder} holds the logs so far") as report:
         done = run(settings, report)

@@ -12,6 +12,8 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import atomic_writer, compact_json, write_text
 
 STATE, LOG = "checkpoint.pt", "log.jsonl"
+EVERY = 20
+"""Iterations between two checkpoints."""
 
 
 class Checkpoint:
@@ -28,6 +30,10 @@ class Checkpoint:
     def add(self, line: dict[str, Any]) -> None:
         """A line of the log; written with the next checkpoint."""
         self.log.append(line)
+
+    def due(self, done: int, total: int) -> bool:
+        """Whether a checkpoint is to be written after `done` iterations of `total`."""
+        return done % EVERY == 0 or done == total
 
     def save(self, done: int, random: torch.Generator, more: Any = None) -> None:
         """Write everything after `done` iterations."""
@@ -54,7 +60,9 @@ class Checkpoint:
             state = torch.load(path, weights_only=True)
             different = [k for k, v in self.settings.items() if state["settings"].get(k) != v]
         except (RuntimeError, KeyError, EOFError, OSError) as error:
-            raise PlannerError(f"{path}: is no checkpoint ({error}); start without --resume") from None
+            raise PlannerError(
+                f"{path}: is no checkpoint ({error}); start without --resume"
+            ) from None
         if different:
             hint = "give the same settings, or another --out"
             raise PlannerError(f"{path}: was made with another {different[0]}; {hint}")

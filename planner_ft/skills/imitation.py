@@ -25,6 +25,15 @@ from planner_ft.skills.tracker import Tracker
 Report = Callable[[str, int, int], None]
 
 
+WIDER: dict[str, Any] = {
+    "size": (1.5, 10.0),
+    "spawn": (2.5, 9.5),
+    "standoff": (3.5, 7.5),
+    "current": (0.0, 0.16),
+}
+"""What our training draws beyond the published ranges."""
+
+
 @dataclass(frozen=True)
 class ImitationSettings:
     """`environments` drive `options` an iteration; then `updates` of `minibatch` samples of the
@@ -61,7 +70,7 @@ def train(
     )
     random = torch.Generator().manual_seed(settings.seed)
     drawn = np.random.default_rng([settings.seed, 11])
-    task = Task(rounding=settings.rounding, current=(0.0, 0.16), lost=settings.lost)
+    task = Task(rounding=settings.rounding, lost=settings.lost, **WIDER)
     world = Survey(task, settings.environments, Dynamics(published_vessel()), tracker, drawn)
     pupil.memory = Memory(settings.environments)
     kept = Checkpoint(folder, asdict(settings), pupil, optimizer, schedule)
@@ -80,7 +89,7 @@ def train(
         schedule.step()
         kept.add({"iteration": iteration + 1, "loss": loss})
         report(f"imitation, loss {loss:.4f}", iteration + 1, settings.iterations)
-        if (iteration + 1) % 20 == 0 or iteration + 1 == settings.iterations:
+        if kept.due(iteration + 1, settings.iterations):
             memory = pupil.memory.points, pupil.memory.at
             more = {"world": world.snapshot(), "seen": seen, "wanted": wanted, "memory": memory}
             kept.save(iteration + 1, random, more)
@@ -122,7 +131,7 @@ def _learn(
         some = torch.randint(len(seen), (settings.minibatch,), generator=random)
         loss = (pupil(seen[some]) - wanted[some]).square().mean()
         optimizer.zero_grad()
-        loss.backward()
+        torch.autograd.backward(loss)
         optimizer.step()
         total += float(loss.detach())
     return total / settings.updates

@@ -11,7 +11,7 @@ import torch
 from torch import Tensor
 
 from planner_ft.simulation.fast import Bools, Floats, Runs, wrapped
-from planner_ft.simulation.guidance import Follow, Movement
+from planner_ft.simulation.guidance import AHEAD, Follow, Movement
 from planner_ft.simulation.navigation import Hold
 from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.skill import Job
@@ -64,7 +64,7 @@ class Steered:
 
 
 class LearntGo(Follow):
-    """GoToXY by the learnt policy: to every point of the way in turn.
+    """GoToXY by the learnt policy: to a point ahead on the way (line of sight), then to its end.
 
     A way ends where the vehicle is nearest to its goal: within the tolerance, and not getting
     nearer. A stated heading is then turned to as guidance does.
@@ -88,6 +88,8 @@ class LearntGo(Follow):
         made = super().step(runs, command)
         goal, final = self._goal(runs)
         away = np.linalg.norm(goal[:, :2] - here, axis=1)
+        aim = self._aim(runs, here)[0]
+        goal[:, :2] = np.where((away > AHEAD)[:, None], aim, goal[:, :2])
         near = final & (away < self.job.tolerance)
         self.there[runs] = arrived | (near & ((away >= self.before[runs]) | (away < SURE)))
         self.before[runs] = np.where(final, away, np.inf)
@@ -178,12 +180,13 @@ class LearntSurvey(Movement):
     def step(self, runs: Runs, command: Floats) -> Floats:
         bearing = self._bearing(runs)
         returns = np.isfinite(self.scene.ranges(runs)).any(axis=1)
+        first = returns & ~self.seen[runs]
         self.seen[runs] |= returns
         self.swept[runs] += wrapped(bearing - self.bearing[runs]) * self.seen[runs]
         self.bearing[runs] = bearing
         self.blind[runs] = np.where(returns, 0.0, self.blind[runs] + self.scene.seconds)
         away = np.linalg.norm(self.goal[runs, :2] - self.scene.position[runs], axis=1)
-        over = runs[(self.left[runs] <= 0) | (away < ARRIVED)]
+        over = runs[(self.left[runs] <= 0) | (away < ARRIVED) | first]
         if len(over):
             self._choose(over)
         self.left[runs] -= 1

@@ -71,7 +71,9 @@ def write_policy(
         inputs=inputs,
         result=result,
     )
-    manifest["inputs"] = {k: {**v, "path": Path(v["path"]).name} for k, v in manifest["inputs"].items()}
+    manifest["inputs"] = {
+        k: {**v, "path": Path(v["path"]).name} for k, v in manifest["inputs"].items()
+    }
     write_json(folder / MANIFEST, manifest)
     write_text(folder / CARD, _card(skill, recipe, module, settings, result))
 
@@ -101,7 +103,9 @@ def _read(skill: str, folder: Path) -> Policy:
         module.load_state_dict(weights)
     except RuntimeError as error:
         what = str(error).splitlines()[-1].strip()
-        raise PlannerError(f"{path}: its weights do not fit {skill}: {what}; train it anew") from None
+        raise PlannerError(
+            f"{path}: its weights do not fit {skill}: {what}; train it anew"
+        ) from None
     module.eval().requires_grad_(False)
     return Policy(skill, about["recipe"], module, json.loads(about["vessel"]), path)
 
@@ -112,7 +116,11 @@ def digest(skill: str, folder: Path | None = None) -> str:
 
 
 def _card(
-    skill: str, recipe: str, module: nn.Module, settings: Mapping[str, Any], result: Mapping[str, Any]
+    skill: str,
+    recipe: str,
+    module: nn.Module,
+    settings: Mapping[str, Any],
+    result: Mapping[str, Any],
 ) -> str:
     count = sum(value.numel() for value in module.parameters())
     kept = ", ".join(f"{name} {value}" for name, value in {**settings, **result}.items())

@@ -63,15 +63,10 @@ class Learner:
             self.surveyor.spread, in_keys=["observation"], out_keys=["loc", "scale"]
         )
         self.actor = ProbabilisticActor(
-            spread,
-            in_keys=["loc", "scale"],
-            distribution_class=TanhNormal,
-            return_log_prob=True,
+            spread, in_keys=["loc", "scale"], distribution_class=TanhNormal, return_log_prob=True
         )
         self.critic = ValueOperator(self.surveyor.critic(), in_keys=["observation"])
-        self.advantage = GAE(
-            gamma=settings.gamma, lmbda=settings.lmbda, value_network=self.critic
-        )
+        self.advantage = GAE(gamma=settings.gamma, lmbda=settings.lmbda, value_network=self.critic)
         self.loss = ClipPPOLoss(
             self.actor,
             self.critic,
@@ -88,11 +83,12 @@ class Learner:
             self.advantage(batch)
         flat, total, updates = batch.reshape(-1), 0.0, 0
         for _epoch in range(settings.epochs):
-            for some in torch.randperm(len(flat), generator=random).split(settings.minibatch):
+            order = torch.randperm(len(flat), generator=random)
+            for some in torch.split(order, settings.minibatch):
                 parts = self.loss(flat[some])
                 loss = sum(value for key, value in parts.items() if key.startswith("loss_"))
                 self.optimizer.zero_grad()
-                loss.backward()
+                torch.autograd.backward(loss)
                 torch.nn.utils.clip_grad_norm_(self.loss.parameters(), settings.norm)
                 self.optimizer.step()
                 total, updates = total + float(loss.detach()), updates + 1
@@ -127,7 +123,7 @@ def train(
         share = {name: ended.count(name) for name in sorted(set(ended))}
         kept.add({"iteration": iteration + 1, "reward": reward, "loss": loss, **share})
         report(f"PPO, mean reward {reward:.2f}", iteration + 1, settings.iterations)
-        if (iteration + 1) % 5 == 0 or iteration + 1 == settings.iterations:
+        if kept.due(5 * (iteration + 1), 5 * settings.iterations):
             kept.save(iteration + 1, random, {"world": world.snapshot(), "best": best})
     learner.surveyor.load_state_dict(best["weights"])
     return {"policy": learner.surveyor, "losses": kept.log, "best": best["iteration"]}

@@ -101,10 +101,14 @@ DOCKS: dict[str, shapely.Polygon] = {
 """Structures of the published second simulator; how broad its arms are, and the buoy, is assumed."""
 
 
-def draw_outline(family: str, random: np.random.Generator) -> Floats:
-    """An outline (150, 2): any size and rotation, its centre up to a metre off."""
+def draw_outline(
+    family: str, random: np.random.Generator, sizes: tuple[float, float] = RADIUS
+) -> Floats:
+    """An outline (150, 2) with a base radius in `sizes`, of any rotation, its centre up to a metre
+    off.
+    """
     shape = FAMILIES[family](random)
-    size, turn = random.uniform(*RADIUS), random.uniform(0, 360)
+    size, turn = random.uniform(*sizes), random.uniform(0, 360)
     shape = affinity.rotate(affinity.scale(shape, size, size, origin=(0, 0)), turn, origin=(0, 0))
     return outline_of(affinity.translate(shape, *random.uniform(-1, 1, 2)))
 

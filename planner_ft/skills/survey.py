@@ -20,7 +20,7 @@ from torch import Tensor
 
 from planner_ft.skills import geometry
 from planner_ft.skills.dynamics import CURRENT, Dynamics, turned
-from planner_ft.skills.shapes import POINTS, Floats, draw_outline, offset_path
+from planner_ft.skills.shapes import POINTS, RADIUS, Floats, draw_outline, offset_path
 from planner_ft.skills.tracker import Tracker, aimed
 
 OPTION, ARRIVED = 15, 0.25
@@ -29,8 +29,8 @@ AHEAD, ASIDE = (0.5, 4.0), 3.0
 """Chosen: metres of a waypoint ahead (w_min, w_max) and to either side (w_y,max)."""
 LONGEST = 150
 """Chosen: options of an episode at most."""
-SPAWN, CLEAR = (3.0, 7.0), geometry.HULL_RADIUS + geometry.TOUCH
-"""Metres from the outline at the start, and from all of it (chosen)."""
+CLEAR = geometry.HULL_RADIUS + geometry.TOUCH
+"""Chosen: metres from all of the outline at the start."""
 BAND = 0.5
 """Metres about the stand-off in which a waypoint is rewarded."""
 WAY = 256
@@ -40,13 +40,16 @@ NUMBERS = geometry.RAYS + 4
 
 @dataclass(frozen=True)
 class Task:
-    """What is drawn, and what is rewarded. `standoff` in m, `current` in m/s, `lost` the share of
+    """What is drawn, and what is rewarded. `standoff`, `size` (base radius)
+    and `spawn` (distance at the start) in m, `current` in m/s, `lost` the share of
     rays that a scan loses (in training at most); `rounding` (m) of the teacher's way, None without a teacher.
     """
 
     families: tuple[str, ...] = ("circle", "rectangle", "L", "polygon", "abstract")
     weights: tuple[float, ...] | None = None
     standoff: tuple[float, float] = (4.0, 7.0)
+    size: tuple[float, float] = RADIUS
+    spawn: tuple[float, float] = (3.0, 7.0)
     current: tuple[float, float] = CURRENT
     lost: float = 0.0
     standoff_weight: float = 3.0
@@ -56,7 +59,8 @@ class Task:
 
     def without(self, term: str | None) -> Task:
         """The task without a term of its reward: standoff, progress or visibility."""
-        return replace(self, **{f"{term}_weight": 0.0}) if term else self
+        zero: dict[str, Any] = {f"{term}_weight": 0.0} if term else {}
+        return replace(self, **zero)
 
 
 @dataclass
@@ -128,13 +132,14 @@ class Survey:
         """An outline, a stand-off, and a start on the outward normal of a boundary point."""
         random, task = self.random, self.task
         family = self.given[one] if self.given else random.choice(task.families, p=task.weights)
-        outline, standoff = draw_outline(str(family), random), random.uniform(*task.standoff)
+        outline = draw_outline(str(family), random, task.size)
+        standoff = random.uniform(*task.standoff)
         self.family[one], self.standoff[one] = str(family), standoff
         self.outline[one] = torch.as_tensor(outline)
         if task.rounding is not None:
             way = offset_path(outline, standoff, task.rounding, WAY)
             self.way[one] = torch.as_tensor(way)
-        place, along = _spawn(outline, standoff, random)
+        place, along = _spawn(outline, standoff, task.spawn, random)
         yaw = along + random.uniform(-math.pi, math.pi)
         self.state[one] = torch.as_tensor([*place, math.remainder(yaw, 2 * math.pi), *[0.0] * 5])
         set_to, speed = random.uniform(-math.pi, math.pi), random.uniform(*task.current)
@@ -182,7 +187,7 @@ class Survey:
             goal = aimed(self.state, goal)
             self._advance(goal, active)
             steps += active
-            away, index = self._follow(active)
+            away = self._follow(active)
             hit |= active & geometry.touching(self.pose, self.outline, away)
             there = (self.state[:, :2] - target).norm(dim=1) < ARRIVED
             active &= ~(hit | there | (self.lap.abs() >= POINTS))
@@ -201,14 +206,14 @@ class Survey:
         self.length += moved * active
         self.state = torch.where(active[:, None], made, self.state)
 
-    def _follow(self, active: Tensor) -> tuple[Tensor, Tensor]:
-        """Distances to the nearest boundary points and their indices; counts laps and errors."""
+    def _follow(self, active: Tensor) -> Tensor:
+        """Distances to the nearest boundary points (B,); counts laps and errors."""
         away, index = geometry.nearest(self.state[:, :2], self.outline)
         self.lap += _advance(index, self.index) * active
         self.index = torch.where(active, index, self.index)
         self.off += (away - self.standoff).abs() * active
         self.off_steps += active
-        return away, index
+        return away
 
     def _judge(self, target: Tensor, before: Tensor, hit: Tensor, steps: Tensor) -> Ended:
         task = self.task
@@ -225,16 +230,16 @@ class Survey:
         reward = reward - 10.0 * hit - 5.0 * wrong - 3.0 * lost
         terminated = hit | lap | lost
         truncated = ~terminated & (self.options >= LONGEST)
-        kinds = zip(
-            *(one.tolist() for one in (hit, lap, lost, truncated)), strict=True
-        )
+        kinds = zip(*(one.tolist() for one in (hit, lap, lost, truncated)), strict=True)
         names = ("collision", "success", "lost", "late")
-        outcome = [next((n for n, is_so in zip(names, k, strict=True) if is_so), None) for k in kinds]
+        outcome = [
+            next((n for n, is_so in zip(names, k, strict=True) if is_so), None) for k in kinds
+        ]
         return Ended(reward, terminated, truncated, steps, outcome)
 
 
 def _spawn(
-    outline: Floats, standoff: float, random: np.random.Generator
+    outline: Floats, standoff: float, limits: tuple[float, float], random: np.random.Generator
 ) -> tuple[Floats, float]:
     """A place (2,) on the outward normal of a boundary point, and the bearing of its tangent. One
     that another part of the outline would touch is drawn anew (chosen).
@@ -243,7 +248,7 @@ def _spawn(
         point = int(random.integers(POINTS))
         tangent = outline[(point + 1) % POINTS] - outline[point - 1]
         along = math.atan2(tangent[1], tangent[0])
-        far = float(np.clip(standoff + random.uniform(-3, 3), *SPAWN))
+        far = float(np.clip(standoff + random.uniform(-3, 3), *limits))
         place = outline[point] + far * np.array([math.sin(along), -math.cos(along)])
         free = np.linalg.norm(outline - place, axis=1).min() > CLEAR
         if free and not shapely.Polygon(outline).contains(shapely.Point(place)):
@@ -285,4 +290,3 @@ def observation(
         ],
         dim=1,
     )
-

@@ -44,10 +44,11 @@ class RayEncoder(nn.Module):
         self.rest = layers(12 * geometry.RAYS // 4 + NUMBERS - geometry.RAYS, outputs, nn.ELU)
 
     def forward(self, seen: Tensor) -> Tensor:
-        rays, numbers, memory = seen.split([geometry.RAYS, 4, geometry.RAYS], dim=-1)
+        rays, numbers, memory = torch.split(seen, [geometry.RAYS, 4, geometry.RAYS], -1)
         flat = torch.stack([1 - rays, 1 - memory], dim=-2).flatten(0, -3)
         encoded = self.rays(flat).reshape(*rays.shape[:-1], -1)
-        return self.rest(torch.cat([encoded, numbers], dim=-1))
+        made: Tensor = self.rest(torch.cat([encoded, numbers], dim=-1))
+        return made
 
 
 class Spread(nn.Module):

@@ -38,6 +38,8 @@ def aimed(state: Tensor, goal: Tensor) -> Tensor:
 class Tracker(nn.Module):
     """Speeds in shares of the limits (B, 2: surge, yaw rate), from six numbers (B, 6)."""
 
+    limits: Tensor
+
     def __init__(self, limits: tuple[float, float]) -> None:
         super().__init__()
         self.register_buffer("limits", torch.tensor(limits))
@@ -45,15 +47,17 @@ class Tracker(nn.Module):
         self.layers = nn.Sequential(*layers, nn.Linear(HIDDEN, 2), nn.Tanh())
 
     def forward(self, seen: Tensor) -> Tensor:
-        place, velocity, error, rate = seen.split([2, 2, 1, 1], dim=1)
+        place, velocity, error, rate = torch.split(seen, [2, 2, 1, 1], dim=1)
         away = place.norm(dim=1, keepdim=True)
         far = place / away.clamp_min(FAR)
         near = place / (away + NEAR)
         scaled = velocity / self.limits[0]
         turn = rate / self.limits[1]
         features = [far, near, scaled, torch.sin(error), torch.cos(error), turn]
-        return self.layers(torch.cat(features, dim=1))
+        made: Tensor = self.layers(torch.cat(features, dim=1))
+        return made
 
     def command(self, state: Tensor, goal: Tensor) -> Tensor:
         """Commanded surge in m/s and yaw rate in rad/s (B, 2)."""
-        return self(relative(state, goal)) * self.limits
+        made: Tensor = self(relative(state, goal)) * self.limits
+        return made

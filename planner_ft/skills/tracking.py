@@ -30,7 +30,7 @@ class TrackingSettings:
 
     skill: str = "goto"
     seed: int = 0
-    iterations: int = 300
+    iterations: int = 160
     batch: int = 192
     steps: int = 120
     window: int = 60
@@ -40,6 +40,10 @@ class TrackingSettings:
     current: float = 0.2
     noise: float = 0.05
     """Metres by which the believed position is off, slowly changing."""
+
+
+HOLD = {"skill": "hold", "iterations": 300, "noise": 0.1}
+"""What StationKeep's training has otherwise: it stays, so that errors of the position tell."""
 
 
 @dataclass
@@ -69,7 +73,7 @@ def draw(skill: str, count: int, most: float, random: torch.Generator, turn: flo
     place = -away[:, None] * torch.stack([torch.cos(bearing), torch.sin(bearing)], dim=1)
     state = torch.zeros(count, 8)
     state[:, :2], state[:, 2] = place, yaw
-    state[:, 3] = uniform(0.0, 1.0 if hold else 2.0)
+    state[:, 3] = uniform(0.0, 1.2 if hold else 2.0)
     state[:, 5] = uniform(-0.3, 0.3)
     goal = torch.stack([torch.zeros(count), torch.zeros(count), wrapped(heading)], dim=1)
     limits = torch.stack([uniform(0.8, 2.3), uniform(0.8 * turn, turn)], dim=1)
@@ -77,14 +81,15 @@ def draw(skill: str, count: int, most: float, random: torch.Generator, turn: flo
 
 
 def cost(skill: str, state: Tensor, goal: Tensor, made: Tensor, before: Tensor) -> Tensor:
-    """What a time step costs (B,): distance, and a little for turning away and for jerks."""
+    """What a time step costs (B,): distance, going where the goal is not, and jerks."""
     away = (state[:, :2] - goal[:, :2]).square().sum(dim=1)
     off = 1 - torch.cos(state[:, 2] - goal[:, 2])
     jerk = (made - before).square().sum(dim=1)
     if skill == "hold":
         return torch.sqrt(away + 0.02**2) + 0.05 * off + 0.02 * jerk
-    far = torch.sqrt(away + 0.1**2)
-    return far / 5 + far / (1 + far) + 0.03 * off + 0.005 * jerk
+    far, speed = torch.sqrt(away + 0.1**2), state[:, 3].square()
+    astray, fast = 0.3 * off * speed, 0.3 * speed * torch.exp(-away)
+    return far / 5 + far / (1 + far) + 0.03 * off + astray + fast + 0.005 * jerk
 
 
 def train(settings: TrackingSettings, folder: Path, resume: bool, report: Report) -> dict[str, Any]:
@@ -105,7 +110,7 @@ def train(settings: TrackingSettings, folder: Path, resume: bool, report: Report
         schedule.step()
         kept.add({"iteration": iteration + 1, "loss": loss})
         report(f"{settings.skill}, loss {loss:.3f}", iteration + 1, settings.iterations)
-        if (iteration + 1) % 20 == 0 or iteration + 1 == settings.iterations:
+        if kept.due(iteration + 1, settings.iterations):
             kept.save(iteration + 1, random)
     return {"policy": policy, "losses": kept.log}
 
@@ -135,9 +140,8 @@ def _iterate(
             loss = loss + cost(settings.skill, state, batch.goal, made, before).mean()
             before = made
         optimizer.zero_grad()
-        (loss / settings.window).backward()
+        torch.autograd.backward(loss / settings.window)
         torch.nn.utils.clip_grad_norm_(policy.parameters(), settings.norm)
         optimizer.step()
         total += float(loss.detach())
     return total / settings.steps
-

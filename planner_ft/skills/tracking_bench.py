@@ -78,7 +78,9 @@ def measure(
     motion = Motion("hold" if hold else "go", {})
     seconds = SECONDS if hold else None
     points = ((0.0, 0.0),)
-    job = Job("skill", {}, motion, settings, points=points, seconds=seconds, speed=scene.vessel.speed)
+    job = Job(
+        "skill", {}, motion, settings, points=points, seconds=seconds, speed=scene.vessel.speed
+    )
     running = Running(Stage("bench", 0, job, (), (), PATIENCE, ()), scene)
     everyone = np.arange(count)
     running.start(everyone)
@@ -99,19 +101,18 @@ def measure(
     return arrived, errors[arrived], ended[arrived]
 
 
-def _scene(
-    count: int, hold: bool, factor: float, seed: int, random: np.random.Generator
-) -> Scene:
+def _scene(count: int, hold: bool, factor: float, seed: int, random: np.random.Generator) -> Scene:
     """Vehicles at rest about [0, 0], heading anywhere, in water that moves `factor` times as fast
     as published.
     """
     vessel = published_vessel()
-    world = World(
-        vessel, (0.0, 0.0), (), (), {}, (), Faults(), count, seed
-    )
+    world = World(vessel, (0.0, 0.0), (), (), {}, (), Faults(), count, seed)
     world.current = factor * world.current
     starts = np.zeros((count, 4))
-    away, angle = random.uniform(*((0.0, 1.0) if hold else AWAY), count), random.uniform(0, 7, count)
+    away, angle = (
+        random.uniform(*((0.0, 1.0) if hold else AWAY), count),
+        random.uniform(0, 7, count),
+    )
     starts[:, 0], starts[:, 1] = away * np.cos(angle), away * np.sin(angle)
     starts[:, 3] = random.uniform(-math.pi, math.pi, count)
     return Scene(world, FastSimulator(vessel, count), starts, Origin(0.0, 0.0), lambda _r, _l: None)

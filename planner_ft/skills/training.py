@@ -64,14 +64,15 @@ class SkillTraining:
         kind: Any
         more: dict[str, Any] = {"seed": self.seed}
         if self.skill != "survey":
-            from planner_ft.skills.tracking import TrackingSettings as kind  # noqa: N813
+            from planner_ft.skills.tracking import HOLD
+            from planner_ft.skills.tracking import TrackingSettings as kind
 
-            more["skill"] = self.skill
+            more |= HOLD if self.skill == "hold" else {"skill": self.skill}
         elif self.recipe == "ours":
-            from planner_ft.skills.imitation import ImitationSettings as kind  # noqa: N813
+            from planner_ft.skills.imitation import ImitationSettings as kind
         else:
             try:
-                from planner_ft.skills.ppo import PpoSettings as kind  # noqa: N813
+                from planner_ft.skills.ppo import PpoSettings as kind
             except ImportError:
                 raise PlannerError(f"--recipe published: {NO_EXTRA}") from None
             more |= {"sampling": self.sampling, "without": self.without}
