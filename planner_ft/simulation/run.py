@@ -184,6 +184,7 @@ class _Prepared:
             placed,
             objects,
             self.staging.fences,
+            self.staging.allowed,
             settings.faults,
             settings.runs,
             settings.seed,

@@ -35,7 +35,6 @@ BUNDLED = {
     "boundary": f"{PLACE}.filters:Boundary",
     "clearance": f"{PLACE}.filters:Clearance",
     "heading": f"{PLACE}.filters:Heading",
-    "home": f"{PLACE}.guidance:Home",
     "measure": f"{PLACE}.sensing:Sensor",
     "learnt-goto": f"{LEARNT}:LearntGo",
     "learnt-hold": f"{LEARNT}:LearntHold",

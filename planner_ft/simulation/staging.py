@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from planner_ft.document.clearance import ROUND, Structure, fence, structures
+from planner_ft.document.clearance import ROUND, Allowed, Structure, fence, structures
 from planner_ft.document.limits import limits_of
 from planner_ft.document.track import Leg, Point, place_of
 from planner_ft.exporters.formats import PlanExport
@@ -74,6 +74,11 @@ class Staging:
         ]
         area = self.document["vehicle"]["area"]
         return found + ([Fence(_polygon(area))] if area else [])
+
+    @property
+    def allowed(self) -> Allowed:
+        """Whether a leg keeps the fences."""
+        return fence(self.document, self.vocabulary)
 
     @property
     def seconds(self) -> float:
@@ -157,9 +162,8 @@ class Staging:
 
     def home(self) -> Stage:
         """The way home, with the vehicle's filters that keep clear and inside."""
-        kept = {"implementation": "home", "allowed": fence(self.document, self.vocabulary)}
         movement = Job(
-            *("way home", {}, Motion("go", {}), kept, "home", 0, (self.vocabulary.home,)),
+            *("way home", {}, Motion("go", {}), {}, "home", 0, (self.vocabulary.home,)),
             speed=min(self.vessel.cruise, self.speed),
             tolerance=self.tolerance,
             failure="home not reached",
