@@ -90,8 +90,6 @@ def _suite(path: Path, options: dict[str, Any]) -> None:
     with interruptible(lambda: again) as report:
         ran = run_suite(suite, out, report, overwrite=options["overwrite"])
     terminal().print(terminal_table(suite_table(suite, ran)))
-    for name, why in ran.skipped.items():
-        show(f"{name}: {why}")
     show(f"{out}: table.md, table.csv, and a folder per mission with plan, log and runs")
 
 

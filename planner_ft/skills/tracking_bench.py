@@ -106,7 +106,9 @@ def _scene(count: int, hold: bool, factor: float, seed: int, random: np.random.G
     as published.
     """
     vessel = published_vessel()
-    world = World(vessel, (0.0, 0.0), (), (), {}, (), Faults(), count, seed)
+    world = World(
+        *(vessel, (0.0, 0.0), (), (), {}, (), lambda _start, _goal: True, Faults(), count, seed)
+    )
     world.current = factor * world.current
     starts = np.zeros((count, 4))
     away, angle = (
