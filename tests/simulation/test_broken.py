@@ -15,6 +15,8 @@ from planner_ft.review import log_beside, reject
 from planner_ft.simulation import output
 from planner_ft.simulation.guidance import Follow
 from planner_ft.simulation.run import SimulationSettings, simulate
+from planner_ft.skills.mission import LearntGo
+from planner_ft.skills.policies import SHIPPED
 from planner_ft.support.errors import PlannerError
 from tests.documents import document, step, task
 
@@ -109,6 +111,13 @@ CASES: dict[str, tuple[Make, list[str], str]] = {
     ),
     "folder of an earlier run": (ran_before, [], "give --overwrite to replace it"),
     "folder with notes": (ran_with_notes, ["--overwrite"], "holds thesis.txt"),
+    "policy of another skill": (
+        plan(),
+        ["--goto", str(SHIPPED / "survey")],
+        "is a policy of survey, not of goto",
+    ),
+    "no policy": (plan(), ["--goto", str(SHIPPED)], "is not there; give a folder"),
+    "no folder": (plan(), ["--survey", "none"], "--survey none: must be waypoints, learnt, or"),
     "no run": (plan(), ["--runs", "0"], "--runs 0: must be from 1"),
     "too many logs": (plan(), ["--mcap", "3"], "--mcap 3"),
     "no tolerance": (plan(), ["--tolerance", "0"], "--tolerance 0"),
@@ -137,20 +146,26 @@ def test_a_sentence_and_nothing_lost(
 
 
 @pytest.mark.parametrize("simulator", ["fast", "mujoco"])
+@pytest.mark.parametrize(("goto", "skill"), [("guidance", Follow), ("learnt", LearntGo)])
 def test_what_is_no_number_stops_its_run_and_is_told(
-    simulator: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
+    simulator: str,
+    goto: str,
+    skill: type[Follow],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: Any,
 ) -> None:
-    going = Follow.step
+    going = skill.step
 
-    def broken(self: Follow, runs: Any, given: Any) -> Any:
+    def broken(self: Any, runs: Any, given: Any) -> Any:
         made = going(self, runs, given)
         made[runs == 0] = np.nan if self.scene.time > 2 else made[runs == 0]
         return made
 
     monkeypatch.setattr(output, "track_svg", lambda _done: "<svg/>")
-    monkeypatch.setattr(Follow, "step", broken)
+    monkeypatch.setattr(skill, "step", broken)
     path = saved(tmp_path, [transit(15, 0)])
-    flags = ["--runs", 2, "--mcap", 0, "--simulator", simulator]
+    flags = ["--runs", 2, "--mcap", 0, "--simulator", simulator, "--goto", goto]
     assert command(monkeypatch, path, *flags) == 0
     told = " ".join(capsys.readouterr().out.split())
     assert "1 of 2 runs: stopped (GoToXY: its command is not finite" in told
