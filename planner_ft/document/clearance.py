@@ -26,6 +26,8 @@ from planner_ft.vocabulary.plans import canonical_value
 
 ROUND, OVER = ("orbit", "square"), ("lawnmower", "line")
 """Patterns of tasks that go round their place, and of those that go over it."""
+FACING = ("sweep",)
+"""Patterns of tasks that look at the structure that the vehicle has gone to."""
 SAME = 0.6
 """Metres within which a waypoint is a structure itself."""
 MARGIN = 0.5
@@ -65,7 +67,7 @@ def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Stru
     """The known structures of a plan, each with the stand-off that is stated or the vehicle's."""
     tasks = document["tasks"]
     own = (document.get("vehicle") or {}).get("stand_off", STAND_OFF)
-    least, named = 0.0, dict[Point, str]()
+    least, named, last = 0.0, dict[Point, str](), vocabulary.home
     kept: dict[Point, float] = {}
     for limit in limits_of(document, vocabulary):
         if limit["kind"] == "clearance":
@@ -78,6 +80,9 @@ def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Stru
     stated: dict[Point, list[float]] = {}
     for task in tasks:
         known, place = vocabulary.task.get(task["title"]), place_of(task, vocabulary)
+        if known is not None and known.pattern in FACING and last != vocabulary.home:
+            named.setdefault(last, "")
+        last = place or last
         if known is None or place is None:
             continue
         if known.docks or known.pattern in OVER:

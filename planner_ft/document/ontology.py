@@ -29,6 +29,7 @@ _PLACED = re.compile(
     r"\s*,?\s*(?:(?:is|lying|located|somewhere|right|last seen|centred|centered)\s+)?"
     r"(?:at|near|around|on|in)?\s*[\[(]?\s*"
 )
+_BESIDE = re.compile(r"[\s,;\])\[(]*(?:and|or)?[\s\[(]*")
 _NAME = re.compile(r"\s+((?:[A-Z][\w-]*|\d+)(?:\s+(?:[A-Z][\w-]*|\d+))?)(?!\w)")
 
 
@@ -102,12 +103,18 @@ def pieces(text: str, longest: int = LONGEST_PIECE) -> Iterator[tuple[int, str]]
 
 
 def named_places(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Position]]:
-    """(words, position) of things beside certain positions: no waypoints and other places."""
+    """(words, position) of things beside certain positions: no waypoints and other places. "The
+    cages at" names all positions of the row behind it.
+    """
     spoken = language(vocabulary)
     named = sorted([*_noun_phrases(text, spoken), *_names(text, spoken)])
+    several, behind = "", 0
     for place in read_positions(text):
         start = _before(text, place.start, named)
         words = next((text[one:end] for one, end in reversed(named) if one == start), "")
+        if not words and _BESIDE.fullmatch(text, behind, place.start):
+            words = several
+        several, behind = words if words.endswith("s") else "", place.end
         if place.certain and words and is_thing(words, vocabulary):
             yield words, place
 

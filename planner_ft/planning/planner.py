@@ -110,6 +110,14 @@ class Planner:
             filled = resolve(mission.plan, known, self.vocabulary)
             mission = replace(mission, notes=(*mission.notes, *unused))
             found = charted(chart or {}, open_places(filled, self.vocabulary))
+            # A place that the plan does not need is a point of the chart all the same.
+            unknown = self.vocabulary.unresolved
+            others = {
+                name: at
+                for name, at in (locations or {}).items()
+                if name not in known and tuple(at) != unknown
+            }
+            chart = {**others, **(chart or {})}
             filled = resolve(filled, found, self.vocabulary)
             located = {name: list(at) for name, at in {**known, **found}.items()}
             places = open_places(filled, self.vocabulary)
