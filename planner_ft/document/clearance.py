@@ -26,7 +26,7 @@ from planner_ft.vocabulary.plans import canonical_value
 
 ROUND, OVER = ("orbit", "square"), ("lawnmower", "line")
 """Patterns of tasks that go round their place, and of those that go over it."""
-FACING = ("sweep",)
+FACING = ("sweep", "pass")
 """Patterns of tasks that look at the structure that the vehicle has gone to."""
 SAME = 0.6
 """Metres within which a waypoint is a structure itself."""

@@ -22,6 +22,7 @@ from planner_ft.planning.locations import (
     open_places,
     resolve,
 )
+from planner_ft.planning.passes import with_pass
 from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask
 from planner_ft.planning.settings import DEFAULT_CANDIDATE, PlanSettings, choose_agents
 from planner_ft.support.errors import PlannerError
@@ -152,11 +153,11 @@ class Planner:
         answer = self.agents.ask("task", {**record, "prompt": prompt})
         if answer.plan is None:
             return answer
-        steps = answer.plan["skill_sequence"]
+        steps, ends = with_pass(filled, answer.plan["skill_sequence"], self.vocabulary)
         steps, added = with_essentials(filled, steps, self.vocabulary)
         defaults = missing_defaults(task, self.vocabulary)
         plan = {"skill_sequence": steps}
-        return replace(answer, plan=plan, defaults=defaults, added=tuple(added))
+        return replace(answer, plan=plan, defaults=defaults, added=(*ends, *added))
 
     def __enter__(self) -> Planner:
         return self

@@ -54,7 +54,7 @@ def _nothing(task: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warnin
 
 
 def _waypoints(task: Mapping[str, Any], vocabulary: Vocabulary) -> list[Point]:
-    clearance = {mark["step"] for mark in task.get("added", ()) if mark["role"] == "navigation"}
+    clearance = {mark["step"] for mark in task.get("added", ()) if mark["kind"] == "clearance"}
     found = []
     for index, step in enumerate(task["skill_sequence"]):
         skill = step["navigation_skill"]
