@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.language import Clause, Language, language, read_clauses
+from planner_ft.document.positions import positions_of, rows_of
 from planner_ft.facts import Position, Span
 from planner_ft.facts.places import read_positions
 from planner_ft.vocabulary import Vocabulary
@@ -29,7 +30,6 @@ _PLACED = re.compile(
     r"\s*,?\s*(?:(?:is|lying|located|somewhere|right|last seen|centred|centered)\s+)?"
     r"(?:at|near|around|on|in)?\s*[\[(]?\s*"
 )
-_BESIDE = re.compile(r"[\s,;\])\[(]*(?:and|or)?[\s\[(]*")
 _NAME = re.compile(r"\s+((?:[A-Z][\w-]*|\d+)(?:\s+(?:[A-Z][\w-]*|\d+))?)(?!\w)")
 
 
@@ -108,15 +108,21 @@ def named_places(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Posit
     """
     spoken = language(vocabulary)
     named = sorted([*_noun_phrases(text, spoken), *_names(text, spoken)])
-    several, behind = "", 0
+    several = dict[int, str]()
+    for row in rows_of(text, positions_of(text)):
+        words = _words_before(text, row[0].start, named)
+        several |= {place.start: words for place in row[1:] if words.endswith("s")}
     for place in read_positions(text):
-        start = _before(text, place.start, named)
-        words = next((text[one:end] for one, end in reversed(named) if one == start), "")
-        if not words and _BESIDE.fullmatch(text, behind, place.start):
-            words = several
-        several, behind = words if words.endswith("s") else "", place.end
-        if place.certain and words and is_thing(words, vocabulary):
+        words = _words_before(text, place.start, named) if place.certain else ""
+        words = words or several.pop(place.start, "")
+        if words and is_thing(words, vocabulary):
             yield words, place
+
+
+def _words_before(text: str, place: int, named: list[Span]) -> str:
+    """The name that stands before coordinates; empty without one."""
+    start = _before(text, place, named)
+    return next((text[one:end] for one, end in reversed(named) if one == start), "")
 
 
 def is_thing(words: str, vocabulary: Vocabulary) -> bool:

@@ -10,6 +10,7 @@ import copy
 import itertools
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from planner_ft.facts.geometry import Point, offset
@@ -52,6 +53,15 @@ def with_pass(
 
 def pass_ends(task: Mapping[str, Any], vocabulary: Vocabulary) -> tuple[Point, Point] | None:
     """Both ends of a pass; None where side, length, distance or place are not known for certain."""
+    face = face_of(task, vocabulary)
+    if face is None:
+        return None
+    first, last = (offset(end, face.side, face.distance) for end in face.ends)
+    return first, last
+
+
+def face_of(task: Mapping[str, Any], vocabulary: Vocabulary) -> Face | None:
+    """The face that a task runs along, where it follows from the task for certain."""
     given = task["parameters"]
     bearings = read_bearings(str(given.get(SIDE, "")))
     places = [place for place in read_positions(task["task_prompt"]) if place.certain]
@@ -59,9 +69,24 @@ def pass_ends(task: Mapping[str, Any], vocabulary: Vocabulary) -> tuple[Point, P
     known = vocabulary.task[task["title"]].pattern == "pass" and all(map(is_number, measures))
     if not known or len(bearings) != 1 or len(places) != 1:
         return None
-    side = bearings[0].value
-    middle = offset((places[0].x, places[0].y), side, measures[1])
-    return offset(middle, side - 90, measures[0] / 2), offset(middle, side + 90, measures[0] / 2)
+    side, at = bearings[0].value, (places[0].x, places[0].y)
+    first, last = (offset(at, side + turn, measures[0] / 2) for turn in (-90, 90))
+    return Face((first, last), side, measures[1])
+
+
+@dataclass(frozen=True)
+class Face:
+    """A face of a structure: its ends, the bearing that it looks to, the distance to be kept."""
+
+    ends: tuple[Point, Point]
+    side: float
+    distance: float
+
+    @property
+    def middle(self) -> Point:
+        """The place of the structure."""
+        (a, b), (c, d) = self.ends
+        return (a + c) / 2, (b + d) / 2
 
 
 def _goes(step: Step, vocabulary: Vocabulary) -> bool:

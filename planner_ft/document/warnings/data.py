@@ -38,7 +38,7 @@ def data_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterat
         lost = [data for data in asked if not _gathered(data, gathering, waiting)]
         spans = sorted(span for data in lost for span in clause.spans(data.said))
         words = list(dict.fromkeys(document["command"][start:end] for start, end in spans))
-        if not lost and spoken.words["everywhere"].search(clause.text):
+        if not words and spoken.words["everywhere"].search(clause.text):
             yield from _once(asked, clause, own, tasks)
         if words:
             listed = ", ".join(f'"{one}"' for one in words)

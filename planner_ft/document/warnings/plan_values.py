@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -13,6 +14,9 @@ from planner_ft.facts.places import read_positions
 from planner_ft.vocabulary.plans import step_skills
 
 FULL = 360.0
+STEM = 5
+LONGER = re.compile(r"[a-z]{4,}")
+"""Words that say something, and the letters by which one is found again."""
 CORNERS = 3
 
 
@@ -49,11 +53,17 @@ class PlanValues:
         spoken = [number for line in texts for number in read_numbers(line)]
         self.anywhere = {*_flat(own), *(part for one in spoken for part in (one.value, one.said))}
         self.anywhere |= set(_ways([*places, *read], command))
+        self.texts = " ".join(texts).casefold()
         self.timed = any(limit["kind"] in ("return", "duration") for limit in limits)
 
     def says(self, value: float) -> bool:
         """Whether a number is anywhere in the plan, or a way that it goes, up to its sign."""
         return any(near(abs(value), abs(number)) for number in self.anywhere)
+
+    def speaks_of(self, words: str) -> bool:
+        """Whether a text of the plan has one of the longer words, or there are none."""
+        longer = LONGER.findall(words.casefold())
+        return not longer or any(word[:STEM] in self.texts for word in longer)
 
     def has(self, place: Position) -> bool:
         """Whether a position is anywhere in the plan, or its numbers are values of it."""

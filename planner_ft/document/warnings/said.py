@@ -12,6 +12,7 @@ from typing import Any
 
 from planner_ft.document.language import Clause, Language, language, read_clauses
 from planner_ft.document.ontology import named_places
+from planner_ft.document.positions import positions_of, rows_of
 from planner_ft.document.warnings.measures import (
     clause_at,
     is_wanted,
@@ -19,7 +20,7 @@ from planner_ft.document.warnings.measures import (
     lost_bare,
     lost_measures,
 )
-from planner_ft.document.warnings.places import ROW, positions_of, rows_of, uneven_rows, unvisited
+from planner_ft.document.warnings.places import ROW, uneven_rows, unvisited
 from planner_ft.document.warnings.plan_values import PlanValues, same_place
 from planner_ft.document.warnings.warning import Warning, named, quoted, warning
 from planner_ft.facts import Number, Position, is_place, near, read_input
@@ -93,9 +94,12 @@ def _lost_limit(
     measures = [n for n in apart if n.unit in ("m", "s", "m/s") or _is_coordinate(n, text)]
     known = plan.limited if whole else [*plan.limited, *plan.numbers]
     kept = all(any(near(one.value, other) for other in known) for one in measures)
-    if not measures and spoken.words["away"].search(clause.text):
+    away = spoken.words["away"].search(clause.text)
+    if not measures and away:
         limited = [(value[0], value[1]) for value in plan.limits if is_place(value)]
         kept = all(any(same_place(place, at) for at in limited) for place in inside)
+        if not inside:
+            kept = plan.speaks_of(clause.text[away.end() :])
     by_time = spoken.words["by_time"].search(clause.text)
     if by_time and clause.text[by_time.end() :].lstrip()[:1].isdigit():
         kept = plan.timed
