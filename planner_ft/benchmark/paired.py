@@ -1,18 +1,18 @@
-"""Two systems on the same samples: the difference of a metric with its interval, and how likely it
-is by chance.
+"""Two systems on the same samples: the difference of a metric with its interval, how likely it is
+by chance, and what that means, in a word and in a mark.
 """
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Hashable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from planner_ft.benchmark.catalogue import Metric
+from planner_ft.benchmark.catalogue import METRIC, Metric
 from planner_ft.benchmark.statistics import (
     RESAMPLES,
     Estimate,
@@ -23,27 +23,43 @@ from planner_ft.benchmark.statistics import (
     percentiles,
     resampled_sums,
 )
+from planner_ft.support.tables import NOTHING, Cell
 
 Score = Mapping[str, Any]
 """A line of scores.jsonl."""
 Answers = Mapping[str, Sequence[Score]]
 """The scores of a system by sample id: one per sample, or one per repeat."""
-
+UNKNOWN = Estimate(None)
 ENUMERATED = 12
-"""Families with a difference up to which all ways to swap them are tried (2**12) instead of
-RESAMPLES random ones.
-"""
+"""Differing families up to which all 2**12 swaps are tried instead of RESAMPLES random ones."""
+
+Verdict = Literal["better", "worse", "higher", "lower", "equal", "not told apart", "not compared"]
+MARKS: dict[Verdict, str] = {
+    "better": "▲",
+    "higher": "▲",
+    "worse": "▼",
+    "lower": "▼",
+    "equal": "≈",
+    "not told apart": "·",
+    "not compared": "",
+}
+SIGNIFICANCE = 0.05
+MARGIN = 0.05
+"""Two systems whose difference is known to be smaller than this, at 95 %, are called equal."""
+EXPLAINED = (
+    f"▲ better and ▼ worse beyond chance (p < 0.05 after Holm), ≈ equal within {MARGIN:g} (95 %"
+    " interval), · not told apart"
+)
 
 
 @dataclass(frozen=True)
 class Paired:
-    """One metric of two systems over the samples that both answered.
+    """One metric of two systems over the `n` samples that both answered.
 
     `first` and `second` are its values, `difference` is second minus first (95 % interval, whole
     families resampled), `p` the two-sided probability of as large a difference if it made no
     difference which system answered, families being swapped whole. `p_mcnemar` is the exact McNemar
-    test of a rate, which takes all samples for independent: where they are, `p` is the same. `n`
-    counts samples.
+    test of a rate, which takes all samples for independent: where they are, `p` is the same.
     """
 
     metric: str
@@ -51,7 +67,7 @@ class Paired:
     families: int
     first: float | None
     second: float | None
-    difference: Estimate
+    difference: Estimate = UNKNOWN
     p: float | None = None
     p_mcnemar: float | None = None
 
@@ -67,17 +83,26 @@ def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired
             families.append(str(first[name][0].get("family") or first[name][0].get("id")))
             terms.append((*one, *other))
     if not terms:
-        return Paired(metric.name, 0, 0, None, None, Estimate(None))
+        return Paired(metric.name, 0, 0, None, None)
     sums = cluster_sums(terms, families)
     before, after = (float(value) if np.isfinite(value) else None for value in _values(sums.sum(0)))
     if before is None or after is None:
-        return Paired(metric.name, len(terms), len(sums), before, after, Estimate(None))
-    difference = _difference(metric, terms, sums, families, after - before, seed)
+        return Paired(metric.name, len(terms), len(sums), before, after)
+    differs = [tuple(term[:2]) != tuple(term[2:]) for term in terms]
+    difference = Estimate(after - before)
+    if not any(differs) and metric.fraction:
+        # No resample differs either, and the bootstrap would be sure after three samples: the bound
+        # is that of the share of samples that may differ.
+        most = clustered_rate(differs, families).high or 0.0
+        difference = Estimate(after - before, -most, most)
+    elif len(sums) > 1:
+        one, other = _values(resampled_sums(sums, seed))
+        known = (found := other - one)[np.isfinite(found)]
+        difference = Estimate(after - before, *percentiles(known))  # Efron 1979
     mcnemar: float | None = None
     if metric.kind == "rate" and all(value in (0, 1) for term in terms for value in term):
-        lost = sum(term[0] > term[2] for term in terms)
-        won = sum(term[0] < term[2] for term in terms)
         p = exact_swaps(sums[:, 2] - sums[:, 0])
+        lost, won = (sum(term[0] - term[2] == sign for term in terms) for sign in (1, -1))
         mcnemar = exact_mcnemar(lost, won)
     else:
         p = swaps(sums, seed)
@@ -85,46 +110,16 @@ def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired
 
 
 def _terms(metric: Metric, scores: Sequence[Score]) -> tuple[float, float] | None:
-    """Numerator and denominator of a sample, means over its repeats; None where it says nothing
-    about the metric.
-    """
+    """A sample's numerator and denominator, means over its repeats; None where it says nothing."""
     known = [terms for score in scores if (terms := metric.terms(score))]
     above, below = (sum(column) for column in zip(*known, strict=True)) if known else (0.0, 0.0)
     return (above / len(known), below / len(known)) if known else None
 
 
 def _values(sums: Floats) -> tuple[Any, Any]:
-    """The metric of both systems from sums of (numerator, denominator) of the first and of the
-    second, along the last axis.
-    """
+    """The metric of both systems, from (numerator, denominator) of each along the last axis."""
     with np.errstate(invalid="ignore", divide="ignore"):
         return sums[..., 0] / sums[..., 1], sums[..., 2] / sums[..., 3]
-
-
-def _difference(
-    metric: Metric,
-    terms: Sequence[Sequence[float]],
-    sums: Floats,
-    families: Sequence[Hashable],
-    value: float,
-    seed: int,
-) -> Estimate:
-    """The difference with its bootstrap interval (Efron 1979).
-
-    Where no sample differs no resample does, and the bootstrap would be sure of a difference of
-    nothing after three samples. A share of something then takes the bound of the share of samples
-    that may differ.
-    """
-    differs = [tuple(term[:2]) != tuple(term[2:]) for term in terms]
-    if not any(differs) and metric.fraction:
-        most = clustered_rate(differs, families).high
-        assert most is not None
-        return Estimate(value, -most, most)
-    if len(sums) < 2:
-        return Estimate(value)
-    one, other = _values(resampled_sums(sums, seed))
-    found = other - one
-    return Estimate(value, *percentiles(found[np.isfinite(found)]))
 
 
 def exact_mcnemar(lost: int, won: int) -> float:
@@ -195,3 +190,76 @@ def holm(values: Sequence[float | None]) -> list[float | None]:
 
     adjusted = iter(multipletests(known, method="holm")[1].tolist())
     return [None if value is None else next(adjusted) for value in values]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """`second` against `first` by one metric; `p_adjusted` is Holm's, over all of the same table."""
+
+    first: str
+    second: str
+    paired: Paired
+    p_adjusted: float | None
+
+    @property
+    def verdict(self) -> Verdict:
+        return verdict(self.paired.metric, self.paired.difference, self.p_adjusted)
+
+    @property
+    def mark(self) -> str:
+        return MARKS[self.verdict]
+
+    def difference(self) -> Cell:
+        """The difference with its interval and mark."""
+        return difference_cell(self.paired.metric, self.paired.difference, self.mark)
+
+    def to_json(self) -> dict[str, Any]:
+        """As results.json and comparison.json have it."""
+        values = asdict(self.paired)
+        named = {"first": self.first, "second": self.second, "metric": values.pop("metric")}
+        named |= {f"{end}_value": values.pop(end) for end in ("first", "second")}
+        return {**named, **values, "p_adjusted": self.p_adjusted, "verdict": self.verdict}
+
+    @classmethod
+    def from_json(cls, record: Mapping[str, Any]) -> Comparison:
+        """A comparison as `to_json` wrote it."""
+        values = {key: record[key] for key in ("metric", "n", "families", "p", "p_mcnemar")}
+        values |= {end: record[f"{end}_value"] for end in ("first", "second")}
+        found = Paired(**values, difference=Estimate(**record["difference"]))
+        return cls(record["first"], record["second"], found, record["p_adjusted"])
+
+
+def verdict(name: str, difference: Estimate, p_adjusted: float | None) -> Verdict:
+    """A difference is real where p, adjusted for the table, is under 0.05; equal is a difference
+    that is known to be less than MARGIN. Everything else is not told apart.
+    """
+    metric = METRIC.get(name)
+    if difference.value is None or p_adjusted is None:
+        return "not compared"
+    better = metric.better if metric else "↑"
+    up = difference.value > 0
+    if p_adjusted < SIGNIFICANCE:
+        if not better:
+            return "higher" if up else "lower"
+        return "better" if up == (better == "↑") else "worse"
+    low, high = difference.low, difference.high
+    within = low is not None and high is not None and low >= -MARGIN and high <= MARGIN
+    return "equal" if within and (metric is None or metric.fraction) else "not told apart"
+
+
+def adjusted(found: Sequence[tuple[str, str, Paired]]) -> list[Comparison]:
+    """Comparisons (first, second, figures) of one table, their p-values adjusted together."""
+    ps = holm([one.p for _first, _second, one in found])
+    return [Comparison(*one, p) for one, p in zip(found, ps, strict=True)]
+
+
+def p_text(p: float | None) -> str:
+    """A p-value as tables show it."""
+    return NOTHING if p is None else "< 0.001" if p < 0.001 else f"{p:.3f}"
+
+
+def difference_cell(name: str, found: Estimate, mark: str = "") -> Cell:
+    """A difference with its sign, interval and mark, in the unit of its metric."""
+    metric = METRIC[name]
+    decimals = 3 if metric.scale == 1 and metric.fraction else metric.decimals
+    return found.cell(scale=metric.scale, decimals=decimals, mark=mark, sign=True)

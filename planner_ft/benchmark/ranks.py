@@ -13,9 +13,7 @@ from planner_ft.support.resources import end_with_parent
 
 Item = TypeVar("Item")
 LONGEST_WAIT = timedelta(days=14)
-"""A process may wait for the others as long as these answer; one that fails ends them all through
-its launcher.
-"""
+"""For others that answer; one that fails ends them all through its launcher."""
 
 
 @dataclass(frozen=True)

@@ -26,6 +26,10 @@ class Sample:
     family: str
     record: dict[str, Any]
 
+    @classmethod
+    def of(cls, record: dict[str, Any]) -> Sample:
+        return cls(record["id"], str(record.get("family") or record["id"]), record)
+
     @property
     def group(self) -> str | None:
         """The kind of difficulty that the data files the sample under, if it does."""
@@ -41,9 +45,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class BenchData:
-    """The samples of a file, of which `limit` may have kept only the first; `ids` are those of the
-    whole file.
-    """
+    """The samples of a file, of which a limit may have kept the first; `ids` are all of the file."""
 
     path: Path
     sha256: str
@@ -63,26 +65,22 @@ def load_bench_data(
     path = Path(path)
     if limit is not None and limit < 1:
         raise PlannerError(f"--limit {limit}: must be at least 1")
-    samples: dict[str, Sample] = {}
     lines: dict[str, int] = {}
-    problems: list[str] = []
+    samples, problems = [], []
     record: Any
     for number, record, problem in iterate_jsonl(path):
         problem = problem or next(_problems(record, level, vocabulary), None)
-        if problem is None and record["id"] in lines:
+        if problem is None and lines.setdefault(record["id"], number) != number:
             problem = f"id {record['id']!r} stands on line {lines[record['id']]} already"
         if problem is not None:
             problems.append(f"{path}:{number}: {problem}")
-            continue
-        name = record["id"]
-        lines[name] = number
-        samples[name] = Sample(name, str(record.get("family") or name), record)
+        else:
+            samples.append(Sample.of(record))
     if problems:
         raise PlannerError(joined(problems))
     if not samples:
         raise PlannerError(f"{path}: holds no samples")
-    kept = tuple(samples.values())[:limit]
-    return BenchData(path, sha256_file(path), level, kept, frozenset(samples))
+    return BenchData(path, sha256_file(path), level, tuple(samples[:limit]), frozenset(lines))
 
 
 def joined(problems: list[str]) -> str:

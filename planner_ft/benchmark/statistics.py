@@ -9,15 +9,17 @@ import math
 from collections import Counter
 from collections.abc import Hashable, Sequence
 from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from planner_ft.support.tables import Cell, figure
 
 CONFIDENCE = 0.95
 RESAMPLES = 10_000
 BLOCK = 2**22
 """Numbers that are worked on at a time."""
-
 Floats = NDArray[np.float64]
 
 
@@ -34,6 +36,10 @@ class Estimate:
     def to_json(self) -> dict[str, float | None]:
         return asdict(self)
 
+    def cell(self, **style: Any) -> Cell:
+        """As tables show it, in the style of `figure`."""
+        return figure(self.value, self.low, self.high, **style)
+
 
 def wilson(successes: int, n: int) -> Estimate:
     """A rate with its Wilson score interval (Wilson 1927). For independent samples."""
@@ -49,13 +55,11 @@ def clustered_rate(successes: Sequence[bool], clusters: Sequence[Hashable]) -> E
     clusters (Survey Methodology 1998); Dean and Pagano (Journal of Survey Statistics and
     Methodology 2015) compare such intervals.
     """
-    n = len(successes)
-    if not n:
+    if not len(successes):
         return Estimate(None)
-    sizes = Counter(clusters)
     hits = Counter(cluster for cluster, hit in zip(clusters, successes, strict=True) if hit)
-    size = effective_size([(hits[cluster], size) for cluster, size in sizes.items()])
-    return _wilson(hits.total() / n, size)
+    size = effective_size([(hits[cluster], size) for cluster, size in Counter(clusters).items()])
+    return _wilson(hits.total() / len(successes), size)
 
 
 def effective_size(counts: Sequence[tuple[int, int]]) -> float:
@@ -107,9 +111,7 @@ def quantile(values: Sequence[float], share: float) -> Estimate:
 
 
 def bootstrap_mean(values: Sequence[float], clusters: Sequence[Hashable], seed: int) -> Estimate:
-    """The mean of `values` with its percentile bootstrap interval (Efron 1979), whole clusters
-    resampled together.
-    """
+    """The mean with its percentile bootstrap interval (Efron 1979), whole clusters resampled."""
     return bootstrap_ratio(values, [1.0] * len(values), clusters, seed)
 
 
@@ -136,9 +138,7 @@ def bootstrap_ratio(
 def cluster_sums(
     values: Sequence[Sequence[float]] | Floats, clusters: Sequence[Hashable]
 ) -> Floats:
-    """The sums of `values`, (samples, columns), over each cluster, in the order in which clusters
-    appear: (clusters, columns).
-    """
+    """Sums of `values`, (samples, columns), over clusters as they appear: (clusters, columns)."""
     order = {cluster: index for index, cluster in enumerate(dict.fromkeys(clusters))}
     sums = np.zeros((len(order), len(values[0])))
     np.add.at(sums, [order[cluster] for cluster in clusters], np.asarray(values, dtype=float))
@@ -146,8 +146,8 @@ def cluster_sums(
 
 
 def resampled_sums(sums: Floats, seed: int) -> Floats:
-    """The totals of RESAMPLES resamples of the clusters: (RESAMPLES, columns). The same seed draws
-    the same clusters for every metric.
+    """The totals of RESAMPLES resamples of the clusters, (RESAMPLES, columns); a seed draws the
+    same clusters for every metric.
     """
     return in_blocks(_drawn(len(sums), seed), sums)
 
@@ -161,9 +161,7 @@ def in_blocks(weights: NDArray[np.int8], sums: Floats) -> Floats:
 
 @functools.lru_cache(maxsize=2)
 def _drawn(count: int, seed: int) -> NDArray[np.int8]:
-    """How often each of `count` clusters is drawn in every resample. Drawing is the slow part, and
-    the rows of a table share it.
-    """
+    """How often each of `count` clusters is drawn in every resample; a table's rows share it."""
     generator, rows = np.random.default_rng(seed), max(1, BLOCK // count)
     blocks = [
         generator.multinomial(count, np.full(count, 1 / count), size=min(rows, RESAMPLES - start))

@@ -16,7 +16,7 @@ from planner_ft.candidates.location import (
 )
 from planner_ft.candidates.registry import Candidate, Dimensions
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_json, read_text
+from planner_ft.support.files import read_json, read_text, sha256_tree
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -74,6 +74,11 @@ def seen_in_training(folder: Path) -> set[str]:
     return files | set(read_text(folder / SEEN).split() if (folder / SEEN).is_file() else ())
 
 
+def adapter_sha256(folder: Path) -> str:
+    """One SHA-256 over an adapter's weights and configuration."""
+    return sha256_tree(folder, (WEIGHTS, CONFIG))
+
+
 def adapter_record(candidate: Candidate, level: Level, vocabulary: Vocabulary) -> dict[str, Any]:
     """The manifest fields that `check_adapter` compares: base, level and vocabulary."""
     return {
@@ -85,7 +90,7 @@ def adapter_record(candidate: Candidate, level: Level, vocabulary: Vocabulary) -
             "weights_sha256": weights_sha256(candidate.folder) if candidate.folder else None,
         },
         "level": level,
-        "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
+        "vocabulary": vocabulary.named,
     }
 
 

@@ -142,6 +142,11 @@ class Candidate:
         return self.name.replace("/", "--")
 
     @property
+    def given_as(self) -> str:
+        """What resolves to it again: its folder where it was given as one, else its name."""
+        return str(self.folder) if self.source == "path" else self.name
+
+    @property
     def reference(self) -> str:
         """The hub id or folder (relative to here where it lies below) that plain PEFT loads."""
         if self.repo and self.source in (None, "hub cache"):

@@ -68,17 +68,12 @@ def bench(
     rerun = {"resume": resume, "overwrite": overwrite}
     if cases and not field:
         raise PlannerError(f"{cases[0]}: files stand behind --field; test data is given by --data")
-    if field:
-        from planner_ft.cli.field import check_flags, run_field
+    if field or level == "both":
+        from planner_ft.cli.field import run_whole
 
-        check_flags(named | served | ({"resume": True} if resume else {}), "--field")
-        run_field(cases or [], out or Path("eval/runs/field"), named, device, overwrite=overwrite)
-    elif level == "both":
-        from planner_ft.cli.field import check_flags, run_both
-
-        given_flags = named | served | ({"resume": True} if resume else {})
-        check_flags(given_flags, "--level both", "level", "data")
-        run_both(data, out or Path("eval/runs/both"), named, device, overwrite=overwrite)
+        whole = named | served | ({"resume": True} if resume else {})
+        found = (cases or []) if field else None
+        run_whole(found, out, whole | {"device": device}, overwrite=overwrite)
     elif suite is not None:
         _check_file_alone("suite", suite, named | served, ("limit", "latency_samples"))
         _run_suite(suite, out, generation | named, rerun, processes, report=not no_report)
@@ -209,9 +204,9 @@ def _run_suite(
     report: bool,
 ) -> None:
     """Run a suite, and exit with 1 when a candidate could not be measured."""
+    from planner_ft.benchmark.layout import print_warnings
     from planner_ft.benchmark.suite.definition import load_suite
     from planner_ft.benchmark.suite.run import run_suite
-    from planner_ft.benchmark.terminal import print_warnings
 
     if all(rerun.values()):
         problem = "--resume keeps former results and --overwrite removes them"
@@ -283,7 +278,7 @@ def _report(folder: Path) -> None:
 def _show(results: Results, out: Path | None) -> None:
     """Print the table, the samples without a prediction and the names of the files."""
     from planner_ft.benchmark.folder import TABLES
-    from planner_ft.benchmark.terminal import print_results, print_warnings
+    from planner_ft.benchmark.layout import print_results, print_warnings
 
     print_results(results, terminal())
     print_warnings(results, terminal(stderr=True))

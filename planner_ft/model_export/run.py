@@ -20,7 +20,7 @@ from planner_ft.model_export.settings import ExportSettings
 from planner_ft.prompts.text import prompt_messages
 from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_json, sha256_file, sha256_tree, write_json, write_text
+from planner_ft.support.files import read_json, sha256_file, write_json, write_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -128,7 +128,7 @@ class _Work:
         if self.adapter:
             file = self.adapter / MANIFEST
             trained = read_json(file).get("configuration", {}) if file.is_file() else {}
-            digest = sha256_tree(self.adapter, (adapters.WEIGHTS, adapters.CONFIG))
+            digest = adapters.adapter_sha256(self.adapter)
             adapter = {"sha256": digest, "trained_on": trained.get("quantization")}
         keys = ("checks", "merge", "gguf", "outtype")
         manifest = build_manifest(

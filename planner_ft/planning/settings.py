@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.candidates import Candidate, resolve_candidate
-from planner_ft.candidates.adapters import CONFIG, WEIGHTS, check_adapter, find_adapter
+from planner_ft.candidates.adapters import adapter_sha256, check_adapter, find_adapter
 from planner_ft.candidates.loading import require_folder
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import Quantization
@@ -15,7 +15,6 @@ from planner_ft.confidence.calibration import AGENT, calibration_file
 from planner_ft.decoding.configurations import STRENGTHS, Configuration, parse_configuration
 from planner_ft.prompts.render import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import sha256_tree
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import LEVELS, Level
 
@@ -77,7 +76,7 @@ class Agent:
             "quantization": self.quantization,
             "weights_sha256": weights_sha256(folder) if folder else None,
             "adapter": str(self.adapter) if self.adapter else None,
-            "adapter_sha256": self.adapter and sha256_tree(self.adapter, (WEIGHTS, CONFIG)),
+            "adapter_sha256": self.adapter and adapter_sha256(self.adapter),
             "prompt_format": PROMPT_VERSION,
             "vocabulary_in_the_prompt": self.with_vocabulary,
         }

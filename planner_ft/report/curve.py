@@ -26,7 +26,7 @@ def write_figure(points: Sequence[Point], what: str, out: Path) -> list[Path]:
     ]
     words = WORDS["learning-curve"]
     heads = (f"{what} trained on", "share", "")
-    table = Table("learning-curve", words["title"], words["caption"], "Line", heads, tuple(rows))
+    table = Table("Line", heads, rows, name="learning-curve", **words)
     written = []
     for suffix, content in picture(Chart("lines", table)).items():
         written.append(out / f"{table.name}.{suffix}")

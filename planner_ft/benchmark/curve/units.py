@@ -1,6 +1,4 @@
-"""Learning curves: growing parts of a training set, each trained on and benchmarked, gone on with
-after a kill at any point.
-"""
+"""Learning curves: growing parts of a training set, each trained on and benchmarked, resumable."""
 
 from __future__ import annotations
 
@@ -46,9 +44,7 @@ class Unit:
 
 @dataclass(frozen=True)
 class Curve:
-    """What is trained and benchmarked: `request` is the training on the whole set, `settings` are
-    the flags of `plannerft train` that were given.
-    """
+    """`request` is the training on the whole set, `settings` the flags of `train` that were given."""
 
     request: TrainRequest
     train: Split
@@ -116,21 +112,17 @@ def prepare(
 
 
 def begin(curve: Curve, *, resume: bool, overwrite: bool) -> None:
-    """Take the folder; whoever calls holds it. Raises PlannerError, also when an earlier curve was
-    another one.
-    """
+    """Take the folder; whoever calls holds it. Raises PlannerError, also for another curve there."""
     out, asked = curve.out, curve.asked()
-    hint = "give --resume to go on, --overwrite to start anew, or another --out"
-    folder.check_folder(out, () if resume or overwrite else (BEGUN,), hint)
+    folder.check_folder(out, () if resume or overwrite else (BEGUN,), folder.GO_ON)
     if overwrite and (out / BEGUN).is_file():
         for done in (out / RUNS).glob(f"*/{DONE}"):  # first: a kill leaves no half that looks whole
             done.unlink()
         shutil.rmtree(out / RUNS, ignore_errors=True)
     elif (out / BEGUN).is_file() and (found := differing(read_json(out / BEGUN), asked)):
         way = "undo that, or start again with --overwrite"
-        raise PlannerError(
-            f"--resume: the curve in {out} was another one ({'; '.join(found)}); {way}"
-        )
+        other = f"the curve in {out} was another one ({'; '.join(found)})"
+        raise PlannerError(f"--resume: {other}; {way}")
     (out / RESULT).unlink(missing_ok=True)
     write_json(out / BEGUN, asked)
 
@@ -141,7 +133,8 @@ def run_units(curve: Curve, state: Callable[[int, str], None]) -> None:
     Raises IncompleteError when one fails: what is finished is kept.
     """
     units, begun = curve.units, time.monotonic()
-    left = {unit: _work(curve, unit) for unit in units if not _finished(curve, unit)}
+    open_units = (unit for unit in units if not (curve.folder(unit) / DONE).is_file())
+    left = {unit: _work(curve, unit) for unit in open_units}
     total = sum(left.values())
     for index, unit in enumerate(units, 1):
         if unit not in left:
@@ -162,10 +155,6 @@ def run_units(curve: Curve, state: Callable[[int, str], None]) -> None:
         del left[unit]
 
 
-def _finished(curve: Curve, unit: Unit) -> bool:
-    return (curve.folder(unit) / DONE).is_file()
-
-
 def _work(curve: Curve, unit: Unit) -> float:
     return unit.size * curve.request.settings.epochs + TESTED * len(curve.data.samples)
 
@@ -174,18 +163,14 @@ def _commands(curve: Curve, unit: Unit) -> Iterator[tuple[str, list[str]]]:
     """The steps of a unit: name and arguments of `plannerft`."""
     request, here = curve.request, curve.folder(unit)
     adapter, vocabulary = here / "adapter", str(request.vocabulary.source)
-    candidate = request.candidate
-    named = str(candidate.folder) if candidate.source == "path" else candidate.name
+    named = request.candidate.given_as
     if unit.size:
         # The samples of a size are the first ones of the same order: parts of each other.
         records = list(curve.train.records)
         Random(f"learning curve {unit.seed}").shuffle(records)
         write_jsonl(here / "train.jsonl", records[: unit.size])
-        files: dict[str, Any] = {
-            "level": request.level,
-            "candidate": named,
-            "vocabulary": vocabulary,
-        }
+        files: dict[str, Any] = {"level": request.level, "candidate": named}
+        files["vocabulary"] = vocabulary
         files |= {"train-file": here / "train.jsonl", "output": adapter, "seed": unit.seed}
         files |= {"validation-file": checked} if (checked := request.validation_file) else {}
         flags = {**files, **curve.settings}.items()

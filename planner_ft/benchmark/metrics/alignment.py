@@ -50,8 +50,8 @@ def plan_entries(level: Level, plan: Any) -> Entries:
             name = owner.get(key) if isinstance(owner, dict) else None
             if isinstance(name, str | int | float):  # a number is a name, too, of no vocabulary
                 given = owner.get("parameters")
-                stated = isinstance(given, dict)
-                found.append(Entry(str(name), role, step, given if stated else {}, stated))
+                known = given if isinstance(given, dict) else {}
+                found.append(Entry(str(name), role, step, known, known is given))
     return tuple(found)
 
 
@@ -116,8 +116,8 @@ def align(level: Level, expected: Entries, predicted: Entries, vocabulary: Vocab
 
     pairs: list[Pair] = []
     for lead in (True, False):
-        named = (_by_name(entries, leading, lead) for entries in (expected, predicted))
-        pairs += _assigned(*named, weight)
+        named, given = (_by_name(entries, leading, lead) for entries in (expected, predicted))
+        pairs += _assigned(named, given, weight)
         steps.update((expected[one].step, predicted[other].step) for one, other in pairs)
     return Alignment(expected, predicted, tuple(sorted(pairs)))
 

@@ -1,6 +1,4 @@
-"""Batches by length, with a size that finds itself: it is doubled until memory runs out, and halved
-then.
-"""
+"""Batches by length; their size finds itself, doubled until memory runs out, and halved then."""
 
 from __future__ import annotations
 
@@ -13,9 +11,7 @@ from planner_ft.support.errors import PlannerError
 Answer = TypeVar("Answer")
 
 FIRST, LARGEST = 16, 256
-"""The size to begin with, and the largest on a GPU: on a CPU larger ones gain nothing, and a killed
-process would be the only sign of too large ones.
-"""
+"""The size to begin with, also the largest on a CPU (larger ones gain nothing), and on a GPU."""
 
 
 @dataclass

@@ -25,9 +25,7 @@ SWAPS = 3
 
 
 class EngineSource:
-    """An engine with the candidate's adapter, if any job needs it; queries are batched. Raises
-    PlannerError where the candidate cannot be loaded.
-    """
+    """An engine with the candidate's adapter, if any job needs it. Raises PlannerError."""
 
     def __init__(self, plan: Plan, jobs: Sequence[Job]) -> None:
         self.device, self.level = resolve_device(plan.device), plan.settings.level
@@ -56,11 +54,8 @@ class EngineSource:
         lengths = [len(query.prompt) for query in queries]
 
         def ask(indices: list[int]) -> Iterator[tuple[int, Generation]]:
-            chosen, size = [queries[index] for index in indices], len(indices)
-            sampling = job.sampling
-            return self.engine.answers(
-                chosen, job.configuration, batch_size=size, sampling=sampling
-            )
+            chosen, how = [queries[index] for index in indices], {"sampling": job.sampling}
+            return self.engine.answers(chosen, job.configuration, batch_size=len(indices), **how)
 
         calibration = job.calibration()
         for index, answer, size in in_batches(ask, lengths, self.batch, is_out_of_memory):
@@ -72,20 +67,18 @@ class EngineSource:
                 "logprobs": as_json(choices),
                 "confidence": plan_confidence(calibration, text, choices),
             }
-            yield (
-                index,
-                {
-                    "output": text,
-                    "tokens": len(answer.ids),
-                    "forward_passes": answer.forward_passes,
-                    "time_s": round(answer.seconds, 4),
-                    "finish_reason": answer.finish_reason,
-                    "error": answer.error,
-                    "prompt_tokens": lengths[index],
-                    "batch": size,
-                    **{name: value for name, value in extra.items() if value not in (None, 0, "")},
-                },
-            )
+            fields = {
+                "output": text,
+                "tokens": len(answer.ids),
+                "forward_passes": answer.forward_passes,
+                "time_s": round(answer.seconds, 4),
+                "finish_reason": answer.finish_reason,
+                "error": answer.error,
+                "prompt_tokens": lengths[index],
+                "batch": size,
+            }
+            more = {name: value for name, value in extra.items() if value not in (None, 0, "")}
+            yield index, {**fields, **more}
 
     def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
         queries = self._queries(job, samples)
@@ -93,9 +86,7 @@ class EngineSource:
             yield index, timed(one.seconds, one.tokens, one.forward_passes, one.first_token_s)
 
     def costs(self) -> dict[str, Any]:
-        """Seconds to load base and adapter, the mean of a switch between them, and the most memory
-        since loading began.
-        """
+        """Seconds to load, the mean of an adapter switch, and the most memory since loading began."""
         return {
             "load_s": round(self.load_seconds, 3),
             "adapter_swap_s": self._swap_seconds(),

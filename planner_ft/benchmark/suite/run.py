@@ -11,8 +11,8 @@ from typing import Any
 
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.catalogue import METRIC, METRICS
+from planner_ft.benchmark.folder import RunRecord, measured_in, read_run
 from planner_ft.benchmark.layout import lines
-from planner_ft.benchmark.records import RunRecord, measured_in, read_run
 from planner_ft.benchmark.results import Measured, Results, assemble, heading
 from planner_ft.benchmark.suite.definition import Part, Suite
 from planner_ft.benchmark.suite.session import Report, Session, State, opened
@@ -46,34 +46,21 @@ class PartResults:
     failed: tuple[dict[str, str], ...]
 
     def to_json(self) -> dict[str, Any]:
-        return {
-            "name": self.part.name,
-            "apart": self.part.apart,
-            "level": self.results.level,
-            "data": self.results.data,
-            "rows": [one.to_json() for one in self.results.rows],
-            "failed": list(self.failed),
-        }
+        named = {"name": self.part.name, "apart": self.part.apart, "level": self.results.level}
+        rows = [one.to_json() for one in self.results.rows]
+        return {**named, "data": self.results.data, "rows": rows, "failed": list(self.failed)}
 
 
 def run_suite(
-    suite: Suite,
-    out: Path,
-    changes: dict[str, Any],
-    report: Report,
-    *,
-    processes: int = 1,
-    resume: bool = False,
-    overwrite: bool = False,
+    suite: Suite, out: Path, changes: dict[str, Any], report: Report, **how: Any
 ) -> list[PartResults]:
     """Run every unit of a suite that is not finished and write the tables of all into `out`;
-    `changes` are settings of the command line, and `processes` share each run.
+    `changes` are settings of the command line, `how` is given to `opened`.
 
     A unit that fails is named in the result and in the tables, and the others go on. Raises
     PlannerError for problems that keep the suite from starting.
     """
-    rerun = {"resume": resume, "overwrite": overwrite}
-    session = opened(suite, out, changes, report, processes=processes, **rerun)
+    session = opened(suite, out, changes, report, **how)
     session.run()
     parts, manifest = combine(session)
     _write(out, suite.title, parts, manifest)
@@ -90,32 +77,30 @@ def combine(session: Session) -> tuple[list[PartResults], dict[str, Any]]:
         if (unit.settings.folder / folder.RUN).is_file()
     }
     settings = session.units[0].settings
-    vocabulary = load_vocabulary(settings.vocabulary)
+    vocabulary, data = load_vocabulary(settings.vocabulary), session.units
+    ran = {
+        unit.name: {
+            "arguments": arguments(unit.settings),
+            "seconds": session.seconds.get(unit.name),
+            "finished_before": unit.name in session.finished,
+            "jobs": records[unit.name].jobs if unit.name in records else {},
+            "costs": records[unit.name].costs if unit.name in records else {},
+        }
+        for unit in session.units
+    }
     manifest = build_manifest(
         "suite",
         seed=settings.seed,
         configuration={
             "title": session.suite.title,
-            "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
+            "vocabulary": vocabulary.named,
             "device": settings.device,
             "batch_size": settings.batch_size or "auto",
             "limit": session.changes.get("limit"),
             "processes": session.processes,
         },
-        inputs={
-            "suite": session.suite.path,
-            **{unit.part.name: unit.data.path for unit in session.units},
-        },
-        units={
-            unit.name: {
-                "arguments": arguments(unit.settings),
-                "seconds": session.seconds.get(unit.name),
-                "finished_before": unit.name in session.finished,
-                "jobs": records[unit.name].jobs if unit.name in records else {},
-                "costs": records[unit.name].costs if unit.name in records else {},
-            }
-            for unit in session.units
-        },
+        inputs={"suite": session.suite.path, **{one.part.name: one.data.path for one in data}},
+        units=ran,
     )
     parts = []
     for part in session.suite.parts:
@@ -135,11 +120,11 @@ def _part(
     found: list[Measured] = []
     failed: list[dict[str, str]] = []
     for unit in units:
-        record = records.get(unit.name)
+        record, n = records.get(unit.name), len(data.samples)
         every = measured_in(unit.settings.folder, record) if record else []
         measured = {one.system.configuration: one for one in every}
         for name in part.settings.configurations:
-            entry, n = measured.get(name), len(data.samples)
+            entry = measured.get(name)
             answers = sum(sample.id in entry.predictions for sample in data.samples) if entry else 0
             if entry is not None and answers == n:
                 found.append(entry)
@@ -192,21 +177,19 @@ def _overview(parts: Sequence[PartResults]) -> Table:
             cells = [replace(cell, mark="") for cell in found.cells(FIGURES)]
             rows.append(row(found.system.label, found.configuration, *cells, kind=found.kind))
         for entry in one.failed:
-            blank = [""] * (len(FIGURES) - 1)
-            rows.append(
-                row(entry["label"], heading(entry["configuration"]), "not measured", *blank)
-            )
+            cells_of = ("not measured", *[""] * (len(FIGURES) - 1))
+            rows.append(row(entry["label"], heading(entry["configuration"]), *cells_of))
     heads = ("Configuration", *(METRIC[name].title for name in FIGURES))
-    return Table("overview", "", "", "Model", heads, tuple(rows), texts=1)
+    return Table("Model", heads, rows, texts=1)
 
 
 def _failed(parts: Sequence[PartResults]) -> Table:
-    rows = tuple(
+    rows = [
         row(one.part.name, entry["label"], heading(entry["configuration"]), entry["reason"])
         for one in parts
         for entry in one.failed
-    )
-    return Table("failed", "", "", "Data", ("Model", "Configuration", "Why"), rows, texts=3)
+    ]
+    return Table("Data", ("Model", "Configuration", "Why"), rows, texts=3)
 
 
 def _not_measured(name: str, one: PartResults) -> str:
@@ -236,8 +219,15 @@ def _csv(parts: Sequence[PartResults]) -> Iterator[list[Any]]:
             status = "baseline" if system.is_baseline else "measured"
             bounds = [one for name in METRICS for one in found.figure(name).to_json().values()]
             values = [None if bound is None else f"{bound:.6g}" for bound in bounds]
-            named = [system.label, system.candidate, system.configuration, status, None]
-            yield [*common, *named, *values]
+            yield [
+                *common,
+                system.label,
+                system.candidate,
+                system.configuration,
+                status,
+                None,
+                *values,
+            ]
         for entry in one.failed:
             named = [entry[key] for key in ("label", "candidate", "configuration")]
             yield [*common, *named, "failed", entry["reason"], *[None] * len(figures)]

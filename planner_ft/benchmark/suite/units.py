@@ -1,6 +1,4 @@
-"""The units of a suite: one candidate on one data set, each a process and a run folder of its
-own.
-"""
+"""The units of a suite: a candidate on a data set, each a process and a run folder of its own."""
 
 from __future__ import annotations
 
@@ -23,10 +21,7 @@ from planner_ft.vocabulary import load_vocabulary
 LOG = "log.txt"
 PATIENCE = 20.0
 """Seconds that an ended process has to go by itself."""
-LAUNCH = (
-    *("--num_machines", "1", "--mixed_precision", "no", "--dynamo_backend", "no"),
-    "--multi_gpu",
-)
+LAUNCH = ["--num_machines", "1", "--mixed_precision", "no", "--dynamo_backend", "no", "--multi_gpu"]
 
 
 @dataclass(frozen=True)
@@ -90,9 +85,7 @@ def make_units(suite: Suite, out: Path, changes: dict[str, Any]) -> list[Unit]:
             adapter = suite.adapters.get(candidate.name, {}).get(part.settings.level)
             settings = replace(
                 part.settings,
-                candidates=(
-                    str(candidate.folder) if candidate.source == "path" else candidate.name,
-                ),
+                candidates=(candidate.given_as,),
                 adapters=(str(adapter),) if adapter else (),
                 out=out / part.name / slug,
             )
@@ -118,9 +111,8 @@ def fingerprint(plan: Plan) -> dict[str, Any]:
 
 
 class Process:
-    """The process of a running unit: the same command line, ended with its parent, its output kept
-    in a log. Leaving the `with` block ends it if it has not ended itself. Ctrl-C reaches it as that
-    end alone.
+    """The process of a unit, ended with its parent and with the `with` block, which is all that
+    Ctrl-C does to it; its output is kept in a log.
     """
 
     def __init__(self, arguments: list[str], log: Path, processes: int = 1) -> None:
@@ -149,9 +141,7 @@ class Process:
             self.child.wait()
 
     def problem(self) -> str | None:
-        """Why it failed, in one line: the sentence with which a command refused, else its last
-        line; None when it did not.
-        """
+        """Why it failed: the sentence with which a command refused, else its last line, or None."""
         code = self.child.wait()
         if code == 0:
             return None
